@@ -1,0 +1,2 @@
+/// The interface of a node, out of Rust syntax.
+pub mod signature;

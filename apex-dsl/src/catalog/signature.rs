@@ -1,0 +1,320 @@
+//! Reads the interface of a node out of Rust syntax. `#[node]` and the catalog scan share this, so that they
+//! cannot disagree about what a signature means.
+
+use syn::{
+    Attribute, Expr, ExprLit, Field, FnArg, GenericArgument, ImplItem, ItemFn, ItemImpl, ItemStruct, Lit, Pat,
+    PathArguments, ReturnType, Signature, Type, spanned::Spanned,
+};
+
+/// What a `process` function or a slot takes and gives.
+pub struct Callable {
+    /// The arguments in order, without `self`.
+    pub args: Vec<Arg>,
+    /// The returned value.
+    pub returns: Returns,
+}
+
+/// One argument.
+pub struct Arg {
+    /// Its name, which is the name of the port or parameter.
+    pub name: String,
+    /// What it stands for.
+    pub form: Form,
+}
+
+/// What an argument stands for.
+pub enum Form {
+    /// `&T`, `Option<&T>` or `&[T; N]`.
+    Input(InputForm),
+    /// `&mut Out<T>` or `&mut Out<[T; N]>`.
+    Out(Token),
+    /// `Event<T>`.
+    Event(Type),
+    /// `&Ctx`.
+    Ctx,
+    /// A parameter of a function node.
+    Param(ParamDecl),
+}
+
+/// An input argument.
+pub struct InputForm {
+    /// The token.
+    pub token: Token,
+    /// `Option<&T>`: ⊥ reaches the node as `None`.
+    pub optional: bool,
+}
+
+/// The tokens of one firing at a port.
+pub struct Token {
+    /// The type of one token.
+    pub ty: Type,
+    /// How many tokens a firing takes or gives; `None` is one, not in an array.
+    pub batch: Option<usize>,
+}
+
+/// The returned value of `process`.
+#[derive(Default)]
+pub struct Returns {
+    /// The token of the output `out`, unless nothing is returned.
+    pub token: Option<Token>,
+    /// `Option<…>`: may be ⊥.
+    pub maybe: bool,
+    /// `Result<…, E>`: may fail.
+    pub fallible: bool,
+}
+
+/// `#[param(…)]` with the type it stands on.
+pub struct ParamDecl {
+    /// The type of the value.
+    pub ty: Type,
+    /// Unit of plain numbers, for example `m/s`.
+    pub unit: Option<String>,
+    /// Value where the text gives none.
+    pub default: Option<Expr>,
+    /// Legal values.
+    pub range: Option<syn::ExprRange>,
+}
+
+/// The methods of an `#[node] impl` that matter to graphs.
+#[derive(Default)]
+pub struct Methods {
+    /// `process`.
+    pub process: Option<Callable>,
+    /// Methods marked `#[slot]`: name, documentation, token (`()` if none is taken).
+    pub slots: Vec<Slot>,
+    /// A method marked `#[no_message]`.
+    pub no_message: bool,
+}
+
+/// A method marked `#[slot]`.
+pub struct Slot {
+    /// Name of the port.
+    pub name: String,
+    /// Type of the token; `None` for a slot that takes no value.
+    pub token: Option<Type>,
+    /// Documentation.
+    pub docs: String,
+    /// Further arguments: events and the context.
+    pub args: Vec<Arg>,
+}
+
+/// Names of the attributes that mark methods of a node.
+pub const METHOD_MARKS: [&str; 2] = ["slot", "no_message"];
+
+/// The interface of a function node.
+pub fn function(item: &ItemFn) -> syn::Result<Callable> {
+    callable(&item.sig)
+}
+
+/// The parameters of a struct node, by field.
+pub fn params(item: &ItemStruct) -> syn::Result<Vec<(&Field, ParamDecl)>> {
+    let mut params = Vec::new();
+    for field in &item.fields {
+        if let Some(decl) = param(&field.attrs, &field.ty)? {
+            if field.ident.is_none() {
+                return Err(syn::Error::new(field.span(), "a parameter needs a name: use a struct with named fields"));
+            }
+            params.push((field, decl));
+        }
+    }
+    Ok(params)
+}
+
+/// The methods of a struct node.
+pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
+    let mut methods = Methods::default();
+    for item in &item.items {
+        let ImplItem::Fn(method) = item else { continue };
+        if method.sig.ident == "process" {
+            methods.process = Some(callable(&method.sig)?);
+        } else if marked(&method.attrs, "slot") {
+            methods.slots.push(slot(method)?);
+        } else if marked(&method.attrs, "no_message") {
+            methods.no_message = true;
+        }
+    }
+    Ok(methods)
+}
+
+/// Whether `attrs` contain `#[name]`.
+pub fn marked(attrs: &[Attribute], name: &str) -> bool {
+    attrs.iter().any(|a| a.path().is_ident(name))
+}
+
+/// The text of the `///` comments.
+pub fn docs(attrs: &[Attribute]) -> String {
+    let lines: Vec<String> = attrs
+        .iter()
+        .filter(|a| a.path().is_ident("doc"))
+        .filter_map(|a| match &a.meta {
+            syn::Meta::NameValue(nv) => match &nv.value {
+                Expr::Lit(ExprLit { lit: Lit::Str(s), .. }) => Some(s.value().trim().to_owned()),
+                _ => None,
+            },
+            _ => None,
+        })
+        .collect();
+    lines.join("\n")
+}
+
+fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
+    let callable = callable(&method.sig)?;
+    if callable.returns.token.is_some() {
+        return Err(syn::Error::new(
+            method.sig.output.span(),
+            "a slot returns nothing; send what it finds by an event",
+        ));
+    }
+    let mut token = None;
+    let mut args = Vec::new();
+    for (arg, syntax) in callable.args.into_iter().zip(method.sig.inputs.iter().skip(1)) {
+        match arg.form {
+            Form::Input(input) if token.is_none() && !input.optional && input.token.batch.is_none() => {
+                token = Some(input.token.ty);
+            }
+            Form::Event(_) | Form::Ctx => args.push(arg),
+            _ => {
+                return Err(syn::Error::new(
+                    syntax.span(),
+                    "a slot takes one token `&T` at most, besides events and `&Ctx`",
+                ));
+            }
+        }
+    }
+    Ok(Slot { name: method.sig.ident.to_string(), token, docs: docs(&method.attrs), args })
+}
+
+fn callable(sig: &Signature) -> syn::Result<Callable> {
+    if let Some(token) = &sig.asyncness {
+        return Err(syn::Error::new(token.span(), "a node runs to completion; `async` is not possible"));
+    }
+    if let Some(lifetime) = sig.generics.lifetimes().next() {
+        return Err(syn::Error::new(lifetime.span(), "a node takes tokens by plain reference: leave the lifetime out"));
+    }
+    let mut args = Vec::new();
+    for arg in &sig.inputs {
+        let FnArg::Typed(arg) = arg else { continue };
+        let Pat::Ident(name) = &*arg.pat else {
+            return Err(syn::Error::new(
+                arg.pat.span(),
+                "the name of an argument is the name of its port: give it a plain name",
+            ));
+        };
+        let form = match param(&arg.attrs, &arg.ty)? {
+            Some(decl) => Form::Param(decl),
+            None => form(&arg.ty)?,
+        };
+        let name = name.ident.to_string();
+        args.push(Arg { name: name.strip_prefix('_').unwrap_or(&name).to_owned(), form });
+    }
+    Ok(Callable { args, returns: returns(&sig.output)? })
+}
+
+fn form(ty: &Type) -> syn::Result<Form> {
+    match ty {
+        Type::Reference(reference) if reference.mutability.is_some() => match wrapped(&reference.elem, "Out") {
+            Some(inner) => Ok(Form::Out(token(inner)?)),
+            None => Err(syn::Error::new(ty.span(), "`&mut` is only for outputs: `&mut Out<T>`")),
+        },
+        Type::Reference(reference) if is_named(&reference.elem, "Ctx") => Ok(Form::Ctx),
+        Type::Reference(reference) => Ok(Form::Input(InputForm { token: token(&reference.elem)?, optional: false })),
+        _ => {
+            if let Some(Type::Reference(reference)) = wrapped(ty, "Option") {
+                let token = Token { ty: (*reference.elem).clone(), batch: None };
+                return Ok(Form::Input(InputForm { token, optional: true }));
+            }
+            if let Some(inner) = wrapped(ty, "Event") {
+                return Ok(Form::Event(inner.clone()));
+            }
+            Err(syn::Error::new(
+                ty.span(),
+                "an argument of a node is an input `&T`, `Option<&T>` or `&[T; N]`, an output `&mut Out<T>`, an event `Event<T>`, \
+                 `&Ctx`, or a parameter marked `#[param]`",
+            ))
+        }
+    }
+}
+
+fn token(ty: &Type) -> syn::Result<Token> {
+    let Type::Array(array) = ty else {
+        return Ok(Token { ty: ty.clone(), batch: None });
+    };
+    let batch = match &array.len {
+        Expr::Lit(ExprLit { lit: Lit::Int(n), .. }) => n.base10_parse::<usize>().ok().filter(|&n| n > 0),
+        _ => None,
+    };
+    match batch {
+        Some(n) => Ok(Token { ty: (*array.elem).clone(), batch: Some(n) }),
+        None => Err(syn::Error::new(
+            array.len.span(),
+            "an array at a port is a number of tokens per firing: write it as a literal above 0 (for an array as one token, wrap it in a type)",
+        )),
+    }
+}
+
+fn returns(output: &ReturnType) -> syn::Result<Returns> {
+    let ReturnType::Type(_, ty) = output else { return Ok(Returns::default()) };
+    let (fallible, ty) = match wrapped(ty, "Result") {
+        Some(ok) => (true, ok),
+        None => (false, &**ty),
+    };
+    let (maybe, ty) = match wrapped(ty, "Option") {
+        Some(some) => (true, some),
+        None => (false, ty),
+    };
+    if let Type::Reference(reference) = ty {
+        return Err(syn::Error::new(
+            reference.span(),
+            "a node sends values: return `T`, or write into a `&mut Out<T>`",
+        ));
+    }
+    let is_unit = matches!(ty, Type::Tuple(t) if t.elems.is_empty());
+    let token = if is_unit { None } else { Some(token(ty)?) };
+    Ok(Returns { token, maybe, fallible })
+}
+
+/// `T` of `Name<T, …>`.
+fn wrapped<'a>(ty: &'a Type, name: &str) -> Option<&'a Type> {
+    let Type::Path(path) = ty else { return None };
+    let last = path.path.segments.last()?;
+    let PathArguments::AngleBracketed(args) = &last.arguments else { return None };
+    match args.args.first()? {
+        GenericArgument::Type(inner) if last.ident == name => Some(inner),
+        _ => None,
+    }
+}
+
+fn is_named(ty: &Type, name: &str) -> bool {
+    matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == name))
+}
+
+fn param(attrs: &[Attribute], ty: &Type) -> syn::Result<Option<ParamDecl>> {
+    let Some(attr) = attrs.iter().find(|a| a.path().is_ident("param")) else { return Ok(None) };
+    let mut decl = ParamDecl { ty: ty.clone(), unit: None, default: None, range: None };
+    if matches!(attr.meta, syn::Meta::Path(_)) {
+        return Ok(Some(decl));
+    }
+    attr.parse_nested_meta(|meta| {
+        if meta.path.is_ident("unit") {
+            let unit = meta.value()?.parse::<syn::LitStr>()?;
+            decl.unit = Some(unit.value());
+        } else if meta.path.is_ident("default") {
+            decl.default = Some(meta.value()?.parse()?);
+        } else if meta.path.is_ident("range") {
+            let expr: Expr = meta.value()?.parse()?;
+            let Expr::Range(range) = expr else {
+                return Err(syn::Error::new(expr.span(), "a range is written `0.0..=2.0`"));
+            };
+            decl.range = Some(range);
+        } else {
+            return Err(meta.error("a parameter has `unit`, `default` and `range`"));
+        }
+        Ok(())
+    })?;
+    Ok(Some(decl))
+}
+
+/// `T` of `Option<T>`.
+pub fn option_of(ty: &Type) -> Option<&Type> {
+    wrapped(ty, "Option")
+}

@@ -1,0 +1,3 @@
+//! The Apex compiler.
+/// Node signatures, read from Rust.
+pub mod catalog;

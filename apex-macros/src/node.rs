@@ -1,0 +1,213 @@
+//! `#[node]`: leaves the item as it is but for its marks, and adds what generated code calls.
+
+use apex_dsl::catalog::signature::{self, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+use syn::{Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, Visibility};
+
+/// Expands `#[node]` on a function, a struct or an `impl`.
+pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> {
+    if !args.is_empty() {
+        return Err(syn::Error::new_spanned(args, "`#[node]` takes no arguments: the signature is the interface"));
+    }
+    match syn::parse2(item)? {
+        Item::Fn(item) => function(item),
+        Item::Struct(item) => structure(item),
+        Item::Impl(item) => implementation(item),
+        other => {
+            Err(syn::Error::new_spanned(other, "`#[node]` goes on a function, a struct, or the `impl` of a struct"))
+        }
+    }
+}
+
+/// A function keeps its name; a type of the same name carries the types of its ports.
+fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
+    let callable = signature::function(&item)?;
+    for arg in &mut item.sig.inputs {
+        if let FnArg::Typed(arg) = arg {
+            arg.attrs.retain(|a| !a.path().is_ident("param"));
+        }
+    }
+    let (vis, name, generics) = (&item.vis, &item.sig.ident, &item.sig.generics);
+    let (impl_generics, type_args, bounds) = generics.split_for_impl();
+    let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
+    let ports = ports(&callable, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
+    let decls: Vec<&ParamDecl> =
+        callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(p) } else { None }).collect();
+    let names: Vec<Ident> = callable.args.iter().filter(|a| matches!(a.form, Form::Param(_))).map(ident).collect();
+    let params = params(&decls, &names, generics, &quote!(#name #type_args));
+    Ok(quote! {
+        #[inline]
+        #item
+
+        #[doc(hidden)]
+        #[allow(non_camel_case_types)]
+        #vis struct #name #impl_generics #bounds { _ports: ::core::marker::PhantomData<fn() -> (#(#phantom,)*)> }
+        #ports
+        #params
+    })
+}
+
+/// A struct gets a constructor from its parameters; all other fields start at their default.
+fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
+    let declared = signature::params(&item)?;
+    let fields: Vec<Ident> = declared.iter().filter_map(|(field, _)| field.ident.clone()).collect();
+    let decls: Vec<&ParamDecl> = declared.iter().map(|(_, decl)| decl).collect();
+    let types: Vec<&Type> = decls.iter().map(|d| &d.ty).collect();
+    let name = &item.ident;
+    let (impl_generics, type_args, bounds) = item.generics.split_for_impl();
+    let params = params(&decls, &fields, &item.generics, &quote!(#name #type_args));
+    let accessors = fields.iter().enumerate().map(|(i, field)| {
+        quote! {
+            impl #impl_generics ::apex_rt::ParamField<#i> for #name #type_args #bounds {
+                #[inline(always)]
+                fn field(&mut self) -> &mut Self::Value { &mut self.#field }
+            }
+        }
+    });
+    let state: Vec<&Ident> =
+        item.fields.iter().filter_map(|f| f.ident.as_ref()).filter(|name| !fields.contains(name)).collect();
+    let constructor = match &item.fields {
+        syn::Fields::Named(_) => quote!(Self { #(#fields,)* #(#state: ::core::default::Default::default(),)* }),
+        syn::Fields::Unit => quote!(Self),
+        syn::Fields::Unnamed(_) => {
+            return Err(syn::Error::new_spanned(&item.fields, "a node has named fields"));
+        }
+    };
+    // Without `Default` for all of its state a node cannot be made by a graph, only handed in.
+    let state_types =
+        item.fields.iter().filter(|f| f.ident.as_ref().is_some_and(|n| !fields.contains(n))).map(|f| &f.ty);
+    let mut where_default = item.generics.clone();
+    let clause = where_default.make_where_clause();
+    for ty in state_types {
+        clause.predicates.push(syn::parse_quote!(#ty: ::core::default::Default));
+    }
+    let make = if where_default.params.is_empty() {
+        // Bounds without parameters would be checked at once; a trait with a parameter puts that off to its use.
+        quote! {
+            impl ::apex_rt::Construct<(#(#types,)*)> for #name {
+                #[inline]
+                fn construct((#(#fields,)*): (#(#types,)*)) -> Self { #constructor }
+            }
+        }
+    } else {
+        let bounds = &where_default.where_clause;
+        quote! {
+            impl #impl_generics ::apex_rt::Construct<(#(#types,)*)> for #name #type_args #bounds {
+                #[inline]
+                fn construct((#(#fields,)*): (#(#types,)*)) -> Self { #constructor }
+            }
+        }
+    };
+    let accessors = quote! { #(#accessors)* };
+    for field in &mut item.fields {
+        field.attrs.retain(|a| !a.path().is_ident("param"));
+    }
+    Ok(quote! {
+        #item
+        #params
+        #accessors
+        #make
+    })
+}
+
+/// The methods that a graph calls become public; the rest stays as it is.
+fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
+    if let Some((path, _)) = &item.trait_ {
+        return Err(syn::Error::new_spanned(
+            path,
+            "`#[node]` goes on the inherent `impl` of a node, not on that of a trait",
+        ));
+    }
+    let methods = signature::methods(&item)?;
+    for member in &mut item.items {
+        let ImplItem::Fn(method) = member else { continue };
+        let marks = METHOD_MARKS.iter().any(|mark| signature::marked(&method.attrs, mark));
+        if method.sig.ident != "process" && !marks {
+            continue;
+        }
+        method.attrs.retain(|a| !METHOD_MARKS.iter().any(|mark| a.path().is_ident(mark)));
+        if !signature::marked(&method.attrs, "inline") {
+            method.attrs.push(syn::parse_quote!(#[inline]));
+        }
+        if matches!(method.vis, Visibility::Inherited) {
+            method.vis = syn::parse_quote!(pub);
+            if signature::docs(&method.attrs).is_empty() {
+                method.attrs.push(syn::parse_quote!(#[doc(hidden)]));
+            }
+        }
+    }
+    let (impl_generics, _, bounds) = item.generics.split_for_impl();
+    let self_type = &item.self_ty;
+    let ports =
+        methods.process.map(|process| ports(&process, &quote!(#impl_generics), &quote!(#self_type), &quote!(#bounds)));
+    Ok(quote! {
+        #item
+        #ports
+    })
+}
+
+/// Names the types of a node's ports (`apex_rt::Input`, `apex_rt::Output`).
+fn ports(callable: &Callable, generics: &TokenStream, node: &TokenStream, bounds: &TokenStream) -> TokenStream {
+    let inputs =
+        callable.args.iter().filter_map(|a| if let Form::Input(i) = &a.form { Some(&i.token.ty) } else { None });
+    let outs = callable.args.iter().filter_map(|a| if let Form::Out(t) = &a.form { Some(&t.ty) } else { None });
+    let outputs = outs.chain(callable.returns.token.as_ref().map(|t| &t.ty));
+    let inputs = inputs.enumerate().map(|(i, ty)| {
+        quote! {
+            impl #generics ::apex_rt::Input<#i> for #node #bounds { type Token = #ty; }
+        }
+    });
+    let outputs = outputs.enumerate().map(|(i, ty)| {
+        quote! {
+            impl #generics ::apex_rt::Output<#i> for #node #bounds { type Token = #ty; }
+        }
+    });
+    quote! { #(#inputs)* #(#outputs)* }
+}
+
+/// Names the types of a node's parameters (`apex_rt::Param`), and makes defaults callable.
+fn params(decls: &[&ParamDecl], names: &[Ident], generics: &Generics, node: &TokenStream) -> TokenStream {
+    let (impl_generics, _, bounds) = generics.split_for_impl();
+    let impls = decls.iter().enumerate().map(|(i, decl)| {
+        let ty = &decl.ty;
+        let accepts = match &decl.range {
+            Some(range) => quote! { (#range).contains(value) },
+            None => quote! { { let _ = value; true } },
+        };
+        quote! {
+            impl #impl_generics ::apex_rt::Param<#i> for #node #bounds {
+                type Value = #ty;
+                #[inline]
+                fn accepts(value: &Self::Value) -> bool { #accepts }
+            }
+        }
+    });
+    let defaults = decls.iter().zip(names).filter_map(|(decl, name)| {
+        let (ty, default) = (&decl.ty, default_value(decl)?);
+        let function = format_ident!("apex_default_{name}");
+        Some(quote! {
+            #[doc(hidden)]
+            pub fn #function() -> #ty { #default }
+        })
+    });
+    quote! {
+        #(#impls)*
+        impl #impl_generics #node #bounds { #(#defaults)* }
+    }
+}
+
+fn default_value(decl: &ParamDecl) -> Option<TokenStream> {
+    let default: &Expr = decl.default.as_ref()?;
+    let is_duration =
+        matches!(&decl.ty, Type::Path(p) if p.path.segments.last().is_some_and(|s| s.ident == "Duration"));
+    Some(if is_duration && matches!(default, Expr::Lit(_)) {
+        quote! { ::core::time::Duration::from_secs_f64(f64::from(#default)) }
+    } else {
+        quote! { #default }
+    })
+}
+
+fn ident(arg: &Arg) -> Ident {
+    Ident::new(&arg.name, Span::call_site())
+}

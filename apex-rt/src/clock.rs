@@ -1,0 +1,81 @@
+use crate::Time;
+
+/// Where a program's time comes from.
+pub trait Clock {
+    /// The time now.
+    fn now(&mut self) -> Time;
+
+    /// Lets the time pass until `time`; returns `false` if the clock ends before.
+    fn wait_until(&mut self, time: Time) -> bool;
+}
+
+/// Simulated time: jumps to where the program wants to be called next, and ends at a given time.
+///
+/// A program that wants to be called again at once advances it by `step`.
+#[derive(Debug, Clone, Copy)]
+pub struct SimClock {
+    now: Time,
+    end: Time,
+    step: core::time::Duration,
+}
+
+impl SimClock {
+    /// A clock from zero to `end` (exclusive), one millisecond a step.
+    pub const fn until(end: Time) -> Self {
+        Self { now: Time::ZERO, end, step: core::time::Duration::from_millis(1) }
+    }
+
+    /// The same clock with another step.
+    #[must_use]
+    pub const fn with_step(self, step: core::time::Duration) -> Self {
+        Self { step, ..self }
+    }
+}
+
+impl Clock for SimClock {
+    fn now(&mut self) -> Time {
+        self.now
+    }
+
+    fn wait_until(&mut self, time: Time) -> bool {
+        self.now = if time > self.now { time } else { self.now + self.step };
+        self.now < self.end
+    }
+}
+
+/// The machine's monotonic clock; zero is when it was made.
+#[cfg(feature = "std")]
+#[derive(Debug, Clone, Copy)]
+pub struct WallClock {
+    start: std::time::Instant,
+}
+
+#[cfg(feature = "std")]
+impl WallClock {
+    /// A clock that starts now.
+    pub fn new() -> Self {
+        Self { start: std::time::Instant::now() }
+    }
+}
+
+#[cfg(feature = "std")]
+impl Default for WallClock {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(feature = "std")]
+impl Clock for WallClock {
+    fn now(&mut self) -> Time {
+        Time::ZERO + self.start.elapsed()
+    }
+
+    fn wait_until(&mut self, time: Time) -> bool {
+        let left = time.since(self.now());
+        if !left.is_zero() {
+            std::thread::sleep(left);
+        }
+        true
+    }
+}

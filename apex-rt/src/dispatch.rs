@@ -1,0 +1,144 @@
+//! Decides at run time which cluster fires: for every cluster the set of things it waits for is a set of
+//! bits, and it is ready when all of them are set. All state has a size known at compile time.
+
+use crate::Time;
+use core::time::Duration;
+
+/// A set of `64·W` conditions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bits<const W: usize>(pub [u64; W]);
+
+impl<const W: usize> Bits<W> {
+    /// The empty set.
+    pub const NONE: Self = Self([0; W]);
+
+    /// The set of the given conditions.
+    pub const fn of(bits: &[usize]) -> Self {
+        let mut words = [0; W];
+        let mut i = 0;
+        while i < bits.len() {
+            words[bits[i] / 64] |= 1 << (bits[i] % 64);
+            i += 1;
+        }
+        Self(words)
+    }
+
+    /// Whether all conditions of `other` hold.
+    #[inline(always)]
+    pub fn contains(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(a, b)| a & b == *b)
+    }
+
+    /// Adds the conditions of `other`.
+    #[inline(always)]
+    pub fn insert(&mut self, other: &Self) {
+        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
+    }
+
+    /// Removes the conditions of `other`.
+    #[inline(always)]
+    pub fn remove(&mut self, other: &Self) {
+        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a &= !b);
+    }
+}
+
+/// A cluster's place among the others (static data).
+///
+/// Conditions: each timer and each graph-level input has a bit, each connection between clusters has one for
+/// "holds a token" and one for "free", each cluster has one for "enabled".
+#[derive(Debug)]
+pub struct Cluster<const W: usize> {
+    /// What must hold for it to fire: its guards, tokens on all incoming connections, itself enabled.
+    pub waits_for: Bits<W>,
+    /// Set when it fires: tokens on its outgoing connections.
+    pub sends: Bits<W>,
+    /// Cleared when it fires: its outgoing connections are no longer free.
+    pub occupies: Bits<W>,
+    /// When these hold again, everything downstream has finished and the cluster is enabled again.
+    pub notified_by: Bits<W>,
+    /// Set when it is enabled again: itself enabled, its incoming connections free (R4).
+    pub notifies: Bits<W>,
+    /// The clusters that send to it.
+    pub upstream: &'static [usize],
+}
+
+/// Which conditions hold, and how firing changes them.
+#[derive(Debug, Clone)]
+pub struct Dispatcher<const W: usize> {
+    holds: Bits<W>,
+}
+
+impl<const W: usize> Dispatcher<W> {
+    /// The dispatcher of a program that has not fired: `initial` holds.
+    pub const fn new(initial: Bits<W>) -> Self {
+        Self { holds: initial }
+    }
+
+    /// Sets the bit of a guard.
+    #[inline(always)]
+    pub fn raise(&mut self, bit: usize) {
+        self.holds.insert(&Bits::of(&[bit]));
+    }
+
+    /// If `cluster` is ready, takes its tokens and guards and returns `true`: it is to be fired now.
+    #[inline(always)]
+    pub fn start(&mut self, cluster: &Cluster<W>) -> bool {
+        let ready = self.holds.contains(&cluster.waits_for);
+        if ready {
+            self.holds.remove(&cluster.waits_for);
+        }
+        ready
+    }
+
+    /// `clusters[index]` has fired: its tokens are sent, and notifications travel upstream.
+    #[inline]
+    pub fn finish(&mut self, clusters: &[Cluster<W>], index: usize) {
+        let cluster = &clusters[index];
+        self.holds.insert(&cluster.sends);
+        self.holds.remove(&cluster.occupies);
+        self.notify(clusters, index);
+    }
+
+    /// Clusters form an acyclic graph, so that this ends; its depth is that of the graph of clusters.
+    fn notify(&mut self, clusters: &[Cluster<W>], index: usize) {
+        let cluster = &clusters[index];
+        if !self.holds.contains(&cluster.notified_by) {
+            return;
+        }
+        self.holds.insert(&cluster.notifies);
+        for &up in cluster.upstream {
+            self.notify(clusters, up);
+        }
+    }
+}
+
+/// The clock of a source with `every`: due at 0, `period`, 2·`period`, … Late calls are made up for, so
+/// that the number of firings depends on the time alone and never drifts.
+#[derive(Debug, Clone)]
+pub struct Timer {
+    due: Time,
+    period: Duration,
+}
+
+impl Timer {
+    /// A timer that is due at zero for the first time.
+    pub const fn new(period: Duration) -> Self {
+        Self { due: Time::ZERO, period }
+    }
+
+    /// Whether it is due at `now`.
+    #[inline(always)]
+    pub fn is_due(&self, now: Time) -> bool {
+        now >= self.due
+    }
+
+    /// The next time at which it is due.
+    pub const fn due(&self) -> Time {
+        self.due
+    }
+
+    /// Its source fired.
+    pub fn advance(&mut self) {
+        self.due += self.period;
+    }
+}

@@ -1,0 +1,26 @@
+/// An event that a node may trigger, at most once per firing: it is given by value and used up by [`Event::emit`].
+#[derive(Debug)]
+pub struct Event<'a, T> {
+    slot: Option<&'a mut Option<T>>,
+}
+
+impl<'a, T> Event<'a, T> {
+    /// An event that nobody listens to.
+    #[doc(hidden)]
+    pub const fn unconnected() -> Self {
+        Self { slot: None }
+    }
+
+    /// An event whose token is put into `slot`.
+    #[doc(hidden)]
+    pub fn into_slot(slot: &'a mut Option<T>) -> Self {
+        Self { slot: Some(slot) }
+    }
+
+    /// Triggers the event with `value`.
+    pub fn emit(self, value: T) {
+        if let Some(slot) = self.slot {
+            *slot = Some(value);
+        }
+    }
+}

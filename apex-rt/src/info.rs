@@ -1,0 +1,52 @@
+/// What a compiled graph is made of: a static table for recorders, monitors and `explain`.
+#[derive(Debug)]
+pub struct Info {
+    /// The graph or robot.
+    pub name: &'static str,
+    /// All nodes in the order of the text.
+    pub nodes: &'static [NodeInfo],
+    /// All connections.
+    pub connections: &'static [ConnectionInfo],
+    /// The nodes of each cluster in the order in which they fire.
+    pub clusters: &'static [&'static [usize]],
+}
+
+/// A node of a compiled graph.
+#[derive(Debug)]
+pub struct NodeInfo {
+    /// Instance name, with the names of the nested graphs around it: `fast.planner`.
+    pub name: &'static str,
+    /// The node type as the text names it.
+    pub kind: &'static str,
+    /// A ⊥ at this node must be passed on for an essential node downstream (thesis eq. 3.7).
+    pub required: bool,
+    /// A ⊥ at this node must be passed on for a join downstream (thesis eq. 3.8).
+    pub siblings: bool,
+}
+
+/// A connection of a compiled graph.
+#[derive(Debug)]
+pub struct ConnectionInfo {
+    /// The sending node.
+    pub from: usize,
+    /// Name of the sending port.
+    pub output: &'static str,
+    /// The receiving node.
+    pub to: usize,
+    /// Name of the receiving port.
+    pub input: &'static str,
+}
+
+impl NodeInfo {
+    /// One row of the table.
+    pub const fn new(name: &'static str, kind: &'static str, required: bool, siblings: bool) -> Self {
+        Self { name, kind, required, siblings }
+    }
+}
+
+impl ConnectionInfo {
+    /// One row of the table.
+    pub const fn new(from: usize, output: &'static str, to: usize, input: &'static str) -> Self {
+        Self { from, output, to, input }
+    }
+}

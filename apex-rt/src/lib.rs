@@ -1,0 +1,51 @@
+//! The runtime of Apex: everything that a compiled graph calls.
+//!
+//! `no_std`, without a heap and without `unsafe`. The feature `std` adds a wall clock, a runner that sleeps
+//! between reactions, and messages on standard error.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+mod clock;
+mod ctx;
+mod dispatch;
+mod event;
+mod info;
+mod list;
+mod mailbox;
+mod node;
+mod observer;
+mod out;
+mod run;
+mod time;
+mod token;
+
+pub use apex_macros::{Outputs, graph, node};
+
+#[cfg(feature = "std")]
+pub use clock::WallClock;
+pub use clock::{Clock, SimClock};
+pub use ctx::Ctx;
+pub use dispatch::{Bits, Cluster, Dispatcher, Timer};
+pub use event::Event;
+pub use info::{ConnectionInfo, Info, NodeInfo};
+pub use list::List;
+pub use mailbox::Mailbox;
+pub use node::{Construct, Field, Input, Output, Param, ParamField};
+pub use observer::Observer;
+#[cfg(feature = "std")]
+pub use observer::StdErr;
+pub use out::Out;
+pub use run::{Next, Program, run};
+pub use time::Time;
+pub use token::{chunk, gather};
+
+/// Everything that a user of Apex needs, macros included.
+pub mod prelude {
+    pub use crate::{
+        Clock, Ctx, Event, Mailbox, Next, Observer, Out, Outputs, Program, SimClock, Time, graph, node, run,
+    };
+    #[cfg(feature = "std")]
+    pub use crate::{StdErr, WallClock};
+}
