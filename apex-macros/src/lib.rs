@@ -1,5 +1,6 @@
 //! The macros of Apex: thin shells around `apex-dsl`.
 
+mod graph;
 mod node;
 mod outputs;
 
@@ -19,6 +20,6 @@ pub fn outputs(item: TokenStream) -> TokenStream {
 
 /// Compiles a graph: `graph!("robot.afg")`, or the text itself in braces.
 #[proc_macro]
-pub fn graph(_text: TokenStream) -> TokenStream {
-    TokenStream::new()
+pub fn graph(text: TokenStream) -> TokenStream {
+    graph::expand(text).into()
 }

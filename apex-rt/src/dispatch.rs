@@ -52,9 +52,7 @@ pub struct Cluster<const W: usize> {
     pub waits_for: Bits<W>,
     /// Set when it fires: tokens on its outgoing connections.
     pub sends: Bits<W>,
-    /// Cleared when it fires: its outgoing connections are no longer free.
-    pub occupies: Bits<W>,
-    /// When these hold again, everything downstream has finished and the cluster is enabled again.
+    /// Its outgoing connections are free. Cleared when it fires; when all hold again, everything downstream has finished and the cluster is enabled again.
     pub notified_by: Bits<W>,
     /// Set when it is enabled again: itself enabled, its incoming connections free (R4).
     pub notifies: Bits<W>,
@@ -95,7 +93,7 @@ impl<const W: usize> Dispatcher<W> {
     pub fn finish(&mut self, clusters: &[Cluster<W>], index: usize) {
         let cluster = &clusters[index];
         self.holds.insert(&cluster.sends);
-        self.holds.remove(&cluster.occupies);
+        self.holds.remove(&cluster.notified_by);
         self.notify(clusters, index);
     }
 

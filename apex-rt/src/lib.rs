@@ -39,7 +39,7 @@ pub use observer::StdErr;
 pub use out::Out;
 pub use run::{Next, Program, run};
 pub use time::Time;
-pub use token::{chunk, gather};
+pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {

@@ -1,32 +1,115 @@
-//! Access to the tokens of multi-rate connections.
+//! What generated code does with tokens.
 
-/// The `N` tokens of firing `firing`, from a buffer in which every token is present.
+use crate::{Observer, ParamField};
+use core::fmt::Debug;
+
+/// The `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
 #[inline(always)]
-pub fn chunk<T, const N: usize>(buffer: &[T], firing: usize) -> &[T; N] {
-    &buffer.as_chunks::<N>().0[firing]
+pub fn gather<T: Clone, const N: usize>(tokens: &[Option<T>], firing: usize) -> Option<[T; N]> {
+    let mut gathered: [Option<T>; N] = [const { None }; N];
+    for (to, from) in gathered.iter_mut().zip(&tokens[firing * N..]) {
+        *to = Some(from.clone()?);
+    }
+    // Never `None` here: every place was filled above.
+    gathered.iter().all(Option::is_some).then(|| gathered.map(|token| token.unwrap_or_else(|| unreachable!())))
 }
 
-/// The `N` tokens of firing `firing`, from a buffer in which a token may be ⊥; `None` if one of them is.
+/// Puts the `N` tokens that firing `firing` sent at once into their places.
 #[inline(always)]
-pub fn gather<T: Clone, const N: usize>(buffer: &[Option<T>], firing: usize) -> Option<[T; N]> {
-    let tokens = &buffer[firing * N..][..N];
-    if tokens.iter().any(Option::is_none) {
-        return None;
+pub fn spread<T, const N: usize>(places: &mut [Option<T>], firing: usize, tokens: [T; N]) {
+    for (place, token) in places[firing * N..].iter_mut().zip(tokens) {
+        *place = Some(token);
     }
-    let mut present = tokens.iter().flatten();
-    // Never `None`: all `N` tokens are present.
-    let mut next = || present.next().cloned();
-    let first: [Option<T>; N] = core::array::from_fn(|_| next());
-    collect(first)
 }
 
-fn collect<T, const N: usize>(tokens: [Option<T>; N]) -> Option<[T; N]> {
-    let mut tokens = tokens;
-    if tokens.iter().any(Option::is_none) {
-        return None;
+/// Keeps a copy of a token for later, reusing the storage of the one before.
+#[inline(always)]
+pub fn store<T: Clone>(place: &mut Option<T>, token: Option<&T>) {
+    match (place, token) {
+        (Some(old), Some(new)) => old.clone_from(new),
+        (place, new) => *place = new.cloned(),
     }
-    Some(core::array::from_fn(|i| match tokens[i].take() {
-        Some(token) => token,
-        None => unreachable!("checked above"),
-    }))
+}
+
+/// Sets a parameter of a node, unless the value is out of its range.
+#[inline]
+pub fn set_param<const I: usize, N, O>(
+    node: &mut N,
+    value: &N::Value,
+    index: usize,
+    name: &'static str,
+    observer: &mut O,
+) where
+    N: ParamField<I, Value: Clone + Debug>,
+    O: Observer,
+{
+    if N::accepts(value) {
+        node.field().clone_from(value);
+    } else {
+        observer.refused(index, name, value);
+    }
+}
+
+/// The value of a parameter of a function node that arrives as a token; `None` if it is out of its range.
+#[inline]
+pub fn checked_param<const I: usize, N, O>(
+    value: &N::Value,
+    index: usize,
+    name: &'static str,
+    observer: &mut O,
+) -> Option<N::Value>
+where
+    N: crate::Param<I, Value: Clone + Debug>,
+    O: Observer,
+{
+    if N::accepts(value) {
+        return Some(value.clone());
+    }
+    observer.refused(index, name, value);
+    None
+}
+
+/// What a node that may fail sends; an error is reported and leaves ⊥.
+#[inline(always)]
+pub fn sent<T, E: Debug, O: Observer>(result: Result<T, E>, index: usize, observer: &mut O) -> Option<T> {
+    match result {
+        Ok(value) => Some(value),
+        Err(error) => {
+            observer.failed(index, &error);
+            None
+        }
+    }
+}
+
+/// Holds back `N` tokens: what is put in comes out `N` iterations later.
+#[derive(Debug, Clone)]
+pub struct Delay<T, const N: usize> {
+    tokens: [Option<T>; N],
+    at: usize,
+}
+
+impl<T, const N: usize> Delay<T, N> {
+    /// A delay that first gives `initial`.
+    pub const fn new(initial: [Option<T>; N]) -> Self {
+        Self { tokens: initial, at: 0 }
+    }
+
+    /// Takes the oldest token out.
+    #[inline(always)]
+    pub fn take(&mut self) -> Option<T> {
+        self.tokens[self.at].take()
+    }
+
+    /// Takes the token out that is `ahead` iterations younger than the oldest.
+    #[inline(always)]
+    pub fn take_at(&mut self, ahead: usize) -> Option<T> {
+        self.tokens[(self.at + ahead) % N].take()
+    }
+
+    /// Puts the token of this iteration in.
+    #[inline(always)]
+    pub fn put(&mut self, token: Option<T>) {
+        self.tokens[self.at] = token;
+        self.at = (self.at + 1) % N;
+    }
 }

@@ -1,2 +1,428 @@
-/// The interface of a node, out of Rust syntax.
+//! Node signatures, read from the Rust sources of the node crates. rustc has the last word on types: the
+//! catalog calls a mismatch only where it has seen both definitions.
+
+mod items;
 pub mod signature;
+mod tree;
+mod ty;
+mod types;
+
+use crate::source::World;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+};
+
+pub use items::{Item, Literal, read as read_items};
+pub use tree::{DefId, ModuleId};
+pub use ty::Ty;
+pub use types::{Match, Type};
+
+use items::{ArgKind, ItemKind, NodeItem, NodeMethods};
+use tree::Tree;
+
+/// A crate to scan.
+#[derive(Debug, Clone)]
+pub struct CrateSpec {
+    /// The name under which code refers to it.
+    pub name: String,
+    /// Its root file.
+    pub root: PathBuf,
+    /// Enabled features.
+    pub features: BTreeSet<String>,
+    /// Names of its dependencies that are not scanned.
+    pub externs: BTreeSet<String>,
+    /// Its dependencies among the scanned crates: name in its code → index.
+    pub dependencies: BTreeMap<String, usize>,
+}
+
+/// Which crates there are, and from where the graph is seen.
+#[derive(Debug, Clone, Default)]
+pub struct Crates {
+    /// All crates to scan.
+    pub all: Vec<CrateSpec>,
+    /// The crate that the generated code becomes part of.
+    pub here: usize,
+    /// The crates that `crate::` in a text may mean: the package's own, `here` first.
+    pub own: Vec<usize>,
+}
+
+/// A node signature.
+pub type SignatureId = usize;
+
+/// A node type: what `#[node]` declares.
+#[derive(Debug, Clone)]
+pub struct Signature {
+    /// Its name.
+    pub name: String,
+    /// Documentation.
+    pub docs: String,
+    /// Where it is declared.
+    pub file: PathBuf,
+    /// Line of its name, from 1.
+    pub line: usize,
+    /// Path by which generated code reaches it.
+    pub path: Vec<String>,
+    /// Whether it is a function (else a struct).
+    pub is_function: bool,
+    /// Names of type parameters and constants.
+    pub generics: Vec<String>,
+    /// Whether firings depend on earlier ones.
+    pub stateful: bool,
+    /// Parameters.
+    pub params: Vec<ParamSig>,
+    /// Ports: inputs, outputs, slots, events, in the order of the signature.
+    pub ports: Vec<PortSig>,
+    /// Arguments of `process`; `None` if it has none.
+    pub process: Option<Vec<ArgSig>>,
+    /// What `process` returns.
+    pub returns: ReturnSig,
+    /// The method that is called instead of `process` when a mandatory input holds ⊥.
+    pub no_message: Option<String>,
+}
+
+impl Signature {
+    /// Whether the tokens of a firing at this port stand in an array.
+    pub fn is_batched(&self, port: usize) -> bool {
+        self.ports[port].rate > 1
+    }
+}
+
+/// A parameter of a node type.
+#[derive(Debug, Clone)]
+pub struct ParamSig {
+    /// Name.
+    pub name: String,
+    /// Documentation.
+    pub docs: String,
+    /// Type of the value.
+    pub ty: Type,
+    /// Unit of plain numbers.
+    pub unit: Option<String>,
+    /// Default; `Some(None)` is an expression that only Rust can evaluate.
+    pub default: Option<Option<Literal>>,
+    /// Smallest and largest value, and whether the largest belongs to it.
+    pub range: Option<(Option<f64>, Option<f64>, bool)>,
+}
+
+/// A port of a node type.
+#[derive(Debug, Clone)]
+pub struct PortSig {
+    /// Name.
+    pub name: String,
+    /// Kind.
+    pub kind: crate::syntax::tree::PortKind,
+    /// Type of one token.
+    pub ty: Type,
+    /// Tokens per firing.
+    pub rate: usize,
+    /// Input: ⊥ reaches the node as `None`. Output: may be ⊥ although the node fired.
+    pub optional: bool,
+    /// The token type in generated code: `Input<index>` or `Output<index>` of the node, and the field of a struct of outputs.
+    pub index: usize,
+    /// The field of a `#[derive(Outputs)]` struct.
+    pub field: Option<(usize, String)>,
+    /// Whether that field is an `Option`.
+    pub field_is_option: bool,
+    /// Documentation.
+    pub docs: String,
+}
+
+/// An argument of `process`: the port, the context or the parameter that it stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArgSig {
+    /// A port, by its number in [`Signature::ports`].
+    Port(usize),
+    /// `&Ctx`
+    Ctx,
+    /// A parameter, by number.
+    Param(usize),
+}
+
+/// What `process` returns.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ReturnSig {
+    /// Whether there is a value.
+    pub value: bool,
+    /// `Option`
+    pub maybe: bool,
+    /// `Result`
+    pub fallible: bool,
+    /// A struct of outputs.
+    pub several: bool,
+}
+
+/// All node signatures and types that a graph can refer to.
+#[derive(Debug, Default)]
+pub struct Catalog {
+    /// The node types.
+    pub signatures: Vec<Signature>,
+    tree: Tree,
+    crates: Crates,
+    by_def: BTreeMap<DefId, SignatureId>,
+    paths: BTreeMap<DefId, Vec<String>>,
+}
+
+impl Catalog {
+    /// Scans `crates`.
+    pub fn load(crates: Crates, world: &mut dyn World) -> Self {
+        let tree = Tree::scan(&crates.all, world);
+        let paths = if crates.all.is_empty() { BTreeMap::new() } else { tree.public_paths(crates.here) };
+        let mut catalog = Self { tree, crates, paths, ..Self::default() };
+        catalog.collect();
+        catalog
+    }
+
+    fn collect(&mut self) {
+        let mut methods: BTreeMap<(ModuleId, &str), Vec<&NodeMethods>> = BTreeMap::new();
+        for def in &self.tree.defs {
+            if let ItemKind::Methods(m) = &def.kind {
+                methods.entry((def.module, &m.node)).or_default().push(m);
+            }
+        }
+        let mut found = vec![];
+        for (id, def) in self.tree.defs.iter().enumerate() {
+            match &def.kind {
+                ItemKind::Function(node) => found.push((id, self.signature(id, node, &[]))),
+                ItemKind::Struct(node) => {
+                    let methods = methods.get(&(def.module, def.name.as_str())).map_or(&[][..], Vec::as_slice);
+                    found.push((id, self.signature(id, node, methods)));
+                }
+                _ => {}
+            }
+        }
+        for (def, signature) in found {
+            self.by_def.insert(def, self.signatures.len());
+            self.signatures.push(signature);
+        }
+    }
+
+    fn signature(&self, id: DefId, node: &NodeItem, methods: &[&NodeMethods]) -> Signature {
+        let def = &self.tree.defs[id];
+        let is_function = matches!(def.kind, ItemKind::Function(_));
+        let process = node.process.as_ref().or_else(|| methods.iter().find_map(|m| m.process.as_ref()));
+        let mut builder = SignatureBuilder {
+            catalog: self,
+            module: def.module,
+            generics: &node.generics,
+            renamed: &[],
+            ports: vec![],
+        };
+        // The `impl` may call the parameters of the struct by other names.
+        let with_process = methods.iter().find(|m| m.process.is_some());
+        let renamed: Vec<(String, String)> = with_process
+            .map(|m| {
+                m.generics
+                    .iter()
+                    .zip(&node.generics)
+                    .filter_map(|(a, b)| Some((a.name()?.to_owned(), b.clone())))
+                    .collect()
+            })
+            .unwrap_or_default();
+        builder.renamed = &renamed;
+        let (args, returns) = process.map_or((None, ReturnSig::default()), |p| builder.process(p));
+        for slot in methods.iter().flat_map(|m| &m.slots) {
+            builder.slot(slot);
+        }
+        let ports = builder.ports;
+        Signature {
+            name: def.name.clone(),
+            docs: node.docs.clone(),
+            file: def.file.clone(),
+            line: def.line,
+            path: self.paths.get(&id).cloned().unwrap_or_default(),
+            is_function,
+            generics: node.generics.clone(),
+            stateful: node.stateful,
+            params: node.params.iter().map(|p| self.param(p, def.module, &node.generics)).collect(),
+            ports,
+            process: args,
+            returns,
+            no_message: methods.iter().find_map(|m| m.no_message.clone()),
+        }
+    }
+
+    fn param(&self, param: &items::ParamItem, module: ModuleId, generics: &[String]) -> ParamSig {
+        ParamSig {
+            name: param.name.clone(),
+            docs: param.docs.clone(),
+            ty: self.type_of(&param.ty, module, generics),
+            unit: param.unit.clone(),
+            default: param.default.clone(),
+            range: param.range,
+        }
+    }
+
+    /// The node types that `path` names where a text stands: `imports` are its `use` lines.
+    pub fn nodes(&self, path: &[String]) -> Vec<SignatureId> {
+        self.defs(path).iter().filter_map(|def| self.by_def.get(def).copied()).collect()
+    }
+
+    /// The types that `path` names, as [`Catalog::nodes`].
+    pub fn types(&self, path: &[String]) -> Vec<DefId> {
+        self.defs(path)
+            .into_iter()
+            .filter(|d| matches!(self.tree.defs[*d].kind, ItemKind::Type(_) | ItemKind::Alias(_)))
+            .collect()
+    }
+
+    fn defs(&self, path: &[String]) -> Vec<DefId> {
+        let mut found = vec![];
+        for &own in &self.crates.own {
+            found = self.tree.resolve(self.tree.roots[own], path);
+            if !found.is_empty() {
+                return found;
+            }
+        }
+        // A name without a path may stand in any module of the package itself.
+        if let [name] = path {
+            for own in &self.crates.own {
+                let is_own = |d: &DefId| self.tree.modules[self.tree.defs[*d].module].krate == *own;
+                found = (0..self.tree.defs.len()).filter(|d| self.tree.defs[*d].name == *name && is_own(d)).collect();
+                if !found.is_empty() {
+                    break;
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether `name` is a crate that a text can import from.
+    pub fn is_crate(&self, name: &str) -> bool {
+        name == "crate" || self.crates.own.iter().any(|own| self.crates.all[*own].dependencies.contains_key(name))
+    }
+
+    /// Whether `name` is a crate that is not scanned: its types can be named, and nothing is known of them.
+    pub fn is_extern(&self, name: &str) -> bool {
+        ["std", "core", "alloc"].contains(&name)
+            || self.crates.own.iter().any(|own| self.crates.all[*own].externs.contains(name))
+    }
+
+    /// All definitions with this name.
+    pub fn find(&self, name: &str) -> Vec<DefId> {
+        (0..self.tree.defs.len()).filter(|def| self.tree.defs[*def].name == name).collect()
+    }
+
+    /// Names that may stand behind `path`, for suggestions.
+    pub fn names_in(&self, path: &[String]) -> Vec<&str> {
+        self.crates.own.iter().flat_map(|own| self.tree.names_in(self.tree.roots[*own], path)).collect()
+    }
+
+    /// Files in which a macro makes nodes that the scan cannot see.
+    pub fn hidden(&self) -> &[PathBuf] {
+        &self.tree.hidden
+    }
+
+    /// How generated code reaches a definition.
+    pub fn path(&self, def: DefId) -> Option<&[String]> {
+        self.paths.get(&def).map(Vec::as_slice)
+    }
+
+    /// File and line of a definition.
+    pub fn place(&self, def: DefId) -> (&std::path::Path, usize) {
+        let def = &self.tree.defs[def];
+        (&def.file, def.line)
+    }
+}
+
+/// Collects the ports of one signature.
+struct SignatureBuilder<'a> {
+    catalog: &'a Catalog,
+    module: ModuleId,
+    generics: &'a [String],
+    renamed: &'a [(String, String)],
+    ports: Vec<PortSig>,
+}
+
+impl SignatureBuilder<'_> {
+    fn ty(&self, ty: &Ty) -> Type {
+        let names: Vec<String> =
+            self.renamed.iter().map(|(from, _)| from.clone()).chain(self.generics.iter().cloned()).collect();
+        let ty = self.catalog.type_of(ty, self.module, &names);
+        ty.rename(self.renamed)
+    }
+
+    fn port(
+        &mut self,
+        name: &str,
+        kind: crate::syntax::tree::PortKind,
+        ty: &Ty,
+        batch: Option<usize>,
+        optional: bool,
+        index: usize,
+    ) -> usize {
+        let rate = batch.unwrap_or(1);
+        let ty = self.ty(ty);
+        self.ports.push(PortSig {
+            name: name.to_owned(),
+            kind,
+            ty,
+            rate,
+            optional,
+            index,
+            field: None,
+            field_is_option: false,
+            docs: String::new(),
+        });
+        self.ports.len() - 1
+    }
+
+    fn process(&mut self, process: &items::Process) -> (Option<Vec<ArgSig>>, ReturnSig) {
+        use crate::syntax::tree::PortKind::{Event, Input, Output};
+        let (mut inputs, mut outputs) = (0, 0);
+        let next = |counter: &mut usize| {
+            *counter += 1;
+            *counter - 1
+        };
+        let mut args = vec![];
+        for arg in &process.args {
+            args.push(match &arg.kind {
+                ArgKind::Input(ty, batch) => {
+                    ArgSig::Port(self.port(&arg.name, Input, ty, *batch, false, next(&mut inputs)))
+                }
+                ArgKind::Optional(ty) => ArgSig::Port(self.port(&arg.name, Input, ty, None, true, next(&mut inputs))),
+                ArgKind::Out(ty, batch) => {
+                    ArgSig::Port(self.port(&arg.name, Output, ty, *batch, true, next(&mut outputs)))
+                }
+                ArgKind::Event(ty) => ArgSig::Port(self.port(&arg.name, Event, ty, None, false, 0)),
+                ArgKind::Ctx => ArgSig::Ctx,
+                ArgKind::Param(index) => ArgSig::Param(*index),
+            });
+        }
+        let mut returns = ReturnSig { value: false, maybe: process.maybe, fallible: process.fallible, several: false };
+        if let Some((ty, batch)) = &process.returns {
+            returns.value = true;
+            let maybe = process.maybe || process.fallible;
+            match self.outputs_struct(ty) {
+                Some(fields) => {
+                    returns.several = true;
+                    for (i, field) in fields.iter().enumerate() {
+                        let port = self.port(&field.name, Output, &field.ty, None, field.maybe || maybe, outputs);
+                        self.ports[port].field = Some((i, field.name.clone()));
+                        self.ports[port].field_is_option = field.maybe;
+                        self.ports[port].docs.clone_from(&field.docs);
+                    }
+                }
+                None => {
+                    self.port("out", Output, ty, *batch, maybe, outputs);
+                }
+            }
+        }
+        (Some(args), returns)
+    }
+
+    fn outputs_struct(&self, ty: &Ty) -> Option<Vec<items::OutputField>> {
+        let Ty::Path(path, _) = ty else { return None };
+        self.catalog.tree.resolve(self.module, path).into_iter().find_map(|def| {
+            match &self.catalog.tree.defs[def].kind {
+                ItemKind::Type(fields) => fields.clone(),
+                _ => None,
+            }
+        })
+    }
+
+    fn slot(&mut self, slot: &items::SlotItem) {
+        let port = self.port(&slot.name, crate::syntax::tree::PortKind::Slot, &slot.ty, None, false, 0);
+        self.ports[port].docs.clone_from(&slot.docs);
+    }
+}

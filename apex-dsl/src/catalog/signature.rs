@@ -82,8 +82,8 @@ pub struct Methods {
     pub process: Option<Callable>,
     /// Methods marked `#[slot]`: name, documentation, token (`()` if none is taken).
     pub slots: Vec<Slot>,
-    /// A method marked `#[no_message]`.
-    pub no_message: bool,
+    /// The method marked `#[no_message]`: called instead of `process` when a mandatory input holds ⊥.
+    pub no_message: Option<String>,
 }
 
 /// A method marked `#[slot]`.
@@ -130,7 +130,13 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
         } else if marked(&method.attrs, "slot") {
             methods.slots.push(slot(method)?);
         } else if marked(&method.attrs, "no_message") {
-            methods.no_message = true;
+            if method.sig.inputs.len() != 1 || method.sig.receiver().is_none() {
+                return Err(syn::Error::new(
+                    method.sig.inputs.span(),
+                    "a `#[no_message]` method takes `&mut self` and nothing else",
+                ));
+            }
+            methods.no_message = Some(method.sig.ident.to_string());
         }
     }
     Ok(methods)
@@ -240,14 +246,14 @@ fn token(ty: &Type) -> syn::Result<Token> {
         return Ok(Token { ty: ty.clone(), batch: None });
     };
     let batch = match &array.len {
-        Expr::Lit(ExprLit { lit: Lit::Int(n), .. }) => n.base10_parse::<usize>().ok().filter(|&n| n > 0),
+        Expr::Lit(ExprLit { lit: Lit::Int(n), .. }) => n.base10_parse::<usize>().ok().filter(|&n| n > 1),
         _ => None,
     };
     match batch {
         Some(n) => Ok(Token { ty: (*array.elem).clone(), batch: Some(n) }),
         None => Err(syn::Error::new(
             array.len.span(),
-            "an array at a port is a number of tokens per firing: write it as a literal above 0 (for an array as one token, wrap it in a type)",
+            "an array at a port is a number of tokens per firing: write it as a literal above 1 (for an array as one token, wrap it in a type)",
         )),
     }
 }

@@ -1,0 +1,139 @@
+//! What is decided before a program runs: order, rates, clusters, and what ⊥ can spare.
+
+mod clocks;
+mod clusters;
+mod order;
+mod pruning;
+mod rates;
+mod schedule;
+
+use crate::{
+    catalog::Catalog,
+    graph::{End, Graph, NodeId, NodeKind},
+    report::Diagnostics,
+    syntax::tree::PortKind,
+};
+use std::collections::BTreeMap;
+
+pub use clocks::{Clock, is_mandatory};
+pub use clusters::{Cluster, Guard};
+pub use pruning::Characteristics;
+pub use schedule::{Block, Step};
+
+/// Everything that is known about a graph before it runs.
+#[derive(Debug)]
+pub struct Analysis {
+    /// All nodes, producers before consumers, otherwise in the order of the text.
+    pub order: Vec<NodeId>,
+    /// How often each node fires in one iteration of its region.
+    pub repetitions: Vec<u64>,
+    /// The region of each node: connected by synchronous connections.
+    pub regions: Vec<usize>,
+    /// What sets the pace.
+    pub guards: Vec<Guard>,
+    /// Nodes that fire together, in the order of their first node.
+    pub clusters: Vec<Cluster>,
+    /// The cluster of each node.
+    pub cluster_of: Vec<usize>,
+    /// What a ⊥ at a node means for others (thesis eqs. 3.6–3.8).
+    pub characteristics: Vec<Characteristics>,
+    /// When each node fires within its cluster.
+    pub clocks: Vec<Clock>,
+    /// The bodies of `each` nodes.
+    pub bodies: BTreeMap<NodeId, Analysis>,
+}
+
+/// How nodes hang together: who sends to whom, by node.
+#[derive(Debug)]
+pub struct Links {
+    /// Connections into each node, by number.
+    pub into: Vec<Vec<usize>>,
+    /// Connections out of each node, by number.
+    pub out_of: Vec<Vec<usize>>,
+}
+
+impl Links {
+    /// The synchronous connections of `graph`.
+    pub fn new(graph: &Graph) -> Self {
+        let mut links = Self { into: vec![vec![]; graph.nodes.len()], out_of: vec![vec![]; graph.nodes.len()] };
+        for (index, connection) in graph.connections.iter().enumerate() {
+            if graph.is_synchronous(connection) {
+                links.into[connection.to.node].push(index);
+                links.out_of[connection.from.node].push(index);
+            }
+        }
+        links
+    }
+
+    /// The nodes that have to come after `node` in an iteration. What a delay sends is from the iteration before.
+    pub fn successors<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
+        let held_back = matches!(graph.nodes[node].kind, NodeKind::Delay(_));
+        self.out_of[node].iter().filter(move |_| !held_back).map(|c| graph.connections[*c].to.node)
+    }
+}
+
+/// Analyses a checked graph. `None` if an error was found that leaves nothing to schedule.
+pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Option<Analysis> {
+    let links = Links::new(graph);
+    let order = order::order(graph, &links, diagnostics)?;
+    let repetitions = rates::repetitions(graph, &links, diagnostics)?;
+    let mut bodies = BTreeMap::new();
+    for (id, node) in graph.nodes.iter().enumerate() {
+        if let NodeKind::Each(each) = &node.kind {
+            bodies.insert(id, analyse(&each.body, catalog, diagnostics)?);
+        }
+    }
+    let regions = clusters::regions(graph);
+    let (guards, clusters, cluster_of) = clusters::clusters(graph, &links, &order, &regions);
+    let characteristics = pruning::characteristics(graph, catalog, &links, &order);
+    let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);
+    let mut analysis =
+        Analysis { order, repetitions, regions, guards, clusters, cluster_of, characteristics, clocks, bodies };
+    for cluster in 0..analysis.clusters.len() {
+        let block = schedule::schedule(graph, &links, &analysis, cluster);
+        analysis.clusters[cluster].block = block;
+    }
+    Some(analysis)
+}
+
+/// Whether a node of the catalog wants to be told of ⊥ at its mandatory inputs.
+pub fn is_told(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
+    matches!(&graph.nodes[node].kind, NodeKind::Library(library) if catalog.signatures[library.signature].no_message.is_some())
+}
+
+/// Whether a token may be ⊥ although the node that sends it fired.
+pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
+    let node = &graph.nodes[from.node];
+    match &node.kind {
+        NodeKind::Library(_) if graph.port(from).parameter.is_some() => false,
+        NodeKind::Library(library) => {
+            graph.port(from).optional
+                || is_told(graph, catalog, from.node)
+                || refuses(&catalog.signatures[library.signature], node)
+        }
+        // What waits in the program itself is looked up where it lies.
+        NodeKind::Delay(_) | NodeKind::Each(_) => true,
+        NodeKind::Boundary(_) => !graph.is_body,
+        NodeKind::Start => false,
+    }
+}
+
+/// Whether a function node has a parameter that arrives as a token and may be out of its range.
+fn refuses(signature: &crate::catalog::Signature, node: &crate::graph::Node) -> bool {
+    let arrives = |p: &crate::graph::Port| p.kind == PortKind::Input && !p.optional;
+    signature.is_function
+        && node
+            .ports
+            .iter()
+            .filter(|p| arrives(p))
+            .any(|p| p.parameter.is_some_and(|i| signature.params[i].range.is_some()))
+}
+
+/// Whether a node starts a region: nothing synchronous flows into it.
+pub fn is_source(graph: &Graph, links: &Links, node: NodeId) -> bool {
+    links.into[node].is_empty()
+        && !matches!(
+            graph.nodes[node].kind,
+            NodeKind::Start | NodeKind::Boundary(PortKind::Output | PortKind::Event | PortKind::Slot)
+        )
+}

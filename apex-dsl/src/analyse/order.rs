@@ -1,0 +1,143 @@
+//! An order in which every node comes after those that send to it. Where there is none, a cycle is named.
+
+use super::Links;
+use crate::{
+    graph::{Graph, NodeId, NodeKind, ScopeId},
+    report::{Diagnostic, Diagnostics},
+};
+use std::{cmp::Reverse, collections::BinaryHeap};
+
+/// Something to be ordered: a node, or one of the two sides of a nested graph, which takes all its inputs
+/// together and sends all its outputs together (thesis 5.2.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Vertex {
+    Node(NodeId),
+    Enter(ScopeId),
+    Leave(ScopeId),
+}
+
+/// The order graph: vertices by number, edges with the connection that they come from.
+struct Precedence {
+    vertices: Vec<Vertex>,
+    edges: Vec<Vec<(usize, Option<usize>)>>,
+}
+
+impl Precedence {
+    fn new(graph: &Graph, links: &Links) -> Self {
+        let nodes = graph.nodes.len();
+        let scopes = graph.scopes.len();
+        let mut vertices: Vec<Vertex> = (0..nodes).map(Vertex::Node).collect();
+        vertices.extend((0..scopes).map(Vertex::Enter));
+        vertices.extend((0..scopes).map(Vertex::Leave));
+        let mut edges = vec![vec![]; vertices.len()];
+        for connection in links.into.iter().flatten() {
+            let c = &graph.connections[*connection];
+            // What a delay sends is from before: it orders nothing.
+            if matches!(graph.nodes[c.from.node].kind, NodeKind::Delay(_)) {
+                continue;
+            }
+            let (left, entered) = crossed(graph, c.from.node, c.to.node);
+            let stations =
+                left.iter().map(|s| nodes + scopes + s).chain(entered.iter().map(|s| nodes + s)).chain([c.to.node]);
+            let mut at = c.from.node;
+            for next in stations {
+                edges[at].push((next, Some(*connection)));
+                at = next;
+            }
+        }
+        for scope in 1..scopes {
+            edges[nodes + scope].push((nodes + scopes + scope, None));
+        }
+        Self { vertices, edges }
+    }
+}
+
+/// The scopes that a connection leaves, from the inside out, and those that it enters, from the outside in.
+pub fn crossed(graph: &Graph, from: NodeId, to: NodeId) -> (Vec<ScopeId>, Vec<ScopeId>) {
+    let (a, b) = (graph.scopes_of(from), graph.scopes_of(to));
+    let left = a.iter().filter(|s| !b.contains(s)).copied().collect();
+    let mut entered: Vec<ScopeId> = b.iter().filter(|s| !a.contains(s)).copied().collect();
+    entered.reverse();
+    (left, entered)
+}
+
+/// The order of all nodes; among those that are free, the first in the text comes first.
+pub fn order(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<Vec<NodeId>> {
+    let precedence = Precedence::new(graph, links);
+    let mut waits = vec![0usize; precedence.vertices.len()];
+    for (next, _) in precedence.edges.iter().flatten() {
+        waits[*next] += 1;
+    }
+    let mut ready: BinaryHeap<Reverse<usize>> = (0..waits.len()).filter(|v| waits[*v] == 0).map(Reverse).collect();
+    let mut order = vec![];
+    let mut done = 0;
+    while let Some(Reverse(vertex)) = ready.pop() {
+        done += 1;
+        if let Vertex::Node(node) = precedence.vertices[vertex] {
+            order.push(node);
+        }
+        for (next, _) in &precedence.edges[vertex] {
+            waits[*next] -= 1;
+            if waits[*next] == 0 {
+                ready.push(Reverse(*next));
+            }
+        }
+    }
+    if done == precedence.vertices.len() {
+        return Some(order);
+    }
+    report_cycle(graph, &precedence, &waits, diagnostics);
+    None
+}
+
+/// Every vertex that still waits has a predecessor that still waits: walking back leads into a cycle.
+fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnostics: &mut Diagnostics) {
+    let mut back: Vec<Option<(usize, Option<usize>)>> = vec![None; waits.len()];
+    for (vertex, edges) in precedence.edges.iter().enumerate().filter(|(v, _)| waits[*v] > 0) {
+        for (next, connection) in edges.iter().filter(|(n, _)| waits[*n] > 0) {
+            back[*next] = Some((vertex, *connection));
+        }
+    }
+    let Some(mut at) = (0..waits.len()).find(|v| waits[*v] > 0 && back[*v].is_some()) else { return };
+    let mut seen = vec![false; waits.len()];
+    while !std::mem::replace(&mut seen[at], true) {
+        at = back[at].map_or(at, |(before, _)| before);
+    }
+    let (first, mut path, mut connections) = (at, vec![], vec![]);
+    while let Some((before, connection)) = back[at] {
+        path.push(precedence.vertices[at]);
+        connections.extend(connection);
+        at = before;
+        if at == first {
+            break;
+        }
+    }
+    path.reverse();
+    connections.reverse();
+    connections.dedup();
+    let name = |vertex: &Vertex| match vertex {
+        Vertex::Node(node) => format!("`{}`", graph.path(*node)),
+        Vertex::Enter(scope) | Vertex::Leave(scope) => format!("`{}`", graph.scopes[*scope].name),
+    };
+    let mut names: Vec<String> = path.iter().map(name).collect();
+    names.dedup();
+    if names.len() > 1 && names.first() == names.last() {
+        names.pop();
+    }
+    names.extend(names.first().cloned());
+    let message = format!("nodes wait for each other in a circle: {}", names.join(" → "));
+    let Some(closing) = connections.last() else { return };
+    let mut error = Diagnostic::error("cycle", graph.connections[*closing].span, message).label("closes the circle");
+    for connection in connections.iter().rev().skip(1).take(8) {
+        error = error.also(graph.connections[*connection].span, "");
+    }
+    if path.iter().any(|v| !matches!(v, Vertex::Node(_))) {
+        error = error
+            .note("a nested graph takes all its inputs together and sends all its outputs together, as one node does");
+    }
+    let last = graph.end_name(graph.connections[*closing].from);
+    let error = error
+        .note(format!("break it where a value of the iteration before is meant: `delay` behind the node that sends `{last}`, for example `node … = …() delay 0;`"))
+        .note("or send the token to a slot, which does not wait");
+    diagnostics.push(error);
+}

@@ -1,0 +1,135 @@
+//! Balance equations (Lee 1987): how often each node fires in one iteration, so that what is sent is what is taken.
+
+use super::Links;
+use crate::{
+    graph::{Graph, NodeId},
+    report::{Diagnostic, Diagnostics},
+};
+
+/// More firings per iteration than anybody needs; also bounds the size of buffers.
+pub const MAX_REPETITIONS: u64 = 100_000;
+
+/// The smallest repetition vector. Reports a circle of connections whose rates contradict each other.
+pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<Vec<u64>> {
+    let mut rates: Vec<Option<(u64, u64)>> = vec![None; graph.nodes.len()];
+    let mut reached: Vec<Option<usize>> = vec![None; graph.nodes.len()];
+    let mut repetitions = vec![1; graph.nodes.len()];
+    for start in 0..graph.nodes.len() {
+        if rates[start].is_some() {
+            continue;
+        }
+        rates[start] = Some((1, 1));
+        let mut region = vec![start];
+        let mut at = 0;
+        while at < region.len() {
+            let node = region[at];
+            at += 1;
+            for &index in links.into[node].iter().chain(&links.out_of[node]) {
+                let c = &graph.connections[index];
+                let (sent, taken) = (graph.port(c.from).rate as u64, graph.port(c.to).rate as u64);
+                let (other, up, down) =
+                    if c.from.node == node { (c.to.node, sent, taken) } else { (c.from.node, taken, sent) };
+                let Some((n, d)) = rates[node] else { continue };
+                let Some(rate) = scale((n, d), up, down) else {
+                    too_many(graph, index, diagnostics);
+                    return None;
+                };
+                match rates[other] {
+                    None => {
+                        rates[other] = Some(rate);
+                        reached[other] = Some(index);
+                        region.push(other);
+                    }
+                    Some(before) if before == rate => {}
+                    Some(_) => {
+                        contradiction(graph, index, node, &reached, diagnostics);
+                        return None;
+                    }
+                }
+            }
+        }
+        let common =
+            region.iter().filter_map(|n| rates[*n]).try_fold(1u64, |lcm, (_, d)| (lcm / gcd(lcm, d)).checked_mul(d));
+        let counts: Option<Vec<u64>> = common.and_then(|lcm| {
+            region
+                .iter()
+                .map(|n| rates[*n].and_then(|(a, d)| a.checked_mul(lcm / d)))
+                .map(|c| c.filter(|c| *c <= MAX_REPETITIONS))
+                .collect()
+        });
+        let Some(counts) = counts else {
+            too_many(graph, links.out_of[start].first().or(links.into[start].first()).copied()?, diagnostics);
+            return None;
+        };
+        let divisor = counts.iter().fold(0, |g, c| gcd(g, *c)).max(1);
+        for (node, count) in region.iter().zip(counts) {
+            repetitions[*node] = count / divisor;
+        }
+    }
+    Some(repetitions)
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+fn scale((n, d): (u64, u64), up: u64, down: u64) -> Option<(u64, u64)> {
+    let (n, d) = (n.checked_mul(up)?, d.checked_mul(down)?);
+    let g = gcd(n, d);
+    Some((n / g, d / g))
+}
+
+fn too_many(graph: &Graph, connection: usize, diagnostics: &mut Diagnostics) {
+    let message = format!("one iteration would need more than {MAX_REPETITIONS} firings of a node");
+    diagnostics.push(
+        Diagnostic::error("rates", graph.connections[connection].span, message)
+            .note("check the number of tokens per firing along this region"),
+    );
+}
+
+fn contradiction(
+    graph: &Graph,
+    connection: usize,
+    node: NodeId,
+    reached: &[Option<usize>],
+    diagnostics: &mut Diagnostics,
+) {
+    let c = &graph.connections[connection];
+    let other = if c.from.node == node { c.to.node } else { c.from.node };
+    let describe = |index: usize| {
+        let c = &graph.connections[index];
+        format!(
+            "`{}` sends {} and `{}` takes {} per firing",
+            graph.end_name(c.from),
+            graph.port(c.from).rate,
+            graph.end_name(c.to),
+            graph.port(c.to).rate
+        )
+    };
+    let mut path = vec![];
+    for mut at in [node, other] {
+        while let Some(index) = reached[at] {
+            let c = &graph.connections[index];
+            // Both walks meet where their paths become the same.
+            if let Some(known) = path.iter().position(|p| *p == index) {
+                path.remove(known);
+            } else {
+                path.push(index);
+            }
+            at = if c.to.node == at { c.from.node } else { c.to.node };
+        }
+    }
+    path.sort_unstable();
+    let nodes = |index: &usize| [graph.connections[*index].from.node, graph.connections[*index].to.node];
+    let mut names: Vec<String> =
+        path.iter().chain([&connection]).flat_map(nodes).map(|n| format!("`{}`", graph.path(n))).collect();
+    names.sort();
+    names.dedup();
+    let message =
+        format!("the rates around {} have no solution: some connection would fill up or run dry", names.join(", "));
+    let mut error = Diagnostic::error("rates", c.span, message).label(describe(connection));
+    for index in path.iter().take(8) {
+        error = error.also(graph.connections[*index].span, describe(*index));
+    }
+    diagnostics.push(error);
+}

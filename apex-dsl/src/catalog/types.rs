@@ -1,0 +1,259 @@
+use super::{Catalog, DefId, ModuleId, Ty};
+use std::fmt;
+
+/// A type whose names have been looked up as far as the scan can see.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Type {
+    /// `u64`, `bool`, `str` …
+    Primitive(String),
+    /// A type of a crate that is not scanned, by its full path, or one of the standard library that needs no
+    /// import: `Vec`, `Option`, `String`, `Box`.
+    Named(String, Vec<Type>),
+    /// A definition that was seen.
+    Def(DefId, String, Vec<Type>),
+    /// `[T; N]`, `[T]`
+    Array(Box<Type>, Option<String>),
+    /// `(A, B)`
+    Tuple(Vec<Type>),
+    /// `&T`
+    Ref(Box<Type>),
+    /// A type parameter of the signature it stands in.
+    Param(String),
+    /// Anything that the scan cannot see through; the text is what was written.
+    Unknown(String),
+}
+
+/// What is known about two types.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Match {
+    /// They are the same.
+    Same,
+    /// They are certainly not.
+    Different,
+    /// Only rustc can say.
+    Unknown,
+}
+
+const PRIMITIVES: [&str; 17] = [
+    "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
+    "f32", "f64",
+];
+const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
+const LISTS: [&str; 2] = ["Vec", "heapless::Vec"];
+/// How many aliases are followed.
+const MAX_ALIASES: usize = 16;
+
+impl Type {
+    /// `()`
+    pub fn unit() -> Self {
+        Self::Tuple(vec![])
+    }
+
+    /// Whether it is `()`.
+    pub fn is_unit(&self) -> bool {
+        *self == Self::unit()
+    }
+
+    /// The name of a number type, `Duration`, `bool` …: its last word.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Primitive(name) | Self::Def(_, name, _) | Self::Param(name) => name,
+            Self::Named(text, _) | Self::Unknown(text) => text.rsplit("::").next().unwrap_or(text),
+            _ => "",
+        }
+    }
+
+    /// Whether two types are the same, as far as can be seen.
+    pub fn compare(&self, other: &Self) -> Match {
+        use Type::{Array, Def, Named, Param, Primitive, Ref, Tuple, Unknown};
+        match (self, other) {
+            (Unknown(_) | Param(_), _) | (_, Unknown(_) | Param(_)) => Match::Unknown,
+            (Primitive(a), Primitive(b)) => Match::of(a == b),
+            (Named(a, x), Named(b, y)) => named(a, x, b, y),
+            (Def(a, _, x), Def(b, _, y)) if a == b => all(x, y),
+            (Tuple(x), Tuple(y)) => all(x, y),
+            (Ref(a), Ref(b)) => a.compare(b),
+            (Array(a, n), Array(b, m)) => match (n, m) {
+                (None, None) => a.compare(b),
+                (Some(n), Some(m)) if n == m => a.compare(b),
+                (Some(n), Some(m)) if n.parse::<u64>().is_ok() && m.parse::<u64>().is_ok() => Match::Different,
+                (None, _) | (_, None) => Match::Different,
+                _ => Match::Unknown,
+            },
+            // What stands behind a path into an unscanned crate is not known.
+            (Named(name, _), _) | (_, Named(name, _)) if !STD.contains(&name.as_str()) => Match::Unknown,
+            _ => Match::Different,
+        }
+    }
+
+    /// The type with type parameters replaced by what `lookup` knows of them.
+    pub fn substitute(&self, lookup: &impl Fn(&str) -> Option<Type>) -> Self {
+        let each = |types: &[Self]| types.iter().map(|t| t.substitute(lookup)).collect();
+        match self {
+            Self::Param(name) => lookup(name).unwrap_or_else(|| self.clone()),
+            Self::Named(name, args) => Self::Named(name.clone(), each(args)),
+            Self::Def(def, name, args) => Self::Def(*def, name.clone(), each(args)),
+            Self::Array(inner, len) => {
+                let len = len.as_ref().map(|n| lookup(n).map_or_else(|| n.clone(), |t| t.to_string()));
+                Self::Array(Box::new(inner.substitute(lookup)), len)
+            }
+            Self::Tuple(parts) => Self::Tuple(each(parts)),
+            Self::Ref(inner) => Self::Ref(Box::new(inner.substitute(lookup))),
+            Self::Primitive(_) | Self::Unknown(_) => self.clone(),
+        }
+    }
+
+    /// The type with its type parameters renamed.
+    pub fn rename(self, names: &[(String, String)]) -> Self {
+        self.substitute(&|name| names.iter().find(|(from, _)| from == name).map(|(_, to)| Self::Param(to.clone())))
+    }
+
+    /// What `self`, a pattern, says about the type parameter `name` if it is to match `concrete`.
+    pub fn bind(&self, name: &str, concrete: &Self) -> Option<Type> {
+        let pairs = |a: &[Self], b: &[Self]| a.iter().zip(b).find_map(|(a, b)| a.bind(name, b));
+        match (self, concrete) {
+            (Self::Param(param), _) if param == name => Some(concrete.clone()),
+            (Self::Named(a, x), Self::Named(b, y)) if a == b => pairs(x, y),
+            (Self::Def(a, _, x), Self::Def(b, _, y)) if a == b => pairs(x, y),
+            (Self::Tuple(x), Self::Tuple(y)) => pairs(x, y),
+            (Self::Array(a, _), Self::Array(b, _)) | (Self::Ref(a), Self::Ref(b)) => a.bind(name, b),
+            _ => None,
+        }
+    }
+
+    /// Whether it has a part that the scan cannot see through, or an open type parameter.
+    pub fn is_open(&self) -> bool {
+        match self {
+            Self::Unknown(_) | Self::Param(_) => true,
+            Self::Named(_, args) | Self::Def(_, _, args) | Self::Tuple(args) => args.iter().any(Self::is_open),
+            Self::Array(inner, len) => inner.is_open() || len.as_ref().is_some_and(|n| n.parse::<u64>().is_err()),
+            Self::Ref(inner) => inner.is_open(),
+            Self::Primitive(_) => false,
+        }
+    }
+
+    /// The element type of a list; `None` if it is certainly no list that `each` knows.
+    pub fn list_item(&self) -> Option<Type> {
+        match self {
+            Self::Named(name, args) if LISTS.contains(&name.as_str()) => args.first().cloned(),
+            _ => None,
+        }
+    }
+}
+
+impl Match {
+    fn of(same: bool) -> Self {
+        if same { Self::Same } else { Self::Different }
+    }
+}
+
+/// Paths into crates that were not scanned may be aliases of each other, so that only lists and what the
+/// language itself names can be told apart.
+fn named(a: &str, x: &[Type], b: &str, y: &[Type]) -> Match {
+    let known = |name: &str| STD.contains(&name) || LISTS.contains(&name);
+    match all(x, y) {
+        args if a == b && (known(a) || args == Match::Same) => args,
+        _ if a != b && known(a) && known(b) => Match::Different,
+        _ => Match::Unknown,
+    }
+}
+
+fn all(a: &[Type], b: &[Type]) -> Match {
+    if a.len() != b.len() {
+        return Match::Unknown;
+    }
+    a.iter().zip(b).map(|(a, b)| a.compare(b)).fold(Match::Same, |sum, one| match (sum, one) {
+        (Match::Different, _) | (_, Match::Different) => Match::Different,
+        (Match::Unknown, _) | (_, Match::Unknown) => Match::Unknown,
+        _ => Match::Same,
+    })
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |f: &mut fmt::Formatter<'_>, types: &[Self]| {
+            types.iter().enumerate().try_for_each(|(i, t)| write!(f, "{}{t}", if i > 0 { ", " } else { "" }))
+        };
+        match self {
+            Self::Primitive(name) | Self::Param(name) | Self::Unknown(name) => f.write_str(name),
+            Self::Named(name, args) | Self::Def(_, name, args) => {
+                f.write_str(name)?;
+                if args.is_empty() {
+                    return Ok(());
+                }
+                f.write_str("<")?;
+                list(f, args)?;
+                f.write_str(">")
+            }
+            Self::Array(inner, Some(len)) => write!(f, "[{inner}; {len}]"),
+            Self::Array(inner, None) => write!(f, "[{inner}]"),
+            Self::Tuple(parts) => {
+                f.write_str("(")?;
+                list(f, parts)?;
+                f.write_str(")")
+            }
+            Self::Ref(inner) => write!(f, "&{inner}"),
+        }
+    }
+}
+
+impl Catalog {
+    /// Looks up the names of a type that was written in a scanned module.
+    pub fn type_of(&self, ty: &Ty, module: ModuleId, generics: &[String]) -> Type {
+        self.lookup(ty, generics, 0, &|path| (self.tree.resolve(module, path), self.tree.external(module, path)))
+    }
+
+    /// Looks up the names of a type that was written in a text of the graph language.
+    pub fn type_in_text(&self, ty: &Ty, generics: &[String]) -> Type {
+        self.lookup(ty, generics, 0, &|path| (self.types(path), None))
+    }
+
+    fn lookup(
+        &self,
+        ty: &Ty,
+        generics: &[String],
+        aliases: usize,
+        resolve: &dyn Fn(&[String]) -> (Vec<DefId>, Option<String>),
+    ) -> Type {
+        let inner = |t: &Ty| self.lookup(t, generics, aliases, resolve);
+        match ty {
+            Ty::Array(element, len) => Type::Array(Box::new(inner(element)), len.clone()),
+            Ty::Tuple(parts) => Type::Tuple(parts.iter().map(inner).collect()),
+            Ty::Ref(target) => Type::Ref(Box::new(inner(target))),
+            Ty::Other(text) => Type::Unknown(text.clone()),
+            Ty::Path(path, args) => {
+                let name = path.last().map_or("", String::as_str);
+                if path.len() == 1 && args.is_empty() && generics.iter().any(|g| g == name) {
+                    return Type::Param(name.to_owned());
+                }
+                let args: Vec<Type> = args.iter().map(inner).collect();
+                let (defs, external) = resolve(path);
+                let def = defs
+                    .into_iter()
+                    .find(|d| matches!(self.tree.defs[*d].kind, super::ItemKind::Type(_) | super::ItemKind::Alias(_)));
+                if let Some(def) = def {
+                    return match self.tree.alias(def) {
+                        None => Type::Def(def, name.to_owned(), args),
+                        Some(Some(target)) if aliases < MAX_ALIASES => {
+                            let module = self.tree.defs[def].module;
+                            self.lookup(target, &[], aliases + 1, &|path| {
+                                (self.tree.resolve(module, path), self.tree.external(module, path))
+                            })
+                        }
+                        Some(_) => Type::Unknown(ty.to_string()),
+                    };
+                }
+                if let Some(external) = external {
+                    return Type::Named(external, args);
+                }
+                if path.len() == 1 && PRIMITIVES.contains(&name) {
+                    return Type::Primitive(name.to_owned());
+                }
+                if path.len() > 1 || STD.contains(&name) {
+                    return Type::Named(path.join("::"), args);
+                }
+                Type::Unknown(ty.to_string())
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! A required input that nothing is connected to.
+
+use crate::{
+    catalog::Catalog,
+    graph::{End, Graph, NodeKind},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::PortKind,
+};
+use std::collections::BTreeSet;
+
+/// Reports open inputs.
+pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let connected: BTreeSet<End> = graph.connections.iter().map(|c| c.to).collect();
+    for (id, node) in graph.nodes.iter().enumerate() {
+        for (port, p) in node.ports.iter().enumerate() {
+            if p.kind != PortKind::Input || connected.contains(&End { node: id, port }) {
+                continue;
+            }
+            if let NodeKind::Boundary(_) = node.kind {
+                let message = format!("nothing is connected to the output `{}`", node.name);
+                let error = Diagnostic::error("open-output", node.span, message);
+                diagnostics.push(error.note(format!("connect it: `… -> {};`", node.name)));
+            } else if !p.optional && !inside_unconnected(graph, id) {
+                let message = format!("input `{}` of `{}` is not connected", p.name, node.name);
+                let mut error = Diagnostic::error("open-input", node.span, message)
+                    .label(format!("takes `{}: {}`", p.name, p.ty))
+                    .note(format!("connect it: `… -> {}.{};`", node.name, p.name));
+                if let NodeKind::Library(library) = &node.kind {
+                    let signature = &catalog.signatures[library.signature];
+                    error = error.note(format!(
+                        "`{}` is declared at {}:{}; an input that may stay open is written `Option<&T>`",
+                        signature.name,
+                        signature.file.display(),
+                        signature.line
+                    ));
+                }
+                diagnostics.push(error);
+            }
+        }
+    }
+}
+
+/// An open port of the nested graph around it has been reported there.
+fn inside_unconnected(graph: &Graph, node: usize) -> bool {
+    graph.nodes[node].scope != 0 && graph.open_pins.contains(&node)
+}

@@ -1,0 +1,28 @@
+//! What can be wrong with a graph whose names are all known. One pass a file; each reports all it finds.
+
+mod inputs;
+mod lists;
+mod modifiers;
+mod types;
+
+use crate::{
+    catalog::Catalog,
+    graph::{Graph, NodeKind},
+    report::Diagnostics,
+};
+
+pub use lists::token_type;
+pub use types::compare as compare_types;
+
+/// Runs all checks on `graph` and on the bodies in it.
+pub fn check(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    inputs::check_open_inputs(graph, catalog, diagnostics);
+    lists::resolve_lists(graph, diagnostics);
+    types::check_types(graph, catalog, diagnostics);
+    modifiers::check_modifiers(graph, catalog, diagnostics);
+    for node in &mut graph.nodes {
+        if let NodeKind::Each(each) = &mut node.kind {
+            check(&mut each.body, catalog, diagnostics);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Modifiers that say something impossible.
+
+use crate::{
+    analyse::is_told,
+    catalog::Catalog,
+    graph::{Graph, NodeId, NodeKind},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::PortKind,
+};
+use std::collections::BTreeSet;
+
+/// Reports them.
+pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let driven: BTreeSet<NodeId> =
+        graph.connections.iter().filter(|c| graph.port(c.to).kind == PortKind::Input).map(|c| c.to.node).collect();
+    for (id, node) in graph.nodes.iter().enumerate() {
+        if node.modifiers.every.is_some() && driven.contains(&id) {
+            let message =
+                format!("`every` sets the pace of a source, but `{}` fires when its inputs arrive", node.name);
+            diagnostics.push(
+                Diagnostic::error("every-on-driven", node.span, message)
+                    .note("put `every` behind the node that its inputs come from"),
+            );
+        }
+        if node.modifiers.essential && !can_see_missing(graph, catalog, id) {
+            let message = format!("`essential` has no effect on `{}`: it has no way to see ⊥", node.name);
+            let warning = Diagnostic::warning("essential-without-hook", node.span, message)
+                .note("an essential node takes `Option<&T>`, or has a method marked `#[no_message]`");
+            diagnostics.push(warning);
+        }
+    }
+}
+
+fn can_see_missing(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
+    let optional =
+        graph.nodes[node].ports.iter().any(|p| p.kind == PortKind::Input && p.optional && p.parameter.is_none());
+    optional || is_told(graph, catalog, node) || !matches!(graph.nodes[node].kind, NodeKind::Library(_))
+}

@@ -1,0 +1,58 @@
+//! Both ends of a connection carry the same type.
+
+use super::lists::token_type;
+use crate::{
+    catalog::{Catalog, Match, Type},
+    graph::{Connection, End, Graph, NodeKind},
+    report::{Diagnostic, Diagnostics},
+};
+
+/// Reports connections whose ends certainly differ. Of all others rustc has the last word.
+pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    for connection in &graph.connections {
+        if compare(graph, connection) != Match::Different {
+            continue;
+        }
+        let (from, to) = (token_type(graph, connection.from), graph.port(connection.to).ty.clone());
+        let iterates =
+            matches!(&graph.nodes[connection.to.node].kind, NodeKind::Each(each) if each.list == connection.to.port);
+        let takes = if iterates { format!("a list of `{to}`") } else { format!("`{to}`") };
+        let message = format!(
+            "`{}` sends `{from}`, but `{}` takes {takes}",
+            graph.end_name(connection.from),
+            graph.end_name(connection.to)
+        );
+        let error = Diagnostic::error("type-mismatch", connection.span, message)
+            .also(graph.nodes[connection.from.node].span, format!("sends `{from}`"))
+            .also(graph.nodes[connection.to.node].span, format!("takes {takes}"))
+            .note(declared(graph, catalog, connection.from))
+            .note(declared(graph, catalog, connection.to))
+            .note("nothing is converted silently: put a node that converts between them");
+        diagnostics.push(error);
+    }
+}
+
+/// What is known about the two ends of a connection.
+pub fn compare(graph: &Graph, connection: &Connection) -> Match {
+    let from = token_type(graph, connection.from);
+    let to = &graph.port(connection.to).ty;
+    match &graph.nodes[connection.to.node].kind {
+        NodeKind::Each(each) if each.list == connection.to.port => match (from.list_item(), &from) {
+            (Some(item), _) => item.compare(to),
+            (None, Type::Unknown(_) | Type::Param(_) | Type::Named(..)) => Match::Unknown,
+            (None, _) => Match::Different,
+        },
+        _ => from.compare(to),
+    }
+}
+
+fn declared(graph: &Graph, catalog: &Catalog, end: End) -> String {
+    let name = graph.end_name(end);
+    match &graph.nodes[end.node].kind {
+        NodeKind::Library(library) => {
+            let signature = &catalog.signatures[library.signature];
+            format!("`{name}` is declared at {}:{} (`{}`)", signature.file.display(), signature.line, signature.name)
+        }
+        _ => format!("`{name}` is a port of the graph `{}`", graph.name),
+    }
+}

@@ -1,0 +1,93 @@
+//! `each`: the body as a closure over the elements of a list.
+
+use super::{
+    fire::Emitter,
+    plan::{BlockId, Storage},
+};
+use crate::{
+    analyse::Links,
+    graph::{Each, End, Graph, NodeId, NodeKind},
+    syntax::tree::PortKind,
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+impl Emitter<'_> {
+    /// Fires an `each`: the results are collected in order, ⊥ is dropped.
+    pub fn fire_each(&self, node: NodeId, each: &Each, block: BlockId) -> TokenStream {
+        let index = self.generator.names.base + node;
+        let generator = self.generator.inside(self.graph, node);
+        let body = &*each.body;
+        let (Some(analysis), links) = (self.analysis.bodies.get(&node), Links::new(body)) else { return quote!() };
+        let clusters: Vec<Emitter<'_>> = (0..analysis.clusters.len())
+            .map(|cluster| Emitter::new(&generator, body, analysis, &links, cluster))
+            .collect();
+        let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();
+        let (mut item, mut bindings) = (format_ident!("_item"), quote!());
+        for (port, p) in self.graph.nodes[node].ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Input) {
+            let inside = generator.name(End { node: boundary(body, &p.name, PortKind::Input), port: 0 });
+            if port == each.list {
+                item = inside;
+            } else if let Some(from) = self.incoming(End { node, port }) {
+                let token = self.reference(from, block);
+                bindings.extend(quote! { let #inside = #token; });
+            }
+        }
+        let Some(list) = self.incoming(End { node, port: each.list }).map(|from| self.reference(from, block)) else {
+            return quote!();
+        };
+        let results: Vec<(syn::Ident, TokenStream, bool)> = self.graph.nodes[node]
+            .ports
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| p.kind == PortKind::Output)
+            .map(|(port, p)| {
+                let (value, optional) = result(&clusters, boundary(body, &p.name, PortKind::Output));
+                (self.generator.name(End { node, port }), value, optional)
+            })
+            .collect();
+        let iteration = match results.as_slice() {
+            [(name, value, optional)] => {
+                let adapter = if *optional { quote!(filter_map) } else { quote!(map) };
+                quote! {
+                    let results = state.#name.begin().get_mut();
+                    ::apex_rt::List::clear(results);
+                    ::apex_rt::List::append(results, ::apex_rt::List::items(#list).iter().#adapter(|#item| { #code #value }));
+                }
+            }
+            several => {
+                let begins =
+                    several.iter().map(|(name, ..)| quote! { ::apex_rt::List::clear(state.#name.begin().get_mut()); });
+                let appends = several.iter().map(|(name, value, optional)| {
+                    let some = if *optional { quote!(#value) } else { quote!(Some(#value)) };
+                    quote! { ::apex_rt::List::append(state.#name.get_mut(), (#some).into_iter()); }
+                });
+                quote! {
+                    #(#begins)*
+                    for #item in ::apex_rt::List::items(#list) { #code #(#appends)* }
+                }
+            }
+        };
+        quote! { observer.fired(#index); { #bindings #iteration } }
+    }
+}
+
+/// The boundary node of a port.
+fn boundary(body: &Graph, name: &str, kind: PortKind) -> NodeId {
+    body.nodes.iter().position(|n| n.name == name && matches!(n.kind, NodeKind::Boundary(k) if k == kind)).unwrap_or(0)
+}
+
+/// What one element yields at an output, and whether that is an `Option`.
+fn result(clusters: &[Emitter<'_>], output: NodeId) -> (TokenStream, bool) {
+    let found = clusters.iter().find(|c| c.analysis.clusters[c.cluster].nodes.contains(&output));
+    let Some((emitter, from)) = found.and_then(|c| Some((c, c.incoming(End { node: output, port: 0 })?))) else {
+        return (quote!(None), true);
+    };
+    let name = emitter.generator.name(from);
+    match emitter.plan.storage(from) {
+        Storage::Argument => (quote!(::core::clone::Clone::clone(#name)), false),
+        Storage::Buffer => (quote!(state.#name.get().cloned()), true),
+        _ if emitter.plan.is_plain(from) => (quote!(#name), false),
+        _ => (quote!(#name), true),
+    }
+}

@@ -1,0 +1,491 @@
+//! One cluster as straight-line code: blocks, firings, and how tokens get from one to the next.
+
+use super::{
+    Generator,
+    plan::{BlockId, Plan, Storage},
+    types::{ident, path, spell},
+};
+use crate::{
+    analyse::{Analysis, Block, Links, Step, is_told},
+    catalog::{ArgSig, Signature},
+    graph::{End, Graph, Library, NodeId, NodeKind, Value},
+    syntax::tree::PortKind,
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+
+/// Writes the code of one cluster.
+pub struct Emitter<'a> {
+    pub generator: &'a Generator<'a>,
+    pub graph: &'a Graph,
+    pub analysis: &'a Analysis,
+    pub links: &'a Links,
+    pub plan: Plan,
+    pub cluster: usize,
+}
+
+impl<'a> Emitter<'a> {
+    /// An emitter for `cluster`.
+    pub fn new(
+        generator: &'a Generator<'a>,
+        graph: &'a Graph,
+        analysis: &'a Analysis,
+        links: &'a Links,
+        cluster: usize,
+    ) -> Self {
+        let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
+        Self { generator, graph, analysis, links, plan, cluster }
+    }
+
+    /// Everything that the cluster does.
+    pub fn cluster(&self) -> TokenStream {
+        let cluster = &self.analysis.clusters[self.cluster];
+        let read = cluster.nodes.iter().map(|node| self.read_first(*node));
+        let block = self.block(&cluster.block, &mut 0);
+        let left = cluster.nodes.iter().map(|node| self.leave(*node));
+        quote! { #(#read)* #block #(#left)* }
+    }
+
+    /// Tokens that wait in the program are taken when the cluster starts.
+    fn read_first(&self, node: NodeId) -> TokenStream {
+        let sends = self.graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output);
+        let Some(end) = sends.map(|port| End { node, port }) else { return quote!() };
+        let name = self.generator.name(end);
+        match self.graph.nodes[node].kind {
+            NodeKind::Delay(_) => quote! { let #name = state.#name.take(); },
+            NodeKind::Boundary(_) if !self.graph.is_body => {
+                let port = ident(&self.graph.nodes[node].name);
+                quote! { let #name = inputs.#port.take(); }
+            }
+            _ => quote!(),
+        }
+    }
+
+    /// Tokens for other clusters are left in the program when the cluster ends.
+    fn leave(&self, node: NodeId) -> TokenStream {
+        let mut ends: Vec<End> = self.links.out_of[node]
+            .iter()
+            .map(|c| &self.graph.connections[*c])
+            .filter(|c| self.analysis.cluster_of[c.to.node] != self.cluster)
+            .map(|c| c.from)
+            .collect();
+        ends.sort_unstable();
+        ends.dedup();
+        let stores = ends.into_iter().filter(|end| self.plan.storage(*end) != Storage::Buffer).map(|end| {
+            let (name, token) = (self.generator.name(end), self.option(end, 0));
+            quote! { ::apex_rt::store(&mut state.#name, #token); }
+        });
+        quote! { #(#stores)* }
+    }
+
+    fn block(&self, block: &Block, next: &mut BlockId) -> TokenStream {
+        let id = *next;
+        *next += 1;
+        let hoisted = self.plan.hoisted_to(id).into_iter().map(|end| {
+            let name = self.generator.name(end);
+            match self.plan.storage(end) {
+                Storage::Buffer => quote! { state.#name.clear(); },
+                _ => quote! { let mut #name = None; },
+            }
+        });
+        let hoisted: TokenStream = hoisted.collect();
+        let steps: TokenStream = block
+            .steps
+            .iter()
+            .map(|step| match step {
+                Step::Fire(node) => self.fire(*node, id),
+                Step::Block(inner) => {
+                    let test = self.test(*next);
+                    let body = self.block(inner, next);
+                    quote! { if let #test { #body } }
+                }
+            })
+            .collect();
+        quote! { #hoisted #steps }
+    }
+
+    /// `Some(a) = &a`, or the same of several tokens.
+    fn test(&self, block: BlockId) -> TokenStream {
+        let tests = &self.plan.tests[block];
+        let names: Vec<_> = tests.iter().map(|end| self.generator.name(*end)).collect();
+        // Inside, a name that is bound further out stands for the value itself.
+        let tokens: Vec<_> = tests.iter().map(|end| self.stored(*end)).collect();
+        match (names.as_slice(), tokens.as_slice()) {
+            ([name], [token]) => quote!(Some(#name) = #token),
+            _ => quote!((#(Some(#names)),*) = (#(#tokens),*)),
+        }
+    }
+
+    /// A token that may be ⊥, where it is kept.
+    fn stored(&self, end: End) -> TokenStream {
+        let name = self.generator.name(end);
+        match self.plan.storage(end) {
+            Storage::Buffer => quote!(state.#name.get()),
+            Storage::Outside => quote!(&state.#name),
+            _ => quote!(&#name),
+        }
+    }
+
+    /// A token as `Option<&T>`.
+    pub fn option(&self, end: End, block: BlockId) -> TokenStream {
+        let name = self.generator.name(end);
+        if self.plan.is_bound(end, block) || self.plan.storage(end) == Storage::Argument {
+            return quote!(Some(#name));
+        }
+        match self.plan.storage(end) {
+            Storage::Buffer => quote!(state.#name.get()),
+            Storage::Outside => quote!(state.#name.as_ref()),
+            _ if self.plan.is_plain(end) => quote!(Some(&#name)),
+            _ => quote!(#name.as_ref()),
+        }
+    }
+
+    /// A token that is there, as `&T`.
+    pub fn reference(&self, end: End, block: BlockId) -> TokenStream {
+        let name = self.generator.name(end);
+        if self.plan.is_bound(end, block) || self.plan.storage(end) == Storage::Argument {
+            quote!(#name)
+        } else {
+            quote!(&#name)
+        }
+    }
+
+    fn fire(&self, node: NodeId, block: BlockId) -> TokenStream {
+        match &self.graph.nodes[node].kind {
+            NodeKind::Library(library) => self.fire_library(node, library, block),
+            NodeKind::Each(each) => self.fire_each(node, each, block),
+            NodeKind::Delay(_) => {
+                let name = self.generator.name(End { node, port: 1 });
+                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
+                let token = token.unwrap_or_else(|| quote!(None));
+                quote! { state.#name.put(#token.cloned()); }
+            }
+            NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
+                let port = ident(&self.graph.nodes[node].name);
+                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
+                token.map(|token| quote! { ::apex_rt::store(&mut outputs.#port, #token); }).unwrap_or_default()
+            }
+            NodeKind::Boundary(_) | NodeKind::Start => quote!(),
+        }
+    }
+
+    /// Where the tokens of an input come from.
+    pub fn incoming(&self, to: End) -> Option<End> {
+        self.connection(to).map(|c| self.graph.connections[c].from)
+    }
+
+    fn connection(&self, to: End) -> Option<usize> {
+        self.links.into[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
+    }
+
+    fn fire_library(&self, node: NodeId, library: &Library, block: BlockId) -> TokenStream {
+        let signature = &self.generator.catalog.signatures[library.signature];
+        let Some(args) = &signature.process else { return quote!() };
+        let index = self.generator.names.base + node;
+        let params = self.set_params(node, signature, block);
+        let told = is_told(self.graph, self.generator.catalog, node);
+        let args: Vec<TokenStream> =
+            args.iter().map(|arg| self.argument(node, library, signature, *arg, block, told)).collect();
+        let call = if signature.is_function {
+            let function = path(&signature.path);
+            quote!(#function(#(#args),*))
+        } else {
+            let place = self.generator.node_place(self.graph, node);
+            quote!(#place.process(#(#args),*))
+        };
+        let call = self.with_checked_params(node, library, signature, call, block);
+        let call = if told { self.told(node, signature, call, block) } else { call };
+        let results = self.results(node, signature, call, told);
+        let outputs = self.param_outputs(node, library, signature, block);
+        quote! { observer.fired(#index); #params #results #outputs }
+    }
+
+    fn argument(
+        &self,
+        node: NodeId,
+        library: &Library,
+        signature: &Signature,
+        arg: ArgSig,
+        block: BlockId,
+        told: bool,
+    ) -> TokenStream {
+        match arg {
+            ArgSig::Ctx => quote!(ctx),
+            ArgSig::Port(port) => {
+                let (end, p) = (End { node, port }, &signature.ports[port]);
+                match p.kind {
+                    PortKind::Output => {
+                        let name = self.generator.name(end);
+                        quote!(state.#name.begin())
+                    }
+                    PortKind::Input if p.optional => match self.incoming(end) {
+                        Some(from) => self.judged(end, self.option(from, block), true),
+                        None => quote!(None),
+                    },
+                    PortKind::Input => match self.incoming(end) {
+                        Some(_) if told => {
+                            let name = ident(&format!("token_{}", p.name));
+                            quote!(#name)
+                        }
+                        Some(from) => self.judged(end, self.reference(from, block), false),
+                        None => quote!(),
+                    },
+                    PortKind::Event | PortKind::Slot => quote!(::apex_rt::Event::unconnected()),
+                }
+            }
+            ArgSig::Param(param) => match self.param_source(node, param) {
+                Some(_) if signature.params[param].range.is_some() => {
+                    let name = format_ident!("param_{param}");
+                    quote!(#name)
+                }
+                Some(from) => {
+                    let token = self.reference(from, block);
+                    quote!(::core::clone::Clone::clone(#token))
+                }
+                None => self.constant(library, signature, param),
+            },
+        }
+    }
+
+    /// Lets rustc judge a connection whose types the scan could not compare.
+    fn judged(&self, to: End, token: TokenStream, optional: bool) -> TokenStream {
+        let Some(connection) = self.connection(to).filter(|c| self.generator.is_judged(self.graph, *c)) else {
+            return token;
+        };
+        let NodeKind::Library(library) = &self.graph.nodes[to.node].kind else { return token };
+        let node = self.generator.node_type(self.graph, library);
+        let index = self.generator.catalog.signatures[library.signature].ports[to.port].index;
+        let link = self.generator.link_name(connection);
+        let span = (self.generator.place)(self.graph.connections[connection].span);
+        let wanted = quote!(<#node as ::apex_rt::Input<#index>>::Token);
+        if optional {
+            quote_spanned!(span=> #token.map(|token| #link::<#wanted>::pass(token)))
+        } else {
+            quote_spanned!(span=> #link::<#wanted>::pass(#token))
+        }
+    }
+
+    fn constant(&self, library: &Library, signature: &Signature, param: usize) -> TokenStream {
+        match &library.params[param] {
+            Value::RustDefault => {
+                let node = self.generator.node_type(self.graph, library);
+                let default = format_ident!("apex_default_{}", signature.params[param].name);
+                quote!(<#node>::#default())
+            }
+            value => self.generator.value(value, &signature.params[param].ty),
+        }
+    }
+
+    /// The token that arrives at a parameter port.
+    fn param_source(&self, node: NodeId, param: usize) -> Option<End> {
+        let port = self.graph.nodes[node]
+            .ports
+            .iter()
+            .position(|p| p.parameter == Some(param) && p.kind == PortKind::Input)?;
+        self.incoming(End { node, port })
+    }
+
+    /// Tokens at parameter ports of a struct node are put into its fields first.
+    fn set_params(&self, node: NodeId, signature: &Signature, block: BlockId) -> TokenStream {
+        if signature.is_function {
+            return quote!();
+        }
+        let (index, place) = (self.generator.names.base + node, self.generator.node_place(self.graph, node));
+        let sets = (0..signature.params.len()).filter_map(|param| {
+            let (token, name) = (self.option(self.param_source(node, param)?, block), &signature.params[param].name);
+            Some(quote! { if let Some(value) = #token { ::apex_rt::set_param::<#param, _, _>(&mut #place, value, #index, #name, observer); } })
+        });
+        sets.collect()
+    }
+
+    /// A function is not called with a parameter that is out of range.
+    fn with_checked_params(
+        &self,
+        node: NodeId,
+        library: &Library,
+        signature: &Signature,
+        call: TokenStream,
+        block: BlockId,
+    ) -> TokenStream {
+        if !signature.is_function {
+            return call;
+        }
+        let index = self.generator.names.base + node;
+        let checked: Vec<usize> = (0..signature.params.len())
+            .filter(|p| signature.params[*p].range.is_some() && self.param_source(node, *p).is_some())
+            .collect();
+        checked.iter().rev().enumerate().fold(call, |call, (depth, param)| {
+            let Some(from) = self.param_source(node, *param) else { return call };
+            let (token, name, node_type) = (
+                self.reference(from, block),
+                &signature.params[*param].name,
+                self.generator.node_type(self.graph, library),
+            );
+            let local = format_ident!("param_{param}");
+            let check = quote!(::apex_rt::checked_param::<#param, #node_type, _>(#token, #index, #name, observer));
+            let flat = depth > 0 || signature.returns.maybe || signature.returns.fallible;
+            if flat { quote!(#check.and_then(|#local| #call)) } else { quote!(#check.map(|#local| #call)) }
+        })
+    }
+
+    /// A node that wants to be told of ⊥ is called in one way or the other.
+    fn told(&self, node: NodeId, signature: &Signature, call: TokenStream, block: BlockId) -> TokenStream {
+        let mandatory: Vec<(End, &str)> = signature
+            .ports
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| p.kind == PortKind::Input && !p.optional)
+            .filter_map(|(port, p)| Some((self.incoming(End { node, port })?, p.name.as_str())))
+            .collect();
+        let names = mandatory.iter().map(|(_, name)| ident(&format!("token_{name}")));
+        let tokens = mandatory.iter().map(|(from, _)| self.option(*from, block));
+        let place = self.generator.node_place(self.graph, node);
+        let method = ident(signature.no_message.as_deref().unwrap_or_default());
+        let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });
+        let value = if signature.returns.maybe || signature.returns.fallible || !signature.returns.value {
+            call
+        } else {
+            quote!(Some(#call))
+        };
+        let missing = match (signature.returns.value, signature.returns.fallible) {
+            (true, true) => quote!(Ok(None)),
+            (true, false) => quote!(None),
+            (false, true) => quote!(Ok(())),
+            (false, false) => quote!(()),
+        };
+        let value = if signature.returns.fallible && signature.returns.value && !signature.returns.maybe {
+            quote!(#value.map(Some))
+        } else {
+            value
+        };
+        quote! {
+            match (#(#tokens,)*) {
+                (#(Some(#names),)*) => #value,
+                #[allow(unreachable_patterns)]
+                _ => { #place.#method(); #(#clears)* #missing }
+            }
+        }
+    }
+
+    fn buffers(&self, node: NodeId) -> Vec<syn::Ident> {
+        let ports = 0..self.graph.nodes[node].ports.len();
+        ports
+            .map(|port| End { node, port })
+            .filter(|end| super::plan::is_buffer(self.graph, self.generator.catalog, *end))
+            .map(|end| self.generator.name(end))
+            .collect()
+    }
+
+    /// The call as a statement that gives names to what it returns.
+    fn results(&self, node: NodeId, signature: &Signature, call: TokenStream, told: bool) -> TokenStream {
+        let returns = signature.returns;
+        let index = self.generator.names.base + node;
+        let mut optional = returns.maybe || told || self.returns_checked(node, signature);
+        let mut value = call;
+        let mut before = quote!();
+        if returns.fallible {
+            value = quote!(::apex_rt::sent(#value, #index, observer));
+            let clears: Vec<TokenStream> =
+                self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); }).collect();
+            let nested = returns.value && (returns.maybe || told);
+            if !clears.is_empty() {
+                before = quote! { let sent = #value; if sent.is_none() { #(#clears)* } };
+                value = quote!(sent);
+            }
+            if nested {
+                value = quote!(#value.flatten());
+            }
+            optional = true;
+        }
+        let outputs: Vec<(End, Option<&str>, bool)> = signature
+            .ports
+            .iter()
+            .enumerate()
+            .filter(|(port, p)| {
+                p.kind == PortKind::Output
+                    && !signature.process.as_ref().is_some_and(|args| args.contains(&ArgSig::Port(*port)))
+            })
+            .map(|(port, p)| (End { node, port }, p.field.as_ref().map(|(_, name)| name.as_str()), p.optional))
+            .filter(|(end, ..)| self.plan.is_used(*end))
+            .collect();
+        let results = match outputs.as_slice() {
+            // A call that returns nothing needs no name for it.
+            [] if !returns.value && !returns.fallible && !told => quote! { #value; },
+            [] if before.is_empty() => quote! { let _ = #value; },
+            [] => quote!(),
+            _ if !returns.several => self.bind(outputs[0].0, value, optional),
+            _ => self.bind_fields(&outputs, value, optional),
+        };
+        quote! { #before #results }
+    }
+
+    fn returns_checked(&self, node: NodeId, signature: &Signature) -> bool {
+        signature.is_function
+            && (0..signature.params.len())
+                .any(|p| signature.params[p].range.is_some() && self.param_source(node, p).is_some())
+    }
+
+    /// `let name = value;`, or the assignment to a name declared further out.
+    fn bind(&self, end: End, value: TokenStream, optional: bool) -> TokenStream {
+        let name = self.generator.name(end);
+        match (self.plan.is_hoisted(end), optional) {
+            (false, _) => quote! { let #name = #value; },
+            (true, true) => quote! { #name = #value; },
+            (true, false) => quote! { #name = Some(#value); },
+        }
+    }
+
+    fn bind_fields(&self, outputs: &[(End, Option<&str>, bool)], value: TokenStream, optional: bool) -> TokenStream {
+        let fields = outputs.iter().map(|(end, field, port_optional)| {
+            let field = ident(field.unwrap_or_default());
+            let field_is_option = self.field_is_option(*end);
+            let value = match (optional, field_is_option) {
+                (false, _) => quote!(results.#field),
+                // `Option<Struct>`: taken apart by reference to its place, so that every field can be moved out.
+                (true, true) => quote!(results.as_mut().and_then(|results| results.#field.take())),
+                (true, false) => quote!(results.as_ref().map(|results| ::core::clone::Clone::clone(&results.#field))),
+            };
+            self.bind(*end, value, optional || *port_optional)
+        });
+        let fields: TokenStream = fields.collect();
+        let mutable = if optional { quote!(mut) } else { quote!() };
+        quote! { #[allow(unused_mut)] let #mutable results = #value; #fields }
+    }
+
+    /// Whether the field itself is an `Option` (a port is optional also if the whole struct may be missing).
+    fn field_is_option(&self, end: End) -> bool {
+        let NodeKind::Library(library) = &self.graph.nodes[end.node].kind else { return false };
+        let signature = &self.generator.catalog.signatures[library.signature];
+        signature.ports[end.port].field_is_option
+    }
+
+    /// Connected outputs of parameters: the value of this firing.
+    fn param_outputs(&self, node: NodeId, library: &Library, signature: &Signature, block: BlockId) -> TokenStream {
+        let ends = self.graph.nodes[node].ports.iter().enumerate().filter_map(|(port, p)| {
+            let end = End { node, port };
+            (p.kind == PortKind::Output && self.plan.is_used(end)).then_some((end, p.parameter?))
+        });
+        let binds = ends.map(|(end, param)| {
+            let value = if signature.is_function {
+                match self.param_source(node, param) {
+                    Some(from) => {
+                        let token = self.reference(from, block);
+                        quote!(::core::clone::Clone::clone(#token))
+                    }
+                    None => {
+                        let (ty, constant) = (
+                            spell(&signature.params[param].ty, self.generator.catalog),
+                            self.constant(library, signature, param),
+                        );
+                        ty.map_or(quote!(#constant), |ty| quote!({ let value: #ty = #constant; value }))
+                    }
+                }
+            } else {
+                let place = self.generator.node_place(self.graph, node);
+                quote!(::core::clone::Clone::clone(::apex_rt::ParamField::<#param>::field(&mut #place)))
+            };
+            self.bind(end, value, false)
+        });
+        binds.collect()
+    }
+}

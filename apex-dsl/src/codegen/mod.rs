@@ -1,0 +1,141 @@
+//! Graph + analysis → Rust. The text that comes out is meant to be read (`apex expand`).
+
+mod each;
+mod fire;
+mod plan;
+mod program;
+mod rates;
+mod types;
+
+use crate::{
+    analyse::Analysis,
+    catalog::Catalog,
+    graph::{End, Graph, NodeId, NodeKind},
+    report::{Diagnostic, Diagnostics},
+    source::{Sources, Span},
+};
+use proc_macro2::TokenStream;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Generates programs.
+#[derive(Clone, Copy)]
+pub struct Generator<'a> {
+    catalog: &'a Catalog,
+    sources: &'a Sources,
+    names: &'a Names,
+    /// Where a piece of the text stands in the code that called `graph!`.
+    place: &'a dyn Fn(Span) -> proc_macro2::Span,
+    /// The graph around the body of an `each`, and the node that the body belongs to.
+    outer: Option<(&'a Graph, NodeId, &'a Generator<'a>)>,
+}
+
+/// Names of locals and fields: those of the text, made unique.
+#[derive(Default)]
+pub struct Names {
+    /// What stands before all names: the nodes around the bodies of `each`.
+    prefix: String,
+    /// The number of the first node in the table of all nodes.
+    base: usize,
+    tokens: BTreeMap<End, String>,
+    inner: BTreeMap<NodeId, Names>,
+}
+
+impl Names {
+    fn new(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
+        let mut names = Self { prefix: prefix.to_owned(), base: *count, ..Self::default() };
+        *count += graph.nodes.len();
+        for (node, n) in graph.nodes.iter().enumerate() {
+            let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
+            for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
+                let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
+                let mut name = if plain { path.clone() } else { format!("{path}_{}", p.name) };
+                // `state`, `nodes` … are names that the generated code itself uses.
+                while ["state", "nodes", "inputs", "outputs", "observer", "ctx", "self"].contains(&name.as_str())
+                    || !used.insert(name.clone())
+                {
+                    name.push('_');
+                }
+                names.tokens.insert(End { node, port }, name);
+            }
+            if let NodeKind::Each(each) = &n.kind {
+                names.inner.insert(node, Self::new(&each.body, &format!("{path}_"), count, used));
+            }
+        }
+        names
+    }
+}
+
+/// The program of a graph.
+pub fn generate(
+    graph: &Graph,
+    analysis: &Analysis,
+    catalog: &Catalog,
+    sources: &Sources,
+    place: &dyn Fn(Span) -> proc_macro2::Span,
+) -> TokenStream {
+    let names = Names::new(graph, "", &mut 0, &mut BTreeSet::new());
+    let generator = Generator { catalog, sources, names: &names, place, outer: None };
+    generator.program(graph, analysis)
+}
+
+/// Reports what cannot be generated for regions with several rates.
+pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    rates::check(graph, analysis, diagnostics);
+    for (id, node) in graph.nodes.iter().enumerate() {
+        if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
+            check_rates(&each.body, body, diagnostics);
+        }
+    }
+}
+
+/// What can be written but not run yet.
+pub fn check_supported(graph: &Graph, diagnostics: &mut Diagnostics) {
+    for connection in &graph.connections {
+        if connection.active || !graph.is_synchronous(connection) {
+            let what = if connection.active { "activity (`=>`)" } else { "an asynchronous connection" };
+            let message = format!("{what} can be checked, but not run yet");
+            diagnostics.push(Diagnostic::error("not-yet", connection.span, message));
+        }
+    }
+    for node in &graph.nodes {
+        match &node.kind {
+            NodeKind::Each(each) => check_supported(&each.body, diagnostics),
+            NodeKind::Boundary(kind) if !kind.is_synchronous() => {
+                diagnostics.push(Diagnostic::error(
+                    "not-yet",
+                    node.span,
+                    format!("a {} of a program can be checked, but not run yet", kind.word()),
+                ));
+            }
+            _ => {}
+        }
+        let m = &node.modifiers;
+        for (given, word) in [
+            (m.pipelined, "pipelined"),
+            (m.timeout.is_some(), "timeout"),
+            (m.deadline.is_some(), "deadline"),
+            (m.group.is_some(), "on"),
+        ] {
+            if given {
+                diagnostics.push(Diagnostic::error(
+                    "not-yet",
+                    node.span,
+                    format!("`{word}` can be checked, but not run yet"),
+                ));
+            }
+        }
+    }
+}
+
+impl<'a> Generator<'a> {
+    /// The generator for the body of the `each` node `node` of `graph`.
+    fn inside(&'a self, graph: &'a Graph, node: NodeId) -> Generator<'a> {
+        let names = self.names.inner.get(&node).unwrap_or(self.names);
+        Generator { names, outer: Some((graph, node, self)), ..*self }
+    }
+
+    /// The name of a token.
+    fn name(&self, end: End) -> syn::Ident {
+        types::ident(self.names.tokens.get(&end).map_or("token", String::as_str))
+    }
+}

@@ -1,0 +1,191 @@
+//! Where each token of a cluster lives: in a local if nobody outside its block needs it, in an `Option` declared
+//! further out if somebody does, in the program's state if a node writes it in place.
+
+use crate::{
+    analyse::{Analysis, Block, Links, Step, is_mandatory, is_told, may_be_missing},
+    catalog::{ArgSig, Catalog},
+    graph::{End, Graph, NodeKind},
+    syntax::tree::PortKind,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How a token is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// A local of the token's type.
+    Local,
+    /// A local `Option`.
+    Maybe,
+    /// An `Out` in the program's state, which its node writes in place.
+    Buffer,
+    /// An argument of the body of an `each`: a reference.
+    Argument,
+    /// An `Option` in the program's state, which another cluster left there.
+    Outside,
+}
+
+/// A block of a cluster, by number; 0 is the outermost.
+pub type BlockId = usize;
+
+/// The plan of one cluster.
+pub struct Plan {
+    parents: Vec<BlockId>,
+    /// The block in which a token comes into being.
+    home: BTreeMap<End, BlockId>,
+    /// The block in which it must be known: the innermost one around its origin and all its uses.
+    pub declared: BTreeMap<End, BlockId>,
+    /// The tokens whose presence a block tests, and which it gives names to.
+    pub tests: Vec<Vec<End>>,
+    storage: BTreeMap<End, Storage>,
+}
+
+/// Whether a node has its token written in place.
+pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: End) -> bool {
+    match &graph.nodes[end.node].kind {
+        NodeKind::Library(library) => {
+            let args = catalog.signatures[library.signature].process.as_deref().unwrap_or_default();
+            graph.port(end).parameter.is_none() && args.contains(&ArgSig::Port(end.port))
+        }
+        NodeKind::Each(_) => true,
+        _ => false,
+    }
+}
+
+/// How a token is kept, seen from its own cluster.
+pub fn storage(graph: &Graph, catalog: &Catalog, end: End) -> Storage {
+    match graph.nodes[end.node].kind {
+        _ if is_buffer(graph, catalog, end) => Storage::Buffer,
+        NodeKind::Boundary(_) if graph.is_body => Storage::Argument,
+        _ if may_be_missing(graph, catalog, end) => Storage::Maybe,
+        _ => Storage::Local,
+    }
+}
+
+impl Plan {
+    /// Plans `cluster`.
+    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, analysis: &Analysis, cluster: usize) -> Self {
+        let mut plan = Self {
+            parents: vec![],
+            home: BTreeMap::new(),
+            declared: BTreeMap::new(),
+            tests: vec![],
+            storage: BTreeMap::new(),
+        };
+        let mut fires = vec![];
+        plan.number(&analysis.clusters[cluster].block, 0, &mut fires);
+        let block_of: BTreeMap<usize, BlockId> = fires.iter().copied().collect();
+        for (&node, &block) in &block_of {
+            // What waits in the program is read first of all.
+            let read_first = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
+            let home = if read_first { 0 } else { block };
+            for (port, _) in graph.nodes[node]
+                .ports
+                .iter()
+                .enumerate()
+                .filter(|(_, p)| p.kind == PortKind::Output || p.kind == PortKind::Event && read_first)
+            {
+                plan.home.insert(End { node, port }, home);
+            }
+        }
+        for end in plan.home.keys() {
+            plan.storage.insert(*end, storage(graph, catalog, *end));
+        }
+        let mut uses: Vec<(End, BlockId, bool)> = vec![];
+        for (&node, &block) in &block_of {
+            let told = is_told(graph, catalog, node);
+            for &index in &links.into[node] {
+                let c = &graph.connections[index];
+                let writes = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
+                uses.push((c.from, block, is_mandatory(graph, c.to) && !told && !writes));
+                if analysis.cluster_of[c.from.node] != cluster {
+                    let buffer = is_buffer(graph, catalog, c.from);
+                    plan.storage.insert(c.from, if buffer { Storage::Buffer } else { Storage::Outside });
+                    plan.home.insert(c.from, 0);
+                }
+            }
+            for &index in &links.out_of[node] {
+                let c = &graph.connections[index];
+                if analysis.cluster_of[c.to.node] != cluster {
+                    uses.push((c.from, 0, false));
+                }
+            }
+        }
+        for (block, opens) in plan.tests.iter().enumerate() {
+            uses.extend(opens.iter().map(|end| (*end, plan.parents[block], false)));
+        }
+        for (end, block, _) in &uses {
+            let Some(&home) = plan.home.get(end) else { continue };
+            let declared = plan.common(*plan.declared.get(end).unwrap_or(&home), *block);
+            plan.declared.insert(*end, declared);
+        }
+        for (end, block, mandatory) in uses {
+            if mandatory && !plan.is_plain(end) && !plan.is_bound(end, block) {
+                plan.tests[block].push(end);
+            }
+        }
+        plan
+    }
+
+    fn number(&mut self, block: &Block, parent: BlockId, fires: &mut Vec<(usize, BlockId)>) {
+        let id = self.parents.len();
+        self.parents.push(parent);
+        self.tests.push(block.opens.clone());
+        for step in &block.steps {
+            match step {
+                Step::Fire(node) => fires.push((*node, id)),
+                Step::Block(inner) => self.number(inner, id, fires),
+            }
+        }
+    }
+
+    fn common(&self, mut a: BlockId, mut b: BlockId) -> BlockId {
+        // Blocks are numbered from the outside in.
+        while a != b {
+            if a > b { a = self.parents[a] } else { b = self.parents[b] }
+        }
+        a
+    }
+
+    /// How a token is kept.
+    pub fn storage(&self, end: End) -> Storage {
+        self.storage.get(&end).copied().unwrap_or(Storage::Outside)
+    }
+
+    /// Whether a local has to be declared as an `Option` further out than where it comes into being.
+    pub fn is_hoisted(&self, end: End) -> bool {
+        self.declared.get(&end).is_some_and(|declared| self.home.get(&end).is_some_and(|home| declared != home))
+    }
+
+    /// Whether somebody uses the token.
+    pub fn is_used(&self, end: End) -> bool {
+        self.declared.contains_key(&end)
+    }
+
+    /// Whether its name stands for a value that is there, not for an `Option`.
+    pub fn is_plain(&self, end: End) -> bool {
+        match self.storage(end) {
+            Storage::Argument => true,
+            Storage::Local => !self.is_hoisted(end),
+            _ => false,
+        }
+    }
+
+    /// Whether a block around gives it a name.
+    pub fn is_bound(&self, end: End, block: BlockId) -> bool {
+        let mut at = block;
+        loop {
+            if self.tests[at].contains(&end) {
+                return true;
+            }
+            if at == 0 {
+                return false;
+            }
+            at = self.parents[at];
+        }
+    }
+
+    /// Locals that have to be declared, and buffers that have to be emptied, when `block` begins.
+    pub fn hoisted_to(&self, block: BlockId) -> BTreeSet<End> {
+        self.declared.iter().filter(|(end, at)| **at == block && self.is_hoisted(**end)).map(|(end, _)| *end).collect()
+    }
+}

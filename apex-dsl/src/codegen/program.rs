@@ -1,0 +1,559 @@
+//! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
+
+use super::{
+    Generator,
+    fire::Emitter,
+    plan::{Storage, is_buffer, storage},
+    rates,
+    types::ident,
+};
+use crate::{
+    analyse::{Analysis, Guard, Links},
+    catalog::Match,
+    check::compare_types,
+    graph::{End, Graph, Library, NodeId, NodeKind, Value},
+    source::Span,
+    syntax::tree::PortKind,
+};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use std::collections::BTreeMap;
+use syn::Ident;
+
+/// A field of the struct of nodes: a node, or the nodes of a nested graph.
+enum Field {
+    Node { ty: TokenStream, make: TokenStream },
+    Nested(BTreeMap<String, Field>),
+}
+
+impl Generator<'_> {
+    /// All items of a program.
+    pub fn program(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+        let name = ident(&graph.name);
+        let mut fields = BTreeMap::new();
+        let mut handed_in = vec![];
+        self.node_fields(graph, analysis, &mut fields, &mut handed_in);
+        let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields);
+        let (state_fields, state_make) = self.state(graph, analysis);
+        let (inputs, outputs) = (boundaries(graph, PortKind::Input), boundaries(graph, PortKind::Output));
+        let (nodes_name, state_name) = (format_ident!("{}Nodes", name), format_ident!("{}State", name));
+        let (inputs_name, outputs_name, parts_name) =
+            (format_ident!("{}Inputs", name), format_ident!("{}Outputs", name), format_ident!("{}Parts", name));
+        let port_types = |ports: &[NodeId]| -> Vec<TokenStream> {
+            ports.iter().map(|n| self.token_type(graph, End { node: *n, port: 0 })).collect()
+        };
+        let port_names =
+            |ports: &[NodeId]| -> Vec<Ident> { ports.iter().map(|n| ident(&graph.nodes[*n].name)).collect() };
+        let (input_names, input_types) = (port_names(&inputs), port_types(&inputs));
+        let (output_names, output_types) = (port_names(&outputs), port_types(&outputs));
+        let (part_names, part_types): (Vec<Ident>, Vec<TokenStream>) = handed_in.into_iter().unzip();
+        let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
+        let (new_args, parts_item, default) = if part_names.is_empty() {
+            let default = quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } };
+            (quote!(), quote!(), default)
+        } else {
+            let doc = format!("The nodes of [`{}`] that are made in Rust.", graph.name);
+            let item = quote! {
+                #[doc = #doc]
+                #[allow(private_interfaces, missing_docs)]
+                pub struct #parts_name { #(pub #part_names: #part_types,)* }
+            };
+            (quote!(parts: #parts_name), item, quote!())
+        };
+        let react = self.react(graph, analysis);
+        let clusters = self.clusters(graph, analysis);
+        let info = self.info(graph, analysis);
+        let links = self.links(graph);
+        quote! {
+            #[doc = #docs]
+            pub struct #name { nodes: #nodes_name, state: #state_name, inputs: #inputs_name, outputs: #outputs_name }
+            #parts_item
+            #nodes_items
+            #[allow(private_interfaces, missing_docs)]
+            #[doc = "Where tokens are put in."]
+            pub struct #inputs_name { #(pub #input_names: ::apex_rt::Mailbox<#input_types>,)* }
+            #[allow(private_interfaces, missing_docs)]
+            #[doc = "The tokens that came out last; `None` is ⊥."]
+            pub struct #outputs_name { #(pub #output_names: ::core::option::Option<#output_types>,)* }
+            struct #state_name { #state_fields }
+            #links
+            #[allow(unused, clippy::all, private_interfaces)]
+            impl #name {
+                /// The program before its first reaction.
+                pub fn new(#new_args) -> Self {
+                    Self {
+                        nodes: #nodes_make,
+                        state: #state_name { #state_make },
+                        inputs: #inputs_name { #(#input_names: ::apex_rt::Mailbox::new(),)* },
+                        outputs: #outputs_name { #(#output_names: None,)* },
+                    }
+                }
+                /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
+                pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
+                /// The nodes, by instance name.
+                pub fn nodes(&self) -> &#nodes_name { &self.nodes }
+                /// The graph-level inputs.
+                pub fn inputs(&mut self) -> &mut #inputs_name { &mut self.inputs }
+                /// The graph-level outputs.
+                pub fn outputs(&self) -> &#outputs_name { &self.outputs }
+                #clusters
+            }
+            #default
+            #[allow(unused, clippy::all)]
+            impl ::apex_rt::Program for #name {
+                const INFO: ::apex_rt::Info = #info;
+                #react
+            }
+        }
+    }
+
+    /// Where a node of the catalog is kept: `nodes.fast.planner`.
+    pub fn node_place(&self, graph: &Graph, node: NodeId) -> TokenStream {
+        let segments = self.node_path(graph, node);
+        let segments = segments.iter().map(|s| ident(s));
+        quote!(nodes #(.#segments)*)
+    }
+
+    fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
+        let own = graph.path(node);
+        let mut segments: Vec<String> = match self.outer {
+            Some((outer, each, generator)) => generator.node_path(outer, each),
+            None => vec![],
+        };
+        // `each` on a single node: the node itself has the name of the instance.
+        let single = graph.is_body && segments.last() == Some(&own);
+        if !single {
+            segments.extend(own.split('.').map(str::to_owned));
+        }
+        segments
+    }
+
+    fn node_fields(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        fields: &mut BTreeMap<String, Field>,
+        handed_in: &mut Vec<(Ident, TokenStream)>,
+    ) {
+        for (id, node) in graph.nodes.iter().enumerate() {
+            match &node.kind {
+                NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
+                    let ty = self.node_type(graph, library);
+                    let make = if library.handed_in {
+                        let part = ident(&self.node_path(graph, id).join("_"));
+                        handed_in.push((part.clone(), ty.clone()));
+                        quote!(parts.#part)
+                    } else {
+                        self.construct(&ty, library)
+                    };
+                    insert(fields, &self.node_path(graph, id), Field::Node { ty, make });
+                }
+                NodeKind::Each(each) => {
+                    if let Some(body) = analysis.bodies.get(&id) {
+                        self.inside(graph, id).node_fields(&each.body, body, fields, handed_in);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn construct(&self, ty: &TokenStream, library: &Library) -> TokenStream {
+        let signature = &self.catalog.signatures[library.signature];
+        let params = signature.params.iter().zip(&library.params).map(|(param, value)| match value {
+            Value::RustDefault => {
+                let default = format_ident!("apex_default_{}", param.name);
+                quote!(<#ty>::#default())
+            }
+            value => self.value(value, &param.ty),
+        });
+        quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*)))
+    }
+
+    /// Fields of the program's state, with what they start as.
+    fn state(&self, graph: &Graph, analysis: &Analysis) -> (TokenStream, TokenStream) {
+        let (mut fields, mut makes) = (quote!(), quote!());
+        self.token_state(graph, analysis, &mut fields, &mut makes);
+        for guard in &analysis.guards {
+            if let Guard::Timer(node) = guard {
+                let name = self.timer(graph, *node);
+                let period = graph.nodes[*node].modifiers.every.map_or(0, |d| d.as_nanos() as u64);
+                let period = Literal::u64_unsuffixed(period);
+                fields.extend(quote! { #name: ::apex_rt::Timer, });
+                makes.extend(quote! { #name: ::apex_rt::Timer::new(::core::time::Duration::from_nanos(#period)), });
+            }
+        }
+        let words = Bits::new(analysis).words();
+        if words > 0 {
+            let initial = Bits::new(analysis).initial();
+            fields.extend(quote! { dispatcher: ::apex_rt::Dispatcher<#words>, });
+            makes.extend(quote! { dispatcher: ::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])), });
+        }
+        (fields, makes)
+    }
+
+    fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
+        for (node, n) in graph.nodes.iter().enumerate() {
+            for (port, _) in n.ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Output) {
+                let end = End { node, port };
+                let name = self.name(end);
+                if is_buffer(graph, self.catalog, end) {
+                    let ty = self.buffer_type(graph, end);
+                    fields.extend(quote! { #name: ::apex_rt::Out<#ty>, });
+                    makes.extend(quote! { #name: ::apex_rt::Out::new(), });
+                } else if let NodeKind::Delay(initial) = &n.kind {
+                    let (ty, count) = (self.token_type(graph, end), initial.len());
+                    let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
+                    let values = initial.iter().map(|value| match value {
+                        Some(value) => self.value(value, port_ty),
+                        None => quote!(::core::default::Default::default()),
+                    });
+                    fields.extend(quote! { #name: ::apex_rt::Delay<#ty, #count>, });
+                    makes.extend(quote! { #name: ::apex_rt::Delay::new([#(Some(#values)),*]), });
+                } else if graph
+                    .connections
+                    .iter()
+                    .any(|c| c.from == end && analysis.cluster_of[c.to.node] != analysis.cluster_of[node])
+                {
+                    debug_assert_ne!(storage(graph, self.catalog, end), Storage::Argument);
+                    let ty = self.token_type(graph, end);
+                    fields.extend(quote! { #name: ::core::option::Option<#ty>, });
+                    makes.extend(quote! { #name: None, });
+                }
+            }
+            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
+                self.inside(graph, node).token_state(&each.body, body, fields, makes);
+            }
+        }
+    }
+
+    /// What a node writes in place: one token, or an array of those of a firing.
+    fn buffer_type(&self, graph: &Graph, end: End) -> TokenStream {
+        let (ty, rate) = (self.token_type(graph, end), graph.port(end).rate);
+        if rate > 1 { quote!([#ty; #rate]) } else { ty }
+    }
+
+    fn timer(&self, graph: &Graph, node: NodeId) -> Ident {
+        format_ident!("timer_{}", graph.path(node).replace('.', "_"))
+    }
+
+    fn clusters(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+        let links = Links::new(graph);
+        let functions = (0..analysis.clusters.len()).map(|cluster| {
+            let name = format_ident!("cluster_{cluster}");
+            let code = if rates::is_multirate(graph, analysis, cluster) {
+                self.rates(graph, analysis, &links, cluster)
+            } else {
+                Emitter::new(self, graph, analysis, &links, cluster).cluster()
+            };
+            quote! {
+                #[inline]
+                fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                    let Self { nodes, state, inputs, outputs } = self;
+                    #code
+                }
+            }
+        });
+        quote! { #(#functions)* }
+    }
+
+    fn react(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+        let bits = Bits::new(analysis);
+        let free = (0..analysis.clusters.len()).filter(|c| !bits.is_dispatched(*c)).map(|cluster| {
+            let name = format_ident!("cluster_{cluster}");
+            quote! { self.#name(ctx, observer); }
+        });
+        let has_react =
+            analysis.clusters.iter().flat_map(|c| &c.own_guards).any(|g| analysis.guards[*g] == Guard::React);
+        let next = if has_react { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
+        if bits.words() == 0 {
+            return quote! {
+                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+                    let ctx = &::apex_rt::Ctx::new(now);
+                    #(#free)*
+                    #next
+                }
+            };
+        }
+        let (mut once, mut raises, mut wishes) = (quote!(), quote!(), quote!());
+        for (index, guard) in analysis.guards.iter().enumerate() {
+            let Some(bit) = bits.guard(index) else { continue };
+            match guard {
+                Guard::React => once.extend(quote! { self.state.dispatcher.raise(#bit); }),
+                Guard::Input(node) => {
+                    let port = ident(&graph.nodes[*node].name);
+                    raises.extend(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
+                }
+                Guard::Timer(node) => {
+                    let timer = self.timer(graph, *node);
+                    raises.extend(quote! { if self.state.#timer.is_due(now) { self.state.dispatcher.raise(#bit); } });
+                    wishes.extend(quote! { if !self.state.#timer.is_due(now) { next = next.or(::apex_rt::Next::At(self.state.#timer.due())); } });
+                }
+            }
+        }
+        let table = bits.table(analysis);
+        let (words, count) = (bits.words(), table.len());
+        let fires = bits.dispatched.iter().enumerate().map(|(row, &cluster)| {
+            let name = format_ident!("cluster_{cluster}");
+            let timers = analysis.clusters[cluster].own_guards.iter().filter_map(|g| match analysis.guards[*g] {
+                Guard::Timer(node) => Some(self.timer(graph, node)),
+                _ => None,
+            });
+            quote! {
+                if self.state.dispatcher.start(&CLUSTERS[#row]) {
+                    #(self.state.#timers.advance();)*
+                    self.#name(ctx, observer);
+                    self.state.dispatcher.finish(&CLUSTERS, #row);
+                    quiet = false;
+                }
+            }
+        });
+        quote! {
+            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+                const CLUSTERS: [::apex_rt::Cluster<#words>; #count] = [#(#table),*];
+                let ctx = &::apex_rt::Ctx::new(now);
+                #(#free)*
+                #once
+                loop {
+                    let mut quiet = true;
+                    #raises
+                    #(#fires)*
+                    if quiet { break; }
+                }
+                let mut next = #next;
+                #wishes
+                next
+            }
+        }
+    }
+
+    fn info(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+        let name = &graph.name;
+        let (mut nodes, mut connections) = (vec![], vec![]);
+        self.rows(graph, analysis, "", &mut nodes, &mut connections);
+        let clusters = analysis.clusters.iter().map(|c| {
+            let nodes = c.nodes.iter().map(|n| Literal::usize_unsuffixed(*n));
+            quote!(&[#(#nodes),*])
+        });
+        quote! {
+            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*] }
+        }
+    }
+
+    fn rows(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        prefix: &str,
+        nodes: &mut Vec<TokenStream>,
+        connections: &mut Vec<TokenStream>,
+    ) {
+        let base = self.names.base;
+        for (id, node) in graph.nodes.iter().enumerate() {
+            let (name, kind) = (format!("{prefix}{}", graph.path(id)), kind(self, node));
+            let c = analysis.characteristics[id];
+            let (required, siblings) = (c.required, c.siblings);
+            nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #required, #siblings)));
+        }
+        for c in &graph.connections {
+            let (from, to) =
+                (Literal::usize_unsuffixed(base + c.from.node), Literal::usize_unsuffixed(base + c.to.node));
+            let (output, input) = (&graph.port(c.from).name, &graph.port(c.to).name);
+            connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
+        }
+        for (id, node) in graph.nodes.iter().enumerate() {
+            if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
+                let prefix = format!("{prefix}{}.", graph.path(id));
+                self.inside(graph, id).rows(&each.body, body, &prefix, nodes, connections);
+            }
+        }
+    }
+
+    /// Whether rustc judges a connection: the scan could not, and both ends can be named.
+    pub fn is_judged(&self, graph: &Graph, connection: usize) -> bool {
+        let c = &graph.connections[connection];
+        let NodeKind::Library(library) = &graph.nodes[c.to.node].kind else { return false };
+        library.types.is_empty() && graph.port(c.to).parameter.is_none() && compare_types(graph, c) == Match::Unknown
+    }
+
+    /// The trait through which rustc judges a connection.
+    pub fn link_name(&self, connection: usize) -> Ident {
+        format_ident!("{}Link{}", camel(&self.names.prefix), connection)
+    }
+
+    fn links(&self, graph: &Graph) -> TokenStream {
+        let mut items = quote!();
+        for (index, c) in graph.connections.iter().enumerate().filter(|(i, _)| self.is_judged(graph, *i)) {
+            let name = self.link_name(index);
+            let message =
+                format!("`{}` sends `{{Self}}`, but `{}` takes `{{T}}`", graph.end_name(c.from), graph.end_name(c.to));
+            let label = format!("--> {}", self.position(c.span));
+            items.extend(quote! {
+                #[diagnostic::on_unimplemented(message = #message, label = #label)]
+                trait #name<T: ?Sized> { fn pass(&self) -> &T; }
+                impl<T: ?Sized> #name<T> for T { #[inline(always)] fn pass(&self) -> &T { self } }
+            });
+        }
+        for (id, node) in graph.nodes.iter().enumerate() {
+            if let NodeKind::Each(each) = &node.kind {
+                items.extend(self.inside(graph, id).links(&each.body));
+            }
+        }
+        items
+    }
+
+    fn position(&self, span: Span) -> String {
+        let (line, column) = self.sources.line_column(span.file, span.start);
+        format!("{}:{line}:{column}", self.sources.get(span.file).path.display())
+    }
+}
+
+fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
+    match &node.kind {
+        NodeKind::Library(library) => generator.catalog.signatures[library.signature].name.clone(),
+        NodeKind::Each(each) => format!("each {}", each.body.name),
+        NodeKind::Boundary(kind) => kind.word().to_owned(),
+        NodeKind::Delay(_) => "delay".to_owned(),
+        NodeKind::Start => "start".to_owned(),
+    }
+}
+
+fn boundaries(graph: &Graph, kind: PortKind) -> Vec<NodeId> {
+    (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if k == kind)).collect()
+}
+
+fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
+    match path {
+        [name] => {
+            fields.insert(name.clone(), field);
+        }
+        [first, rest @ ..] => {
+            if let Field::Nested(inner) = fields.entry(first.clone()).or_insert_with(|| Field::Nested(BTreeMap::new()))
+            {
+                insert(inner, rest, field);
+            }
+        }
+        [] => {}
+    }
+}
+
+/// The struct of a level of nodes with all below it, and the expression that makes it.
+fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, TokenStream) {
+    let struct_name = ident(name);
+    let (mut items, mut declared, mut made) = (quote!(), quote!(), quote!());
+    for (field, content) in fields {
+        let field_name = ident(field);
+        match content {
+            Field::Node { ty, make } => {
+                declared.extend(quote! { pub #field_name: #ty, });
+                made.extend(quote! { #field_name: #make, });
+            }
+            Field::Nested(inner) => {
+                let inner_name = format!("{name}{}", camel(field));
+                let (inner_items, inner_make) = node_structs(&inner_name, inner);
+                let inner_type = ident(&inner_name);
+                items.extend(inner_items);
+                declared.extend(quote! { pub #field_name: #inner_type, });
+                made.extend(quote! { #field_name: #inner_make, });
+            }
+        }
+    }
+    let item = quote! {
+        #[allow(private_interfaces, missing_docs)]
+        pub struct #struct_name { #declared }
+        #items
+    };
+    (item, quote!(#struct_name { #made }))
+}
+
+fn camel(word: &str) -> String {
+    word.split('_')
+        .map(|part| {
+            let mut chars = part.chars();
+            chars.next().map(|c| c.to_uppercase().collect::<String>() + chars.as_str()).unwrap_or_default()
+        })
+        .collect()
+}
+
+/// The conditions of the dispatcher, by number: guards, then for each dispatched cluster "enabled", then for each
+/// connection between clusters "holds a token" and "free".
+struct Bits {
+    dispatched: Vec<usize>,
+    guards: BTreeMap<usize, usize>,
+    enabled: BTreeMap<usize, usize>,
+    edges: BTreeMap<(usize, usize), usize>,
+    count: usize,
+}
+
+impl Bits {
+    fn new(analysis: &Analysis) -> Self {
+        let clusters = &analysis.clusters;
+        let dispatched: Vec<usize> = (0..clusters.len()).filter(|c| !clusters[*c].is_free(&analysis.guards)).collect();
+        let mut bits =
+            Self { dispatched, guards: BTreeMap::new(), enabled: BTreeMap::new(), edges: BTreeMap::new(), count: 0 };
+        for &cluster in &bits.dispatched {
+            for &guard in &clusters[cluster].own_guards {
+                bits.guards.insert(guard, bits.count);
+                bits.count += 1;
+            }
+            bits.enabled.insert(cluster, bits.count);
+            bits.count += 1;
+            for &down in &clusters[cluster].downstream {
+                bits.edges.insert((cluster, down), bits.count);
+                bits.count += 2;
+            }
+        }
+        bits
+    }
+
+    fn words(&self) -> usize {
+        self.count.div_ceil(64)
+    }
+
+    fn is_dispatched(&self, cluster: usize) -> bool {
+        self.enabled.contains_key(&cluster)
+    }
+
+    fn guard(&self, guard: usize) -> Option<usize> {
+        self.guards.get(&guard).copied()
+    }
+
+    fn token(&self, from: usize, to: usize) -> usize {
+        self.edges[&(from, to)]
+    }
+
+    fn free(&self, from: usize, to: usize) -> usize {
+        self.edges[&(from, to)] + 1
+    }
+
+    /// At first every cluster is enabled and every connection free.
+    fn initial(&self) -> Vec<usize> {
+        let free = self.edges.values().map(|bit| bit + 1);
+        self.enabled.values().copied().chain(free).collect()
+    }
+
+    fn table(&self, analysis: &Analysis) -> Vec<TokenStream> {
+        let row = |cluster: usize| self.dispatched.iter().position(|c| *c == cluster).unwrap_or(0);
+        let rows = self.dispatched.iter().map(|&index| {
+            let c = &analysis.clusters[index];
+            let guards = c.own_guards.iter().filter_map(|g| self.guard(*g));
+            let waits: Vec<usize> =
+                guards.chain([self.enabled[&index]]).chain(c.upstream.iter().map(|u| self.token(*u, index))).collect();
+            let sends: Vec<usize> = c.downstream.iter().map(|d| self.token(index, *d)).collect();
+            let frees: Vec<usize> = c.downstream.iter().map(|d| self.free(index, *d)).collect();
+            let notifies: Vec<usize> =
+                [self.enabled[&index]].into_iter().chain(c.upstream.iter().map(|u| self.free(*u, index))).collect();
+            let upstream: Vec<usize> = c.upstream.iter().map(|u| row(*u)).collect();
+            quote! {
+                ::apex_rt::Cluster {
+                    waits_for: ::apex_rt::Bits::of(&[#(#waits),*]),
+                    sends: ::apex_rt::Bits::of(&[#(#sends),*]),
+                    notified_by: ::apex_rt::Bits::of(&[#(#frees),*]),
+                    notifies: ::apex_rt::Bits::of(&[#(#notifies),*]),
+                    upstream: &[#(#upstream),*],
+                }
+            }
+        });
+        rows.collect()
+    }
+}

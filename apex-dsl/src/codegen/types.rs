@@ -1,0 +1,187 @@
+//! Types and values in generated code.
+
+use super::Generator;
+use crate::{
+    catalog::{Catalog, Type},
+    graph::{End, Graph, Library, NodeId, NodeKind, Number, TypeArg, Value},
+};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use syn::Ident;
+
+/// A path from its segments; an empty first one stands for a leading `::`.
+pub fn path(segments: &[String]) -> TokenStream {
+    let text = segments.join("::");
+    text.parse().unwrap_or_default()
+}
+
+/// An identifier, also where the word is a keyword of Rust.
+pub fn ident(name: &str) -> Ident {
+    syn::parse_str::<Ident>(name).unwrap_or_else(|_| format_ident!("{name}_"))
+}
+
+/// The type as Rust, if the scan has seen all of it.
+pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
+    let all = |types: &[Type]| types.iter().map(|t| spell(t, catalog)).collect::<Option<Vec<_>>>();
+    let with = |head: TokenStream, args: &[Type]| {
+        let args = all(args)?;
+        Some(if args.is_empty() { head } else { quote!(#head<#(#args),*>) })
+    };
+    match ty {
+        Type::Primitive(name) => name.parse().ok(),
+        Type::Named(name, args) => match name.as_str() {
+            "Vec" => with(quote!(::std::vec::Vec), args),
+            "String" => Some(quote!(::std::string::String)),
+            "Box" => with(quote!(::std::boxed::Box), args),
+            "Option" => with(quote!(::core::option::Option), args),
+            _ => with(format!("::{name}").parse().ok()?, args),
+        },
+        Type::Def(def, _, args) => with(path(catalog.path(*def)?), args),
+        Type::Array(element, Some(len)) => {
+            let (element, len): (_, TokenStream) = (spell(element, catalog)?, len.parse().ok()?);
+            Some(quote!([#element; #len]))
+        }
+        Type::Tuple(parts) => all(parts).map(|parts| quote!((#(#parts,)*))),
+        Type::Unknown(text) if text.parse::<u64>().is_ok() => text.parse().ok(),
+        Type::Array(_, None) | Type::Ref(_) | Type::Param(_) | Type::Unknown(_) => None,
+    }
+}
+
+impl Generator<'_> {
+    /// The type of a node of the catalog.
+    pub fn node_type(&self, graph: &Graph, library: &Library) -> TokenStream {
+        let signature = &self.catalog.signatures[library.signature];
+        let head = path(&signature.path);
+        if library.types.is_empty() {
+            return head;
+        }
+        let args = library.types.iter().map(|arg| match arg {
+            TypeArg::Known(ty) => spell(ty, self.catalog).unwrap_or_else(|| quote!(_)),
+            TypeArg::Spelled(ty, text) => spell(ty, self.catalog).unwrap_or_else(|| text.parse().unwrap_or_default()),
+            TypeArg::TokenOf(end) => self.token_type(graph, *end),
+            TypeArg::ItemOf(end) => {
+                let list = self.token_type(graph, *end);
+                quote!(<#list as ::apex_rt::List>::Item)
+            }
+            TypeArg::Open => quote!(_),
+        });
+        quote!(#head<#(#args),*>)
+    }
+
+    /// The type of the tokens that leave a port.
+    pub fn token_type(&self, graph: &Graph, end: End) -> TokenStream {
+        let port = graph.port(end);
+        match &graph.nodes[end.node].kind {
+            NodeKind::Each(_) => self.each_type(graph, end),
+            NodeKind::Delay(_) => match graph.incoming(End { node: end.node, port: 0 }) {
+                Some(connection) => self.token_type(graph, connection.from),
+                None => quote!(()),
+            },
+            NodeKind::Boundary(_) if graph.is_body => self.body_input_type(graph, end.node),
+            NodeKind::Library(library) => match spell(&port.ty, self.catalog) {
+                Some(ty) => ty,
+                None => self.projection(graph, library, end),
+            },
+            NodeKind::Boundary(_) | NodeKind::Start => {
+                spell(&port.ty, self.catalog).unwrap_or_else(|| port.ty.to_string().parse().unwrap_or_default())
+            }
+        }
+    }
+
+    /// A type that only rustc can spell, by way of the node's ports.
+    fn projection(&self, graph: &Graph, library: &Library, end: End) -> TokenStream {
+        let node = self.node_type(graph, library);
+        let signature = &self.catalog.signatures[library.signature];
+        if let Some(param) = graph.port(end).parameter {
+            return quote!(<#node as ::apex_rt::Param<#param>>::Value);
+        }
+        let port = &signature.ports[end.port];
+        let index = port.index;
+        let whole = quote!(<#node as ::apex_rt::Output<#index>>::Token);
+        match &port.field {
+            Some((field, _)) => quote!(<#whole as ::apex_rt::Field<#field>>::Token),
+            None => whole,
+        }
+    }
+
+    /// The list of results of an `each`: the same kind of list as the one that it iterates over.
+    fn each_type(&self, graph: &Graph, end: End) -> TokenStream {
+        let NodeKind::Each(each) = &graph.nodes[end.node].kind else { return quote!(()) };
+        let name = &graph.port(end).name;
+        let body = &each.body;
+        let inside = body.nodes.iter().position(|n| {
+            matches!(n.kind, NodeKind::Boundary(crate::syntax::tree::PortKind::Output)) && n.name == *name
+        });
+        let item = inside.and_then(|node| body.incoming(End { node, port: 0 })).map(|c| {
+            let outer = self.inside(graph, end.node);
+            outer.token_type(body, c.from)
+        });
+        let list = graph.incoming(End { node: end.node, port: each.list }).map(|c| self.token_type(graph, c.from));
+        match (list, item) {
+            (Some(list), Some(item)) => quote!(<#list as ::apex_rt::List>::Of<#item>),
+            _ => quote!(()),
+        }
+    }
+
+    /// The type of an input of an `each` body, from the graph around it.
+    fn body_input_type(&self, body: &Graph, node: NodeId) -> TokenStream {
+        let port = &body.nodes[node].ports[0];
+        let spelled = spell(&port.ty, self.catalog);
+        let Some((graph, each_node, outer)) = self.outer else { return spelled.unwrap_or_default() };
+        if let Some(ty) = spelled {
+            return ty;
+        }
+        let NodeKind::Each(each) = &graph.nodes[each_node].kind else { return quote!(()) };
+        let name = &body.nodes[node].name;
+        let ports = &graph.nodes[each_node].ports;
+        let arriving = ports.iter().position(|p| p.kind == crate::syntax::tree::PortKind::Input && p.name == *name);
+        let arriving = arriving.and_then(|port| graph.incoming(End { node: each_node, port }));
+        let is_list = ports.get(each.list).is_some_and(|p| p.name == *name);
+        match arriving.map(|c| outer.token_type(graph, c.from)) {
+            Some(list) if is_list => quote!(<#list as ::apex_rt::List>::Item),
+            Some(ty) => ty,
+            None => quote!(()),
+        }
+    }
+
+    /// A constant as an expression of type `ty`.
+    pub fn value(&self, value: &Value, ty: &Type) -> TokenStream {
+        match value {
+            Value::Number(n) => number(n, ty),
+            Value::Bool(b) => quote!(#b),
+            Value::Text(text) if matches!(ty, Type::Named(name, _) if name == "String") => {
+                quote!(::std::string::String::from(#text))
+            }
+            Value::Text(text) => quote!(#text),
+            Value::Duration(d) => {
+                let nanos = Literal::u64_unsuffixed(u64::try_from(d.as_nanos()).unwrap_or(u64::MAX));
+                quote!(::core::time::Duration::from_nanos(#nanos))
+            }
+            Value::Path(segments) => match segments.first().map(String::as_str) {
+                Some("crate") => path(segments),
+                _ => path(&[vec![String::new()], segments.clone()].concat()),
+            },
+            Value::List(items) => {
+                let (element, by_reference) = match ty {
+                    Type::Ref(inner) => (inner.as_ref(), true),
+                    other => (other, false),
+                };
+                let unknown = Type::Unknown(String::new());
+                let item_type = if let Type::Array(item, _) = element { item } else { &unknown };
+                let items = items.iter().map(|item| self.value(item, item_type));
+                if by_reference { quote!(&[#(#items),*]) } else { quote!([#(#items),*]) }
+            }
+            Value::RustDefault => quote!(::core::default::Default::default()),
+        }
+    }
+}
+
+fn number(n: &Number, ty: &Type) -> TokenStream {
+    let is_float = matches!(ty.name(), "f32" | "f64") || !n.dimension.is_none();
+    let tokens = match n.integer {
+        Some(integer) if !is_float => Literal::i128_unsuffixed(integer.abs()),
+        _ => Literal::f64_unsuffixed(n.value.abs()),
+    };
+    // A negative literal is an operator and a literal.
+    if n.value < 0.0 { quote!(-#tokens) } else { quote!(#tokens) }
+}

@@ -1,0 +1,273 @@
+//! The graph that all passes work on: nodes, ports, connections. Nested graphs are flattened; the scopes keep
+//! where each node came from. Only the body of an `each` stays a graph of its own.
+
+use crate::{
+    catalog::{SignatureId, Type},
+    source::Span,
+    syntax::tree::PortKind,
+    units::Dimension,
+};
+use std::time::Duration;
+
+/// A node, by number in [`Graph::nodes`].
+pub type NodeId = usize;
+/// A scope, by number in [`Graph::scopes`].
+pub type ScopeId = usize;
+
+/// A resolved graph.
+#[derive(Debug, Clone)]
+pub struct Graph {
+    /// Its name.
+    pub name: String,
+    /// Documentation.
+    pub docs: String,
+    /// Whether it is a `robot`.
+    pub robot: bool,
+    /// Whether it is the body of an `each`.
+    pub is_body: bool,
+    /// Its name in the text.
+    pub span: Span,
+    /// Nodes in the order of the text.
+    pub nodes: Vec<Node>,
+    /// Connections in the order of the text.
+    pub connections: Vec<Connection>,
+    /// Scope 0 is the graph itself, each other one an instance of a nested graph; parents come first.
+    pub scopes: Vec<Scope>,
+    /// Claims.
+    pub claims: Vec<Claim>,
+    /// Nodes with an input that hangs on an unconnected port of the nested graph around them; reported there.
+    pub open_pins: std::collections::BTreeSet<NodeId>,
+}
+
+/// An instance of a nested graph.
+#[derive(Debug, Clone)]
+pub struct Scope {
+    /// Instance name; empty for scope 0.
+    pub name: String,
+    /// Name of the graph.
+    pub graph: String,
+    /// The scope around it; itself for scope 0.
+    pub parent: ScopeId,
+    /// The instance in the text.
+    pub span: Span,
+}
+
+/// A node.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// Instance name, unique in its scope.
+    pub name: String,
+    /// The scope it stands in.
+    pub scope: ScopeId,
+    /// What it is.
+    pub kind: NodeKind,
+    /// Its ports.
+    pub ports: Vec<Port>,
+    /// What the text says about its execution.
+    pub modifiers: Modifiers,
+    /// Its place in the text.
+    pub span: Span,
+    /// Documentation.
+    pub docs: String,
+}
+
+/// What a node is.
+#[derive(Debug, Clone)]
+pub enum NodeKind {
+    /// A node of the catalog.
+    Library(Library),
+    /// A nested graph that runs once per element of a list.
+    Each(Each),
+    /// A port of the graph itself: an input or slot has one sending port, an output or event one taking port.
+    Boundary(PortKind),
+    /// Holds tokens back for some iterations. Starts with these values; `None` is the default of the type.
+    Delay(Vec<Option<Value>>),
+    /// Where activity begins.
+    Start,
+}
+
+/// A node of the catalog.
+#[derive(Debug, Clone)]
+pub struct Library {
+    /// Its signature.
+    pub signature: SignatureId,
+    /// Type arguments, one for each generic of the signature.
+    pub types: Vec<TypeArg>,
+    /// Values of the parameters, in the order of the signature.
+    pub params: Vec<Value>,
+    /// Made in Rust and handed to the constructor.
+    pub handed_in: bool,
+}
+
+/// A type argument.
+#[derive(Debug, Clone)]
+pub enum TypeArg {
+    /// Not known (yet).
+    Open,
+    /// A type that the text or the connections say.
+    Known(Type),
+    /// A type that the text spells, as Rust.
+    Spelled(Type, String),
+    /// The type of the tokens at this port, which only rustc can spell.
+    TokenOf(End),
+    /// The element type of the lists at this port.
+    ItemOf(End),
+}
+
+/// A nested graph that runs once per element of a list.
+#[derive(Debug, Clone)]
+pub struct Each {
+    /// The graph; its boundary nodes have the names of the ports.
+    pub body: Box<Graph>,
+    /// The port that takes the list.
+    pub list: usize,
+    /// Elements in parallel.
+    pub parallel: bool,
+}
+
+/// A port of a node.
+#[derive(Debug, Clone)]
+pub struct Port {
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub kind: PortKind,
+    /// Type of one token.
+    pub ty: Type,
+    /// Tokens per firing.
+    pub rate: usize,
+    /// Input: need not be connected, and ⊥ reaches the node. Output: may be ⊥ although the node fired.
+    pub optional: bool,
+    /// The parameter that it reads or sets.
+    pub parameter: Option<usize>,
+    /// Documentation.
+    pub docs: String,
+}
+
+/// Port `port` of node `node`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct End {
+    /// The node.
+    pub node: NodeId,
+    /// Number of the port in [`Node::ports`].
+    pub port: usize,
+}
+
+/// A connection between two nodes.
+#[derive(Debug, Clone)]
+pub struct Connection {
+    /// Where tokens come from.
+    pub from: End,
+    /// Where they go.
+    pub to: End,
+    /// Whether activity passes.
+    pub active: bool,
+    /// The arrow in the text (the last one, if it leads through ports of nested graphs).
+    pub span: Span,
+}
+
+/// What the text says about the execution of a node.
+#[derive(Debug, Clone, Default)]
+pub struct Modifiers {
+    /// `every`: period of a source.
+    pub every: Option<Duration>,
+    /// `timeout`
+    pub timeout: Option<Duration>,
+    /// `deadline`
+    pub deadline: Option<Duration>,
+    /// `on`: thread group.
+    pub group: Option<String>,
+    /// `pipelined`
+    pub pipelined: bool,
+    /// `essential`
+    pub essential: bool,
+}
+
+/// A claim about activity.
+#[derive(Debug, Clone)]
+pub struct Claim {
+    /// What is claimed.
+    pub kind: String,
+    /// Of which nodes or graphs.
+    pub of: Vec<String>,
+    /// Its place in the text.
+    pub span: Span,
+}
+
+/// A constant.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A number in SI.
+    Number(Number),
+    /// `true`, `false`
+    Bool(bool),
+    /// A string
+    Text(String),
+    /// A list
+    List(Vec<Value>),
+    /// A duration
+    Duration(Duration),
+    /// A constant of Rust, by path.
+    Path(Vec<String>),
+    /// The default that is written in Rust and that only rustc can evaluate.
+    RustDefault,
+}
+
+/// A number in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    /// Its value.
+    pub value: f64,
+    /// Its exact value, if it was written as an integer without a unit.
+    pub integer: Option<i128>,
+    /// What it measures.
+    pub dimension: Dimension,
+}
+
+impl Graph {
+    /// The port at `end`.
+    pub fn port(&self, end: End) -> &Port {
+        &self.nodes[end.node].ports[end.port]
+    }
+
+    /// The names of a node's scopes and its own, with dots: `fast.planner`.
+    pub fn path(&self, node: NodeId) -> String {
+        let mut names = vec![self.nodes[node].name.as_str()];
+        let mut scope = self.nodes[node].scope;
+        while scope != 0 {
+            names.push(&self.scopes[scope].name);
+            scope = self.scopes[scope].parent;
+        }
+        names.reverse();
+        names.join(".")
+    }
+
+    /// `node.port` as a person would write it.
+    pub fn end_name(&self, end: End) -> String {
+        match self.nodes[end.node].kind {
+            NodeKind::Boundary(_) => self.path(end.node),
+            _ => format!("{}.{}", self.path(end.node), self.port(end).name),
+        }
+    }
+
+    /// The scopes around a node, innermost first, without scope 0.
+    pub fn scopes_of(&self, node: NodeId) -> Vec<ScopeId> {
+        let mut scopes = vec![];
+        let mut scope = self.nodes[node].scope;
+        while scope != 0 {
+            scopes.push(scope);
+            scope = self.scopes[scope].parent;
+        }
+        scopes
+    }
+
+    /// The connection into a port, if there is one.
+    pub fn incoming(&self, end: End) -> Option<&Connection> {
+        self.connections.iter().find(|c| c.to == end)
+    }
+
+    /// Whether a connection takes part in synchronous data flow at both ends.
+    pub fn is_synchronous(&self, connection: &Connection) -> bool {
+        self.port(connection.from).kind.is_synchronous() && self.port(connection.to).kind.is_synchronous()
+    }
+}

@@ -1,0 +1,58 @@
+//! The passes in order: the table of contents of the compiler.
+
+use crate::{
+    analyse::{self, Analysis},
+    catalog::Catalog,
+    check, codegen,
+    graph::Graph,
+    report::Diagnostics,
+    resolve,
+    source::{FileId, Sources, Span, World},
+};
+use proc_macro2::TokenStream;
+
+/// A graph that stood all checks, with what is known about it.
+pub struct Program {
+    /// The graph.
+    pub graph: Graph,
+    /// What is known about it before it runs.
+    pub analysis: Analysis,
+}
+
+/// Checks the text `root` and everything it imports. Programs are given as far as they are whole.
+pub fn check(
+    root: FileId,
+    catalog: &Catalog,
+    sources: &mut Sources,
+    world: &mut dyn World,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Program> {
+    let resolved = resolve::resolve(root, catalog, sources, world, diagnostics);
+    let mut programs = vec![];
+    for mut graph in resolved.graphs {
+        check::check(&mut graph, catalog, diagnostics);
+        if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
+            codegen::check_rates(&graph, &analysis, diagnostics);
+            programs.push(Program { graph, analysis });
+        }
+    }
+    programs
+}
+
+/// Rust for `programs`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in
+/// the code that called `graph!`.
+pub fn generate(
+    programs: &[Program],
+    catalog: &Catalog,
+    sources: &Sources,
+    place: &dyn Fn(Span) -> proc_macro2::Span,
+    diagnostics: &mut Diagnostics,
+) -> TokenStream {
+    for program in programs {
+        codegen::check_supported(&program.graph, diagnostics);
+    }
+    if diagnostics.has_errors() {
+        return TokenStream::new();
+    }
+    programs.iter().map(|p| codegen::generate(&p.graph, &p.analysis, catalog, sources, place)).collect()
+}

@@ -1,0 +1,260 @@
+//! Arguments of nodes and graphs.
+
+use super::{
+    names::suggest,
+    value::{Evaluated, Scope, Wanted, duration, evaluate, scaled},
+};
+use crate::{
+    catalog::{Literal, ParamSig, Signature, Type},
+    graph::{Modifiers, Number, Value},
+    report::{Diagnostic, Diagnostics},
+    source::Span,
+    syntax::tree::{Arg, Expr, Ident, Modifier, ModifierKind, ParamItem},
+    units::{self, Dimension},
+};
+use std::{collections::BTreeMap, time::Duration};
+
+/// The given arguments by name; says what is wrong with the list itself.
+pub fn by_name<'a>(
+    args: &'a [Arg],
+    known: &[&str],
+    what: &str,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<&'a str, &'a Expr> {
+    let mut given: BTreeMap<&str, (&Ident, &Expr)> = BTreeMap::new();
+    for arg in args {
+        let Some(name) = &arg.name else {
+            let mut error =
+                Diagnostic::error("unnamed-argument", arg.value.span, "an argument needs the name of its parameter");
+            if let [only] = known {
+                let start = Span { end: arg.value.span.start, ..arg.value.span };
+                error = error.fix(format!("name it `{only}`"), start, format!("{only} = "));
+            } else if !known.is_empty() {
+                error = error.note(format!("the parameters of `{what}` are {}", quoted(known)));
+            }
+            diagnostics.push(error);
+            continue;
+        };
+        if !known.contains(&name.text.as_str()) {
+            let message = format!("`{what}` has no parameter `{}`", name.text);
+            let mut error =
+                suggest(Diagnostic::error("unknown-argument", name.span, message), name, known.iter().copied());
+            error = error.note(if known.is_empty() {
+                format!("`{what}` has no parameters")
+            } else {
+                format!("its parameters are {}", quoted(known))
+            });
+            diagnostics.push(error);
+        } else if let Some((first, _)) = given.insert(&name.text, (name, &arg.value)) {
+            let message = format!("`{}` is given twice", name.text);
+            diagnostics
+                .push(Diagnostic::error("duplicate-argument", name.span, message).also(first.span, "first given here"));
+        }
+    }
+    given.into_iter().map(|(name, (_, value))| (name, value)).collect()
+}
+
+fn quoted(names: &[&str]) -> String {
+    names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Values for all parameters of a node.
+pub fn of_node(
+    signature: &Signature,
+    args: &[Arg],
+    at: Span,
+    scope: &Scope<'_>,
+    fed: &dyn Fn(&str) -> bool,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Value> {
+    let known: Vec<&str> = signature.params.iter().map(|p| p.name.as_str()).collect();
+    let given = by_name(args, &known, &signature.name, diagnostics);
+    let mut values = vec![];
+    for param in &signature.params {
+        let value = match given.get(param.name.as_str()) {
+            Some(expr) => evaluate(expr, scope).and_then(|value| wanted(signature, param).fit(value, expr.span)),
+            None => default(signature, param, at, fed),
+        };
+        values.push(value.unwrap_or_else(|error| {
+            diagnostics.push(*error);
+            Value::RustDefault
+        }));
+    }
+    values
+}
+
+fn wanted<'a>(signature: &Signature, param: &'a ParamSig) -> Wanted<'a> {
+    Wanted {
+        name: &param.name,
+        ty: &param.ty,
+        unit: param.unit.as_deref(),
+        range: param.range,
+        declared: format!("`{}` is declared at {}:{}", param.name, signature.file.display(), signature.line),
+    }
+}
+
+fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str) -> bool) -> Evaluated<Value> {
+    let number = |value: f64, integer: bool| {
+        let integer = integer.then_some(value as i128);
+        Number { value, integer, dimension: Dimension::NONE }
+    };
+    match &param.default {
+        Some(Some(Literal::Number(value, _))) if param.ty.name() == "Duration" => {
+            duration(Number { dimension: Dimension::TIME, ..number(*value, false) }, at).map(Value::Duration)
+        }
+        Some(Some(Literal::Number(value, integer))) => {
+            let is_float = matches!(param.ty.name(), "f32" | "f64");
+            Ok(Value::Number(number(*value, *integer && !is_float)))
+        }
+        Some(Some(Literal::Bool(value))) => Ok(Value::Bool(*value)),
+        Some(Some(Literal::Text(text))) => Ok(Value::Text(text.clone())),
+        Some(None) => Ok(Value::RustDefault),
+        // A function takes the value that arrives at the port; a struct needs one to start with.
+        None if signature.is_function && fed(&param.name) => Ok(Value::RustDefault),
+        None => {
+            let unit = param.unit.as_deref().unwrap_or_default();
+            let message = format!("`{}` needs a value for `{}`", signature.name, param.name);
+            let error = Diagnostic::error("missing-argument", at, message)
+                .note(format!("write `{} = …{unit}`; it is a `{}`", param.name, param.ty))
+                .note(format!("`{}` is declared at {}:{}", signature.name, signature.file.display(), signature.line));
+            Err(Box::new(error))
+        }
+    }
+}
+
+/// Values for all parameters of a graph. `ty` looks up the type of each.
+pub fn of_graph(
+    name: &Ident,
+    params: &[(&ParamItem, Type)],
+    given: Option<(&[Arg], &Scope<'_>)>,
+    at: Span,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<String, Value> {
+    let known: Vec<&str> = params.iter().map(|(p, _)| p.name.text.as_str()).collect();
+    let exprs = given.map(|(args, _)| by_name(args, &known, &name.text, diagnostics)).unwrap_or_default();
+    let mut values: BTreeMap<String, Value> = BTreeMap::new();
+    for (param, ty) in params {
+        let value = match (exprs.get(param.name.text.as_str()), given) {
+            (Some(expr), Some((_, scope))) => {
+                graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr.span))
+            }
+            _ => graph_default(name, param, ty, at, &values),
+        };
+        match value {
+            Ok(value) => {
+                values.insert(param.name.text.clone(), value);
+            }
+            Err(error) => {
+                diagnostics.push(*error);
+                values.insert(param.name.text.clone(), Value::RustDefault);
+            }
+        }
+    }
+    values
+}
+
+fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String, Value>) -> Evaluated<Wanted<'a>> {
+    let range = match &param.range {
+        None => None,
+        Some(range) => {
+            let bound = |expr: &Expr| match declared(param, expr, before)? {
+                Value::Number(n) => Ok(Some(n.value)),
+                Value::Duration(d) => Ok(Some(d.as_secs_f64())),
+                _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a range goes from number to number"))),
+            };
+            Some((bound(&range.low)?, bound(&range.high)?, range.inclusive))
+        }
+    };
+    if let Some(unit) = &param.unit
+        && units::parse(&unit.text).is_err()
+    {
+        return Err(Box::new(Diagnostic::error(
+            "unknown-unit",
+            unit.span,
+            format!("there is no unit `{}`", unit.text),
+        )));
+    }
+    let unit = param.unit.as_ref().map(|u| u.text.as_str());
+    Ok(Wanted {
+        name: &param.name.text,
+        ty,
+        unit,
+        range,
+        declared: format!("`{}` is a parameter of the graph", param.name.text),
+    })
+}
+
+/// A value in the declaration of a parameter: a plain number there has the unit of the parameter.
+fn declared(param: &ParamItem, expr: &Expr, before: &BTreeMap<String, Value>) -> Evaluated<Value> {
+    let value = evaluate(expr, &Scope { params: before, rust_path: &|_| None })?;
+    match (&param.unit, value) {
+        (Some(unit), Value::Number(n)) if n.dimension.is_none() => {
+            let unit = units::parse(&unit.text).unwrap_or(units::Unit { dimension: Dimension::NONE, factor: 1.0 });
+            Ok(Value::Number(Number { value: scaled(n.value, unit.factor), integer: None, dimension: unit.dimension }))
+        }
+        (_, value) => Ok(value),
+    }
+}
+
+fn graph_default(
+    name: &Ident,
+    param: &ParamItem,
+    ty: &Type,
+    at: Span,
+    before: &BTreeMap<String, Value>,
+) -> Evaluated<Value> {
+    let wanted = graph_param(param, ty, before)?;
+    match &param.default {
+        Some(expr) => wanted.fit(declared(param, expr, before)?, expr.span),
+        None => {
+            let message = format!("`{}` needs a value for `{}`", name.text, param.name.text);
+            Err(Box::new(
+                Diagnostic::error("missing-argument", at, message)
+                    .also(param.name.span, "declared here, without a default"),
+            ))
+        }
+    }
+}
+
+/// The modifiers that stay with a node; `each` and `delay` are left to the caller.
+pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnostics) -> Modifiers {
+    let mut modifiers = Modifiers::default();
+    let mut time = |expr: &Expr| -> Option<Duration> {
+        let value = evaluate(expr, scope).and_then(|value| match value {
+            Value::Number(n) => duration(n, expr.span),
+            Value::Duration(d) => Ok(d),
+            other => Err(Box::new(Diagnostic::error(
+                "wrong-value",
+                expr.span,
+                format!("a time is wanted here, but this is {}", super::value::describe(&other)),
+            ))),
+        });
+        match value {
+            Ok(duration) if duration.is_zero() => {
+                diagnostics.push(Diagnostic::error(
+                    "out-of-range",
+                    expr.span,
+                    "a time of zero would never let anything else happen",
+                ));
+                None
+            }
+            Ok(duration) => Some(duration),
+            Err(error) => {
+                diagnostics.push(*error);
+                None
+            }
+        }
+    };
+    for modifier in list {
+        match &modifier.kind {
+            ModifierKind::Every(expr) => modifiers.every = time(expr),
+            ModifierKind::Timeout(expr) => modifiers.timeout = time(expr),
+            ModifierKind::Deadline(expr) => modifiers.deadline = time(expr),
+            ModifierKind::On(group) => modifiers.group = Some(group.text.clone()),
+            ModifierKind::Pipelined => modifiers.pipelined = true,
+            ModifierKind::Essential => modifiers.essential = true,
+            ModifierKind::Each { .. } | ModifierKind::Delay(_) => {}
+        }
+    }
+    modifiers
+}

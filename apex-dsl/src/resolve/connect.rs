@@ -1,0 +1,374 @@
+//! Connections as written: which port is meant where none is named, and whether two ends go together.
+
+use super::instance::{Body, Builder, Wire};
+use crate::{
+    catalog::{Match, Type},
+    graph::{End, Node, NodeId, NodeKind},
+    report::{Diagnostic, Diagnostics, nearest},
+    source::Span,
+    syntax::tree::{Arrow, Endpoint, Ident, PortKind, PortRef},
+};
+use std::collections::BTreeMap;
+
+/// An end of a connection as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Place {
+    /// A port of a node.
+    Port(End),
+    /// A port of a nested graph.
+    Pin(usize),
+}
+
+/// A port that a name in a text can mean.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    pub name: String,
+    pub kind: PortKind,
+    pub ty: Type,
+    pub place: Place,
+    /// A parameter: only by name.
+    pub parameter: bool,
+}
+
+/// What a name in a graph stands for.
+#[derive(Debug, Clone)]
+pub enum Symbol {
+    /// A node or nested graph with its ports.
+    Ports(Vec<Candidate>),
+    /// A port of the graph around.
+    Own(Candidate),
+    /// Something that could not be made; said already.
+    Broken,
+}
+
+impl Symbol {
+    /// A port of the graph around.
+    pub fn port(place: Place, kind: PortKind, ty: &Type, name: &str) -> Self {
+        Self::Own(Candidate { name: name.to_owned(), kind, ty: ty.clone(), place, parameter: false })
+    }
+
+    /// A node with its ports.
+    pub fn of_node(id: NodeId, node: &Node) -> Self {
+        let each = matches!(node.kind, NodeKind::Each(_));
+        let ports = node.ports.iter().enumerate().map(|(port, p)| Candidate {
+            name: p.name.clone(),
+            kind: p.kind,
+            // Whether a list or its element is wanted depends on the port; `check::types` looks at it again.
+            ty: if each { Type::Unknown(String::new()) } else { p.ty.clone() },
+            place: Place::Port(End { node: id, port }),
+            parameter: p.parameter.is_some(),
+        });
+        Self::Ports(ports.collect())
+    }
+
+    /// A nested graph with its pins.
+    pub fn of_graph(pins: Vec<(String, PortKind, Type, Place)>) -> Self {
+        Self::Ports(
+            pins.into_iter()
+                .map(|(name, kind, ty, place)| Candidate { name, kind, ty, place, parameter: false })
+                .collect(),
+        )
+    }
+
+    /// The outputs of a node or nested graph.
+    pub fn outputs(&mut self) -> Vec<&mut Candidate> {
+        match self {
+            Self::Ports(ports) => ports.iter_mut().filter(|p| p.kind == PortKind::Output && !p.parameter).collect(),
+            _ => vec![],
+        }
+    }
+}
+
+/// The names of one graph body.
+pub struct Table {
+    symbols: BTreeMap<String, (Symbol, Span)>,
+}
+
+impl Table {
+    /// An empty table.
+    pub fn new() -> Self {
+        Self { symbols: BTreeMap::new() }
+    }
+
+    /// Adds a name.
+    pub fn insert(&mut self, name: &Ident, symbol: Symbol, diagnostics: &mut Diagnostics) {
+        if let Some((_, first)) = self.symbols.get(&name.text) {
+            let message = format!("`{}` is already defined in this graph", name.text);
+            diagnostics
+                .push(Diagnostic::error("duplicate-name", name.span, message).also(*first, "first defined here"));
+            return;
+        }
+        self.symbols.insert(name.text.clone(), (symbol, name.span));
+    }
+}
+
+/// Whether an endpoint is exactly `node.port`.
+pub fn names_port(end: &Endpoint, node: &str, port: &str) -> bool {
+    match end {
+        Endpoint::Port(reference) => matches!(reference.parts.as_slice(), [n, p] if n.text == node && p.text == port),
+        Endpoint::List(ends, _) => ends.iter().any(|e| names_port(e, node, port)),
+        Endpoint::Instance(_) => false,
+    }
+}
+
+/// One alternative of an endpoint: the ports it may mean and where it stands.
+struct Meant {
+    candidates: Vec<Candidate>,
+    explicit: bool,
+    name: String,
+    span: Span,
+}
+
+impl Builder<'_> {
+    /// Resolves all chains of a graph body.
+    pub fn chains(&mut self, body: &Body<'_>, table: &Table) {
+        let mut in_place = 0;
+        for chain in &body.item.chains {
+            // Nodes written in place are made once, although they stand behind one arrow and before the next.
+            let symbols: Vec<Vec<Option<(Symbol, String, Span)>>> =
+                chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
+            for (i, arrow) in chain.arrows.iter().enumerate() {
+                for from in symbols[i].iter().flatten() {
+                    for to in symbols[i + 1].iter().flatten() {
+                        self.connect(from, to, arrow);
+                    }
+                }
+            }
+            if *self.budget == 0 {
+                return;
+            }
+        }
+    }
+
+    /// What stands at one place of a chain: symbol (narrowed to a port if one is named), its name, its span.
+    fn endpoint(
+        &mut self,
+        body: &Body<'_>,
+        table: &Table,
+        end: &Endpoint,
+        in_place: &mut usize,
+    ) -> Vec<Option<(Symbol, String, Span)>> {
+        match end {
+            Endpoint::List(ends, _) => ends.iter().flat_map(|end| self.endpoint(body, table, end, in_place)).collect(),
+            Endpoint::Port(reference) => vec![self.reference(body, table, reference)],
+            Endpoint::Instance(instance) => {
+                *in_place += 1;
+                let word = instance.path.segments.last().map_or("node", |s| s.text.as_str());
+                let mut text = format!("{}_{in_place}", snake(word));
+                while table.symbols.contains_key(&text) {
+                    text.push('_');
+                }
+                let name = Ident { text, span: instance.path.span };
+                let symbol = self.instance(body, &name, instance, "");
+                vec![symbol.map(|symbol| (symbol, instance.path.text(), instance.path.span))]
+            }
+        }
+    }
+
+    fn reference(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef) -> Option<(Symbol, String, Span)> {
+        let first = reference.parts.first()?;
+        let text = reference.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".");
+        let Some((symbol, _)) = table.symbols.get(&first.text) else {
+            if first.text == "start" {
+                return Some((self.start(body, first)?, text, reference.span));
+            }
+            let message = format!("there is no node or port `{}` in this graph", first.text);
+            let error = Diagnostic::error("unknown-node", first.span, message);
+            let mut error = super::names::suggest(error, first, table.symbols.keys().map(String::as_str));
+            if error.fixes.is_empty() {
+                error = error.note(format!(
+                    "declare it with `node {} = …;`, or write the node in place with `()` behind its name",
+                    first.text
+                ));
+            }
+            self.diagnostics.push(error);
+            return None;
+        };
+        if matches!(symbol, Symbol::Broken) {
+            return None;
+        }
+        match (symbol, &reference.parts[1..]) {
+            (symbol, []) => Some((symbol.clone(), text, reference.span)),
+            (Symbol::Ports(ports), [port]) => {
+                let named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
+                if named.is_empty() {
+                    self.unknown_port(&first.text, port, ports);
+                    return None;
+                }
+                Some((Symbol::Ports(named), text, reference.span))
+            }
+            (_, rest) => {
+                let message = if matches!(symbol, Symbol::Own(_)) {
+                    format!("`{}` is a port of this graph and has none of its own", first.text)
+                } else {
+                    "a nested graph is reached only through its ports".to_owned()
+                };
+                self.diagnostics.push(Diagnostic::error("unknown-port", rest[rest.len() - 1].span, message));
+                None
+            }
+        }
+    }
+
+    fn unknown_port(&mut self, node: &str, port: &Ident, ports: &[Candidate]) {
+        let message = format!("`{node}` has no port `{}`", port.text);
+        let error = Diagnostic::error("unknown-port", port.span, message);
+        let mut error = match nearest(&port.text, ports.iter().map(|p| p.name.as_str())) {
+            Some(near) => error.fix(format!("did you mean `{near}`?"), port.span, near),
+            None => error,
+        };
+        error = error.note(match list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>()) {
+            ports if ports.is_empty() => format!("`{node}` has no ports"),
+            ports => format!("`{node}` has {ports}"),
+        });
+        self.diagnostics.push(error);
+    }
+
+    fn start(&mut self, body: &Body<'_>, name: &Ident) -> Option<Symbol> {
+        let event = crate::graph::Port {
+            name: "start".to_owned(),
+            kind: PortKind::Event,
+            ty: Type::Unknown("()".to_owned()),
+            rate: 1,
+            optional: true,
+            parameter: None,
+            docs: String::new(),
+        };
+        let node = self.node(name, body.scope, NodeKind::Start, vec![event], "")?;
+        Some(Symbol::of_node(node, &self.nodes[node]))
+    }
+
+    fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow) {
+        let sources = meant(from, true);
+        let targets = meant(to, false);
+        // A port that is named decides which port is meant at the other side; so do types.
+        let Some((source, target)) = self.choose(sources, targets) else { return };
+        if source.ty.compare(&target.ty) == Match::Different {
+            self.mismatch(from, to, &source, &target, arrow.span);
+        }
+        self.wires.push(Wire { from: source.place, to: target.place, active: arrow.active, span: arrow.span });
+    }
+
+    fn choose(&mut self, from: Meant, to: Meant) -> Option<(Candidate, Candidate)> {
+        let fits = |a: &Candidate, b: &Candidate| a.ty.compare(&b.ty) != Match::Different;
+        let narrow = |side: &Meant, other: &Meant| -> Vec<Candidate> {
+            match side.candidates.as_slice() {
+                [one] => vec![one.clone()],
+                several => several.iter().filter(|c| other.candidates.iter().any(|o| fits(c, o))).cloned().collect(),
+            }
+        };
+        let (sources, targets) = (narrow(&from, &to), narrow(&to, &from));
+        match (sources.as_slice(), targets.as_slice()) {
+            ([source], [target]) => Some((source.clone(), target.clone())),
+            ([_], _) => {
+                self.ambiguous(&to, &targets, "takes", "take");
+                None
+            }
+            _ => {
+                self.ambiguous(&from, &sources, "sends", "send");
+                None
+            }
+        }
+    }
+
+    fn ambiguous(&mut self, meant: &Meant, fitting: &[Candidate], one: &str, many: &str) {
+        let name = &meant.name;
+        let error = match (meant.candidates.len(), fitting.len()) {
+            (0, _) if meant.explicit => {
+                Diagnostic::error("wrong-direction", meant.span, format!("`{name}` {one} no tokens"))
+            }
+            (0, _) => {
+                Diagnostic::error("wrong-direction", meant.span, format!("`{name}` has no port that {one} tokens"))
+            }
+            (_, 0) => {
+                let all: Vec<&Candidate> = meant.candidates.iter().collect();
+                Diagnostic::error("type-mismatch", meant.span, format!("no port of `{name}` fits"))
+                    .note(format!("`{name}` has {}", list(&all)))
+            }
+            _ => {
+                let message = format!("`{name}` has several ports that could {many} this: name one");
+                let error = Diagnostic::error("ambiguous-port", meant.span, message);
+                let all: Vec<&Candidate> = fitting.iter().collect();
+                let error = error.note(format!("`{name}` has {}", list(&all)));
+                fitting.iter().take(4).fold(error, |error, c| {
+                    error.fix(format!("use `{}`", c.name), meant.span.after(), format!(".{}", c.name))
+                })
+            }
+        };
+        self.diagnostics.push(error);
+    }
+
+    fn mismatch(
+        &mut self,
+        from: &(Symbol, String, Span),
+        to: &(Symbol, String, Span),
+        source: &Candidate,
+        target: &Candidate,
+        span: Span,
+    ) {
+        let (a, b) = (self.describe(source, &from.1), self.describe(target, &to.1));
+        let message = format!("{a} sends `{}`, but {b} takes `{}`", source.ty, target.ty);
+        let error = Diagnostic::error("type-mismatch", span, message)
+            .also(from.2, format!("sends `{}`", source.ty))
+            .also(to.2, format!("takes `{}`", target.ty))
+            .note(self.declared(source, &a))
+            .note(self.declared(target, &b))
+            .note("nothing is converted silently: put a node that converts between them");
+        self.diagnostics.push(error);
+    }
+
+    fn describe(&self, candidate: &Candidate, written: &str) -> String {
+        let node = written.split('.').next().unwrap_or(written);
+        if node == candidate.name { format!("`{node}`") } else { format!("`{node}.{}`", candidate.name) }
+    }
+
+    fn declared(&self, candidate: &Candidate, name: &str) -> String {
+        match candidate.place {
+            Place::Port(end) => match &self.nodes[end.node].kind {
+                NodeKind::Library(library) => {
+                    let signature = &self.catalog.signatures[library.signature];
+                    format!(
+                        "{name} is declared at {}:{} (`{}`)",
+                        signature.file.display(),
+                        signature.line,
+                        signature.name
+                    )
+                }
+                _ => format!("{name} is a port of this graph"),
+            },
+            Place::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
+        }
+    }
+}
+
+/// The ports on the sending or the taking side that an endpoint may mean. Parameters count only if named.
+fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
+    let explicit = name.contains('.');
+    let candidates = match symbol {
+        Symbol::Own(candidate) if candidate.kind.sends() == sends => vec![candidate.clone()],
+        Symbol::Ports(ports) => {
+            let side: Vec<Candidate> =
+                ports.iter().filter(|p| p.kind.sends() == sends && (explicit || !p.parameter)).cloned().collect();
+            // A port hides a parameter of the same name.
+            if side.len() > 1 && explicit { side.into_iter().filter(|p| !p.parameter).collect() } else { side }
+        }
+        _ => vec![],
+    };
+    Meant { candidates, explicit: explicit || matches!(symbol, Symbol::Own(_)), name: name.clone(), span: *span }
+}
+
+fn list(ports: &[&Candidate]) -> String {
+    let words: Vec<String> = ports.iter().map(|p| format!("{} `{}: {}`", p.kind.word(), p.name, p.ty)).collect();
+    words.join(", ")
+}
+
+/// `JumpDistance` → `jump_distance`
+fn snake(word: &str) -> String {
+    let mut text = String::new();
+    for (i, c) in word.chars().enumerate() {
+        if c.is_uppercase() && i > 0 && !text.ends_with('_') {
+            text.push('_');
+        }
+        text.extend(c.to_lowercase());
+    }
+    text
+}

@@ -1,0 +1,166 @@
+//! Wires through ports of nested graphs → connections between nodes.
+
+use super::{
+    MAX_NODES,
+    connect::Place,
+    instance::{Builder, Wire},
+};
+use crate::{
+    graph::{Connection, End, NodeId, NodeKind},
+    report::Diagnostic,
+    syntax::tree::PortKind,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Replaces all pins by what stands behind them. Also gives the nodes that hang on a pin without a token.
+pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
+    let wires = std::mem::take(&mut builder.wires);
+    check_single(builder, &wires);
+    let mut into: BTreeMap<Place, Vec<usize>> = BTreeMap::new();
+    for (i, wire) in wires.iter().enumerate() {
+        into.entry(wire.to).or_default().push(i);
+    }
+    check_pins(builder, &into, &wires);
+    let mut connections = vec![];
+    let mut seen = BTreeSet::new();
+    for wire in &wires {
+        let Place::Port(to) = wire.to else { continue };
+        // Follow the wire upstream to the ports it starts at; pins in a circle are left to `check_pins`.
+        let mut ends = vec![(wire.from, wire.active)];
+        let mut visited = BTreeSet::new();
+        while let Some((place, active)) = ends.pop() {
+            match place {
+                Place::Port(from) => {
+                    if seen.insert((from, to)) {
+                        connections.push(Connection { from, to, active, span: wire.span });
+                    }
+                }
+                Place::Pin(_) if visited.insert(place) => {
+                    for &up in into.get(&place).into_iter().flatten() {
+                        ends.push((wires[up].from, active && wires[up].active));
+                    }
+                }
+                Place::Pin(_) => {}
+            }
+        }
+        if connections.len() > 4 * MAX_NODES {
+            let message = format!("this program has more than {} connections", 4 * MAX_NODES);
+            builder.diagnostics.push(Diagnostic::error("too-large", wire.span, message));
+            break;
+        }
+    }
+    let fed: BTreeSet<End> = connections.iter().map(|c| c.to).collect();
+    let hanging = wires.iter().filter_map(|w| match (w.from, w.to) {
+        (Place::Pin(_), Place::Port(end)) if !fed.contains(&end) => Some(end.node),
+        _ => None,
+    });
+    (connections, hanging.collect())
+}
+
+/// An input takes one connection; nothing is connected twice to the same.
+fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
+    let mut first: BTreeMap<Place, usize> = BTreeMap::new();
+    let mut pairs: BTreeMap<(Place, Place), usize> = BTreeMap::new();
+    for (i, wire) in wires.iter().enumerate() {
+        if let Some(&before) = pairs.get(&(wire.from, wire.to)) {
+            let error = Diagnostic::error(
+                "connected-twice",
+                wire.span,
+                format!("{} is already connected to {}", name(builder, wire.from), name(builder, wire.to)),
+            );
+            builder
+                .diagnostics
+                .push(error.also(wires[before].span, "first connected here").note("remove one of the two"));
+            continue;
+        }
+        pairs.insert((wire.from, wire.to), i);
+        if !is_input(builder, wire.to) {
+            continue;
+        }
+        match first.get(&wire.to) {
+            Some(&before) => {
+                let message = format!("{} is connected twice: an input takes one connection", name(builder, wire.to));
+                let error = Diagnostic::error("connected-twice", wire.span, message)
+                    .also(wires[before].span, "first connected here")
+                    .note("join both streams in a node with two inputs, or send them to a slot, which takes many connections");
+                builder.diagnostics.push(error);
+            }
+            None => {
+                first.insert(wire.to, i);
+            }
+        }
+    }
+}
+
+fn is_input(builder: &Builder<'_>, place: Place) -> bool {
+    match place {
+        Place::Port(end) => builder.nodes[end.node].ports[end.port].kind == PortKind::Input,
+        // An `in` is an input from outside, an `out` is one from inside.
+        Place::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
+    }
+}
+
+fn name(builder: &Builder<'_>, place: Place) -> String {
+    match place {
+        Place::Port(end) => {
+            let node = &builder.nodes[end.node];
+            match node.kind {
+                NodeKind::Boundary(_) => format!("`{}`", node.name),
+                _ => format!("`{}.{}`", node.name, node.ports[end.port].name),
+            }
+        }
+        Place::Pin(pin) => {
+            let pin = &builder.pins[pin];
+            format!("`{}.{}`", builder.scopes[pin.scope].name, pin.name)
+        }
+    }
+}
+
+/// A pin that tokens go out of needs something that sends them in.
+fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wires: &[Wire]) {
+    let mut out_of: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+    for wire in wires {
+        out_of.entry(wire.from).or_default().push(wire.to);
+    }
+    for index in 0..builder.pins.len() {
+        let place = Place::Pin(index);
+        let pin = &builder.pins[index];
+        if into.contains_key(&place) || !pin.kind.is_synchronous() {
+            continue;
+        }
+        let scope = &builder.scopes[pin.scope];
+        let error = match pin.kind {
+            PortKind::Input if needs_token(builder, &out_of, place) => {
+                let message = format!("input `{}` of `{}` is not connected", pin.name, scope.name);
+                Diagnostic::error("open-input", scope.span, message)
+                    .also(pin.span, "declared here")
+                    .note(format!("connect it: `… -> {}.{};`", scope.name, pin.name))
+            }
+            PortKind::Output if out_of.contains_key(&place) => {
+                let message = format!("nothing inside `{}` is connected to its output `{}`", scope.graph, pin.name);
+                Diagnostic::error("open-output", pin.span, message).note(format!("connect it: `… -> {};`", pin.name))
+            }
+            _ => continue,
+        };
+        builder.diagnostics.push(error);
+    }
+}
+
+/// Whether some node behind an unconnected pin cannot do without its tokens.
+fn needs_token(builder: &Builder<'_>, out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> bool {
+    let mut ends = vec![pin];
+    let mut visited = BTreeSet::new();
+    while let Some(place) = ends.pop() {
+        match place {
+            Place::Port(end) => {
+                let port = &builder.nodes[end.node].ports[end.port];
+                if port.kind == PortKind::Input && !port.optional {
+                    return true;
+                }
+            }
+            Place::Pin(_) if visited.insert(place) => ends.extend(out_of.get(&place).into_iter().flatten()),
+            Place::Pin(_) => {}
+        }
+    }
+    false
+}

@@ -1,0 +1,138 @@
+//! Type arguments that the text leaves to the connections.
+
+use crate::{
+    catalog::{Catalog, Type},
+    graph::{End, Graph, Library, NodeId, NodeKind, TypeArg},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::PortKind,
+};
+use std::collections::VecDeque;
+
+/// Finds the type arguments of all generic nodes, and gives the ports their types.
+pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    settle(graph, catalog);
+    for node in &graph.nodes {
+        let NodeKind::Library(library) = &node.kind else { continue };
+        let signature = &catalog.signatures[library.signature];
+        let open = signature.generics.iter().zip(&library.types).find(|(_, arg)| matches!(arg, TypeArg::Open));
+        // The type arguments of a function never have to be written: rustc sees the tokens.
+        if let Some((name, _)) = open.filter(|_| !signature.is_function) {
+            let message = format!("`{name}` of `{}` cannot be known from the connections", signature.name);
+            let arguments = vec!["…"; signature.generics.len()].join(", ");
+            diagnostics.push(
+                Diagnostic::error("unknown-type", node.span, message)
+                    .note(format!("write it: `{}<{arguments}>(…)`", signature.name)),
+            );
+        }
+    }
+}
+
+/// As [`infer`], for the body of an `each` on one node, whose ports have no types of their own.
+pub fn infer_inside(graph: &mut Graph, catalog: &Catalog) {
+    settle(graph, catalog);
+}
+
+fn settle(graph: &mut Graph, catalog: &Catalog) {
+    substitute(graph, catalog);
+    let mut touching: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
+    for (index, connection) in graph.connections.iter().enumerate() {
+        touching[connection.from.node].push(index);
+        touching[connection.to.node].push(index);
+    }
+    // First what the inputs say, then what is left and an output says.
+    for only_from_inputs in [true, false] {
+        let mut queue: VecDeque<NodeId> = (0..graph.nodes.len()).filter(|n| is_open(graph, *n)).collect();
+        while let Some(node) = queue.pop_front() {
+            if is_open(graph, node) && settle_node(graph, catalog, node, &touching[node], only_from_inputs) {
+                // The types of this node's tokens are known now: its neighbours look again.
+                let neighbours = touching[node]
+                    .iter()
+                    .flat_map(|c| [graph.connections[*c].from.node, graph.connections[*c].to.node]);
+                queue.extend(neighbours.filter(|n| is_open(graph, *n)));
+            }
+        }
+    }
+}
+
+fn is_open(graph: &Graph, node: NodeId) -> bool {
+    matches!(&graph.nodes[node].kind, NodeKind::Library(l) if l.types.iter().any(|t| matches!(t, TypeArg::Open)))
+}
+
+/// Tries to settle the arguments of one node; whether something new is known.
+fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[usize], only_from_inputs: bool) -> bool {
+    let NodeKind::Library(library) = graph.nodes[node].kind.clone() else { return false };
+    let signature = &catalog.signatures[library.signature];
+    let mut types = library.types.clone();
+    for (index, name) in signature.generics.iter().enumerate() {
+        if !matches!(types[index], TypeArg::Open) {
+            continue;
+        }
+        let found = touching.iter().map(|c| &graph.connections[*c]).find_map(|c| {
+            if c.to.node == node {
+                argument_from(graph, name, c.to, c.from)
+            } else if c.from.node == node && !only_from_inputs {
+                argument_from(graph, name, c.from, c.to).filter(|arg| matches!(arg, TypeArg::Known(_)))
+            } else {
+                None
+            }
+        });
+        if let Some(found) = found {
+            types[index] = found;
+        }
+    }
+    let changed =
+        types.iter().zip(&library.types).any(|(a, b)| !matches!(a, TypeArg::Open) && matches!(b, TypeArg::Open));
+    graph.nodes[node].kind = NodeKind::Library(Library { types, ..library });
+    if changed {
+        substitute_node(graph, catalog, node);
+    }
+    changed
+}
+
+/// What the connection between `mine`, whose type mentions `name`, and `other` says about `name`.
+fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<TypeArg> {
+    let pattern = &graph.port(mine).ty;
+    let known = match &graph.nodes[other.node].kind {
+        NodeKind::Each(_) => Type::Unknown(String::new()),
+        _ => graph.port(other).ty.clone(),
+    };
+    match pattern.bind(name, &known) {
+        Some(ty) if !ty.is_open() => Some(TypeArg::Known(ty)),
+        // A port whose own node is still open has to wait.
+        _ if is_open(graph, other.node) => None,
+        _ if graph.port(other).kind == PortKind::Input => None,
+        _ => match pattern {
+            Type::Param(param) if param == name => Some(TypeArg::TokenOf(other)),
+            Type::Named(..) if pattern.list_item() == Some(Type::Param(name.to_owned())) => {
+                Some(TypeArg::ItemOf(other))
+            }
+            _ => None,
+        },
+    }
+}
+
+fn substitute(graph: &mut Graph, catalog: &Catalog) {
+    for node in 0..graph.nodes.len() {
+        substitute_node(graph, catalog, node);
+    }
+}
+
+fn substitute_node(graph: &mut Graph, catalog: &Catalog, node: NodeId) {
+    let NodeKind::Library(library) = &graph.nodes[node].kind else { return };
+    let signature = &catalog.signatures[library.signature];
+    if signature.generics.is_empty() {
+        return;
+    }
+    let types = library.types.clone();
+    let lookup = |name: &str| {
+        let index = signature.generics.iter().position(|g| g == name)?;
+        match &types[index] {
+            TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+            TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => Some(Type::Unknown(name.to_owned())),
+            TypeArg::Open => None,
+        }
+    };
+    for port in &mut graph.nodes[node].ports {
+        port.ty = port.ty.substitute(&lookup);
+    }
+}

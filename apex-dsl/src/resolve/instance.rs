@@ -1,0 +1,641 @@
+//! Makes instances: nodes of the catalog become nodes, nested graphs are opened in place.
+
+use super::{
+    MAX_NESTING, MAX_NODES, args,
+    connect::{Place, Symbol, Table},
+    flatten, generics,
+    names::{GraphId, Made, Texts},
+    value::{Scope as Names, evaluate},
+};
+use crate::{
+    catalog::{Catalog, SignatureId, Type},
+    graph::{Claim, Each, End, Graph, Library, Node, NodeKind, Port, Scope, ScopeId, TypeArg, Value},
+    report::{Diagnostic, Diagnostics},
+    source::Span,
+    syntax::tree::{
+        GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr, TypeKind,
+    },
+};
+use std::collections::BTreeMap;
+
+/// A port of a nested graph, seen from both sides: tokens come in from one and go out to the other.
+pub struct Pin {
+    /// Its name.
+    pub name: String,
+    /// Its kind, seen from outside.
+    pub kind: PortKind,
+    /// The scope of the nested graph.
+    pub scope: ScopeId,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A connection as written: it may begin and end at pins.
+pub struct Wire {
+    /// Where tokens come from.
+    pub from: Place,
+    /// Where they go.
+    pub to: Place,
+    /// `=>`
+    pub active: bool,
+    /// The arrow.
+    pub span: Span,
+}
+
+/// Everything that one flat graph is built from.
+pub struct Builder<'a> {
+    pub texts: &'a Texts,
+    pub catalog: &'a Catalog,
+    pub diagnostics: &'a mut Diagnostics,
+    pub nodes: Vec<Node>,
+    pub scopes: Vec<Scope>,
+    pub pins: Vec<Pin>,
+    pub wires: Vec<Wire>,
+    pub claims: Vec<Claim>,
+    /// The graphs that are being opened, outermost first.
+    pub open: Vec<GraphId>,
+    /// How many more nodes and nested graphs there may be.
+    pub budget: &'a mut usize,
+}
+
+/// What a graph body is opened with.
+pub struct Body<'a> {
+    pub id: GraphId,
+    pub scope: ScopeId,
+    pub values: BTreeMap<String, Value>,
+    pub item: &'a GraphItem,
+}
+
+/// Resolves graph `id` as a program of its own.
+pub fn graph(
+    texts: &Texts,
+    catalog: &Catalog,
+    id: GraphId,
+    budget: &mut usize,
+    diagnostics: &mut Diagnostics,
+) -> Option<Graph> {
+    let builder = Builder {
+        texts,
+        catalog,
+        diagnostics,
+        nodes: vec![],
+        scopes: vec![],
+        pins: vec![],
+        wires: vec![],
+        claims: vec![],
+        open: vec![],
+        budget,
+    };
+    builder.top(id, None)
+}
+
+impl<'a> Builder<'a> {
+    /// The whole graph, with boundary nodes for its ports. `given` holds the arguments if it is the body of an `each`.
+    fn top(mut self, id: GraphId, given: Option<BTreeMap<String, Value>>) -> Option<Graph> {
+        let item = self.texts.graph(id);
+        let is_body = given.is_some();
+        let values = given.unwrap_or_else(|| {
+            let params = self.param_types(id);
+            args::of_graph(&item.name, &params, None, item.name.span, self.diagnostics)
+        });
+        self.scopes.push(Scope { name: String::new(), graph: item.name.text.clone(), parent: 0, span: item.name.span });
+        let mut table = Table::new();
+        for port in &item.ports {
+            let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
+            // A graph-level input sends into the graph.
+            let kind = match port.kind {
+                PortKind::Input => PortKind::Output,
+                PortKind::Output => PortKind::Input,
+                PortKind::Slot => PortKind::Event,
+                PortKind::Event => PortKind::Slot,
+            };
+            let inner = Port {
+                name: port.name.text.clone(),
+                kind,
+                ty,
+                rate: 1,
+                optional: true,
+                parameter: None,
+                docs: port.docs.clone(),
+            };
+            let node = self.node(&port.name, 0, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
+            table.insert(
+                &port.name,
+                Symbol::port(Place::Port(End { node, port: 0 }), kind, &self.nodes[node].ports[0].ty, &port.name.text),
+                self.diagnostics,
+            );
+        }
+        self.body(&Body { id, scope: 0, values, item }, table);
+        let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
+        if robot && let Some(port) = item.ports.first() {
+            let message = "a `robot` has no ports: nothing stands around it";
+            self.diagnostics.push(
+                Diagnostic::error("robot-port", port.name.span, message)
+                    .note("make it a node of a driver, or write `graph` instead of `robot`"),
+            );
+        }
+        let (connections, open_pins) = flatten::wires(&mut self);
+        let mut graph = Graph {
+            name,
+            docs,
+            robot,
+            is_body,
+            span,
+            nodes: self.nodes,
+            connections,
+            scopes: self.scopes,
+            claims: self.claims,
+            open_pins,
+        };
+        generics::infer(&mut graph, self.catalog, self.diagnostics);
+        require_function_params(&mut graph, self.catalog);
+        Some(graph)
+    }
+
+    /// Adds a node; `None` when there are too many.
+    pub fn node(
+        &mut self,
+        name: &Ident,
+        scope: ScopeId,
+        kind: NodeKind,
+        ports: Vec<Port>,
+        docs: &str,
+    ) -> Option<usize> {
+        self.spend(name.span)?;
+        let node = Node {
+            name: name.text.clone(),
+            scope,
+            kind,
+            ports,
+            modifiers: Default::default(),
+            span: name.span,
+            docs: docs.to_owned(),
+        };
+        self.nodes.push(node);
+        Some(self.nodes.len() - 1)
+    }
+
+    pub fn spend(&mut self, span: Span) -> Option<()> {
+        if *self.budget == 0 {
+            let message = format!("this program has more than {MAX_NODES} nodes");
+            let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
+            self.diagnostics.push(
+                Diagnostic::error("too-large", outermost, message)
+                    .note("nested graphs count as often as they are used"),
+            );
+            return None;
+        }
+        *self.budget -= 1;
+        Some(())
+    }
+
+    fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {
+        self.texts.graph(id).params.iter().map(|p| (p, self.ty(id, &p.ty))).collect()
+    }
+
+    /// A type as written in the text of graph `id`.
+    pub fn ty(&self, id: GraphId, ty: &TypeExpr) -> Type {
+        let generics: Vec<String> = self.texts.graph(id).generics.iter().map(|g| g.text.clone()).collect();
+        self.catalog.type_in_text(&self.texts.ty(id.file, ty), &generics)
+    }
+
+    /// Opens a graph body: its nodes, then its connections.
+    fn body(&mut self, body: &Body<'_>, mut table: Table) {
+        self.open.push(body.id);
+        for node in &body.item.nodes {
+            let made = match &node.body {
+                NodeBody::Instance(instance) => self.instance(body, &node.name, instance, &node.docs),
+                NodeBody::HandedIn(ty, modifiers) => self.handed_in(body, &node.name, ty, modifiers, &node.docs),
+            };
+            // A node that cannot be made still has its name, so that its uses are no errors of their own.
+            table.insert(&node.name, made.unwrap_or(Symbol::Broken), self.diagnostics);
+            if *self.budget == 0 {
+                break;
+            }
+        }
+        self.chains(body, &table);
+        for claim in &body.item.claims {
+            let of = claim
+                .of
+                .iter()
+                .map(|r| r.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join("."))
+                .collect();
+            self.claims.push(Claim { kind: claim.kind.text.clone(), of, span: claim.kind.span });
+        }
+        self.open.pop();
+    }
+
+    /// An instance of a node or graph.
+    pub fn instance(&mut self, body: &Body<'_>, name: &Ident, instance: &Instance, docs: &str) -> Option<Symbol> {
+        let made = match self.texts.made(body.id.file, &instance.path, self.catalog) {
+            Ok(made) => made,
+            Err(error) => {
+                self.diagnostics.push(*error);
+                return None;
+            }
+        };
+        let each = instance.modifiers.iter().find_map(|m| match &m.kind {
+            ModifierKind::Each { parallel, port } => Some((*parallel, port.as_ref(), m.span)),
+            _ => None,
+        });
+        let symbol = match (made, each) {
+            (Made::Node(signature), None) => self.library(body, name, signature, instance, docs)?,
+            (Made::Graph(id), None) => self.nested(body, name, id, instance)?,
+            (Made::Node(signature), Some(each)) => {
+                let inner = self.each_of_node(body, name, signature, instance)?;
+                self.each(body, name, inner, each, docs)?
+            }
+            (Made::Graph(id), Some(each)) => {
+                let values = self.graph_args(body, id, instance);
+                let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Some(values)))?;
+                self.each(body, name, inner, each, docs)?
+            }
+        };
+        self.delayed(body, name, symbol, &instance.modifiers)
+    }
+
+    fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
+        let params = self.param_types(id);
+        let texts = self.texts;
+        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
+        let scope = Names { params: &body.values, rust_path: &rust_path };
+        args::of_graph(
+            &self.texts.graph(id).name,
+            &params,
+            Some((&instance.args, &scope)),
+            instance.span,
+            self.diagnostics,
+        )
+    }
+
+    fn library(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        id: SignatureId,
+        instance: &Instance,
+        docs: &str,
+    ) -> Option<Symbol> {
+        let signature = &self.catalog.signatures[id];
+        let texts = self.texts;
+        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
+        let scope = Names { params: &body.values, rust_path: &rust_path };
+        let fed = |param: &str| is_fed(body, &name.text, param);
+        let params = args::of_node(signature, &instance.args, instance.span, &scope, &fed, self.diagnostics);
+        let types = self.type_args(body, signature.generics.len(), &instance.types, instance);
+        let modifiers = args::modifiers(&instance.modifiers, &scope, self.diagnostics);
+        if signature.process.is_none() && !signature.is_function && signature.ports.is_empty() {
+            let message = format!("`{}` has neither `process` nor a slot", signature.name);
+            let error = Diagnostic::error("no-process", instance.path.span, message).note(format!(
+                "declared at {}:{}; mark its `impl` with `#[node]` too",
+                signature.file.display(),
+                signature.line
+            ));
+            self.diagnostics.push(error);
+        }
+        let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: false });
+        let docs = if docs.is_empty() { &signature.docs } else { docs };
+        let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
+        self.nodes[node].modifiers = modifiers;
+        Some(Symbol::of_node(node, &self.nodes[node]))
+    }
+
+    fn type_args(&mut self, body: &Body<'_>, count: usize, given: &[TypeExpr], instance: &Instance) -> Vec<TypeArg> {
+        if given.is_empty() {
+            return vec![TypeArg::Open; count];
+        }
+        if given.len() != count {
+            let message =
+                format!("`{}` takes {count} type arguments, but {} are given", instance.path.text(), given.len());
+            self.diagnostics.push(Diagnostic::error("type-arguments", instance.span, message));
+            return vec![TypeArg::Open; count];
+        }
+        given
+            .iter()
+            .map(|ty| {
+                let resolved = self.ty(body.id, ty);
+                match &resolved {
+                    Type::Param(_) => TypeArg::Open,
+                    _ => TypeArg::Spelled(resolved, self.texts.ty(body.id.file, ty).to_string()),
+                }
+            })
+            .collect()
+    }
+
+    fn handed_in(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        ty: &TypeExpr,
+        modifiers: &[Modifier],
+        docs: &str,
+    ) -> Option<Symbol> {
+        let TypeKind::Path(path, types) = &ty.kind else {
+            self.diagnostics.push(Diagnostic::error(
+                "unknown-node",
+                ty.span,
+                "a node that is handed in has the type of a struct node",
+            ));
+            return None;
+        };
+        let instance =
+            Instance { path: path.clone(), types: types.clone(), args: vec![], modifiers: vec![], span: ty.span };
+        let made = self.texts.made(body.id.file, path, self.catalog);
+        match made {
+            Ok(Made::Node(id)) if !self.catalog.signatures[id].is_function => {
+                let signature = &self.catalog.signatures[id];
+                let params = vec![Value::RustDefault; signature.params.len()];
+                let types = self.type_args(body, signature.generics.len(), types, &instance);
+                let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: true });
+                let docs = if docs.is_empty() { &signature.docs } else { docs };
+                let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
+                let texts = self.texts;
+                let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
+                let scope = Names { params: &body.values, rust_path: &rust_path };
+                self.nodes[node].modifiers = args::modifiers(modifiers, &scope, self.diagnostics);
+                Some(Symbol::of_node(node, &self.nodes[node]))
+            }
+            Ok(_) => {
+                let message = "only a struct node can be handed in";
+                self.diagnostics.push(
+                    Diagnostic::error("unknown-node", ty.span, message)
+                        .note("an instance is written `node name = Type();`"),
+                );
+                None
+            }
+            Err(error) => {
+                self.diagnostics.push(*error);
+                None
+            }
+        }
+    }
+
+    fn nested(&mut self, body: &Body<'_>, name: &Ident, id: GraphId, instance: &Instance) -> Option<Symbol> {
+        self.may_open(id, instance.span)?;
+        self.spend(name.span)?;
+        if let Some(modifier) = instance.modifiers.iter().find(|m| !matches!(m.kind, ModifierKind::Delay(_))) {
+            let message = "this modifier is for a single node; a nested graph takes `each` and `delay`";
+            self.diagnostics.push(Diagnostic::error("wrong-modifier", modifier.span, message));
+        }
+        let values = self.graph_args(body, id, instance);
+        let item = self.texts.graph(id);
+        self.scopes.push(Scope {
+            name: name.text.clone(),
+            graph: item.name.text.clone(),
+            parent: body.scope,
+            span: name.span,
+        });
+        let scope = self.scopes.len() - 1;
+        let mut inside = Table::new();
+        let mut symbol = vec![];
+        for port in &item.ports {
+            let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
+            self.pins.push(Pin { name: port.name.text.clone(), kind: port.kind, scope, span: port.name.span });
+            let place = Place::Pin(self.pins.len() - 1);
+            // What takes tokens outside sends them inside.
+            let inner = match port.kind {
+                PortKind::Input => PortKind::Output,
+                PortKind::Output => PortKind::Input,
+                PortKind::Slot => PortKind::Event,
+                PortKind::Event => PortKind::Slot,
+            };
+            inside.insert(&port.name, Symbol::port(place, inner, &ty, &port.name.text), self.diagnostics);
+            symbol.push((port.name.text.clone(), port.kind, ty, place));
+        }
+        self.body(&Body { id, scope, values, item }, inside);
+        Some(Symbol::of_graph(symbol))
+    }
+
+    fn may_open(&mut self, id: GraphId, span: Span) -> Option<()> {
+        let name = &self.texts.graph(id).name;
+        if let Some(at) = self.open.iter().position(|open| *open == id) {
+            let path: Vec<String> =
+                self.open[at..].iter().chain([&id]).map(|g| format!("`{}`", self.texts.graph(*g).name.text)).collect();
+            let message = format!("`{}` contains itself: {}", name.text, path.join(" → "));
+            let error = Diagnostic::error("recursion", span, message)
+                .also(name.span, "this graph")
+                .note("a graph is opened in place, so it can have no end; send a token back through a slot instead");
+            self.diagnostics.push(error);
+            return None;
+        }
+        if self.open.len() >= MAX_NESTING {
+            let message = format!("graphs nest more than {MAX_NESTING} deep");
+            self.diagnostics.push(Diagnostic::error("too-deep", span, message));
+            return None;
+        }
+        Some(())
+    }
+
+    /// A graph that stays a graph of its own: the body of an `each`.
+    fn nested_program(
+        &mut self,
+        id: GraphId,
+        span: Span,
+        build: impl FnOnce(Builder<'_>) -> Option<Graph>,
+    ) -> Option<Graph> {
+        self.may_open(id, span)?;
+        self.inner(build)
+    }
+
+    fn inner(&mut self, build: impl FnOnce(Builder<'_>) -> Option<Graph>) -> Option<Graph> {
+        build(Builder {
+            texts: self.texts,
+            catalog: self.catalog,
+            diagnostics: self.diagnostics,
+            nodes: vec![],
+            scopes: vec![],
+            pins: vec![],
+            wires: vec![],
+            claims: vec![],
+            open: self.open.clone(),
+            budget: self.budget,
+        })
+    }
+
+    /// The body of an `each` on a single node: a graph with just that node and its ports.
+    fn each_of_node(&mut self, body: &Body<'_>, name: &Ident, id: SignatureId, instance: &Instance) -> Option<Graph> {
+        self.inner(|mut builder| {
+            builder.scopes.push(Scope { name: String::new(), graph: instance.path.text(), parent: 0, span: name.span });
+            let inside = Body { id: body.id, scope: 0, values: body.values.clone(), item: body.item };
+            builder.library(&inside, name, id, instance, "")?;
+            let ports: Vec<Port> = builder.nodes[0].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
+            for (port, inner) in ports.into_iter().enumerate() {
+                let span = name.span;
+                let ident = Ident { text: inner.name.clone(), span };
+                let (boundary, kind) = match inner.kind {
+                    PortKind::Input => (PortKind::Input, PortKind::Output),
+                    PortKind::Output => (PortKind::Output, PortKind::Input),
+                    PortKind::Slot | PortKind::Event => continue,
+                };
+                let outer = Port { kind, optional: true, rate: 1, ..inner };
+                let node = builder.node(&ident, 0, NodeKind::Boundary(boundary), vec![outer], "")?;
+                let (library, outside) = (Place::Port(End { node: 0, port }), Place::Port(End { node, port: 0 }));
+                let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };
+                builder.wires.push(Wire { from, to, active: false, span });
+            }
+            let (connections, open_pins) = flatten::wires(&mut builder);
+            let mut graph = Graph {
+                name: instance.path.text(),
+                docs: String::new(),
+                robot: false,
+                is_body: true,
+                span: name.span,
+                nodes: builder.nodes,
+                connections,
+                scopes: builder.scopes,
+                claims: vec![],
+                open_pins,
+            };
+            generics::infer_inside(&mut graph, builder.catalog);
+            Some(graph)
+        })
+    }
+
+    fn each(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        inner: Graph,
+        (parallel, port, span): (bool, Option<&Ident>, Span),
+        docs: &str,
+    ) -> Option<Symbol> {
+        if parallel {
+            let message = "`each par` is not supported yet";
+            self.diagnostics.push(Diagnostic::error("not-yet", span, message).fix(
+                "run the elements one after the other",
+                span,
+                "each",
+            ));
+        }
+        let mut ports: Vec<Port> = vec![];
+        for node in &inner.nodes {
+            let NodeKind::Boundary(kind) = node.kind else { continue };
+            if !kind.is_synchronous() {
+                self.diagnostics.push(Diagnostic::error(
+                    "each-port",
+                    span,
+                    format!("`each` runs synchronously, but `{}` is a {}", node.name, kind.word()),
+                ));
+                continue;
+            }
+            ports.push(Port { kind, optional: kind == PortKind::Output, ..node.ports[0].clone() });
+        }
+        let inputs: Vec<usize> = (0..ports.len()).filter(|p| ports[*p].kind == PortKind::Input).collect();
+        let list = match (port, inputs.as_slice()) {
+            (Some(port), _) => match inputs.iter().find(|p| ports[**p].name == port.text) {
+                Some(list) => *list,
+                None => {
+                    let error = Diagnostic::error(
+                        "unknown-port",
+                        port.span,
+                        format!("`{}` has no input `{}`", inner.name, port.text),
+                    );
+                    self.diagnostics.push(super::names::suggest(
+                        error,
+                        port,
+                        inputs.iter().map(|p| ports[*p].name.as_str()),
+                    ));
+                    return None;
+                }
+            },
+            (None, [only]) => *only,
+            (None, []) => {
+                self.diagnostics.push(Diagnostic::error(
+                    "each-port",
+                    span,
+                    format!("`{}` has no input to iterate over", inner.name),
+                ));
+                return None;
+            }
+            // Decided when the connections are known.
+            (None, _) => usize::MAX,
+        };
+        let kind = NodeKind::Each(Each { body: Box::new(inner), list, parallel });
+        let node = self.node(name, body.scope, kind, ports, docs)?;
+        Some(Symbol::of_node(node, &self.nodes[node]))
+    }
+
+    /// `delay`: each output is held back.
+    fn delayed(&mut self, body: &Body<'_>, name: &Ident, mut symbol: Symbol, modifiers: &[Modifier]) -> Option<Symbol> {
+        let Some((expr, span)) = modifiers
+            .iter()
+            .find_map(|m| if let ModifierKind::Delay(expr) = &m.kind { Some((expr, m.span)) } else { None })
+        else {
+            return Some(symbol);
+        };
+        let texts = self.texts;
+        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
+        let scope = Names { params: &body.values, rust_path: &rust_path };
+        let initial = match expr.as_ref().map(|e| evaluate(e, &scope)) {
+            None => vec![None],
+            Some(Ok(Value::List(values))) if !values.is_empty() => values.into_iter().map(Some).collect(),
+            Some(Ok(Value::List(_))) => {
+                self.diagnostics.push(Diagnostic::error("out-of-range", span, "a delay holds one token at least"));
+                return None;
+            }
+            Some(Ok(value)) => vec![Some(value)],
+            Some(Err(error)) => {
+                self.diagnostics.push(*error);
+                return None;
+            }
+        };
+        for out in symbol.outputs() {
+            let ident = Ident { text: format!("{}_{}_delay", name.text, out.name), span };
+            let port = |name: &str, kind| Port {
+                name: name.to_owned(),
+                kind,
+                ty: out.ty.clone(),
+                rate: 1,
+                optional: true,
+                parameter: None,
+                docs: String::new(),
+            };
+            let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
+            let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
+            self.wires.push(Wire { from: out.place, to: Place::Port(End { node, port: 0 }), active: false, span });
+            out.place = Place::Port(End { node, port: 1 });
+        }
+        Some(symbol)
+    }
+}
+
+/// Whether some chain of the body ends at `node.param`.
+fn is_fed(body: &Body<'_>, node: &str, param: &str) -> bool {
+    body.item.chains.iter().flat_map(|c| &c.ends[1..]).any(|end| super::connect::names_port(end, node, param))
+}
+
+/// A function keeps nothing: a parameter of it that is connected is an input like any other.
+fn require_function_params(graph: &mut Graph, catalog: &Catalog) {
+    for connection in &graph.connections {
+        let node = &mut graph.nodes[connection.to.node];
+        if matches!(&node.kind, NodeKind::Library(library) if catalog.signatures[library.signature].is_function) {
+            let port = &mut node.ports[connection.to.port];
+            port.optional &= port.parameter.is_none();
+        }
+    }
+}
+
+/// The ports of a node: those of the signature, then one input and one output for each parameter.
+fn library_ports(signature: &crate::catalog::Signature) -> Vec<Port> {
+    let ports = signature.ports.iter().map(|p| Port {
+        name: p.name.clone(),
+        kind: p.kind,
+        ty: p.ty.clone(),
+        rate: p.rate,
+        optional: p.optional,
+        parameter: None,
+        docs: p.docs.clone(),
+    });
+    let params = signature.params.iter().enumerate().flat_map(|(i, p)| {
+        [PortKind::Input, PortKind::Output].map(|kind| Port {
+            name: p.name.clone(),
+            kind,
+            ty: p.ty.clone(),
+            rate: 1,
+            optional: kind == PortKind::Input,
+            parameter: Some(i),
+            docs: p.docs.clone(),
+        })
+    });
+    ports.chain(params).collect()
+}

@@ -1,0 +1,310 @@
+//! Which texts belong to a program, and what the names in each of them mean.
+
+use crate::{
+    catalog::{Catalog, DefId, SignatureId, Ty},
+    report::{Diagnostic, Diagnostics, nearest},
+    source::{FileId, Sources, World},
+    syntax::{
+        self,
+        tree::{File, GraphItem, Ident, PathExpr, TypeExpr, TypeKind},
+    },
+};
+use std::collections::BTreeMap;
+
+/// More texts than one program is made of.
+const MAX_FILES: usize = 256;
+
+/// A graph, by text and number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct GraphId {
+    /// Index in [`Texts::files`].
+    pub file: usize,
+    /// Index in [`File::graphs`].
+    pub graph: usize,
+}
+
+/// The texts of a program with their names.
+pub struct Texts {
+    /// The texts; the first is the one that was asked for.
+    pub files: Vec<(FileId, File)>,
+    names: Vec<BTreeMap<String, Meaning>>,
+}
+
+#[derive(Debug, Clone)]
+enum Meaning {
+    Graph(GraphId),
+    Rust(Vec<String>),
+}
+
+/// What an instance is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Made {
+    /// A nested graph.
+    Graph(GraphId),
+    /// A node of the catalog.
+    Node(SignatureId),
+}
+
+impl Texts {
+    /// Parses `root` and all texts that it imports from.
+    pub fn load(
+        root: FileId,
+        catalog: &Catalog,
+        sources: &mut Sources,
+        world: &mut dyn World,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
+        let mut texts = Self { files: vec![], names: vec![] };
+        let tree = syntax::parse(root, &sources.get(root).text.clone(), diagnostics);
+        texts.files.push((root, tree));
+        let mut at = 0;
+        while at < texts.files.len() {
+            texts.imports(at, catalog, sources, world, diagnostics);
+            at += 1;
+        }
+        for file in 0..texts.files.len() {
+            let names = texts.names_of(file, catalog, sources, diagnostics);
+            texts.names.push(names);
+        }
+        texts
+    }
+
+    /// Reads the sibling texts that text `at` imports from.
+    fn imports(
+        &mut self,
+        at: usize,
+        catalog: &Catalog,
+        sources: &mut Sources,
+        world: &mut dyn World,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let folder = sources.get(self.files[at].0).path.parent().map(std::path::Path::to_owned).unwrap_or_default();
+        let modules: Vec<Ident> = self.files[at]
+            .1
+            .uses
+            .iter()
+            .filter(|u| u.path.len() == 2 && !catalog.is_crate(&u.path[0].text))
+            .map(|u| u.path[0].clone())
+            .collect();
+        for module in modules {
+            let path = folder.join(format!("{}.afg", module.text));
+            if sources.find(&path).is_some() || !world.exists(&path) {
+                continue;
+            }
+            if self.files.len() >= MAX_FILES {
+                diagnostics.push(Diagnostic::error(
+                    "too-large",
+                    module.span,
+                    format!("a program has at most {MAX_FILES} texts"),
+                ));
+                return;
+            }
+            match world.read(&path) {
+                Ok(text) => {
+                    let file = sources.add(path, text.clone());
+                    self.files.push((file, syntax::parse(file, &text, diagnostics)));
+                }
+                Err(reason) => {
+                    let message = format!("cannot read `{}`: {reason}", path.display());
+                    diagnostics.push(Diagnostic::error("unreadable", module.span, message));
+                }
+            }
+        }
+    }
+
+    fn names_of(
+        &self,
+        file: usize,
+        catalog: &Catalog,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> BTreeMap<String, Meaning> {
+        let mut names: BTreeMap<String, Meaning> = BTreeMap::new();
+        let mut places: BTreeMap<String, &Ident> = BTreeMap::new();
+        let tree = &self.files[file].1;
+        let imports = tree
+            .uses
+            .iter()
+            .filter_map(|u| Some((&u.name, self.import(file, &u.path, catalog, sources, diagnostics)?)));
+        let imports: Vec<(&Ident, Meaning)> = imports.collect();
+        let graphs =
+            tree.graphs.iter().enumerate().map(|(graph, item)| (&item.name, Meaning::Graph(GraphId { file, graph })));
+        for (name, meaning) in imports.into_iter().chain(graphs) {
+            if let Some(first) = places.insert(name.text.clone(), name) {
+                let message = format!("`{}` is already defined here", name.text);
+                diagnostics.push(
+                    Diagnostic::error("duplicate-name", name.span, message).also(first.span, "first defined here"),
+                );
+            }
+            names.insert(name.text.clone(), meaning);
+        }
+        names
+    }
+
+    fn import(
+        &self,
+        file: usize,
+        path: &[Ident],
+        catalog: &Catalog,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Meaning> {
+        let words: Vec<String> = path.iter().map(|s| s.text.clone()).collect();
+        let (first, last) = (path.first()?, path.last()?);
+        if catalog.is_crate(&first.text) {
+            if catalog.nodes(&words).is_empty() && catalog.types(&words).is_empty() {
+                diagnostics.push(unknown_import(&words, last, catalog));
+                return None;
+            }
+            return Some(Meaning::Rust(words));
+        }
+        if catalog.is_extern(&first.text) {
+            return Some(Meaning::Rust(words));
+        }
+        let sibling = sources.get(self.files[file].0).path.parent().map(|p| p.join(format!("{}.afg", first.text)))?;
+        let found = self.files.iter().position(|(id, _)| sources.get(*id).path == sibling).filter(|_| path.len() == 2);
+        let Some(other) = found else {
+            let message = format!("there is no crate and no text `{}`", first.text);
+            let diagnostic = Diagnostic::error("unknown-import", first.span, message)
+                .note(format!("an import names a crate that depends on `apex-rt`, `crate` for this package, or a text beside this one (`{}.afg`)", first.text));
+            diagnostics.push(diagnostic);
+            return None;
+        };
+        let graphs = &self.files[other].1.graphs;
+        let graph = graphs.iter().position(|g| g.name.text == last.text);
+        if graph.is_none() && !self.files[other].1.broken {
+            let message = format!("`{}.afg` has no graph `{}`", first.text, last.text);
+            diagnostics.push(suggest(
+                Diagnostic::error("unknown-import", last.span, message),
+                last,
+                graphs.iter().map(|g| g.name.text.as_str()),
+            ));
+        }
+        Some(Meaning::Graph(GraphId { file: other, graph: graph? }))
+    }
+
+    /// The graph with this number.
+    pub fn graph(&self, id: GraphId) -> &GraphItem {
+        &self.files[id.file].1.graphs[id.graph]
+    }
+
+    /// The number of a text.
+    pub fn file_id(&self, file: usize) -> FileId {
+        self.files[file].0
+    }
+
+    fn full_path(&self, file: usize, path: &PathExpr) -> Vec<String> {
+        let words: Vec<String> = path.segments.iter().map(|s| s.text.clone()).collect();
+        match words.first().and_then(|first| self.names[file].get(first)) {
+            Some(Meaning::Rust(full)) => full.iter().chain(&words[1..]).cloned().collect(),
+            _ => words,
+        }
+    }
+
+    /// What stands behind the path of an instance.
+    pub fn made(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Result<Made, Box<Diagnostic>> {
+        if let [name] = path.segments.as_slice()
+            && let Some(Meaning::Graph(id)) = self.names[file].get(&name.text)
+        {
+            return Ok(Made::Graph(*id));
+        }
+        let full = self.full_path(file, path);
+        match catalog.nodes(&full).as_slice() {
+            [one] => Ok(Made::Node(*one)),
+            [] => Err(Box::new(self.unknown_node(file, path, &full, catalog))),
+            several => {
+                let message = format!("`{}` is the name of several nodes", path.text());
+                let error =
+                    several.iter().fold(Diagnostic::error("ambiguous-node", path.span, message), |error, id| {
+                        let signature = &catalog.signatures[*id];
+                        error.note(format!(
+                            "`{}`, declared at {}:{}",
+                            signature.path.join("::"),
+                            signature.file.display(),
+                            signature.line
+                        ))
+                    });
+                Err(Box::new(error.note("import the one that is meant: `use path::Name;`")))
+            }
+        }
+    }
+
+    fn unknown_node(&self, file: usize, path: &PathExpr, full: &[String], catalog: &Catalog) -> Diagnostic {
+        let Some(last) = path.segments.last() else {
+            return Diagnostic::error("unknown-node", path.span, "a node or graph is missing here");
+        };
+        let message = format!("there is no node or graph `{}`", path.text());
+        let mut error = Diagnostic::error("unknown-node", path.span, message);
+        if !catalog.types(full).is_empty() {
+            return error.note(format!("`{}` is a type, but not marked `#[node]`", path.text()));
+        }
+        let in_text = self.names[file].keys().map(String::as_str);
+        let own =
+            catalog.signatures.iter().filter(|s| s.path.first().is_some_and(|p| p == "crate")).map(|s| s.name.as_str());
+        let elsewhere: Vec<&_> = catalog.signatures.iter().filter(|s| s.name == last.text).collect();
+        if let Some(signature) = elsewhere.first() {
+            let import = signature.path.join("::");
+            let import = import.trim_start_matches("::");
+            error = error.note(format!("`{import}` exists; import it with `use {import};`"));
+            let start = crate::source::Span::new(self.files[file].0, 0, 0);
+            let at = self.files[file].1.uses.first().and_then(|u| u.path.first()).map_or(start, |p| p.span);
+            if at == start {
+                error = error.fix("import it", start, format!("use {import};\n"));
+            }
+            return error;
+        }
+        error = suggest(error, last, in_text.chain(own));
+        if error.fixes.is_empty() {
+            let all = catalog.signatures.iter().map(|s| s.name.as_str());
+            if let Some(near) = nearest(&last.text, all) {
+                error = error.note(format!("there is a node with a similar name, `{near}`, that is not imported here"));
+            }
+        }
+        for hidden in catalog.hidden() {
+            error = error.note(format!(
+                "a macro in {} makes nodes that the compiler cannot see; write `#[node]` outside of macros",
+                hidden.display()
+            ));
+        }
+        error
+    }
+
+    /// A type as written in a text, for the catalog, and spelled for generated code.
+    pub fn ty(&self, file: usize, ty: &TypeExpr) -> Ty {
+        match &ty.kind {
+            TypeKind::Path(path, args) => {
+                Ty::Path(self.full_path(file, path), args.iter().map(|a| self.ty(file, a)).collect())
+            }
+            TypeKind::Array(element, len) => Ty::Array(Box::new(self.ty(file, element)), len.clone()),
+            TypeKind::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.ty(file, p)).collect()),
+            TypeKind::Const(number) => Ty::Other(number.clone()),
+        }
+    }
+
+    /// The path of a constant of Rust.
+    pub fn rust_path(&self, file: usize, path: &PathExpr) -> Option<Vec<String>> {
+        let known =
+            path.segments.first().is_some_and(|s| matches!(self.names[file].get(&s.text), Some(Meaning::Rust(_))));
+        (known || path.segments.len() > 1).then(|| self.full_path(file, path))
+    }
+}
+
+/// Adds the nearest of `candidates` as a fix for `word`.
+pub fn suggest<'a>(error: Diagnostic, word: &Ident, candidates: impl Iterator<Item = &'a str>) -> Diagnostic {
+    match nearest(&word.text, candidates) {
+        Some(near) => error.fix(format!("did you mean `{near}`?"), word.span, near),
+        None => error,
+    }
+}
+
+fn unknown_import(words: &[String], last: &Ident, catalog: &Catalog) -> Diagnostic {
+    let parent = &words[..words.len() - 1];
+    let message = format!("`{}` has no node or type `{}`", parent.join("::"), last.text);
+    let mut error =
+        suggest(Diagnostic::error("unknown-import", last.span, message), last, catalog.names_in(parent).into_iter());
+    let elsewhere: Vec<DefId> = catalog.find(&last.text);
+    for def in elsewhere.into_iter().filter_map(|def| catalog.path(def)).take(3) {
+        error = error.note(format!("there is `{}`", def.join("::").trim_start_matches("::")));
+    }
+    error
+}

@@ -1,0 +1,369 @@
+//! Constant expressions, and whether a value fits the parameter it is given to.
+
+use crate::{
+    catalog::Type,
+    graph::{Number, Value},
+    report::Diagnostic,
+    source::Span,
+    syntax::tree::{Expr, ExprKind, Ident},
+    units::{self, Dimension},
+};
+use std::{collections::BTreeMap, time::Duration};
+
+use super::names::suggest;
+
+/// Error or value; the error is boxed because it is much larger than most values.
+pub type Evaluated<T> = Result<T, Box<Diagnostic>>;
+
+/// What names mean in an expression.
+pub struct Scope<'a> {
+    /// Parameters of the graph around it.
+    pub params: &'a BTreeMap<String, Value>,
+    /// The path of a constant of Rust, if it is one.
+    pub rust_path: &'a dyn Fn(&crate::syntax::tree::PathExpr) -> Option<Vec<String>>,
+}
+
+fn error<T>(code: &'static str, span: Span, message: impl Into<String>) -> Evaluated<T> {
+    Err(Box::new(Diagnostic::error(code, span, message)))
+}
+
+/// Evaluates an expression.
+pub fn evaluate(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Value> {
+    match &expr.kind {
+        ExprKind::Number(digits, unit) => number(digits, unit.as_deref(), expr.span),
+        ExprKind::Text(text) => Ok(Value::Text(text.clone())),
+        ExprKind::Bool(value) => Ok(Value::Bool(*value)),
+        ExprKind::List(items) => {
+            items.iter().map(|item| evaluate(item, scope)).collect::<Evaluated<_>>().map(Value::List)
+        }
+        ExprKind::Path(path) => match path.segments.as_slice() {
+            [name] if scope.params.contains_key(&name.text) => Ok(scope.params[&name.text].clone()),
+            _ => match (scope.rust_path)(path) {
+                Some(full) => Ok(Value::Path(full)),
+                None => Err(Box::new(unknown_name(path, scope))),
+            },
+        },
+        ExprKind::Unary(operator, inner) => unary(operator, evaluate(inner, scope)?, expr.span),
+        ExprKind::Binary(operator, left, right) => {
+            let (a, b) = (evaluate(left, scope)?, evaluate(right, scope)?);
+            binary(operator, (a, left.span), (b, right.span), expr.span)
+        }
+    }
+}
+
+fn unknown_name(path: &crate::syntax::tree::PathExpr, scope: &Scope<'_>) -> Diagnostic {
+    let error = Diagnostic::error("unknown-name", path.span, format!("there is no parameter `{}` here", path.text()))
+        .note("a value is a literal, a parameter of the graph around it, or the full path of a constant in Rust");
+    match path.segments.first() {
+        Some(word) => suggest(error, word, scope.params.keys().map(String::as_str)),
+        None => error,
+    }
+}
+
+fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
+    let hex = digits.strip_prefix("0x").map(|h| i128::from_str_radix(h, 16));
+    let integer = match hex {
+        Some(Ok(value)) => Some(value),
+        Some(Err(_)) => return error("bad-number", span, "this number is too large"),
+        None => digits.parse::<i128>().ok(),
+    };
+    let value = integer.map_or_else(|| digits.parse::<f64>().unwrap_or(f64::INFINITY), |i| i as f64);
+    if !value.is_finite() {
+        return error("bad-number", span, "this number is too large");
+    }
+    let Some(unit) = unit else {
+        if integer.is_none() && digits.bytes().all(|b| b.is_ascii_digit()) {
+            return error("bad-number", span, "this number is too large");
+        }
+        return Ok(Value::Number(Number { value, integer, dimension: Dimension::NONE }));
+    };
+    match units::parse(unit) {
+        Ok(unit) => {
+            Ok(Value::Number(Number { value: scaled(value, unit.factor), integer: None, dimension: unit.dimension }))
+        }
+        Err(part) => {
+            let start = span.end as usize - unit.len();
+            let word = Ident { text: part.to_owned(), span: Span::new(span.file, start, span.end as usize) };
+            let diagnostic = Diagnostic::error("unknown-unit", word.span, format!("there is no unit `{part}`")).note(
+                "units are for example `m`, `cm`, `s`, `ms`, `Hz`, `deg`, `rad`, `kg`, `m/s`, `rad/s`, `m/s^2`, `%`",
+            );
+            Err(Box::new(suggest(diagnostic, &word, units::names())))
+        }
+    }
+}
+
+fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
+    match (operator, value) {
+        ("-", Value::Number(n)) => Ok(Value::Number(Number { value: -n.value, integer: n.integer.map(|i| -i), ..n })),
+        ("!", Value::Bool(b)) => Ok(Value::Bool(!b)),
+        (_, value) => error("wrong-value", span, format!("`{operator}` cannot be applied to {}", describe(&value))),
+    }
+}
+
+fn binary(operator: &str, (a, at_a): (Value, Span), (b, at_b): (Value, Span), span: Span) -> Evaluated<Value> {
+    match (&a, &b) {
+        (Value::Number(x), Value::Number(y)) => arithmetic(operator, (*x, at_a), (*y, at_b), span),
+        (Value::Bool(x), Value::Bool(y)) => match operator {
+            "&&" => Ok(Value::Bool(*x && *y)),
+            "||" => Ok(Value::Bool(*x || *y)),
+            "==" => Ok(Value::Bool(x == y)),
+            "!=" => Ok(Value::Bool(x != y)),
+            _ => error("wrong-value", span, format!("`{operator}` cannot be applied to truth values")),
+        },
+        (Value::Text(x), Value::Text(y)) if operator == "==" => Ok(Value::Bool(x == y)),
+        (Value::Text(x), Value::Text(y)) if operator == "!=" => Ok(Value::Bool(x != y)),
+        _ => {
+            let message = format!("`{operator}` cannot be applied to {} and {}", describe(&a), describe(&b));
+            error("wrong-value", span, message)
+        }
+    }
+}
+
+fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Span), span: Span) -> Evaluated<Value> {
+    let dimension = match operator {
+        "*" => x.dimension.combine(y.dimension, 1),
+        "/" => x.dimension.combine(y.dimension, -1),
+        _ if x.dimension == y.dimension => Some(x.dimension),
+        _ => {
+            let message = format!("`{operator}` needs two values of one kind");
+            let diagnostic = Diagnostic::error("wrong-unit", span, message)
+                .also(at_x, format!("this is {}", kind(x)))
+                .also(at_y, format!("this is {}", kind(y)));
+            return Err(Box::new(diagnostic));
+        }
+    };
+    let Some(dimension) = dimension else {
+        return error("wrong-unit", span, "the unit of this value leaves all bounds");
+    };
+    let result = |value: f64, integer: Option<i128>| {
+        if value.is_finite() {
+            Ok(Value::Number(Number { value, integer, dimension }))
+        } else {
+            error("bad-number", span, "this value is not a number")
+        }
+    };
+    let integers = x.integer.zip(y.integer);
+    let truth = |value: bool| Ok(Value::Bool(value));
+    match operator {
+        "+" => result(x.value + y.value, integers.and_then(|(a, b)| a.checked_add(b))),
+        "-" => result(x.value - y.value, integers.and_then(|(a, b)| a.checked_sub(b))),
+        "*" => result(x.value * y.value, integers.and_then(|(a, b)| a.checked_mul(b))),
+        // As in Rust, integers divide to an integer.
+        "/" | "%" if y.value == 0.0 => error("bad-number", span, "division by zero"),
+        "/" => match integers {
+            Some((a, b)) => result((a / b) as f64, Some(a / b)),
+            None => result(x.value / y.value, None),
+        },
+        "%" => result(x.value % y.value, integers.and_then(|(a, b)| a.checked_rem(b))),
+        "<" => truth(x.value < y.value),
+        ">" => truth(x.value > y.value),
+        "<=" => truth(x.value <= y.value),
+        ">=" => truth(x.value >= y.value),
+        "==" => truth(x.value == y.value),
+        "!=" => truth(x.value != y.value),
+        _ => error("wrong-value", span, format!("`{operator}` cannot be applied to numbers")),
+    }
+}
+
+fn kind(n: Number) -> String {
+    if n.dimension.is_none() {
+        n.dimension.noun().to_owned()
+    } else {
+        format!("{} ({})", n.dimension.noun(), n.dimension)
+    }
+}
+
+/// What a value is, in words.
+pub fn describe(value: &Value) -> String {
+    match value {
+        Value::Number(n) => kind(*n),
+        Value::Bool(_) => "a truth value".to_owned(),
+        Value::Text(_) => "a string".to_owned(),
+        Value::List(_) => "a list".to_owned(),
+        Value::Duration(_) => "a time".to_owned(),
+        Value::Path(path) => format!("`{}`", path.join("::")),
+        Value::RustDefault => "a default".to_owned(),
+    }
+}
+
+/// What a parameter wants.
+pub struct Wanted<'a> {
+    /// Its name, for messages.
+    pub name: &'a str,
+    /// Its type.
+    pub ty: &'a Type,
+    /// Its unit.
+    pub unit: Option<&'a str>,
+    /// Smallest and largest value in SI, and whether the largest belongs to it.
+    pub range: Option<(Option<f64>, Option<f64>, bool)>,
+    /// Where it is declared, as a sentence.
+    pub declared: String,
+}
+
+impl Wanted<'_> {
+    /// Whether `value` can be given to the parameter, and what it is then.
+    pub fn fit(&self, value: Value, span: Span) -> Evaluated<Value> {
+        self.fit_type(value, self.ty, span).map_err(|error| Box::new(error.note(self.declared.clone())))
+    }
+
+    fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
+        let message = format!("`{}` is a `{ty}`, but this is {}", self.name, describe(value));
+        error("wrong-value", span, message)
+    }
+
+    fn fit_type(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+        match ty.name() {
+            "Duration" => return self.fit_duration(value, ty, span),
+            "f32" | "f64" => return self.fit_number(value, ty, span),
+            "u8" | "u16" | "u32" | "u64" | "u128" | "usize" | "i8" | "i16" | "i32" | "i64" | "i128" | "isize" => {
+                return self.fit_integer(value, ty, span);
+            }
+            _ => {}
+        }
+        match (ty, &value) {
+            (_, Value::Path(_) | Value::RustDefault) => Ok(value),
+            (Type::Ref(inner), _) => self.fit_type(value, inner, span),
+            (Type::Primitive(name), Value::Bool(_)) if name == "bool" => Ok(value),
+            (Type::Primitive(name), Value::Text(_)) if name == "str" => Ok(value),
+            (Type::Named(name, _), Value::Text(_)) if name == "String" => Ok(value),
+            (Type::Array(element, len), Value::List(items)) => {
+                if let Some(len) = len.as_ref().and_then(|n| n.parse::<usize>().ok())
+                    && len != items.len()
+                {
+                    return error(
+                        "wrong-value",
+                        span,
+                        format!("`{}` takes {len} values, but there are {} here", self.name, items.len()),
+                    );
+                }
+                items
+                    .iter()
+                    .cloned()
+                    .map(|item| self.fit_type(item, element, span))
+                    .collect::<Evaluated<_>>()
+                    .map(Value::List)
+            }
+            // What a type that cannot be seen through takes is rustc's to say.
+            (Type::Unknown(_) | Type::Named(..) | Type::Def(..) | Type::Param(_), _)
+                if !matches!(value, Value::List(_)) =>
+            {
+                Ok(value)
+            }
+            _ => self.wrong(&value, ty, span),
+        }
+    }
+
+    fn check_unit(&self, n: Number, span: Span) -> Evaluated<()> {
+        let unit = self.unit.and_then(|u| units::parse(u).ok());
+        let wanted = unit.map_or(Dimension::NONE, |u| u.dimension);
+        if n.dimension == wanted {
+            return Ok(());
+        }
+        if n.dimension.is_none() {
+            let unit = self.unit.unwrap_or_default();
+            let message = format!("`{}` is {}: the unit is missing", self.name, wanted.noun());
+            return Err(Box::new(Diagnostic::error("missing-unit", span, message).fix(
+                format!("write it in `{unit}`"),
+                span.after(),
+                unit,
+            )));
+        }
+        error(
+            "wrong-unit",
+            span,
+            format!("`{}` is {}, but this is {}", self.name, kind(Number { dimension: wanted, ..n }), kind(n)),
+        )
+    }
+
+    fn check_range(&self, value: f64, span: Span) -> Evaluated<()> {
+        let Some((low, high, inclusive)) = self.range else { return Ok(()) };
+        let below = low.is_some_and(|low| value < low);
+        let above = high.is_some_and(|high| if inclusive { value > high } else { value >= high });
+        if !below && !above {
+            return Ok(());
+        }
+        let bound = |b: Option<f64>| b.map(|v| v.to_string()).unwrap_or_default();
+        let dimension = self.unit.and_then(|u| units::parse(u).ok()).map_or(Dimension::NONE, |u| u.dimension);
+        let unit = if dimension.is_none() { String::new() } else { format!(" {dimension}") };
+        let dots = if inclusive { "..=" } else { ".." };
+        let message =
+            format!("{value}{unit} is out of range: `{}` lies in {}{dots}{}{unit}", self.name, bound(low), bound(high));
+        error("out-of-range", span, message)
+    }
+
+    fn fit_number(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+        match value {
+            Value::Number(n) => {
+                self.check_unit(n, span)?;
+                self.check_range(n.value, span)?;
+                Ok(Value::Number(Number { integer: None, ..n }))
+            }
+            Value::Path(_) | Value::RustDefault => Ok(value),
+            _ => self.wrong(&value, ty, span),
+        }
+    }
+
+    fn fit_integer(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+        match value {
+            Value::Number(n) => {
+                self.check_unit(n, span)?;
+                self.check_range(n.value, span)?;
+                let Some(integer) = n.integer else {
+                    return error("wrong-value", span, format!("`{}` is a whole number (`{ty}`)", self.name));
+                };
+                let (low, high) = limits(ty.name());
+                if integer < low || integer > high {
+                    return error("out-of-range", span, format!("{integer} does not fit into `{ty}` ({low}..={high})"));
+                }
+                Ok(value)
+            }
+            Value::Path(_) | Value::RustDefault => Ok(value),
+            _ => self.wrong(&value, ty, span),
+        }
+    }
+
+    fn fit_duration(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+        match value {
+            Value::Number(n) => {
+                let seconds = Wanted { unit: Some("s"), ..Self { declared: String::new(), ..*self } };
+                seconds.check_unit(n, span)?;
+                seconds.check_range(n.value, span)?;
+                duration(n, span).map(Value::Duration)
+            }
+            Value::Duration(_) | Value::Path(_) | Value::RustDefault => Ok(value),
+            _ => self.wrong(&value, ty, span),
+        }
+    }
+}
+
+/// A time as a duration.
+pub fn duration(n: Number, span: Span) -> Evaluated<Duration> {
+    if n.dimension != Dimension::TIME {
+        return error("wrong-unit", span, format!("a time is wanted here, but this is {}", kind(n)));
+    }
+    let nanos = (n.value * 1e9).round();
+    if !(0.0..=i64::MAX as f64).contains(&nanos) {
+        return error("out-of-range", span, "this time is negative or longer than 292 years");
+    }
+    Ok(Duration::from_nanos(nanos as u64))
+}
+
+/// `15cm` is 0.15, not 0.15 plus the error of a multiplication.
+pub fn scaled(value: f64, factor: f64) -> f64 {
+    if factor == 1.0 { value } else { format!("{:.14e}", value * factor).parse().unwrap_or(value * factor) }
+}
+
+fn limits(name: &str) -> (i128, i128) {
+    match name {
+        "u8" => (0, u8::MAX.into()),
+        "u16" => (0, u16::MAX.into()),
+        "u32" => (0, u32::MAX.into()),
+        "u64" | "usize" => (0, u64::MAX.into()),
+        "i8" => (i8::MIN.into(), i8::MAX.into()),
+        "i16" => (i16::MIN.into(), i16::MAX.into()),
+        "i32" => (i32::MIN.into(), i32::MAX.into()),
+        "i64" | "isize" => (i64::MIN.into(), i64::MAX.into()),
+        "u128" => (0, i128::MAX),
+        _ => (i128::MIN, i128::MAX),
+    }
+}

@@ -1,0 +1,470 @@
+//! pest's pairs → tree.
+
+use super::{Rule, recover, span_of, tree::*};
+use crate::{
+    report::{Diagnostic, Diagnostics},
+    source::{FileId, Span},
+};
+use pest::iterators::Pair;
+
+/// More operators in one expression than anybody writes; bounds the depth of the tree.
+const MAX_OPERATORS: usize = 200;
+
+/// Builds the tree of one text.
+pub struct Builder<'a> {
+    file: FileId,
+    text: &'a str,
+    diagnostics: &'a mut Diagnostics,
+    broken: bool,
+}
+
+impl<'a> Builder<'a> {
+    /// A builder for `file`.
+    pub fn new(file: FileId, text: &'a str, diagnostics: &'a mut Diagnostics) -> Self {
+        Self { file, text, diagnostics, broken: false }
+    }
+
+    fn span(&self, pair: &Pair<'_, Rule>) -> Span {
+        span_of(self.file, pair)
+    }
+
+    /// The whole text.
+    pub fn file(mut self, pair: Pair<'_, Rule>) -> File {
+        let mut file = File::default();
+        for pair in pair.into_inner() {
+            match pair.as_rule() {
+                Rule::inner_doc => push_doc(&mut file.docs, &pair),
+                Rule::item => {
+                    for item in pair.into_inner() {
+                        self.item(item, &mut file);
+                    }
+                }
+                _ => {}
+            }
+        }
+        file.broken = self.broken;
+        file
+    }
+
+    fn item(&mut self, pair: Pair<'_, Rule>, file: &mut File) {
+        match pair.as_rule() {
+            Rule::use_item => {
+                for tree in pair.into_inner().filter(|p| p.as_rule() == Rule::use_tree) {
+                    self.use_tree(tree, &[], &mut file.uses);
+                }
+            }
+            Rule::graph_item => {
+                let graph = self.graph(pair);
+                file.graphs.push(graph);
+            }
+            _ => {
+                self.broken = true;
+                let start = pair.as_span().start();
+                self.diagnostics.push(recover::item(self.file, start, &self.text[start..pair.as_span().end()]));
+            }
+        }
+    }
+
+    fn use_tree(&self, pair: Pair<'_, Rule>, prefix: &[Ident], uses: &mut Vec<Use>) {
+        let mut path = prefix.to_vec();
+        let mut alias = None;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::path => path.extend(self.path(part).segments),
+                Rule::ident => alias = Some(self.ident(&part)),
+                Rule::use_group => {
+                    for tree in part.into_inner().filter(|p| p.as_rule() == Rule::use_tree) {
+                        self.use_tree(tree, &path, uses);
+                    }
+                    return;
+                }
+                _ => {}
+            }
+        }
+        if let Some(last) = path.last() {
+            let name = alias.unwrap_or_else(|| last.clone());
+            uses.push(Use { path, name });
+        }
+    }
+
+    fn ident(&self, pair: &Pair<'_, Rule>) -> Ident {
+        Ident { text: pair.as_str().to_owned(), span: self.span(pair) }
+    }
+
+    fn path(&self, pair: Pair<'_, Rule>) -> PathExpr {
+        let span = self.span(&pair);
+        let segments = pair.into_inner().filter(|p| p.as_rule() == Rule::name).map(|p| self.ident(&p)).collect();
+        PathExpr { segments, span }
+    }
+
+    fn graph(&mut self, pair: Pair<'_, Rule>) -> GraphItem {
+        let mut graph = GraphItem {
+            docs: String::new(),
+            robot: false,
+            name: Ident { text: String::new(), span: self.span(&pair) },
+            generics: vec![],
+            params: vec![],
+            ports: vec![],
+            nodes: vec![],
+            chains: vec![],
+            claims: vec![],
+        };
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::doc => push_doc(&mut graph.docs, &part),
+                Rule::graph_kw => graph.robot = part.as_str() == "robot",
+                Rule::ident => graph.name = self.ident(&part),
+                Rule::generics => graph.generics = part.into_inner().map(|p| self.ident(&p)).collect(),
+                Rule::params => {
+                    graph.params =
+                        part.into_inner().filter(|p| p.as_rule() == Rule::param).map(|p| self.param(p)).collect();
+                }
+                Rule::stmt => {
+                    for stmt in part.into_inner() {
+                        self.statement(stmt, &mut graph);
+                    }
+                }
+                _ => {}
+            }
+        }
+        graph
+    }
+
+    fn param(&mut self, pair: Pair<'_, Rule>) -> ParamItem {
+        let span = self.span(&pair);
+        let mut docs = String::new();
+        let mut name = Ident { text: String::new(), span };
+        let mut ty = TypeExpr { kind: TypeKind::Tuple(vec![]), span };
+        let (mut unit, mut default, mut range) = (None, None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::doc => push_doc(&mut docs, &part),
+                Rule::ident => name = self.ident(&part),
+                Rule::ty => ty = self.ty(part),
+                Rule::unit_tag => unit = part.into_inner().next().map(|p| self.ident(&p)),
+                Rule::default => default = part.into_inner().next().map(|p| self.expr(p)),
+                Rule::limits => range = self.range(part),
+                _ => {}
+            }
+        }
+        ParamItem { docs, name, ty, unit, default, range }
+    }
+
+    fn range(&mut self, pair: Pair<'_, Rule>) -> Option<RangeExpr> {
+        let mut ends = vec![];
+        let mut inclusive = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::expr => ends.push(self.expr(part)),
+                Rule::range_op => inclusive = part.as_str() == "..=",
+                _ => {}
+            }
+        }
+        let high = ends.pop()?;
+        let low = ends.pop()?;
+        Some(RangeExpr { low, high, inclusive })
+    }
+
+    fn statement(&mut self, pair: Pair<'_, Rule>, graph: &mut GraphItem) {
+        match pair.as_rule() {
+            Rule::port_stmt => graph.ports.extend(self.port(pair)),
+            Rule::node_stmt => graph.nodes.extend(self.node(pair)),
+            Rule::claim_stmt => {
+                let mut parts = pair.into_inner().skip(1);
+                if let Some(kind) = parts.next().map(|p| self.ident(&p)) {
+                    let of = parts.filter(|p| p.as_rule() == Rule::port_ref).map(|p| self.port_ref(p)).collect();
+                    graph.claims.push(Claim { kind, of });
+                }
+            }
+            Rule::chain_stmt => {
+                let mut chain = Chain { ends: vec![], arrows: vec![] };
+                for part in pair.into_inner() {
+                    match part.as_rule() {
+                        Rule::endpoint => chain.ends.extend(self.endpoint(part)),
+                        Rule::arrow => {
+                            let active = part.as_str().starts_with('=');
+                            chain.arrows.push(Arrow { active, span: self.span(&part) });
+                        }
+                        _ => {}
+                    }
+                }
+                graph.chains.push(chain);
+            }
+            _ => {
+                self.broken = true;
+                let start = pair.as_span().start();
+                self.diagnostics.push(recover::statement(self.file, start, &self.text[start..pair.as_span().end()]));
+            }
+        }
+    }
+
+    fn port(&self, pair: Pair<'_, Rule>) -> Option<PortItem> {
+        let mut docs = String::new();
+        let (mut kind, mut name, mut ty) = (PortKind::Input, None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::doc => push_doc(&mut docs, &part),
+                Rule::port_kind => {
+                    kind = match part.as_str() {
+                        "in" => PortKind::Input,
+                        "out" => PortKind::Output,
+                        "slot" => PortKind::Slot,
+                        _ => PortKind::Event,
+                    }
+                }
+                Rule::ident => name = Some(self.ident(&part)),
+                Rule::ty => ty = Some(self.ty(part)),
+                _ => {}
+            }
+        }
+        Some(PortItem { docs, kind, name: name?, ty })
+    }
+
+    fn node(&mut self, pair: Pair<'_, Rule>) -> Option<NodeItem> {
+        let mut docs = String::new();
+        let (mut name, mut body) = (None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::doc => push_doc(&mut docs, &part),
+                Rule::ident => name = Some(self.ident(&part)),
+                Rule::instance => body = Some(NodeBody::Instance(self.instance(part))),
+                Rule::handed_in => {
+                    let mut parts = part.into_inner();
+                    let ty = self.ty(parts.next()?);
+                    body = Some(NodeBody::HandedIn(ty, parts.filter_map(|p| self.modifier(p)).collect()));
+                }
+                _ => {}
+            }
+        }
+        Some(NodeItem { docs, name: name?, body: body? })
+    }
+
+    fn endpoint(&mut self, pair: Pair<'_, Rule>) -> Option<Endpoint> {
+        let span = self.span(&pair);
+        let inner = pair.into_inner().next()?;
+        Some(match inner.as_rule() {
+            Rule::list => Endpoint::List(inner.into_inner().filter_map(|p| self.endpoint(p)).collect(), span),
+            Rule::instance => Endpoint::Instance(Box::new(self.instance(inner))),
+            _ => Endpoint::Port(self.port_ref(inner)),
+        })
+    }
+
+    fn port_ref(&self, pair: Pair<'_, Rule>) -> PortRef {
+        let span = self.span(&pair);
+        PortRef { parts: pair.into_inner().map(|p| self.ident(&p)).collect(), span }
+    }
+
+    fn instance(&mut self, pair: Pair<'_, Rule>) -> Instance {
+        let span = self.span(&pair);
+        let mut path = PathExpr { segments: vec![], span };
+        let (mut types, mut args, mut modifiers) = (vec![], vec![], vec![]);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::path => path = self.path(part),
+                Rule::type_args => types = self.type_args(part),
+                Rule::args => {
+                    args = part.into_inner().filter(|p| p.as_rule() == Rule::arg).filter_map(|p| self.arg(p)).collect()
+                }
+                Rule::modifier => modifiers.extend(self.modifier(part)),
+                _ => {}
+            }
+        }
+        Instance { path, types, args, modifiers, span }
+    }
+
+    fn arg(&mut self, pair: Pair<'_, Rule>) -> Option<Arg> {
+        let (mut name, mut value) = (None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::name => name = Some(self.ident(&part)),
+                Rule::expr => value = Some(self.expr(part)),
+                _ => {}
+            }
+        }
+        Some(Arg { name, value: value? })
+    }
+
+    fn modifier(&mut self, pair: Pair<'_, Rule>) -> Option<Modifier> {
+        let span = self.span(&pair);
+        let inner = pair.into_inner().next()?;
+        let rule = inner.as_rule();
+        let mut parts = inner.into_inner().filter(|p| {
+            !matches!(
+                p.as_rule(),
+                Rule::every_kw | Rule::timeout_kw | Rule::deadline_kw | Rule::on_kw | Rule::each_kw | Rule::delay_kw
+            )
+        });
+        let kind = match rule {
+            Rule::every => ModifierKind::Every(self.expr(parts.next()?)),
+            Rule::timeout => ModifierKind::Timeout(self.expr(parts.next()?)),
+            Rule::deadline => ModifierKind::Deadline(self.expr(parts.next()?)),
+            Rule::on => ModifierKind::On(self.ident(&parts.next()?)),
+            Rule::delay => ModifierKind::Delay(parts.next().map(|p| self.expr(p))),
+            Rule::pipelined => ModifierKind::Pipelined,
+            Rule::essential => ModifierKind::Essential,
+            _ => {
+                let (mut parallel, mut port) = (false, None);
+                for part in parts {
+                    match part.as_rule() {
+                        Rule::par_kw => parallel = true,
+                        _ => port = Some(self.ident(&part)),
+                    }
+                }
+                ModifierKind::Each { parallel, port }
+            }
+        };
+        Some(Modifier { kind, span })
+    }
+
+    fn type_args(&self, pair: Pair<'_, Rule>) -> Vec<TypeExpr> {
+        let mut types = vec![];
+        for arg in pair.into_inner() {
+            let span = self.span(&arg);
+            let Some(inner) = arg.into_inner().next() else { continue };
+            types.push(match inner.as_rule() {
+                Rule::ty => self.ty(inner),
+                _ => TypeExpr { kind: TypeKind::Const(inner.as_str().to_owned()), span },
+            });
+        }
+        types
+    }
+
+    fn ty(&self, pair: Pair<'_, Rule>) -> TypeExpr {
+        let span = self.span(&pair);
+        let mut kind = TypeKind::Tuple(vec![]);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::path => kind = TypeKind::Path(self.path(part), vec![]),
+                Rule::type_args => {
+                    if let TypeKind::Path(_, args) = &mut kind {
+                        *args = self.type_args(part);
+                    }
+                }
+                Rule::array_ty => {
+                    let mut parts = part.into_inner();
+                    if let Some(element) = parts.next().map(|p| self.ty(p)) {
+                        kind = TypeKind::Array(Box::new(element), parts.next().map(|n| n.as_str().to_owned()));
+                    }
+                }
+                _ => kind = TypeKind::Tuple(part.into_inner().map(|p| self.ty(p)).collect()),
+            }
+        }
+        TypeExpr { kind, span }
+    }
+
+    fn expr(&mut self, pair: Pair<'_, Rule>) -> Expr {
+        let span = self.span(&pair);
+        let mut parts: Vec<Pair<'_, Rule>> = pair.into_inner().collect();
+        if parts.len() > 2 * MAX_OPERATORS {
+            self.broken = true;
+            let message = format!("an expression has at most {MAX_OPERATORS} operators");
+            self.diagnostics.push(Diagnostic::error("too-large", span, message));
+            parts.truncate(1);
+        }
+        let mut parts = parts.into_iter().peekable();
+        self.binary(&mut parts, 0, span)
+    }
+
+    /// Precedence climbing; operators of one level associate to the left.
+    fn binary<'i>(
+        &mut self,
+        parts: &mut std::iter::Peekable<impl Iterator<Item = Pair<'i, Rule>>>,
+        level: u8,
+        span: Span,
+    ) -> Expr {
+        let mut left = self.prefixed(parts, span);
+        while let Some((operator, precedence)) = parts.peek().and_then(operator).filter(|(_, p)| *p >= level) {
+            parts.next();
+            let right = self.binary(parts, precedence + 1, span);
+            let span = left.span.to(right.span);
+            left = Expr { kind: ExprKind::Binary(operator, Box::new(left), Box::new(right)), span };
+        }
+        left
+    }
+
+    fn prefixed<'i>(&mut self, parts: &mut impl Iterator<Item = Pair<'i, Rule>>, span: Span) -> Expr {
+        let mut prefixes = vec![];
+        for part in parts {
+            if part.as_rule() == Rule::prefix {
+                let sign = if part.as_str().starts_with('!') { "!" } else { "-" };
+                prefixes.push((sign, self.span(&part)));
+                continue;
+            }
+            let primary = self.primary(part);
+            return prefixes.into_iter().rev().fold(primary, |inner, (sign, at)| {
+                let span = at.to(inner.span);
+                Expr { kind: ExprKind::Unary(sign, Box::new(inner)), span }
+            });
+        }
+        Expr { kind: ExprKind::Bool(false), span }
+    }
+
+    fn primary(&mut self, pair: Pair<'_, Rule>) -> Expr {
+        let span = self.span(&pair);
+        let Some(inner) = pair.into_inner().next() else {
+            return Expr { kind: ExprKind::Bool(false), span };
+        };
+        let kind = match inner.as_rule() {
+            Rule::number => {
+                let text = inner.as_str();
+                let unit = inner.into_inner().find(|p| p.as_rule() == Rule::unit).map(|p| p.as_str().to_owned());
+                let digits = &text[..text.len() - unit.as_ref().map_or(0, String::len)];
+                ExprKind::Number(digits.replace('_', ""), unit)
+            }
+            Rule::string => ExprKind::Text(unescape(inner.as_str())),
+            Rule::list_expr => {
+                ExprKind::List(inner.into_inner().filter(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)).collect())
+            }
+            Rule::expr => return Expr { span, ..self.expr(inner) },
+            _ => match inner.as_str() {
+                "true" => ExprKind::Bool(true),
+                "false" => ExprKind::Bool(false),
+                _ => ExprKind::Path(self.path(inner)),
+            },
+        };
+        Expr { kind, span }
+    }
+}
+
+fn operator(pair: &Pair<'_, Rule>) -> Option<(&'static str, u8)> {
+    Some(match pair.as_str().trim_end() {
+        _ if pair.as_rule() != Rule::binary => return None,
+        "||" => ("||", 1),
+        "&&" => ("&&", 2),
+        "==" => ("==", 3),
+        "!=" => ("!=", 3),
+        "<=" => ("<=", 3),
+        ">=" => (">=", 3),
+        "<" => ("<", 3),
+        ">" => (">", 3),
+        "+" => ("+", 4),
+        "-" => ("-", 4),
+        "*" => ("*", 5),
+        "/" => ("/", 5),
+        _ => ("%", 5),
+    })
+}
+
+fn unescape(quoted: &str) -> String {
+    let mut text = String::new();
+    let mut chars = quoted[1..quoted.len() - 1].chars();
+    while let Some(char) = chars.next() {
+        match char {
+            '\\' => match chars.next() {
+                Some('n') => text.push('\n'),
+                Some('t') => text.push('\t'),
+                Some(other) => text.push(other),
+                None => {}
+            },
+            _ => text.push(char),
+        }
+    }
+    text
+}
+
+fn push_doc(docs: &mut String, pair: &Pair<'_, Rule>) {
+    if !docs.is_empty() {
+        docs.push('\n');
+    }
+    docs.push_str(pair.as_str()[3..].trim());
+}

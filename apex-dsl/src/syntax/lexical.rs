@@ -1,0 +1,228 @@
+//! The first look at a text: what no grammar should have to deal with. Finds characters that mean nothing,
+//! brackets that do not match or nest too deeply, and comments, which are blanked.
+
+use crate::{
+    report::{Diagnostic, Diagnostics},
+    source::{FileId, Span},
+};
+
+/// Largest text.
+pub const MAX_BYTES: usize = 4 << 20;
+/// Deepest nesting of brackets, type arguments and block comments.
+pub const MAX_DEPTH: usize = 64;
+/// Characters that mean nothing are reported one by one up to this number.
+const MAX_UNKNOWN: usize = 20;
+
+/// A text in which comments are blanks.
+pub struct Lexical {
+    /// As long as the original.
+    pub text: String,
+    /// Where the comments were.
+    pub comments: Vec<Span>,
+}
+
+/// Looks through `text`; `None` if it cannot be parsed at all.
+pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<Lexical> {
+    if text.len() > MAX_BYTES {
+        let message = format!("this text has {} bytes; at most {MAX_BYTES} are read", text.len());
+        diagnostics
+            .push(Diagnostic::error("too-large", Span::new(file, 0, 0), message).note("split it into several files"));
+        return None;
+    }
+    let mut scanner = Scanner {
+        file,
+        bytes: text.as_bytes(),
+        at: 0,
+        open: vec![],
+        angles: 0,
+        unknown: 0,
+        comments: vec![],
+        failed: false,
+    };
+    scanner.run(text, diagnostics);
+    let failed = scanner.failed;
+    let comments = scanner.comments;
+    if failed {
+        return None;
+    }
+    let mut blanked = text.as_bytes().to_vec();
+    for span in &comments {
+        for byte in &mut blanked[span.start as usize..span.end as usize] {
+            if *byte != b'\n' {
+                *byte = b' ';
+            }
+        }
+    }
+    // Whole comments are replaced by ASCII blanks, so that this stays UTF-8.
+    let text = String::from_utf8(blanked).ok()?;
+    Some(Lexical { text, comments })
+}
+
+struct Scanner<'a> {
+    file: FileId,
+    bytes: &'a [u8],
+    at: usize,
+    open: Vec<(u8, usize)>,
+    angles: usize,
+    unknown: usize,
+    comments: Vec<Span>,
+    failed: bool,
+}
+
+impl Scanner<'_> {
+    fn run(&mut self, text: &str, diagnostics: &mut Diagnostics) {
+        while let Some(&byte) = self.bytes.get(self.at) {
+            let start = self.at;
+            match byte {
+                b'/' if self.starts("//") => self.line_comment(),
+                b'/' if self.starts("/*") => self.block_comment(diagnostics),
+                b'"' => self.string(diagnostics),
+                b'(' | b'[' | b'{' => self.opening(byte, diagnostics),
+                b')' | b']' | b'}' => self.closing(byte, diagnostics),
+                b'-' | b'=' if self.bytes.get(start + 1) == Some(&b'>') => self.at += 2,
+                b'<' => {
+                    self.angles += 1;
+                    self.at += 1;
+                    if self.angles > MAX_DEPTH {
+                        self.too_deep(start, diagnostics);
+                    }
+                }
+                b'>' => {
+                    self.angles = self.angles.saturating_sub(1);
+                    self.at += 1;
+                }
+                b';' => {
+                    self.angles = 0;
+                    self.at += 1;
+                }
+                b' ' | b'\t' | b'\r' | b'\n' | b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' => self.at += 1,
+                b'_' | b',' | b':' | b'.' | b'=' | b'-' | b'+' | b'*' | b'/' | b'%' | b'!' | b'&' | b'|' | b'^' => {
+                    self.at += 1
+                }
+                _ => self.unknown(text, diagnostics),
+            }
+            if self.failed && self.at >= self.bytes.len() {
+                return;
+            }
+        }
+        if let Some((bracket, at)) = self.open.pop().filter(|_| !self.failed) {
+            let span = Span::new(self.file, at, at + 1);
+            self.fail(
+                diagnostics,
+                Diagnostic::error("unclosed", span, format!("this `{}` is never closed", bracket as char)),
+            );
+        }
+    }
+
+    fn starts(&self, with: &str) -> bool {
+        self.bytes[self.at..].starts_with(with.as_bytes())
+    }
+
+    fn fail(&mut self, diagnostics: &mut Diagnostics, diagnostic: Diagnostic) {
+        self.failed = true;
+        diagnostics.push(diagnostic);
+    }
+
+    /// Nothing behind this can be understood.
+    fn give_up(&mut self, diagnostics: &mut Diagnostics, diagnostic: Diagnostic) {
+        self.fail(diagnostics, diagnostic);
+        self.at = self.bytes.len();
+    }
+
+    fn too_deep(&mut self, at: usize, diagnostics: &mut Diagnostics) {
+        let message = format!("brackets nest more than {MAX_DEPTH} deep");
+        self.give_up(diagnostics, Diagnostic::error("too-deep", Span::new(self.file, at, at + 1), message));
+    }
+
+    fn line_comment(&mut self) {
+        let start = self.at;
+        let is_doc = (self.starts("///") && !self.starts("////")) || self.starts("//!");
+        self.at = self.bytes[start..].iter().position(|&b| b == b'\n').map_or(self.bytes.len(), |n| start + n);
+        if !is_doc {
+            self.comments.push(Span::new(self.file, start, self.at));
+        }
+    }
+
+    fn block_comment(&mut self, diagnostics: &mut Diagnostics) {
+        let start = self.at;
+        let mut depth = 0;
+        while self.at < self.bytes.len() {
+            if self.starts("/*") {
+                depth += 1;
+                self.at += 2;
+                if depth > MAX_DEPTH {
+                    return self.too_deep(start, diagnostics);
+                }
+            } else if self.starts("*/") {
+                depth -= 1;
+                self.at += 2;
+                if depth == 0 {
+                    return self.comments.push(Span::new(self.file, start, self.at));
+                }
+            } else {
+                self.at += 1;
+            }
+        }
+        let span = Span::new(self.file, start, start + 2);
+        self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this comment is never closed"));
+    }
+
+    fn string(&mut self, diagnostics: &mut Diagnostics) {
+        let start = self.at;
+        self.at += 1;
+        while let Some(&byte) = self.bytes.get(self.at) {
+            self.at += if byte == b'\\' { 2 } else { 1 };
+            if byte == b'"' {
+                return;
+            }
+        }
+        let span = Span::new(self.file, start, start + 1);
+        self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this string is never closed"));
+    }
+
+    fn opening(&mut self, byte: u8, diagnostics: &mut Diagnostics) {
+        self.open.push((byte, self.at));
+        if self.open.len() > MAX_DEPTH {
+            return self.too_deep(self.at, diagnostics);
+        }
+        self.at += 1;
+    }
+
+    fn closing(&mut self, byte: u8, diagnostics: &mut Diagnostics) {
+        let span = Span::new(self.file, self.at, self.at + 1);
+        let matching = match byte {
+            b')' => b'(',
+            b']' => b'[',
+            _ => b'{',
+        };
+        self.at += 1;
+        match self.open.pop() {
+            Some((open, _)) if open == matching => {}
+            Some((open, at)) => {
+                let message = format!("`{}` does not close `{}`", byte as char, open as char);
+                let opened = Span::new(self.file, at, at + 1);
+                self.give_up(diagnostics, Diagnostic::error("unclosed", span, message).also(opened, "opened here"));
+            }
+            None => {
+                self.give_up(
+                    diagnostics,
+                    Diagnostic::error("unclosed", span, format!("`{}` closes nothing", byte as char)),
+                );
+            }
+        }
+    }
+
+    fn unknown(&mut self, text: &str, diagnostics: &mut Diagnostics) {
+        let Some(char) = text[self.at..].chars().next() else { return };
+        let span = Span::new(self.file, self.at, self.at + char.len_utf8());
+        self.at = span.end as usize;
+        self.unknown += 1;
+        let message = format!("`{}` means nothing here", char.escape_debug());
+        let diagnostic = Diagnostic::error("unknown-character", span, message);
+        if self.unknown >= MAX_UNKNOWN {
+            self.give_up(diagnostics, diagnostic.note("more follow; is this an `.afg` text"));
+        } else {
+            self.fail(diagnostics, diagnostic);
+        }
+    }
+}

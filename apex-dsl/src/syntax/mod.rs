@@ -1,0 +1,49 @@
+//! Text → tree. A bad statement does not hide the next.
+
+mod build;
+mod lexical;
+mod recover;
+pub mod tree;
+
+use crate::{
+    report::Diagnostics,
+    source::{FileId, Span},
+};
+use pest::Parser as _;
+
+pub use lexical::{MAX_BYTES, MAX_DEPTH};
+
+use grammar::{Grammar, Rule};
+
+/// The parser that pest makes of the grammar; the rules are documented there.
+#[allow(missing_docs)]
+mod grammar {
+    #[derive(pest_derive::Parser)]
+    #[grammar = "syntax/afg.pest"]
+    pub struct Grammar;
+}
+
+/// Parses one text. Always gives a tree; what could not be read is reported and left out.
+pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::File {
+    let broken = || tree::File { broken: true, ..Default::default() };
+    let Some(lexical) = lexical::scan(file, text, diagnostics) else { return broken() };
+    match Grammar::parse(Rule::file, &lexical.text) {
+        Ok(mut pairs) => {
+            let builder = build::Builder::new(file, &lexical.text, diagnostics);
+            let mut tree = pairs.next().map_or_else(broken, |pair| builder.file(pair));
+            tree.comments = lexical.comments;
+            tree
+        }
+        Err(error) => {
+            diagnostics.push(recover::diagnose(file, 0, &error));
+            broken()
+        }
+    }
+}
+
+/// The span of a pair in `file`.
+fn span_of(file: FileId, pair: &pest::iterators::Pair<'_, Rule>) -> Span {
+    let span = pair.as_span();
+    let trimmed = span.as_str().trim_end().len();
+    Span::new(file, span.start(), span.start() + trimmed)
+}

@@ -1,0 +1,328 @@
+//! The syntax tree: what stands in a text, with positions, before any name means anything.
+
+use crate::source::Span;
+
+/// A word with its place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Ident {
+    /// The word.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+}
+
+/// A text.
+#[derive(Debug, Default)]
+pub struct File {
+    /// `//!` lines.
+    pub docs: String,
+    /// Imports.
+    pub uses: Vec<Use>,
+    /// Graphs and robots.
+    pub graphs: Vec<GraphItem>,
+    /// Comments that are not documentation, for the formatter.
+    pub comments: Vec<Span>,
+    /// Whether something in it could not be read.
+    pub broken: bool,
+}
+
+/// One imported name: groups are flattened.
+#[derive(Debug)]
+pub struct Use {
+    /// The segments of the path.
+    pub path: Vec<Ident>,
+    /// The name it has here.
+    pub name: Ident,
+}
+
+/// `graph` or `robot`.
+#[derive(Debug)]
+pub struct GraphItem {
+    /// `///` lines.
+    pub docs: String,
+    /// Whether it is a `robot`.
+    pub robot: bool,
+    /// Its name.
+    pub name: Ident,
+    /// Type parameters.
+    pub generics: Vec<Ident>,
+    /// Parameters.
+    pub params: Vec<ParamItem>,
+    /// Ports.
+    pub ports: Vec<PortItem>,
+    /// Nodes with a name.
+    pub nodes: Vec<NodeItem>,
+    /// Connections.
+    pub chains: Vec<Chain>,
+    /// Claims.
+    pub claims: Vec<Claim>,
+}
+
+/// A parameter of a graph.
+#[derive(Debug)]
+pub struct ParamItem {
+    /// `///` lines.
+    pub docs: String,
+    /// Its name.
+    pub name: Ident,
+    /// Its type.
+    pub ty: TypeExpr,
+    /// The unit in brackets behind the type.
+    pub unit: Option<Ident>,
+    /// Value where none is given.
+    pub default: Option<Expr>,
+    /// Legal values.
+    pub range: Option<RangeExpr>,
+}
+
+/// `low..high` or `low..=high`.
+#[derive(Debug)]
+pub struct RangeExpr {
+    /// Smallest value.
+    pub low: Expr,
+    /// Largest value.
+    pub high: Expr,
+    /// Whether `high` belongs to it.
+    pub inclusive: bool,
+}
+
+/// Kind of a port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PortKind {
+    /// Synchronous, takes tokens.
+    Input,
+    /// Synchronous, sends tokens.
+    Output,
+    /// Asynchronous, takes tokens.
+    Slot,
+    /// Asynchronous, sends tokens.
+    Event,
+}
+
+impl PortKind {
+    /// Whether tokens leave a node here.
+    pub fn sends(self) -> bool {
+        matches!(self, Self::Output | Self::Event)
+    }
+
+    /// Whether it takes part in synchronous data flow.
+    pub fn is_synchronous(self) -> bool {
+        matches!(self, Self::Input | Self::Output)
+    }
+
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Output => "output",
+            Self::Slot => "slot",
+            Self::Event => "event",
+        }
+    }
+}
+
+/// A port of a graph.
+#[derive(Debug)]
+pub struct PortItem {
+    /// `///` lines.
+    pub docs: String,
+    /// `in`, `out`, `slot` or `event`.
+    pub kind: PortKind,
+    /// Its name.
+    pub name: Ident,
+    /// Type of its tokens; `()` if none is given.
+    pub ty: Option<TypeExpr>,
+}
+
+/// `node name = …;`
+#[derive(Debug)]
+pub struct NodeItem {
+    /// `///` lines.
+    pub docs: String,
+    /// Its name.
+    pub name: Ident,
+    /// What it is made of.
+    pub body: NodeBody,
+}
+
+/// What a node is made of.
+#[derive(Debug)]
+pub enum NodeBody {
+    /// `= Type(…)`
+    Instance(Instance),
+    /// `: Type` — made in Rust and handed in.
+    HandedIn(TypeExpr, Vec<Modifier>),
+}
+
+/// `Type<…>(name = value, …) modifiers`
+#[derive(Debug)]
+pub struct Instance {
+    /// Node or graph.
+    pub path: PathExpr,
+    /// Type arguments.
+    pub types: Vec<TypeExpr>,
+    /// Arguments.
+    pub args: Vec<Arg>,
+    /// Modifiers.
+    pub modifiers: Vec<Modifier>,
+    /// Everything of it.
+    pub span: Span,
+}
+
+/// `a::b::c`
+#[derive(Debug, Clone)]
+pub struct PathExpr {
+    /// The segments.
+    pub segments: Vec<Ident>,
+    /// All of it.
+    pub span: Span,
+}
+
+impl PathExpr {
+    /// The segments with `::` between them.
+    pub fn text(&self) -> String {
+        self.segments.iter().map(|s| s.text.as_str()).collect::<Vec<_>>().join("::")
+    }
+}
+
+/// `name = value`
+#[derive(Debug)]
+pub struct Arg {
+    /// The parameter; `None` is an error that is reported where the arguments are checked.
+    pub name: Option<Ident>,
+    /// The value.
+    pub value: Expr,
+}
+
+/// A word behind an instance.
+#[derive(Debug)]
+pub struct Modifier {
+    /// Which.
+    pub kind: ModifierKind,
+    /// All of it.
+    pub span: Span,
+}
+
+/// A word behind an instance.
+#[derive(Debug)]
+pub enum ModifierKind {
+    /// `every 20ms`
+    Every(Expr),
+    /// `timeout 5s`
+    Timeout(Expr),
+    /// `deadline 10ms`
+    Deadline(Expr),
+    /// `on GROUP`
+    On(Ident),
+    /// `each`, `each par`, `each(port)`
+    Each {
+        /// Elements in parallel.
+        parallel: bool,
+        /// The list input, where it is not plain.
+        port: Option<Ident>,
+    },
+    /// `delay`, `delay 0`, `delay [0, 0]`
+    Delay(Option<Expr>),
+    /// `pipelined`
+    Pipelined,
+    /// `essential`
+    Essential,
+}
+
+/// `a -> b => c;`
+#[derive(Debug)]
+pub struct Chain {
+    /// What is connected.
+    pub ends: Vec<Endpoint>,
+    /// Arrow `i` stands between ends `i` and `i + 1`.
+    pub arrows: Vec<Arrow>,
+}
+
+/// `->` or `=>`
+#[derive(Debug, Clone, Copy)]
+pub struct Arrow {
+    /// `=>`: lets activity pass.
+    pub active: bool,
+    /// Its place.
+    pub span: Span,
+}
+
+/// One end of a connection.
+#[derive(Debug)]
+pub enum Endpoint {
+    /// `node`, `node.port` or the name of a port of the graph.
+    Port(PortRef),
+    /// A node written in place.
+    Instance(Box<Instance>),
+    /// `[a, b]`
+    List(Vec<Endpoint>, Span),
+}
+
+/// `node`, `node.port`
+#[derive(Debug)]
+pub struct PortRef {
+    /// The parts between the dots.
+    pub parts: Vec<Ident>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// `claim exclusive(a, b);`
+#[derive(Debug)]
+pub struct Claim {
+    /// What is claimed.
+    pub kind: Ident,
+    /// Of what.
+    pub of: Vec<PortRef>,
+}
+
+/// A type as written.
+#[derive(Debug, Clone)]
+pub struct TypeExpr {
+    /// What it is.
+    pub kind: TypeKind,
+    /// Its place.
+    pub span: Span,
+}
+
+/// A type as written.
+#[derive(Debug, Clone)]
+pub enum TypeKind {
+    /// `a::B<C>`
+    Path(PathExpr, Vec<TypeExpr>),
+    /// `[T; N]`; without `N` a list of any length.
+    Array(Box<TypeExpr>, Option<String>),
+    /// `(A, B)`
+    Tuple(Vec<TypeExpr>),
+    /// A number as a type argument.
+    Const(String),
+}
+
+/// A constant expression.
+#[derive(Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Its place.
+    pub span: Span,
+}
+
+/// A constant expression.
+#[derive(Debug)]
+pub enum ExprKind {
+    /// Digits and the unit behind them.
+    Number(String, Option<String>),
+    /// A string, escapes resolved.
+    Text(String),
+    /// `true`, `false`
+    Bool(bool),
+    /// A parameter, or a constant in Rust.
+    Path(PathExpr),
+    /// `[a, b]`
+    List(Vec<Expr>),
+    /// `-a`, `!a`
+    Unary(&'static str, Box<Expr>),
+    /// `a + b`
+    Binary(&'static str, Box<Expr>, Box<Expr>),
+}

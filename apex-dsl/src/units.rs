@@ -1,0 +1,163 @@
+//! Physical dimensions, so that a length is never taken for a time.
+
+use std::fmt;
+
+/// Exponents of metre, second, kilogram, ampere, kelvin and radian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub struct Dimension([i8; 6]);
+
+const BASE: [&str; 6] = ["m", "s", "kg", "A", "K", "rad"];
+/// Exponents beyond this are a mistake.
+const MAX_EXPONENT: i8 = 9;
+
+impl Dimension {
+    /// A plain number.
+    pub const NONE: Self = Self([0; 6]);
+    /// A time.
+    pub const TIME: Self = Self([0, 1, 0, 0, 0, 0]);
+
+    /// Whether it is a plain number.
+    pub fn is_none(self) -> bool {
+        self == Self::NONE
+    }
+
+    /// `self · other^sign`, `None` if an exponent leaves all bounds.
+    pub fn combine(self, other: Self, sign: i8) -> Option<Self> {
+        let mut sum = self.0;
+        for (a, b) in sum.iter_mut().zip(other.0) {
+            *a = a.checked_add(b.checked_mul(sign)?).filter(|e| e.abs() <= MAX_EXPONENT)?;
+        }
+        Some(Self(sum))
+    }
+
+    /// What a quantity of this dimension is called, if it has a common name.
+    pub fn noun(self) -> &'static str {
+        match self.0 {
+            [0, 0, 0, 0, 0, 0] => "a plain number",
+            [1, 0, 0, 0, 0, 0] => "a length",
+            [2, 0, 0, 0, 0, 0] => "an area",
+            [0, 1, 0, 0, 0, 0] => "a time",
+            [0, -1, 0, 0, 0, 0] => "a frequency",
+            [0, 0, 1, 0, 0, 0] => "a mass",
+            [0, 0, 0, 0, 0, 1] => "an angle",
+            [1, -1, 0, 0, 0, 0] => "a speed",
+            [1, -2, 0, 0, 0, 0] => "an acceleration",
+            [0, -1, 0, 0, 0, 1] => "an angular speed",
+            _ => "another quantity",
+        }
+    }
+}
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut first = true;
+        for positive in [true, false] {
+            for (unit, exponent) in BASE.iter().zip(self.0).filter(|(_, e)| *e != 0 && (*e > 0) == positive) {
+                let sign = if positive && first {
+                    ""
+                } else if positive {
+                    "*"
+                } else if first {
+                    "1/"
+                } else {
+                    "/"
+                };
+                write!(f, "{sign}{unit}")?;
+                if exponent.abs() > 1 {
+                    write!(f, "^{}", exponent.abs())?;
+                }
+                first = false;
+            }
+        }
+        if first { f.write_str("1") } else { Ok(()) }
+    }
+}
+
+/// A unit: its dimension and its size in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// What it measures.
+    pub dimension: Dimension,
+    /// How much of the SI unit it is.
+    pub factor: f64,
+}
+
+/// All units that have a name: exponents as in [`Dimension`], and size in SI.
+const UNITS: [(&str, [i8; 6], f64); 32] = [
+    ("m", [1, 0, 0, 0, 0, 0], 1.0),
+    ("km", [1, 0, 0, 0, 0, 0], 1e3),
+    ("cm", [1, 0, 0, 0, 0, 0], 1e-2),
+    ("mm", [1, 0, 0, 0, 0, 0], 1e-3),
+    ("um", [1, 0, 0, 0, 0, 0], 1e-6),
+    ("s", [0, 1, 0, 0, 0, 0], 1.0),
+    ("ms", [0, 1, 0, 0, 0, 0], 1e-3),
+    ("us", [0, 1, 0, 0, 0, 0], 1e-6),
+    ("ns", [0, 1, 0, 0, 0, 0], 1e-9),
+    ("min", [0, 1, 0, 0, 0, 0], 60.0),
+    ("h", [0, 1, 0, 0, 0, 0], 3600.0),
+    ("Hz", [0, -1, 0, 0, 0, 0], 1.0),
+    ("kHz", [0, -1, 0, 0, 0, 0], 1e3),
+    ("MHz", [0, -1, 0, 0, 0, 0], 1e6),
+    ("kg", [0, 0, 1, 0, 0, 0], 1.0),
+    ("g", [0, 0, 1, 0, 0, 0], 1e-3),
+    ("t", [0, 0, 1, 0, 0, 0], 1e3),
+    ("rad", [0, 0, 0, 0, 0, 1], 1.0),
+    ("mrad", [0, 0, 0, 0, 0, 1], 1e-3),
+    ("deg", [0, 0, 0, 0, 0, 1], std::f64::consts::PI / 180.0),
+    ("rev", [0, 0, 0, 0, 0, 1], 2.0 * std::f64::consts::PI),
+    ("A", [0, 0, 0, 1, 0, 0], 1.0),
+    ("mA", [0, 0, 0, 1, 0, 0], 1e-3),
+    ("K", [0, 0, 0, 0, 1, 0], 1.0),
+    ("N", [1, -2, 1, 0, 0, 0], 1.0),
+    ("Nm", [2, -2, 1, 0, 0, 0], 1.0),
+    ("J", [2, -2, 1, 0, 0, 0], 1.0),
+    ("W", [2, -3, 1, 0, 0, 0], 1.0),
+    ("V", [2, -3, 1, -1, 0, 0], 1.0),
+    ("mV", [2, -3, 1, -1, 0, 0], 1e-3),
+    ("Pa", [-1, -2, 1, 0, 0, 0], 1.0),
+    ("%", [0, 0, 0, 0, 0, 0], 1e-2),
+];
+
+/// The names of all units.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    UNITS.iter().map(|(name, ..)| *name)
+}
+
+/// Reads a unit such as `m/s^2`.
+///
+/// # Errors
+/// Gives the part that is not known.
+pub fn parse(text: &str) -> Result<Unit, &str> {
+    let mut unit = Unit { dimension: Dimension::NONE, factor: 1.0 };
+    let mut sign = 1;
+    for part in text.split_inclusive(['/', '*']) {
+        let term = part.trim_end_matches(['/', '*']);
+        let (name, power) = match term.split_once('^') {
+            Some((name, power)) => (name, power.parse::<i8>().map_err(|_| term)?),
+            None => (term, 1),
+        };
+        if name != "1" {
+            let (_, exponents, factor) = UNITS.iter().find(|(n, ..)| *n == name).ok_or(term)?;
+            let power = power.checked_mul(sign).filter(|p| p.abs() <= MAX_EXPONENT).ok_or(term)?;
+            unit.dimension = unit.dimension.combine(Dimension(*exponents), power).ok_or(term)?;
+            unit.factor *= factor.powi(i32::from(power));
+        }
+        sign = if part.ends_with('/') { -1 } else { 1 };
+    }
+    Ok(unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn compound_units() {
+        assert_eq!(parse("m/s^2").unwrap().dimension.to_string(), "m/s^2");
+        assert_eq!(parse("km/h").unwrap().factor, 1e3 / 3600.0);
+        assert_eq!(parse("1/s").unwrap(), parse("Hz").unwrap());
+        assert_eq!(parse("m/x"), Err("x"));
+        assert_eq!(parse("m^99"), Err("m^99"));
+        assert_eq!(parse("N").unwrap().dimension, parse("kg*m/s^2").unwrap().dimension);
+    }
+}

@@ -1,0 +1,114 @@
+use apex_dsl::{
+    catalog::{Item, read_items},
+    source::World,
+    syntax::MAX_BYTES,
+};
+use serde::{Deserialize, Serialize};
+use std::{
+    collections::BTreeMap,
+    fs, io,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::UNIX_EPOCH,
+};
+
+/// Changes when the form of the cached items does.
+const VERSION: u32 = 1;
+
+#[derive(Serialize, Deserialize, Default)]
+struct Cache {
+    version: u32,
+    files: BTreeMap<PathBuf, Entry>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Entry {
+    modified: u128,
+    length: u64,
+    items: Arc<[Item]>,
+}
+
+/// The file system, with a cache of what was found in Rust files (by path, time and length).
+pub struct Disk {
+    file: Option<PathBuf>,
+    cache: Cache,
+    changed: bool,
+}
+
+impl Disk {
+    /// Uses the cache in `folder`; without one nothing is remembered. A cache that cannot be read is made anew.
+    pub fn new(folder: Option<&Path>) -> Self {
+        let file = folder.map(|f| f.join("catalog.json"));
+        let cache =
+            file.as_ref().and_then(|f| fs::read(f).ok()).and_then(|bytes| serde_json::from_slice::<Cache>(&bytes).ok());
+        let cache =
+            cache.filter(|c| c.version == VERSION).unwrap_or(Cache { version: VERSION, files: BTreeMap::new() });
+        Self { file, cache, changed: false }
+    }
+
+    /// Writes the cache if it changed. It is only a cache: where it cannot be written, nothing is lost.
+    pub fn save(&mut self) {
+        let Some(file) = self.file.as_ref().filter(|_| self.changed) else { return };
+        let _ = write_whole(file, &self.cache);
+        self.changed = false;
+    }
+}
+
+/// Writes `value` so that other processes see the old file or the new one, never a part.
+pub(crate) fn write_whole(file: &Path, value: &impl Serialize) -> io::Result<()> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)?;
+    let temporary = file.with_extension(format!("{}.tmp", std::process::id()));
+    fs::write(&temporary, serde_json::to_vec(value)?)?;
+    fs::rename(&temporary, file)
+}
+
+pub(crate) fn stamp(path: &Path) -> Option<(u128, u64)> {
+    let metadata = fs::metadata(path).ok()?;
+    let modified = metadata.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
+    Some((modified.as_nanos(), metadata.len()))
+}
+
+impl World for Disk {
+    fn read(&mut self, path: &Path) -> Result<Arc<str>, String> {
+        let metadata = fs::metadata(path).map_err(|e| reason(&e))?;
+        if metadata.is_dir() {
+            return Err("it is a folder".to_owned());
+        }
+        if metadata.len() > MAX_BYTES as u64 {
+            return Err(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len()));
+        }
+        let bytes = fs::read(path).map_err(|e| reason(&e))?;
+        let text =
+            String::from_utf8(bytes).map_err(|e| format!("byte {} is not UTF-8", e.utf8_error().valid_up_to()))?;
+        Ok(text.into())
+    }
+
+    fn exists(&mut self, path: &Path) -> bool {
+        path.is_file()
+    }
+
+    fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
+        let stamp = stamp(path);
+        if let (Some(entry), Some(stamp)) = (self.cache.files.get(path), stamp)
+            && (entry.modified, entry.length) == stamp
+        {
+            return Ok(entry.items.clone());
+        }
+        let text = self.read(path)?;
+        let items: Arc<[Item]> = read_items(&text).into();
+        if let Some((modified, length)) = stamp {
+            self.cache.files.insert(path.to_owned(), Entry { modified, length, items: items.clone() });
+            self.changed = true;
+        }
+        Ok(items)
+    }
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,8 @@
+//! What the Apex compiler needs from the machine it runs on. The compiler itself is pure; `graph!` and the
+//! `apex` command share this crate to give it files and the crates that cargo knows of.
+
+mod disk;
+mod workspace;
+
+pub use disk::Disk;
+pub use workspace::{Seen, Workspace};

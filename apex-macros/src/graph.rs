@@ -1,0 +1,159 @@
+//! `graph!`: finds the text, calls the compiler, hands back tokens.
+
+use apex_dsl::{
+    catalog::Catalog,
+    passes,
+    report::{Diagnostic, Diagnostics, Severity, render},
+    source::{FileId, Sources, Span, World},
+};
+use apex_host::{Disk, Seen, Workspace};
+use proc_macro::TokenTree;
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+use std::{
+    env,
+    path::{Path, PathBuf},
+};
+
+/// The text of a call and how to point into it.
+struct Text {
+    sources: Sources,
+    root: FileId,
+    /// The tokens of an inline text with their line and column; empty for a file.
+    tokens: Vec<((usize, usize), proc_macro2::Span)>,
+}
+
+/// Expands one call of `graph!`.
+pub fn expand(input: proc_macro::TokenStream) -> TokenStream {
+    match try_expand(input) {
+        Ok(tokens) => tokens,
+        Err(message) => quote! { ::core::compile_error!(#message); },
+    }
+}
+
+fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
+    let folder = env::var_os("CARGO_MANIFEST_DIR")
+        .map(PathBuf::from)
+        .ok_or("`graph!` needs cargo: `CARGO_MANIFEST_DIR` is not set")?;
+    let workspace = Workspace::load(&folder)?;
+    let mut disk = Disk::new(Some(&workspace.cache_folder()));
+    let mut text = match file_name(&input) {
+        Some(name) => from_file(&name, &folder, &workspace, &mut disk)?,
+        None => inline(input),
+    };
+    let name = env::var("CARGO_CRATE_NAME").unwrap_or_default();
+    let crates = workspace.crates(&Seen::Crate(&name, env::var_os("CARGO_BIN_NAME").is_some()));
+    // The positions of the compiler's own tokens would all be on line 1.
+    proc_macro2::fallback::force();
+    let catalog = Catalog::load(crates, &mut disk);
+    proc_macro2::fallback::unforce();
+    let mut diagnostics = Diagnostics::default();
+    let programs = passes::check(text.root, &catalog, &mut text.sources, &mut disk, &mut diagnostics);
+    disk.save();
+    let place = |span: Span| place(&text, span);
+    let code = passes::generate(&programs, &catalog, &text.sources, &place, &mut diagnostics);
+    let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error).map(|d| error(d, &text));
+    let watched = watched(&text, &workspace);
+    Ok(quote! { #(#errors)* #(#watched)* #code })
+}
+
+/// `"robot.afg"`, if the call has nothing else.
+fn file_name(input: &proc_macro::TokenStream) -> Option<String> {
+    let mut tokens = input.clone().into_iter();
+    match (tokens.next(), tokens.next()) {
+        (Some(TokenTree::Literal(literal)), None) => {
+            syn::parse_str::<syn::LitStr>(&literal.to_string()).ok().map(|s| s.value())
+        }
+        _ => None,
+    }
+}
+
+/// The file is looked for beside the source file first, then in the folder of the package.
+fn from_file(name: &str, folder: &Path, workspace: &Workspace, disk: &mut Disk) -> Result<Text, String> {
+    let source = proc_macro::Span::call_site().local_file();
+    let beside =
+        source.as_ref().and_then(|s| s.parent()).map(|p| env::current_dir().unwrap_or_default().join(p).join(name));
+    let path = beside.filter(|p| disk.exists(p)).unwrap_or_else(|| folder.join(name));
+    let text = disk.read(&path).map_err(|reason| format!("cannot read `{}`: {reason}", path.display()))?;
+    let shown = path.strip_prefix(&workspace.root).unwrap_or(&path).to_owned();
+    let mut sources = Sources::default();
+    // Messages show the path from the root of the workspace, where cargo runs rustc.
+    let here = env::current_dir().is_ok_and(|d| d == workspace.root);
+    let root = sources.add(if here { shown } else { path }, text);
+    Ok(Text { sources, root, tokens: vec![] })
+}
+
+fn inline(input: proc_macro::TokenStream) -> Text {
+    let call = proc_macro::Span::call_site();
+    let path = call.local_file().unwrap_or_else(|| "graph!".into());
+    let mut sources = Sources::default();
+    let whole = call.source_text();
+    // The text between the brackets of the call; everything before becomes blank, so that positions stay.
+    let body = whole.as_ref().and_then(|text| {
+        let open = text.find(['{', '(', '['])?;
+        let close = text.rfind(['}', ')', ']']).filter(|c| *c > open)?;
+        let blank: String = text[..=open].chars().map(|c| if c == '\n' { '\n' } else { ' ' }).collect();
+        Some(blank + &text[open + 1..close])
+    });
+    let (text, origin) = match body {
+        Some(text) => (text, (call.line() - 1, call.column() - 1)),
+        None => (input.to_string(), (0, 0)),
+    };
+    let root = sources.add_at(path, text, origin);
+    let mut tokens = vec![];
+    collect(input, &mut tokens);
+    Text { sources, root, tokens }
+}
+
+fn collect(stream: proc_macro::TokenStream, tokens: &mut Vec<((usize, usize), proc_macro2::Span)>) {
+    for token in stream {
+        let span = token.span();
+        tokens.push(((span.line(), span.column()), span.into()));
+        if let TokenTree::Group(group) = token {
+            collect(group.stream(), tokens);
+            let close = group.span_close();
+            tokens.push(((close.line(), close.column()), close.into()));
+        }
+    }
+}
+
+/// The token at a place of the text, for rustc to underline.
+fn place(text: &Text, span: Span) -> proc_macro2::Span {
+    let at = text.sources.line_column(span.file, span.start);
+    let token = text.tokens.iter().filter(|(position, _)| *position <= at).max_by_key(|(position, _)| *position);
+    let token = token.filter(|_| span.file == text.root);
+    token.map_or_else(proc_macro2::Span::call_site, |(_, span)| *span)
+}
+
+fn error(diagnostic: &Diagnostic, text: &Text) -> TokenStream {
+    let inline = !text.tokens.is_empty() && diagnostic.primary.span.file == text.root;
+    let message = if inline {
+        let fixes = diagnostic.fixes.iter().map(|f| format!("help: {}", f.title));
+        let also = diagnostic.secondary.iter().map(|l| {
+            let (line, column) = text.sources.line_column(l.span.file, l.span.start);
+            format!("note: line {line}, column {column}: {}", l.text)
+        });
+        let notes = diagnostic.notes.iter().map(|n| format!("note: {n}"));
+        let first = format!("{} [{}]", diagnostic.message, diagnostic.code);
+        [first].into_iter().chain(also).chain(notes).chain(fixes).collect::<Vec<_>>().join("\n")
+    } else {
+        let rendered = render(diagnostic, &text.sources, false);
+        let headline = format!("error[{}]: {}", diagnostic.code, diagnostic.message);
+        let rest = rendered.strip_prefix(&headline).unwrap_or(&rendered);
+        format!("{} [{}]{rest}", diagnostic.message, diagnostic.code)
+    };
+    let span = place(text, diagnostic.primary.span);
+    quote_spanned! { span=> ::core::compile_error!(#message); }
+}
+
+/// Makes cargo build again when a text changes.
+fn watched(text: &Text, workspace: &Workspace) -> Vec<TokenStream> {
+    let files = text.sources.iter().filter(|s| s.path.extension().is_some_and(|e| e == "afg"));
+    files
+        .map(|source| {
+            let path = workspace.root.join(&source.path);
+            let path = path.to_string_lossy();
+            quote! { const _: &[u8] = ::core::include_bytes!(#path); }
+        })
+        .collect()
+}
