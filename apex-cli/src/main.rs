@@ -1,1 +1,89 @@
-fn main() {}
+//! The `apex` command: thin shells around the compiler.
+
+mod check;
+mod expand;
+mod explain;
+mod project;
+mod run;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use std::{path::PathBuf, process::ExitCode};
+
+/// Robot behaviour as text, compiled to a static program.
+#[derive(Parser)]
+#[command(
+    name = "apex",
+    version,
+    after_help = "Exit codes: 0 fine, 1 the text has errors, 2 the command could not be carried out."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Check texts and say what is wrong with them.
+    #[command(after_help = "Example:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg")]
+    Check {
+        /// The texts.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// How to say it.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
+    },
+    /// Print the Rust that a text is compiled to.
+    Expand {
+        /// The text.
+        file: PathBuf,
+    },
+    /// Print what the compiler has decided: regions, guards, clusters, schedule, pruning, memory.
+    Explain {
+        /// The text.
+        file: PathBuf,
+        /// How to say it.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
+    },
+    /// Build and run a robot.
+    #[command(
+        after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock."
+    )]
+    Run {
+        /// The text.
+        file: PathBuf,
+        /// Which robot or graph, if the text has several.
+        #[arg(long)]
+        robot: Option<String>,
+        /// Arguments for the program.
+        #[arg(last = true)]
+        args: Vec<String>,
+    },
+}
+
+/// How results are printed.
+#[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// For programs.
+    Json,
+}
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Check { files, format } => check::run(&files, format),
+        Command::Expand { file } => expand::run(&file),
+        Command::Explain { file, format } => explain::run(&file, format),
+        Command::Run { file, robot, args } => run::run(&file, robot.as_deref(), &args),
+    };
+    match result {
+        Ok(code) => code,
+        Err(message) => {
+            project::print_error(&format!("error: {message}"));
+            ExitCode::from(2)
+        }
+    }
+}

@@ -140,6 +140,7 @@ impl Workspace {
 
     /// The crates to scan.
     pub fn crates(&self, seen: &Seen<'_>) -> Crates {
+        let root = self.root.clone();
         let mut all: Vec<CrateSpec> = vec![];
         let mut library: BTreeMap<usize, usize> = BTreeMap::new();
         for (index, package) in self.packages.iter().enumerate() {
@@ -179,11 +180,11 @@ impl Workspace {
                 let position = targets.zip(&own).find(|(t, _)| matches(t)).map(|(_, k)| *k);
                 let here = position.or(lib).unwrap_or(0);
                 let own = [Some(here), lib].into_iter().flatten().collect::<Vec<_>>();
-                Crates { all, here, own: if own.len() == 2 && own[0] == own[1] { vec![here] } else { own } }
+                Crates { root, all, here, own: if own.len() == 2 && own[0] == own[1] { vec![here] } else { own } }
             }
             Seen::Package => {
                 let own: Vec<usize> = lib.into_iter().chain(own).collect();
-                Crates { all, here: own.first().copied().unwrap_or(0), own }
+                Crates { root, all, here: own.first().copied().unwrap_or(0), own }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Regions, guards and clusters: what runs together as straight-line code (see the execution semantics).
 
-use super::{Block, Links, is_source, order::crossed};
+use super::{Block, Links, Step, is_source, order::crossed};
 use crate::{
     graph::{Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
@@ -23,7 +23,7 @@ pub enum Guard {
 pub struct Cluster {
     /// The region.
     pub region: usize,
-    /// Its nodes in schedule order.
+    /// Its nodes, producers before consumers.
     pub nodes: Vec<NodeId>,
     /// All guards that its nodes depend on.
     pub guards: BTreeSet<usize>,
@@ -38,6 +38,20 @@ pub struct Cluster {
 }
 
 impl Cluster {
+    /// Its nodes in the order in which they fire.
+    pub fn schedule(&self) -> Vec<NodeId> {
+        let mut order = vec![];
+        let mut blocks: Vec<std::slice::Iter<'_, Step>> = vec![self.block.steps.iter()];
+        while let Some(steps) = blocks.last_mut() {
+            match steps.next() {
+                Some(Step::Fire(node)) => order.push(*node),
+                Some(Step::Block(inner)) => blocks.push(inner.steps.iter()),
+                None => drop(blocks.pop()),
+            }
+        }
+        order
+    }
+
     /// Whether it just runs once per `react`: nothing to wait for, nothing between it and others.
     pub fn is_free(&self, guards: &[Guard]) -> bool {
         self.upstream.is_empty()

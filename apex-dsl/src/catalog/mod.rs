@@ -39,6 +39,8 @@ pub struct CrateSpec {
 /// Which crates there are, and from where the graph is seen.
 #[derive(Debug, Clone, Default)]
 pub struct Crates {
+    /// Files below this folder are named by their path in it.
+    pub root: PathBuf,
     /// All crates to scan.
     pub all: Vec<CrateSpec>,
     /// The crate that the generated code becomes part of.
@@ -228,7 +230,7 @@ impl Catalog {
         Signature {
             name: def.name.clone(),
             docs: node.docs.clone(),
-            file: def.file.clone(),
+            file: def.file.strip_prefix(&self.crates.root).unwrap_or(&def.file).to_owned(),
             line: def.line,
             path: self.paths.get(&id).cloned().unwrap_or_default(),
             is_function,
@@ -316,12 +318,6 @@ impl Catalog {
     /// How generated code reaches a definition.
     pub fn path(&self, def: DefId) -> Option<&[String]> {
         self.paths.get(&def).map(Vec::as_slice)
-    }
-
-    /// File and line of a definition.
-    pub fn place(&self, def: DefId) -> (&std::path::Path, usize) {
-        let def = &self.tree.defs[def];
-        (&def.file, def.line)
     }
 }
 

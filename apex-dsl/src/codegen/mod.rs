@@ -7,6 +7,8 @@ mod program;
 mod rates;
 mod types;
 
+pub use plan::{Storage, storage};
+
 use crate::{
     analyse::Analysis,
     catalog::Catalog,

@@ -332,7 +332,7 @@ impl Generator<'_> {
         let (mut nodes, mut connections) = (vec![], vec![]);
         self.rows(graph, analysis, "", &mut nodes, &mut connections);
         let clusters = analysis.clusters.iter().map(|c| {
-            let nodes = c.nodes.iter().map(|n| Literal::usize_unsuffixed(*n));
+            let nodes = c.schedule().into_iter().map(Literal::usize_unsuffixed);
             quote!(&[#(#nodes),*])
         });
         quote! {

@@ -35,7 +35,7 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::F
             tree
         }
         Err(error) => {
-            diagnostics.push(recover::diagnose(file, 0, &error));
+            diagnostics.push(recover::diagnose(file, 0, &lexical.text, &error));
             broken()
         }
     }

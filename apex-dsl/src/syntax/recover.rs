@@ -37,7 +37,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
 
 fn again(rule: Rule, file: FileId, start: usize, text: &str, otherwise: &str) -> Diagnostic {
     match Grammar::parse(rule, text) {
-        Err(error) => diagnose(file, start, &error),
+        Err(error) => diagnose(file, start, text, &error),
         Ok(_) => {
             let span = Span::new(file, start, start + text.trim_end().len());
             Diagnostic::error("syntax", span, "this cannot stand here").note(otherwise)
@@ -45,10 +45,10 @@ fn again(rule: Rule, file: FileId, start: usize, text: &str, otherwise: &str) ->
     }
 }
 
-/// Puts pest's error into words.
-pub fn diagnose(file: FileId, start: usize, error: &Error<Rule>) -> Diagnostic {
+/// Puts pest's error into words. The text that it is about begins at `start` of the file.
+pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> Diagnostic {
     let at = match error.location {
-        InputLocation::Pos(at) | InputLocation::Span((at, _)) => start + at,
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
     };
     let mut expected: Vec<&str> = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => positives.iter().filter_map(|r| name(*r)).collect(),
@@ -61,6 +61,9 @@ pub fn diagnose(file: FileId, start: usize, error: &Error<Rule>) -> Diagnostic {
         [one] => format!("expected {one}"),
         [rest @ .., last] => format!("expected {} or {last}", rest.join(", ")),
     };
+    // What is missing is missing behind the last word, not before the next.
+    let missing = expected.contains(&"`;`") || at >= text.trim_end().len();
+    let at = start + if missing { text[..at].trim_end().len() } else { at };
     let diagnostic = Diagnostic::error("syntax", Span::new(file, at, at), message);
     if expected == ["`;`"] { diagnostic.fix("end the statement", Span::new(file, at, at), ";") } else { diagnostic }
 }

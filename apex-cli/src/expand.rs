@@ -1,0 +1,20 @@
+//! `apex expand`.
+
+use crate::project;
+use apex_dsl::passes;
+use std::{path::Path, process::ExitCode};
+
+/// Prints the generated Rust.
+pub fn run(file: &Path) -> Result<ExitCode, String> {
+    let mut checked = project::check(file)?;
+    let place = |_| proc_macro2::Span::call_site();
+    let code =
+        passes::generate(&checked.programs, &checked.catalog, &checked.sources, &place, &mut checked.diagnostics);
+    checked.print_diagnostics();
+    if checked.diagnostics.has_errors() {
+        return Ok(ExitCode::from(1));
+    }
+    let parsed = syn::parse2(code).map_err(|e| format!("the generated code is not Rust: {e}; please report this"))?;
+    project::print(prettyplease::unparse(&parsed).trim_end());
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,71 @@
+//! A text with its package, checked.
+
+use apex_dsl::{
+    catalog::{Catalog, Crates},
+    passes::{self, Program},
+    report::{Diagnostics, render},
+    source::{Sources, World as _},
+};
+use apex_host::{Disk, Seen, Workspace};
+use std::{
+    env,
+    io::{self, IsTerminal as _, Write as _},
+    path::{Path, PathBuf},
+};
+
+/// A checked text.
+pub struct Checked {
+    /// What was read.
+    pub sources: Sources,
+    /// What was found.
+    pub diagnostics: Diagnostics,
+    /// The programs in it.
+    pub programs: Vec<Program>,
+    /// The node types it can use.
+    pub catalog: Catalog,
+}
+
+/// The folder of the package that a file belongs to.
+pub fn package_of(file: &Path) -> Option<PathBuf> {
+    let absolute = env::current_dir().ok()?.join(file);
+    absolute.ancestors().skip(1).find(|folder| folder.join("Cargo.toml").is_file()).map(Path::to_owned)
+}
+
+/// Reads and checks `file`. A text outside of any package sees no nodes.
+pub fn check(file: &Path) -> Result<Checked, String> {
+    let folder = package_of(file);
+    let workspace = folder.as_deref().map(Workspace::load).transpose()?;
+    let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
+    let text = disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))?;
+    let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
+    let catalog = Catalog::load(crates, &mut disk);
+    let mut sources = Sources::default();
+    let root = sources.add(file, text);
+    let mut diagnostics = Diagnostics::default();
+    let programs = passes::check(root, &catalog, &mut sources, &mut disk, &mut diagnostics);
+    disk.save();
+    Ok(Checked { sources, diagnostics, programs, catalog })
+}
+
+impl Checked {
+    /// Prints all messages to standard error.
+    pub fn print_diagnostics(&self) {
+        let color = io::stderr().is_terminal();
+        for diagnostic in self.diagnostics.sorted() {
+            print_error(&format!("{}\n", render(diagnostic, &self.sources, color)));
+        }
+        if self.diagnostics.left_out() > 0 {
+            print_error(&format!("… and {} more\n", self.diagnostics.left_out()));
+        }
+    }
+}
+
+/// Prints a line to standard output. A reader that has gone away is no error.
+pub fn print(text: &str) {
+    let _ = writeln!(io::stdout().lock(), "{text}");
+}
+
+/// Prints a line to standard error.
+pub fn print_error(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}

@@ -1,0 +1,202 @@
+//! What the compiler has decided, in words and as JSON.
+
+use crate::{
+    analyse::{Analysis, Block, Guard, Step},
+    catalog::Catalog,
+    codegen::{Storage, storage},
+    graph::{End, Graph, NodeId, NodeKind},
+    passes::Program,
+    syntax::tree::PortKind,
+};
+use serde_json::{Value, json};
+use std::{collections::BTreeSet, fmt::Write as _};
+
+/// Regions, guards, clusters, schedule, rates, pruning and memory of a program, for people.
+pub fn explain(program: &Program, catalog: &Catalog) -> String {
+    let mut text = String::new();
+    let kind = if program.graph.robot { "robot" } else { "graph" };
+    let _ = writeln!(text, "{kind} {}", program.graph.name);
+    section(&mut text, &program.graph, &program.analysis, catalog, 0);
+    text
+}
+
+fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Catalog, indent: usize) {
+    let pad = "  ".repeat(indent + 1);
+    let regions: BTreeSet<usize> = analysis.regions.iter().copied().collect();
+    let _ = writeln!(
+        text,
+        "{pad}{} nodes, {} connections, {} regions, {} clusters",
+        graph.nodes.len(),
+        graph.connections.len(),
+        regions.len(),
+        analysis.clusters.len()
+    );
+    for (index, cluster) in analysis.clusters.iter().enumerate() {
+        let guards: Vec<String> = cluster.own_guards.iter().map(|g| guard(graph, analysis.guards[*g])).collect();
+        let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {c}")).collect();
+        let waits = guards.into_iter().chain(upstream).collect::<Vec<_>>().join(", ");
+        let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
+        let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}", cluster.region);
+        steps(text, graph, analysis, &cluster.block, indent + 2);
+    }
+    let _ = writeln!(text, "{pad}pruning");
+    let width = (0..graph.nodes.len()).map(|n| graph.path(n).len()).max().unwrap_or(0);
+    for node in 0..graph.nodes.len() {
+        let skipped: Vec<String> = skipped(graph, analysis, node).into_iter().map(|n| graph.path(n)).collect();
+        let words = characteristics(analysis, node);
+        let words = if words.is_empty() { "-".to_owned() } else { words.join(", ") };
+        let skips =
+            if skipped.is_empty() { String::new() } else { format!("  ⊥ from it skips {}", shortened(&skipped)) };
+        let _ = writeln!(text, "{pad}  {:width$}  {words}{skips}", graph.path(node));
+    }
+    let _ = writeln!(text, "{pad}memory besides the nodes' own state");
+    let kept = kept(graph, analysis, catalog);
+    for (end, what) in &kept {
+        let _ = writeln!(text, "{pad}  {}: {what} of `{}`", graph.end_name(*end), graph.port(*end).ty);
+    }
+    if kept.is_empty() {
+        let _ = writeln!(text, "{pad}  none: all tokens are locals");
+    }
+    for (node, body) in &analysis.bodies {
+        if let NodeKind::Each(each) = &graph.nodes[*node].kind {
+            let _ = writeln!(text, "{pad}each {} ({})", graph.path(*node), each.body.name);
+            section(text, &each.body, body, catalog, indent + 1);
+        }
+    }
+}
+
+/// The first of many names, and how many more there are.
+fn shortened(names: &[String]) -> String {
+    const SHOWN: usize = 8;
+    let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
+    if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }
+}
+
+fn steps(text: &mut String, graph: &Graph, analysis: &Analysis, block: &Block, indent: usize) {
+    let pad = "  ".repeat(indent);
+    for step in &block.steps {
+        match step {
+            Step::Fire(node) => {
+                let times = analysis.repetitions[*node];
+                let times = if times == 1 { String::new() } else { format!(" × {times}") };
+                let _ = writeln!(text, "{pad}{}{times}", graph.path(*node));
+            }
+            Step::Block(inner) => {
+                let tokens: Vec<String> = inner.opens.iter().map(|end| graph.end_name(*end)).collect();
+                let _ = writeln!(text, "{pad}if {}", tokens.join(" and "));
+                steps(text, graph, analysis, inner, indent + 1);
+            }
+        }
+    }
+}
+
+fn guard(graph: &Graph, guard: Guard) -> String {
+    match guard {
+        Guard::Timer(node) => {
+            format!("timer of {} (every {:?})", graph.path(node), graph.nodes[node].modifiers.every.unwrap_or_default())
+        }
+        Guard::Input(node) => format!("input {}", graph.path(node)),
+        Guard::React => "each reaction".to_owned(),
+    }
+}
+
+fn characteristics(analysis: &Analysis, node: NodeId) -> Vec<&'static str> {
+    let c = analysis.characteristics[node];
+    [(c.essential, "essential"), (c.required, "required"), (c.siblings, "has siblings"), (c.joins, "joins")]
+        .into_iter()
+        .filter(|(on, _)| *on)
+        .map(|(_, word)| word)
+        .collect()
+}
+
+/// The nodes that do not fire if `node` sends ⊥ on all its outputs.
+fn skipped(graph: &Graph, analysis: &Analysis, node: NodeId) -> Vec<NodeId> {
+    let own = |end: &End| end.node == node;
+    let mut skipped: BTreeSet<NodeId> = BTreeSet::new();
+    for &next in &analysis.order {
+        let clock = &analysis.clocks[next];
+        if next != node
+            && clock.iter().any(|end| own(end) || skipped.contains(&end.node))
+            && !matches!(graph.nodes[next].kind, NodeKind::Boundary(_))
+        {
+            skipped.insert(next);
+        }
+    }
+    skipped.into_iter().collect()
+}
+
+/// Tokens that outlive a firing of their cluster, or that a node writes in place.
+fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(End, String)> {
+    let mut kept = vec![];
+    for (node, n) in graph.nodes.iter().enumerate() {
+        for port in
+            (0..n.ports.len()).filter(|p| n.ports[*p].kind == PortKind::Output && n.ports[*p].parameter.is_none())
+        {
+            let end = End { node, port };
+            let crosses = graph
+                .connections
+                .iter()
+                .any(|c| c.from == end && analysis.cluster_of[c.to.node] != analysis.cluster_of[node]);
+            let rate = graph.port(end).rate as u64 * analysis.repetitions[node];
+            match (&n.kind, storage(graph, catalog, end)) {
+                (NodeKind::Delay(initial), _) => kept.push((end, format!("a delay of {}", initial.len()))),
+                (_, Storage::Buffer) => kept.push((end, "a buffer written in place".to_owned())),
+                (_, Storage::Argument) => {}
+                _ if crosses => kept.push((end, "a token between clusters".to_owned())),
+                _ if rate > 1 => kept.push((end, format!("{rate} tokens on the stack"))),
+                _ => {}
+            }
+        }
+    }
+    kept
+}
+
+/// The same for programs.
+pub fn explain_json(program: &Program, catalog: &Catalog) -> Value {
+    object(&program.graph, &program.analysis, catalog)
+}
+
+fn object(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Value {
+    let nodes: Vec<Value> = (0..graph.nodes.len())
+        .map(|node| {
+            let c = analysis.characteristics[node];
+            let clock: Vec<String> = analysis.clocks[node].iter().map(|end| graph.end_name(*end)).collect();
+            let skips: Vec<String> = skipped(graph, analysis, node).into_iter().map(|n| graph.path(n)).collect();
+            json!({
+                "name": graph.path(node), "region": analysis.regions[node], "cluster": analysis.cluster_of[node],
+                "repetitions": analysis.repetitions[node], "essential": c.essential, "required": c.required,
+                "siblings": c.siblings, "joins": c.joins, "fires_if": clock, "skips": skips,
+            })
+        })
+        .collect();
+    let clusters: Vec<Value> = analysis
+        .clusters
+        .iter()
+        .map(|c| {
+            let guards: Vec<String> = c.own_guards.iter().map(|g| guard(graph, analysis.guards[*g])).collect();
+            let schedule: Vec<String> = c.schedule().into_iter().map(|n| graph.path(n)).collect();
+            json!({ "region": c.region, "guards": guards, "upstream": c.upstream, "downstream": c.downstream, "schedule": schedule, "steps": step_list(graph, &c.block) })
+        })
+        .collect();
+    let memory: Vec<Value> = kept(graph, analysis, catalog)
+        .into_iter()
+        .map(|(end, what)| json!({ "port": graph.end_name(end), "what": what, "type": graph.port(end).ty.to_string() }))
+        .collect();
+    let bodies: serde_json::Map<String, Value> = analysis
+        .bodies
+        .iter()
+        .filter_map(|(node, body)| match &graph.nodes[*node].kind {
+            NodeKind::Each(each) => Some((graph.path(*node), object(&each.body, body, catalog))),
+            _ => None,
+        })
+        .collect();
+    json!({ "name": graph.name, "nodes": nodes, "clusters": clusters, "memory": memory, "each": bodies })
+}
+
+fn step_list(graph: &Graph, block: &Block) -> Value {
+    let steps = block.steps.iter().map(|step| match step {
+        Step::Fire(node) => json!(graph.path(*node)),
+        Step::Block(inner) => json!({ "if": inner.opens.iter().map(|end| graph.end_name(*end)).collect::<Vec<_>>(), "then": step_list(graph, inner) }),
+    });
+    steps.collect()
+}
