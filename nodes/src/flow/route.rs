@@ -13,11 +13,7 @@ pub struct Branches<T> {
 #[node]
 pub fn switch<T: Clone>(value: &T, condition: &bool) -> Branches<T> {
     let value = Some(value.clone());
-    if *condition {
-        Branches { on_true: value, on_false: None }
-    } else {
-        Branches { on_true: None, on_false: value }
-    }
+    if *condition { Branches { on_true: value, on_false: None } } else { Branches { on_true: None, on_false: value } }
 }
 
 /// Lets `value` pass while `open`, else sends ⊥ (thesis 3.6.2).

@@ -1,25 +1,33 @@
-use super::{MAX_BEAMS, Point2, Pose2};
+use super::{MAX_BEAMS, Point2, Pose2, Scan};
 use heapless::Vec;
-
-/// Where wheels (or feet) are: rows of x and y of the centre, length along x and width along y, in metres, in the
-/// frame of the container, whose origin is its centre.
-pub type WheelBoxes = &'static [[f32; 4]];
 
 /// How well points agree with a box model at a pose (thesis 6.6.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Consensus {
+pub(super) struct Consensus {
     /// Points in a wheel box: |I|.
     pub inliers: u16,
     /// Points in the footprint, but in no wheel box: |O|.
     pub outliers: u16,
 }
 
-/// The box model of a container: footprint and wheels.
+/// What is to be seen of the wheels of a model at a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Sighting {
+    /// Wheel boxes that hold a point.
+    pub seen: usize,
+    /// Wheel boxes that hold none though nothing stands before them.
+    pub missing: usize,
+}
+
+/// The box model of a container: footprint and wheels, in m, in the frame of the container.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BoxModel {
     pub length: f32,
     pub width: f32,
-    pub wheels: WheelBoxes,
+    /// Rows of x and y of the centre, length along x and width along y.
+    pub wheels: &'static [[f32; 4]],
+    /// Length of the strip before the container that has to be free as well.
+    pub clearance: f32,
 }
 
 impl BoxModel {
@@ -29,7 +37,7 @@ impl BoxModel {
         for p in self.nearby(pose, points) {
             if self.wheels.iter().any(|wheel| in_box(p, wheel)) {
                 count.inliers += 1;
-            } else if in_box(p, &[0.0, 0.0, self.length, self.width]) {
+            } else if in_box(p, &self.footprint()) {
                 count.outliers += 1;
                 if count.outliers >= max_outliers {
                     break;
@@ -39,9 +47,17 @@ impl BoxModel {
         count
     }
 
-    /// How many of the wheel boxes hold a point.
-    pub fn occupied(&self, pose: &Pose2, points: &Vec<Point2, MAX_BEAMS>) -> usize {
-        self.wheels.iter().filter(|wheel| self.nearby(pose, points).any(|p| in_box(p, wheel))).count()
+    /// Looks for each wheel.
+    pub fn sighting(&self, pose: &Pose2, points: &Vec<Point2, MAX_BEAMS>, scan: &Scan) -> Sighting {
+        let mut sighting = Sighting::default();
+        for wheel in self.wheels {
+            if self.nearby(pose, points).any(|p| in_box(p, wheel)) {
+                sighting.seen += 1;
+            } else if in_plain_view(pose.to_outer(Point2::new(wheel[0], wheel[1])), scan) {
+                sighting.missing += 1;
+            }
+        }
+        sighting
     }
 
     /// The points that can lie in the model at all, in its frame.
@@ -55,12 +71,24 @@ impl BoxModel {
         })
     }
 
+    /// What only wheels may stand in: the container and the strip before it.
+    fn footprint(&self) -> [f32; 4] {
+        [-0.5 * self.clearance, 0.0, self.length + self.clearance, self.width]
+    }
+
     /// Square of the radius around the centre beyond which nothing of the model lies.
     fn reach_squared(&self) -> f32 {
-        let footprint = [0.0, 0.0, self.length, self.width];
         let corner = |b: &[f32; 4]| Point2::new(b[0].abs() + 0.5 * b[2], b[1].abs() + 0.5 * b[3]).norm_squared();
-        self.wheels.iter().map(corner).fold(corner(&footprint), f32::max)
+        self.wheels.iter().map(corner).fold(corner(&self.footprint()), f32::max)
     }
+}
+
+/// Whether the beam towards `point`, and its neighbours, went past it. Beams that measured nothing do not tell.
+fn in_plain_view(point: Point2, scan: &Scan) -> bool {
+    let distance = point.norm();
+    scan.beam_towards(point.angle()).is_some_and(|beam| {
+        (beam.saturating_sub(1)..=beam + 1).all(|b| scan.range(b).is_some_and(|range| range > distance))
+    })
 }
 
 /// Whether a point lies in a box of centre, length and width; the border belongs to it.
@@ -74,8 +102,12 @@ mod tests {
     use super::*;
     use core::f32::consts::FRAC_PI_2;
 
-    const MODEL: BoxModel =
-        BoxModel { length: 2.0, width: 1.0, wheels: &[[-0.9, 0.4, 0.2, 0.2], [-0.9, -0.4, 0.2, 0.2], [1.5, 0.0, 0.2, 0.2]] };
+    const MODEL: BoxModel = BoxModel {
+        length: 2.0,
+        width: 1.0,
+        wheels: &[[-0.9, 0.4, 0.2, 0.2], [-0.9, -0.4, 0.2, 0.2], [1.5, 0.0, 0.2, 0.2]],
+        clearance: 0.0,
+    };
 
     #[test]
     fn points_are_inliers_outliers_or_elsewhere() {
@@ -84,13 +116,37 @@ mod tests {
         let inner = [(-0.9, 0.4), (-0.85, -0.45), (0.0, 0.0), (0.9, 0.45), (0.0, 0.6), (1.5, 0.0), (5.0, 0.0)];
         let points: Vec<Point2, MAX_BEAMS> = inner.iter().map(|&(x, y)| pose.to_outer(Point2::new(x, y))).collect();
         assert_eq!(MODEL.consensus(&pose, &points, 100), Consensus { inliers: 3, outliers: 2 });
-        assert_eq!(MODEL.occupied(&pose, &points), 3);
         assert_eq!(MODEL.consensus(&pose, &points, 1).outliers, 1);
     }
 
     #[test]
     fn no_points_no_consensus() {
         assert_eq!(MODEL.consensus(&Pose2::default(), &Vec::new(), 1), Consensus::default());
-        assert_eq!(MODEL.occupied(&Pose2::default(), &Vec::new()), 0);
+    }
+
+    #[test]
+    fn the_strip_before_the_container_has_to_be_free() {
+        let points: Vec<Point2, MAX_BEAMS> = [Point2::new(-1.2, 0.0), Point2::new(1.2, 0.0)].into_iter().collect();
+        let outliers = |clearance| BoxModel { clearance, ..MODEL }.consensus(&Pose2::default(), &points, 100).outliers;
+        assert_eq!([outliers(0.0), outliers(0.3)], [0, 1]);
+    }
+
+    #[test]
+    fn an_empty_wheel_box_is_missing_unless_something_hides_it() {
+        // The scanner looks along x at a container 3 m away; all beams but those to its left near wheel end at 10 m.
+        let pose = Pose2::new(3.0, 0.0, 0.0);
+        let mut scan = Scan { angle_min: -0.5, angle_increment: 0.01, range_max: 20.0, ..Scan::default() };
+        scan.ranges.extend([10.0; 101]);
+        let near = pose.to_outer(Point2::new(-0.9, 0.4));
+        let beam = scan.beam_towards(near.angle()).expect("in view");
+        let sighting = |scan: &Scan| MODEL.sighting(&pose, &scan.points().map(|(_, p)| p).collect(), scan);
+        scan.ranges[beam] = near.norm();
+        assert_eq!(sighting(&scan), Sighting { seen: 1, missing: 2 });
+        scan.ranges[beam] = 1.0;
+        assert_eq!(sighting(&scan), Sighting { seen: 0, missing: 2 });
+        scan.ranges[beam] = f32::NAN;
+        assert_eq!(sighting(&scan), Sighting { seen: 0, missing: 2 });
+        scan.ranges[beam] = 10.0;
+        assert_eq!(sighting(&scan), Sighting { seen: 0, missing: 3 });
     }
 }

@@ -41,6 +41,17 @@ impl Scan {
         self.angle_min + beam as f32 * self.angle_increment
     }
 
+    /// The beam nearest to a direction in rad; `None` outside of the field of view.
+    pub fn beam_towards(&self, angle: f32) -> Option<usize> {
+        let turn = core::f32::consts::TAU;
+        // Counted from the middle of the field of view, so that it does not matter in which turn `angle` is.
+        let middle = self.angle(self.ranges.len()) * 0.5 + self.angle_min * 0.5;
+        let beam = (middle + libm::remainderf(angle - middle, turn) - self.angle_min) / self.angle_increment;
+        let beam = libm::roundf(beam);
+        // False for NaN, which an empty or flat scan gives.
+        (beam >= 0.0 && beam < self.ranges.len() as f32).then_some(beam as usize)
+    }
+
     /// The measured points with their beams, in the frame of the scanner, in order.
     ///
     /// Turns one direction on from beam to beam (in double precision: after a full turn it is off by less than
@@ -92,5 +103,18 @@ mod tests {
         for (beam, point) in scan.points() {
             assert!((point - Point2::polar(5.0, scan.angle(beam))).norm() < 1e-5, "beam {beam}");
         }
+    }
+
+    #[test]
+    fn beams_are_found_by_direction_in_any_turn() {
+        let mut scan = Scan { angle_min: -2.0, angle_increment: 0.1, ..Scan::default() };
+        assert_eq!(scan.beam_towards(0.0), None);
+        scan.ranges.extend([1.0; 41]);
+        for beam in 0..41 {
+            for turn in [-2.0 * PI, 0.0, 2.0 * PI] {
+                assert_eq!(scan.beam_towards(scan.angle(beam) + turn), Some(beam));
+            }
+        }
+        assert_eq!((scan.beam_towards(3.0), scan.beam_towards(f32::NAN)), (None, None));
     }
 }

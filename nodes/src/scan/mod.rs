@@ -9,7 +9,6 @@ mod geometry;
 mod laser;
 mod segment;
 
-pub use consensus::{Consensus, WheelBoxes};
 pub use container::{Container, ContainerSearch};
 pub use filter::{MedianFilter, RangeFilter};
 pub use geometry::{Point2, Pose2};

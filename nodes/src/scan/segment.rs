@@ -87,7 +87,8 @@ impl JumpDistance {
         let mut last: Option<(usize, f32)> = None;
         for (beam, point) in scan.points() {
             let range = scan.ranges[beam];
-            let joins = last.is_some_and(|(before, r)| beam - before <= self.bridge + 1 && (range - r).abs() < self.gap);
+            let joins =
+                last.is_some_and(|(before, r)| beam - before <= self.bridge + 1 && (range - r).abs() < self.gap);
             last = Some((beam, range));
             match list.last_mut() {
                 Some(segment) if joins => segment.push(beam as u16, point),
@@ -196,8 +197,9 @@ mod tests {
             min: Point2::new(x, 0.0),
             max: Point2::new(x, size),
         };
-        let all: Segments =
-            [segment(1.0, 0.1, 5), segment(1.0, 0.5, 5), segment(9.0, 0.1, 5), segment(1.0, 0.1, 1)].into_iter().collect();
+        let all: Segments = [segment(1.0, 0.1, 5), segment(1.0, 0.5, 5), segment(9.0, 0.1, 5), segment(1.0, 0.1, 1)]
+            .into_iter()
+            .collect();
         let mut out = Out::new();
         SegmentFilter::construct((0.3, 6.0, 2)).process(&all, &mut out);
         assert_eq!(out.get().expect("segments").as_slice(), &all[..1]);
