@@ -53,10 +53,21 @@ impl Chain {
         Self {
             filter: RangeFilter::construct((0.3, 10.0)),
             jumps: JumpDistance::construct((0.05, 1)),
-            wheels: SegmentFilter::construct((0.35, 4.0, 2)),
-            // width, length, foot across, foot along, δ_w, d_I, d_O, boxes in view (three boards, six feet), missing,
-            // free strip before the pockets, view angle
-            search: ContainerSearch::construct((0.8, 1.2, 0.1, 0.145, 0.1, 15, 25, 9, 0, 0.5, view_angle, PALLET)),
+            wheels: SegmentFilter::construct((0.35, 4.5, 1)),
+            search: ContainerSearch::construct((
+                0.8,   // width
+                1.2,   // length
+                0.1,   // foot across
+                0.145, // foot along
+                0.1,   // width_tolerance
+                2,     // min_points: a foot that is near has an extent
+                15,    // min_inliers
+                25,    // max_outliers
+                9,     // min_wheels: three boards and six feet
+                0,     // max_missing
+                0.6,   // clearance: nothing blocks the pockets
+                view_angle, PALLET,
+            )),
         }
     }
 

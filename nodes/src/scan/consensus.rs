@@ -15,7 +15,7 @@ pub(super) struct Consensus {
 pub(super) struct Sighting {
     /// Wheel boxes that hold a point.
     pub seen: usize,
-    /// Wheel boxes that hold none though nothing stands before them.
+    /// Wheel boxes that hold none although nothing stands before them.
     pub missing: usize,
 }
 
@@ -47,11 +47,11 @@ impl BoxModel {
         count
     }
 
-    /// Looks for each wheel.
-    pub fn sighting(&self, pose: &Pose2, points: &Vec<Point2, MAX_BEAMS>, scan: &Scan) -> Sighting {
+    /// Looks for each wheel among the points of segments that could be one: those of a wall would fill a box, too.
+    pub fn sighting(&self, pose: &Pose2, candidates: &Vec<Point2, MAX_BEAMS>, scan: &Scan) -> Sighting {
         let mut sighting = Sighting::default();
         for wheel in self.wheels {
-            if self.nearby(pose, points).any(|p| in_box(p, wheel)) {
+            if self.nearby(pose, candidates).any(|p| in_box(p, wheel)) {
                 sighting.seen += 1;
             } else if in_plain_view(pose.to_outer(Point2::new(wheel[0], wheel[1])), scan) {
                 sighting.missing += 1;

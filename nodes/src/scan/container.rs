@@ -3,7 +3,7 @@ use super::{
     consensus::{BoxModel, Consensus, Sighting},
 };
 use apex_rt::node;
-use core::f32::consts::{FRAC_PI_2, PI};
+use core::f32::consts::PI;
 use heapless::Vec;
 
 /// A container that was found in a scan.
@@ -43,7 +43,7 @@ impl Container {
 #[derive(Debug, Clone)]
 pub struct ContainerSearch {
     /// Distance of the outer sides of the wheels, across (w).
-    #[param(unit = "m", default = 0.7, range = 0.05..=10.0)]
+    #[param(unit = "m", default = 0.68, range = 0.05..=10.0)]
     width: f32,
     /// Distance of the outer sides of the wheels, along (l).
     #[param(unit = "m", default = 1.2, range = 0.05..=10.0)]
@@ -57,11 +57,14 @@ pub struct ContainerSearch {
     /// How much the width of a hypothesis may differ from `width` (δ_w).
     #[param(unit = "m", default = 0.15, range = 0.0..=2.0)]
     width_tolerance: f32,
+    /// Fewest points of a segment that is taken as a near wheel. Far wheels may have fewer.
+    #[param(default = 1, range = 1..=1000)]
+    min_points: u16,
     /// Fewest points in wheel boxes (d_I).
-    #[param(default = 6, range = 0..=10_000)]
+    #[param(default = 4, range = 0..=10_000)]
     min_inliers: u16,
     /// So many points in the footprint beside the wheels refute the hypothesis (d_O).
-    #[param(default = 5, range = 1..=10_000)]
+    #[param(default = 3, range = 1..=10_000)]
     max_outliers: u16,
     /// Fewest wheel boxes that must hold a point. Two always do, by construction.
     #[param(default = 3, range = 0..=100)]
@@ -74,23 +77,25 @@ pub struct ContainerSearch {
     clearance: f32,
     /// Largest angle between the line of sight to the centre and the heading: how much from the side it may be seen. With π
     /// it may be anywhere, also around the scanner, and the far wheels of a symmetric container may pass for the near ones.
-    #[param(unit = "rad", default = FRAC_PI_2, range = 0.0..=PI)]
+    #[param(unit = "rad", default = PI, range = 0.0..=PI)]
     max_view_angle: f32,
     /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its centre.
     #[param]
     boxes: &'static [[f32; 4]],
+    /// All points of the scan.
     points: Vec<Point2, MAX_BEAMS>,
+    /// Those of the segments.
+    candidates: Vec<Point2, MAX_BEAMS>,
 }
 
 #[node]
 impl ContainerSearch {
     fn process(&mut self, scan: &Scan, segments: &Segments) -> Option<Container> {
-        self.points.clear();
-        self.points.extend(scan.points().map(|(_, p)| p));
+        self.collect_points(scan, segments);
         let mut best: Option<Container> = None;
         for (i, a) in segments.iter().enumerate() {
             for b in &segments[i + 1..] {
-                for found in self.hypotheses(scan, a, b).into_iter().flatten() {
+                for found in self.hypotheses(scan, [a, b]).into_iter().flatten() {
                     if best.is_none_or(|best| found.is_better_than(&best)) {
                         best = Some(found);
                     }
@@ -100,11 +105,24 @@ impl ContainerSearch {
         best
     }
 
+    /// Fills the lists of points. The segments are in the order of their beams.
+    fn collect_points(&mut self, scan: &Scan, segments: &Segments) {
+        self.points.clear();
+        self.candidates.clear();
+        let mut segments = segments.iter().peekable();
+        for (beam, point) in scan.points() {
+            while segments.next_if(|s| usize::from(s.last) < beam).is_some() {}
+            // There is room for as many points as a scan has beams.
+            self.points.extend([point]);
+            self.candidates.extend(segments.peek().filter(|s| usize::from(s.first) <= beam).map(|_| point));
+        }
+    }
+
     /// The containers that have their near wheels at the two segments, in one order or the other.
-    fn hypotheses(&self, scan: &Scan, a: &Segment, b: &Segment) -> [Option<Container>; 2] {
-        let (a, b) = (a.mid_range(), b.mid_range());
+    fn hypotheses(&self, scan: &Scan, pair: [&Segment; 2]) -> [Option<Container>; 2] {
+        let [a, b] = pair.map(Segment::mid_range);
         let deviation = (self.width - self.wheel_width).abs() - (b - a).norm();
-        if deviation.abs() > self.width_tolerance {
+        if deviation.abs() > self.width_tolerance || pair.iter().any(|s| s.points < self.min_points) {
             return [None; 2];
         }
         let error = deviation * deviation;
@@ -131,7 +149,7 @@ impl ContainerSearch {
         if inliers < self.min_inliers || outliers >= self.max_outliers {
             return None;
         }
-        let Sighting { seen, missing } = model.sighting(&pose, &self.points, scan);
+        let Sighting { seen, missing } = model.sighting(&pose, &self.candidates, scan);
         let agrees = seen >= self.min_wheels && missing <= self.max_missing;
         agrees.then_some(Container { pose, error, inliers, outliers, wheels: seen })
     }
@@ -158,14 +176,16 @@ mod tests {
             wheel_width: 0.04,
             wheel_length: 0.125,
             width_tolerance: 0.15,
+            min_points: 1,
             min_inliers: 6,
             max_outliers: 5,
             min_wheels: 3,
             max_missing: 0,
             clearance: 0.0,
-            max_view_angle: FRAC_PI_2,
+            max_view_angle: 0.5 * PI,
             boxes: BOXES,
             points: Vec::new(),
+            candidates: Vec::new(),
         }
     }
 
