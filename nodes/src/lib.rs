@@ -5,7 +5,7 @@
 //!
 //! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
-#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 pub mod flow;
 #[cfg(feature = "std")]

@@ -1,5 +1,5 @@
 use super::{ReadError, lines::Lines};
-use apex_rt::{Out, node};
+use apex_rt::{Event, Out, node};
 use std::path::Path;
 
 /// Reads rows of numbers from a comma-separated file (`.csv`, `.csv.gz`).
@@ -43,7 +43,8 @@ impl CsvReader {
     }
 }
 
-/// Sends the rows of a comma-separated file of numbers, one per firing; ⊥ after the last (see [`CsvReader`]).
+/// Sends the rows of a comma-separated file of numbers, one per firing (see [`CsvReader`]). After the last it triggers `done` and
+/// sends ⊥.
 #[node]
 #[derive(Debug)]
 pub struct CsvLog {
@@ -59,7 +60,7 @@ pub struct CsvLog {
 
 #[node]
 impl CsvLog {
-    fn process(&mut self, row: &mut Out<Vec<f64>>) -> Result<(), ReadError> {
+    fn process(&mut self, row: &mut Out<Vec<f64>>, done: Event<()>) -> Result<(), ReadError> {
         if self.finished {
             return Ok(());
         }
@@ -77,6 +78,9 @@ impl CsvLog {
             row.clear();
         }
         self.finished = !read?;
+        if self.finished {
+            done.emit(());
+        }
         Ok(())
     }
 
@@ -102,13 +106,14 @@ mod tests {
         let path = file("rows.csv", "a,b\n1,2\n\n 3 , \n");
         let mut node = CsvLog::construct((path, true));
         let mut out = Out::new();
-        node.process(&mut out).expect("row 1");
+        node.process(&mut out, Event::unconnected()).expect("row 1");
         assert_eq!(out.get(), Some(&vec![1.0, 2.0]));
-        node.process(&mut out).expect("row 2");
+        node.process(&mut out, Event::unconnected()).expect("row 2");
         let row = out.get().expect("a row");
         assert!(row[0] == 3.0 && row[1].is_nan() && !node.finished());
-        node.process(&mut out).expect("the end");
-        assert!(out.get().is_none() && node.finished());
+        let mut done = None;
+        node.process(&mut out, Event::into_slot(&mut done)).expect("the end");
+        assert!(out.get().is_none() && node.finished() && done.is_some());
     }
 
     #[test]
@@ -127,9 +132,9 @@ mod tests {
     fn a_missing_file_fails_once() {
         let mut node = CsvLog::construct(("/nowhere/at-all.csv", false));
         let mut out = Out::new();
-        let error = node.process(&mut out).expect_err("no such file");
+        let error = node.process(&mut out, Event::unconnected()).expect_err("no such file");
         assert!(error.line.is_none() && error.to_string().starts_with("/nowhere/at-all.csv: "));
         assert!(node.finished());
-        assert_eq!(node.process(&mut out), Ok(()));
+        assert_eq!(node.process(&mut out, Event::unconnected()), Ok(()));
     }
 }

@@ -1,6 +1,6 @@
 use super::{ReadError, lines::Lines};
 use crate::scan::{MAX_BEAMS, Pose2, Scan};
-use apex_rt::{Ctx, Out, Time, node};
+use apex_rt::{Ctx, Event, Out, Time, node};
 use core::f32::consts::PI;
 use std::path::Path;
 
@@ -143,7 +143,7 @@ fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(),
     Ok(())
 }
 
-/// Sends the scans of a log, one per firing; ⊥ after the last (formats: see [`ScanLogReader`]).
+/// Sends the scans of a log, one per firing (formats: see [`ScanLogReader`]). After the last it triggers `done` and sends ⊥.
 ///
 /// Fails on a line that is no scan, and goes on with the next one. Scans of a table are stamped with the time of
 /// the firing.
@@ -181,7 +181,13 @@ impl ScanLog {
         Ok(Self { path, angle_min, angle_increment, range_min, range_max, reader, finished: false })
     }
 
-    fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>, entry: &mut Out<LogEntry>) -> Result<(), ReadError> {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        scan: &mut Out<Scan>,
+        entry: &mut Out<LogEntry>,
+        done: Event<()>,
+    ) -> Result<(), ReadError> {
         if self.finished {
             return Ok(());
         }
@@ -198,6 +204,7 @@ impl ScanLog {
             Ok(None) => {
                 scan.clear();
                 self.finished = true;
+                done.emit(());
             }
             Err(error) => {
                 scan.clear();
@@ -327,10 +334,16 @@ mod tests {
         while !node.finished() {
             scan.clear();
             entry.clear();
-            let result = node.process(&Ctx::new(Time::from_secs(5)), &mut scan, &mut entry);
-            sent.push((result.is_ok(), scan.get().is_some(), entry.get().map(|e: &LogEntry| e.id)));
+            let mut done = None;
+            let ctx = Ctx::new(Time::from_secs(5));
+            let result = node.process(&ctx, &mut scan, &mut entry, Event::into_slot(&mut done));
+            sent.push((result.is_ok(), entry.get().map(|e: &LogEntry| e.id), done.is_some()));
+            assert_eq!(scan.get().is_some(), entry.get().is_some());
         }
-        assert_eq!(sent, [(true, true, Some(1)), (false, false, None), (true, true, Some(3)), (true, false, None)]);
+        assert_eq!(sent, [(true, Some(1), false), (false, None, false), (true, Some(3), false), (true, None, true)]);
+        let mut done = None;
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &mut scan, &mut entry, Event::into_slot(&mut done)), Ok(()));
+        assert!(done.is_none(), "the end comes once");
     }
 
     #[test]
@@ -339,10 +352,10 @@ mod tests {
         let (mut scan, mut entry) = (Out::new(), Out::new());
         let ctx = Ctx::new(Time::from_secs(5));
         let mut node = ScanLog::construct((file("graph.csv", b"1,1,1.0\n"), 0.0, 0.1, 0.1, 10.0));
-        node.process(&ctx, &mut scan, &mut entry).expect("a scan");
+        node.process(&ctx, &mut scan, &mut entry, Event::unconnected()).expect("a scan");
         assert_eq!(scan.get().expect("a scan").stamp, Time::from_secs(5));
         let mut missing = ScanLog::construct((path("missing.csv"), 0.0, 0.1, 0.1, 10.0));
-        assert!(missing.process(&ctx, &mut scan, &mut entry).is_err());
+        assert!(missing.process(&ctx, &mut scan, &mut entry, Event::unconnected()).is_err());
         assert!(missing.finished());
     }
 }

@@ -7,13 +7,16 @@ const CLEAR_OF_CART: f32 = 1.4;
 /// Nothing stands so near to the scanner, in m.
 const CLEAR_OF_SCANNER: f32 = 0.9;
 
+/// Puts a thing at a place.
+type Add = fn(&mut World, Pose2, &mut Random);
+
 /// Puts a room with furniture and people into the world; the `way` of the cart stays free.
 pub(crate) fn furnish(world: &mut World, way: &[Point2], random: &mut Random) {
     let centre = Pose2::new(random.uniform(1.5, 2.5), random.uniform(-0.5, 0.5), random.uniform(-0.2, 0.2));
     world.block(&centre, random.uniform(9.0, 11.0), random.uniform(7.0, 9.0));
-    let things: [(u32, fn(&mut World, Pose2, &mut Random)); 4] = [(2, table), (3, chair), (3, person), (4, chest)];
+    let things: [(u64, Add); 4] = [(2, table), (3, chair), (3, person), (4, chest)];
     for (most, add) in things {
-        for _ in 0..random.bits() % (u64::from(most) + 1) {
+        for _ in 0..random.bits() % (most + 1) {
             if let Some(place) = free_place(way, random) {
                 add(world, place, random);
             }
