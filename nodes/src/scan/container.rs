@@ -38,7 +38,7 @@ impl Container {
 /// that hold none must be hidden; a strip before the container may be required to be free; and the model may be limited
 /// to be seen from the front. The defaults are for a container on four castors. A pallet on nine feet differs in numbers only.
 ///
-/// Cost: O(s²) for s segments, and O(points) for each pair at the right distance. Allocates nothing.
+/// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates nothing.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ContainerSearch {
@@ -82,9 +82,9 @@ pub struct ContainerSearch {
     /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its centre.
     #[param]
     boxes: &'static [[f32; 4]],
-    /// All points of the scan.
+    /// The points of the scan by beam; NaN where nothing was measured.
     points: Vec<Point2, MAX_BEAMS>,
-    /// Those of the segments.
+    /// Those of them that belong to segments; NaN elsewhere.
     candidates: Vec<Point2, MAX_BEAMS>,
 }
 
@@ -107,14 +107,18 @@ impl ContainerSearch {
 
     /// Fills the lists of points. The segments are in the order of their beams.
     fn collect_points(&mut self, scan: &Scan, segments: &Segments) {
-        self.points.clear();
-        self.candidates.clear();
+        const NOTHING: Point2 = Point2::new(f32::NAN, f32::NAN);
+        for points in [&mut self.points, &mut self.candidates] {
+            points.clear();
+            points.extend(scan.ranges.iter().map(|_| NOTHING));
+        }
         let mut segments = segments.iter().peekable();
         for (beam, point) in scan.points() {
+            self.points[beam] = point;
             while segments.next_if(|s| usize::from(s.last) < beam).is_some() {}
-            // There is room for as many points as a scan has beams.
-            self.points.extend([point]);
-            self.candidates.extend(segments.peek().filter(|s| usize::from(s.first) <= beam).map(|_| point));
+            if segments.peek().is_some_and(|s| usize::from(s.first) <= beam) {
+                self.candidates[beam] = point;
+            }
         }
     }
 
@@ -145,11 +149,12 @@ impl ContainerSearch {
     /// The container at `pose`; `None` if the scan does not agree with that.
     fn verify(&self, scan: &Scan, pose: Pose2, error: f32) -> Option<Container> {
         let model = BoxModel { length: self.length, width: self.width, wheels: self.boxes, clearance: self.clearance };
-        let Consensus { inliers, outliers } = model.consensus(&pose, &self.points, self.max_outliers);
+        let beams = model.beams(&pose, scan);
+        let Consensus { inliers, outliers } = model.consensus(&pose, &self.points[beams.clone()], self.max_outliers);
         if inliers < self.min_inliers || outliers >= self.max_outliers {
             return None;
         }
-        let Sighting { seen, missing } = model.sighting(&pose, &self.candidates, scan);
+        let Sighting { seen, missing } = model.sighting(&pose, &self.candidates[beams], scan);
         let agrees = seen >= self.min_wheels && missing <= self.max_missing;
         agrees.then_some(Container { pose, error, inliers, outliers, wheels: seen })
     }
