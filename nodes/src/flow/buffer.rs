@@ -1,5 +1,5 @@
-//! Buffers turn events into synchronous flow (thesis 3.6.3). A connection from an event to an input does so too; buffers are for the
-//! case where the flow sets its own pace.
+//! Buffers turn events into synchronous flow (thesis 3.6.3). A connection from an event to an input does so too;
+//! buffers are for the case where the flow sets its own pace.
 
 use apex_rt::node;
 

@@ -43,8 +43,8 @@ impl CsvReader {
     }
 }
 
-/// Sends the rows of a comma-separated file of numbers, one per firing (see [`CsvReader`]). After the last it triggers `done` and
-/// sends ⊥.
+/// Sends the rows of a comma-separated file of numbers, one per firing (see [`CsvReader`]). After the last it
+/// triggers `done` and sends ⊥.
 #[node]
 #[derive(Debug)]
 pub struct CsvLog {

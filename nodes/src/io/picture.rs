@@ -3,7 +3,8 @@ use crate::scan::{Container, Pose2, Scan, Segments};
 use apex_rt::node;
 use std::path::Path;
 
-/// Writes pictures of scans and of what was found in them, as `0001.svg`, `0002.svg`, … in a directory (see [`ScanFigure`]).
+/// Writes pictures of scans and of what was found in them, as `0001.svg`, `0002.svg`, … in a directory (see
+/// [`ScanFigure`]).
 ///
 /// Fails if a file cannot be written.
 #[node]

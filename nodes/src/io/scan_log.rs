@@ -143,7 +143,8 @@ fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(),
     Ok(())
 }
 
-/// Sends the scans of a log, one per firing (formats: see [`ScanLogReader`]). After the last it triggers `done` and sends ⊥.
+/// Sends the scans of a log, one per firing (formats: see [`ScanLogReader`]). After the last it triggers `done` and
+/// sends ⊥.
 ///
 /// Fails on a line that is no scan, and goes on with the next one. Scans of a table are stamped with the time of
 /// the firing.

@@ -65,7 +65,7 @@ impl LowPass {
 #[derive(Debug, Clone)]
 pub struct RateLimit {
     /// Largest change per second, in units of the value.
-    #[param(range = 0.0..=f64::MAX)]
+    #[param(range = 0.0..)]
     rate: f64,
     last: Option<(Time, f64)>,
 }

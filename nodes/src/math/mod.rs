@@ -1,7 +1,7 @@
 //! Arithmetic, comparison, angles and filters of one signal.
 //!
-//! Floating point throughout, `f32` or `f64` as the connections decide: no value of an input can make a node
-//! panic, and NaN goes through as IEEE 754 has it. Trigonometry comes from `libm`, so that results are the same on every platform.
+//! Floating point throughout, `f32` or `f64` as the connections decide: no value of an input can make a node panic,
+//! and NaN goes through as IEEE 754 has it.
 
 mod angle;
 mod arithmetic;

@@ -30,15 +30,18 @@ impl Container {
 
 /// Finds a container by two of its wheels (thesis 6.6.1).
 ///
-/// Every ordered pair of segments is taken as the two near wheels. Pairs at the wrong distance are dropped (δ_w); the
-/// others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model (eq. 6.17). ⊥ if no pose does.
+/// Every ordered pair of segments is taken as the two near wheels. Pairs at the wrong distance are dropped (δ_w);
+/// the others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model (eq. 6.17).
+/// ⊥ if no pose does.
 ///
-/// What the thesis does not have: of the poses that agree, the one with the most wheels in view wins, and ε
-/// (eq. 6.18) decides between equals, for ε alone often prefers a chance pair in clutter; a number of wheel boxes must hold a point; those
-/// that hold none must be hidden; a strip before the container may be required to be free; and the model may be limited
-/// to be seen from the front. The defaults are for a container on four castors. A pallet on nine feet differs in numbers only.
+/// What the thesis does not have: of the poses that agree, the one with the most wheels in view wins, and ε (eq.
+/// 6.18) decides between equals, for ε alone often prefers a chance pair in clutter; a number of wheel boxes must
+/// hold a point; those that hold none must be hidden; a strip before the container may be required to be free; and
+/// the model may be limited to be seen from the front. The defaults are for a container on four castors. A pallet
+/// on nine feet differs in numbers only.
 ///
-/// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates nothing.
+/// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates
+/// nothing.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ContainerSearch {
@@ -75,11 +78,13 @@ pub struct ContainerSearch {
     /// Length of a strip before the near wheels that belongs to the footprint.
     #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
     clearance: f32,
-    /// Largest angle between the line of sight to the centre and the heading: how much from the side it may be seen. With π
-    /// it may be anywhere, also around the scanner, and the far wheels of a symmetric container may pass for the near ones.
-    #[param(unit = "rad", default = PI, range = 0.0..=PI)]
+    /// Largest angle between the line of sight to the centre and the heading: how much from the side it may be
+    /// seen. With π it may be anywhere, also around the scanner, and the far wheels of a symmetric container may
+    /// pass for the near ones.
+    #[param(unit = "rad", default = PI, range = 0.0..=3.1416)]
     max_view_angle: f32,
-    /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its centre.
+    /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its
+    /// centre.
     #[param]
     boxes: &'static [[f32; 4]],
     /// The points of the scan by beam; NaN where nothing was measured.
@@ -133,7 +138,8 @@ impl ContainerSearch {
         [(a, b), (b, a)].map(|(a, b)| self.pose(a, b).and_then(|pose| self.verify(scan, pose, error)))
     }
 
-    /// The pose of a container with its near wheels at `a` and `b` (thesis eqs. 6.12–6.16); `None` if it cannot be seen so.
+    /// The pose of a container with its near wheels at `a` and `b` (thesis eqs. 6.12–6.16); `None` if it cannot be
+    /// seen so.
     fn pose(&self, a: Point2, b: Point2) -> Option<Pose2> {
         let u = b - a;
         let across = u.norm();
@@ -163,7 +169,7 @@ impl ContainerSearch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scan::JumpDistance;
+    use crate::scan::{JumpDistance, SegmentFilter};
     use apex_rt::Out;
 
     /// Four wheels of a container of 1.2 m × 0.7 m.
@@ -216,8 +222,10 @@ mod tests {
         use apex_rt::Construct;
         let scan = scan(discs);
         let mut segments = Out::new();
+        let mut small = Out::new();
         JumpDistance::construct((0.15, 1)).process(&scan, &mut segments).expect("few segments");
-        node.process(&scan, segments.get().expect("segments"))
+        SegmentFilter::construct((0.3, 10.0, 1)).process(segments.get().expect("segments"), &mut small);
+        node.process(&scan, small.get().expect("segments"))
     }
 
     #[test]
@@ -276,6 +284,24 @@ mod tests {
         let pose = Pose2::new(2.5, 0.0, 0.0);
         let stretched = wheels(&pose).map(|w| Point2::new(w.x, w.y * 1.4));
         assert_eq!(search(node(), &stretched), None);
+    }
+
+    #[test]
+    fn a_wall_is_no_wheel() {
+        let pose = Pose2::new(2.5, 0.0, 0.2);
+        let [a, b, far, _] = wheels(&pose);
+        // A row of posts, so close to each other that they are one segment, through the place of the far wheel.
+        let wall: std::vec::Vec<Point2> = (-12..=12).map(|i| far + Point2::new(0.0, 0.06 * i as f32)).collect();
+        let node = || ContainerSearch { max_outliers: 100, max_missing: 1, ..node() };
+        assert!(search(node(), &[a, b, far]).is_some());
+        assert_eq!(search(node(), &[&[a, b], &wall[..]].concat()), None);
+    }
+
+    #[test]
+    fn near_wheels_need_enough_points() {
+        let pose = Pose2::new(2.5, 0.0, 0.2);
+        assert!(search(ContainerSearch { min_points: 4, ..node() }, &wheels(&pose)).is_some());
+        assert_eq!(search(ContainerSearch { min_points: 40, ..node() }, &wheels(&pose)), None);
     }
 
     #[test]

@@ -2,7 +2,8 @@ use super::Scan;
 use apex_rt::{Out, node};
 use heapless::Vec;
 
-/// Marks as not measured (NaN) what is no number, zero, infinite, or outside of the ranges of the scanner and of this node.
+/// Marks as not measured (NaN) what is no number, zero, infinite, or outside of the ranges of the scanner and of
+/// this node.
 ///
 /// Beams keep their place, so that their angles stay right.
 #[node]

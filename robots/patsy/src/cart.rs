@@ -20,7 +20,8 @@ const PIVOT: Point2 = Point2::new(0.5 * (LENGTH - WHEEL_LENGTH), 0.5 * (WIDTH - 
 /// A wheel stays within 10.5 cm of its pivot; the rest is for noise and the error of the pose.
 const BOX: f32 = 0.25;
 
-/// The box model of the cart: rows of x, y, length, width of the area that a castor can reach, in m, in the frame of the cart.
+/// The box model of the cart: rows of x, y, length, width of the area that a castor can reach, in m, in the frame
+/// of the cart.
 pub const WHEEL_BOXES: &[[f32; 4]] = &[
     [-PIVOT.x, -PIVOT.y, BOX, BOX],
     [-PIVOT.x, PIVOT.y, BOX, BOX],

@@ -8,9 +8,9 @@ use core::{
 
 /// Counts detections and measures the errors of their poses, by scenario (thesis 6.10.2, table 6.2).
 ///
-/// A detection is true if its pose is near that of the container, else it is false; so is every detection where there is no container.
-/// Errors are those of true detections, in the frame of the container: x along it, y across. A container looks the same
-/// from both ends, so that half a turn counts as no error.
+/// A detection is true if its pose is near that of the container, else it is false; so is every detection where
+/// there is no container. Errors are those of true detections, in the frame of the container: x along it, y across.
+/// A container looks the same from both ends, so that half a turn counts as no error.
 #[node]
 #[derive(Debug)]
 pub struct Evaluate {

@@ -1,5 +1,5 @@
-//! PATSY fetches hospital containers. Here is the perception of containers by their wheels (thesis 6.6.1), and a simulation to
-//! measure it as the thesis does (6.10.2, experiment 1).
+//! PATSY fetches hospital containers. Here is the perception of containers by their wheels (thesis 6.6.1), and a
+//! simulation to measure it as the thesis does (6.10.2, experiment 1).
 //!
 //! The scanner stands at the origin and looks along x; a cart moves before it.
 

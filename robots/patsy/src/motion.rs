@@ -86,8 +86,8 @@ impl Motion {
         }
     }
 
-    /// Along a line that passes near the scanner, between two distances. The cart looks along it, give or take what one sees when
-    /// it is pushed by hand.
+    /// Along a line that passes near the scanner, between two distances. The cart looks along it, give or take what
+    /// one sees when it is pushed by hand.
     fn straight(first: f32, last: f32, random: &mut Random) -> Self {
         let bearing = random.uniform(-0.7, 0.7);
         let theta = bearing + PI + random.uniform(-0.35, 0.35);

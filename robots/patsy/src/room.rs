@@ -2,7 +2,8 @@ use apex_nodes::scan::{Point2, Pose2};
 use apex_sim::{Random, World};
 use core::f32::consts::PI;
 
-/// Nothing stands so near to the way of the cart's centre, in m: the cart's half diagonal, and room for what stands there.
+/// Nothing stands so near to the way of the cart's centre, in m: the cart's half diagonal, and room for what stands
+/// there.
 const CLEAR_OF_CART: f32 = 1.4;
 /// Nothing stands so near to the scanner, in m.
 const CLEAR_OF_SCANNER: f32 = 0.9;

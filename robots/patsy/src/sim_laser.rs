@@ -15,8 +15,8 @@ pub struct Truth {
 
 /// A simulated laser scanner in rooms with and without a container cart: a source.
 ///
-/// Plays all scenarios one after the other, `runs` runs of each; every run has a room and a motion of its own. Triggers `done` when
-/// all is played, and sends ⊥ from then on.
+/// Plays all scenarios one after the other, `runs` runs of each; every run has a room and a motion of its own.
+/// Triggers `done` when all is played, and sends ⊥ from then on.
 #[node]
 #[derive(Debug)]
 pub struct SimLaser {

@@ -41,7 +41,8 @@ impl Laser {
         (intervals as usize).saturating_add(1).min(MAX_BEAMS)
     }
 
-    /// Replaces `scan` by what the scanner measures at `pose`; the stamp stays. A beam without an echo measures infinity.
+    /// Replaces `scan` by what the scanner measures at `pose`; the stamp stays. A beam without an echo measures
+    /// infinity.
     pub fn measure(&self, world: &World, pose: &Pose2, random: &mut Random, scan: &mut Scan) {
         scan.angle_min = -0.5 * self.field_of_view;
         scan.angle_increment = self.resolution;
