@@ -81,7 +81,7 @@ pub struct ContainerSearch {
     /// Largest angle between the line of sight to the centre and the heading: how much from the side it may be
     /// seen. With π it may be anywhere, also around the scanner, and the far wheels of a symmetric container may
     /// pass for the near ones.
-    #[param(unit = "rad", default = PI, range = 0.0..=3.1416)]
+    #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     max_view_angle: f32,
     /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its
     /// centre.
