@@ -13,7 +13,7 @@ use std::{
     path::PathBuf,
 };
 
-pub use items::{Item, Literal, read as read_items};
+pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use tree::{DefId, ModuleId};
 pub use ty::Ty;
 pub use types::{Match, Type};
@@ -101,8 +101,8 @@ pub struct ParamSig {
     pub ty: Type,
     /// Unit of plain numbers.
     pub unit: Option<String>,
-    /// Default; `Some(None)` is an expression that only Rust can evaluate.
-    pub default: Option<Option<Literal>>,
+    /// The value where a text gives none.
+    pub default: Option<DefaultValue>,
     /// Smallest and largest value, and whether the largest belongs to it.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
 }

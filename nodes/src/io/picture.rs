@@ -26,7 +26,7 @@ pub struct ScanPicture {
     #[param(unit = "m", default = 6.0, range = 0.1..=1000.0)]
     reach: f32,
     /// The wheels of the model: rows of `[x, y, length, width]` in metres, in the frame of the container.
-    #[param]
+    #[param(unit = "m")]
     boxes: &'static [[f32; 4]],
     seen: u32,
     written: u32,

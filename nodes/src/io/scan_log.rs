@@ -153,7 +153,7 @@ fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(),
 pub struct ScanLog {
     /// The file; its ending tells the format.
     #[param]
-    path: &'static str,
+    path: String,
     /// Direction of beam 0. CARMEN logs have their own.
     #[param(unit = "rad", default = -0.5 * PI, range = -6.4..=6.4)]
     angle_min: f32,
@@ -176,8 +176,10 @@ impl ScanLog {
     ///
     /// # Errors
     /// Those of [`ScanLogReader::open`].
-    pub fn open(path: &'static str, geometry: LogGeometry) -> Result<Self, ReadError> {
+    pub fn open(path: impl AsRef<Path>, geometry: LogGeometry) -> Result<Self, ReadError> {
+        let path = path.as_ref();
         let reader = Some(ScanLogReader::open(path, geometry)?);
+        let path = path.to_string_lossy().into_owned();
         let LogGeometry { angle_min, angle_increment, range_min, range_max } = geometry;
         Ok(Self { path, angle_min, angle_increment, range_min, range_max, reader, finished: false })
     }
@@ -195,7 +197,7 @@ impl ScanLog {
         if self.reader.is_none() {
             // Should it not open, then it is over; a successful `open` starts with `finished: false`.
             self.finished = true;
-            *self = Self::open(self.path, self.geometry())?;
+            *self = Self::open(&self.path, self.geometry())?;
         }
         let Some(reader) = &mut self.reader else { return Ok(()) };
         let token = scan.get_mut();

@@ -85,7 +85,7 @@ pub struct ContainerSearch {
     max_view_angle: f32,
     /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its
     /// centre.
-    #[param]
+    #[param(unit = "m")]
     boxes: &'static [[f32; 4]],
     /// The points of the scan by beam; NaN where nothing was measured.
     points: Vec<Point2, MAX_BEAMS>,

@@ -7,6 +7,7 @@ mod cart;
 mod evaluate;
 mod motion;
 mod progress;
+mod report;
 mod room;
 mod sim_laser;
 
@@ -14,4 +15,10 @@ pub use cart::{Cart, LENGTH, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use evaluate::{Evaluate, Score, Statistics};
 pub use motion::Scenario;
 pub use progress::Progress;
+pub use report::Report;
 pub use sim_laser::{SimLaser, Truth};
+
+/// The compiled robots of `patsy.afg`.
+pub mod programs {
+    apex_rt::graph!("patsy.afg");
+}

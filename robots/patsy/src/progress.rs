@@ -1,7 +1,8 @@
 use crate::Score;
 use apex_rt::node;
+use std::io::{IsTerminal as _, Write as _};
 
-/// Writes a line about the score to standard error, once in a while.
+/// Keeps a line about the score up to date on standard error, if that is a terminal.
 #[node]
 #[derive(Debug)]
 pub struct Progress {
@@ -14,7 +15,11 @@ pub struct Progress {
 impl Progress {
     fn process(&mut self, score: &Score) {
         if score.scans.is_multiple_of(self.every.max(1)) {
-            eprintln!("{}", line(score));
+            let mut terminal = std::io::stderr();
+            if terminal.is_terminal() {
+                // A line that cannot be shown is no reason to stop.
+                let _ = write!(terminal, "\r{}", line(score)).and_then(|()| terminal.flush());
+            }
         }
     }
 }
