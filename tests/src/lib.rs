@@ -31,7 +31,7 @@ pub fn product(a: &u64, b: &u64) -> u64 {
 /// Passes even values.
 #[node]
 pub fn even_only(x: &u64) -> Option<u64> {
-    (x % 2 == 0).then_some(*x)
+    x.is_multiple_of(2).then_some(*x)
 }
 
 /// Records.

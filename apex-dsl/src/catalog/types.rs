@@ -197,6 +197,9 @@ impl fmt::Display for Type {
     }
 }
 
+/// What a path names where a type is written: definitions, or the full path of something that is not scanned.
+type Resolve<'a> = dyn Fn(&[String]) -> (Vec<DefId>, Option<String>) + 'a;
+
 impl Catalog {
     /// Looks up the names of a type that was written in a scanned module.
     pub fn type_of(&self, ty: &Ty, module: ModuleId, generics: &[String]) -> Type {
@@ -208,13 +211,7 @@ impl Catalog {
         self.lookup(ty, generics, 0, &|path| (self.types(path), None))
     }
 
-    fn lookup(
-        &self,
-        ty: &Ty,
-        generics: &[String],
-        aliases: usize,
-        resolve: &dyn Fn(&[String]) -> (Vec<DefId>, Option<String>),
-    ) -> Type {
+    fn lookup(&self, ty: &Ty, generics: &[String], aliases: usize, resolve: &Resolve<'_>) -> Type {
         let inner = |t: &Ty| self.lookup(t, generics, aliases, resolve);
         match ty {
             Ty::Array(element, len) => Type::Array(Box::new(inner(element)), len.clone()),

@@ -354,10 +354,10 @@ mod tests {
         use apex_rt::Construct;
         let (mut scan, mut entry) = (Out::new(), Out::new());
         let ctx = Ctx::new(Time::from_secs(5));
-        let mut node = ScanLog::construct((file("graph.csv", b"1,1,1.0\n"), 0.0, 0.1, 0.1, 10.0));
+        let mut node = ScanLog::construct((file("graph.csv", b"1,1,1.0\n").to_owned(), 0.0, 0.1, 0.1, 10.0));
         node.process(&ctx, &mut scan, &mut entry, Event::unconnected()).expect("a scan");
         assert_eq!(scan.get().expect("a scan").stamp, Time::from_secs(5));
-        let mut missing = ScanLog::construct((path("missing.csv"), 0.0, 0.1, 0.1, 10.0));
+        let mut missing = ScanLog::construct((path("missing.csv").to_owned(), 0.0, 0.1, 0.1, 10.0));
         assert!(missing.process(&ctx, &mut scan, &mut entry, Event::unconnected()).is_err());
         assert!(missing.finished());
     }

@@ -15,7 +15,7 @@ pub use cart::{Cart, LENGTH, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use evaluate::{Evaluate, Score, Statistics};
 pub use motion::Scenario;
 pub use progress::Progress;
-pub use report::Report;
+pub use report::{RECORDED_SCANNER, Report};
 pub use sim_laser::{SimLaser, Truth};
 
 /// The compiled robots of `patsy.afg`.

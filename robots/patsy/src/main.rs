@@ -1,9 +1,9 @@
 //! PATSY looks for containers: in a simulated room, or in recorded scans.
 
-use apex_nodes::io::{LogGeometry, ScanLog};
+use apex_nodes::io::ScanLog;
 use apex_rt::prelude::*;
 use patsy::{
-    Report,
+    RECORDED_SCANNER, Report,
     programs::{RecordedCarts, RecordedCartsParts, RecordedPallets, RecordedPalletsParts, Simulated},
 };
 use std::{path::PathBuf, process::ExitCode};
@@ -90,13 +90,7 @@ fn simulate() -> ExitCode {
 }
 
 fn recorded(options: Options) -> Result<ExitCode, String> {
-    let geometry = LogGeometry {
-        angle_min: (-95.0_f32).to_radians(),
-        angle_increment: (190.0_f32 / 761.0).to_radians(),
-        range_min: 0.05,
-        range_max: 20.0,
-    };
-    let log = ScanLog::open(&options.log, geometry).map_err(|e| e.to_string())?;
+    let log = ScanLog::open(&options.log, RECORDED_SCANNER).map_err(|e| e.to_string())?;
     let report = Report::new(&options.table, options.labels.as_deref())?;
     let mut clock = SimClock::until(Time::MAX);
     // The two programs differ in type, not in how they are driven.

@@ -1,5 +1,5 @@
 use apex_nodes::{
-    io::{CsvReader, LogEntry, ReadError},
+    io::{CsvReader, LogEntry, LogGeometry, ReadError},
     scan::Container,
 };
 use apex_rt::node;
@@ -9,6 +9,14 @@ use std::{
     fs::{self, File},
     io::{self, BufWriter, Write as _},
     path::{Path, PathBuf},
+};
+
+/// The scanner of recorded tables, which do not say it themselves: 761 beams over 190°, beam 0 at the right.
+pub const RECORDED_SCANNER: LogGeometry = LogGeometry {
+    angle_min: (-95.0_f32).to_radians(),
+    angle_increment: (190.0_f32 / 761.0).to_radians(),
+    range_min: 0.05,
+    range_max: 20.0,
 };
 
 /// Writes what is found in recorded scans into a table, and compares it with labels if there are some.

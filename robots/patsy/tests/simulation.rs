@@ -1,9 +1,9 @@
 //! The rates of experiment 1 (thesis 6.10.2, table 6.2) in simulation, with the nodes wired by hand.
 
 use apex_nodes::scan::{ContainerSearch, JumpDistance, RangeFilter, SegmentFilter};
-use apex_rt::{Construct, Ctx, Event, Out, Time};
+use apex_rt::{Clock, Construct, Ctx, Event, Next, Out, SimClock, Time};
 use core::f32::consts::PI;
-use patsy::{Evaluate, LENGTH, SimLaser, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
+use patsy::{Evaluate, LENGTH, SimLaser, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH, programs::Simulated};
 use std::time::{Duration, Instant};
 
 fn search() -> ContainerSearch {
@@ -62,4 +62,17 @@ fn finds_nearly_all_carts_and_hardly_anything_else() {
         assert_eq!(all.scans, 5 * 20 * 50);
         assert!(all.true_rate() >= Some(0.95) && all.false_rate() <= Some(0.01), "{evaluate}");
     }
+}
+
+#[test]
+fn the_compiled_robot_does_what_the_hand_written_one_does() {
+    let mut robot = Simulated::new();
+    let mut clock = SimClock::until(Time::MAX);
+    while !robot.nodes().laser.finished() {
+        if let Next::At(time) = robot.react(clock.now()) {
+            clock.wait_until(time);
+        }
+    }
+    let (by_hand, _) = play(1);
+    assert_eq!(robot.nodes().evaluate.to_string(), by_hand.to_string());
 }
