@@ -11,7 +11,7 @@ use crate::{
     analyse::{Analysis, Guard, Links},
     catalog::Match,
     check::compare_types,
-    graph::{End, Graph, Library, NodeId, NodeKind, Value},
+    graph::{End, Graph, Library, NodeId, NodeKind},
     source::Span,
     syntax::tree::PortKind,
 };
@@ -144,7 +144,7 @@ impl Generator<'_> {
                         handed_in.push((part.clone(), ty.clone()));
                         quote!(parts.#part)
                     } else {
-                        self.construct(&ty, library)
+                        self.construct(graph, &ty, library)
                     };
                     insert(fields, &self.node_path(graph, id), Field::Node { ty, make });
                 }
@@ -158,15 +158,8 @@ impl Generator<'_> {
         }
     }
 
-    fn construct(&self, ty: &TokenStream, library: &Library) -> TokenStream {
-        let signature = &self.catalog.signatures[library.signature];
-        let params = signature.params.iter().zip(&library.params).map(|(param, value)| match value {
-            Value::RustDefault => {
-                let default = format_ident!("apex_default_{}", param.name);
-                quote!(<#ty>::#default())
-            }
-            value => self.value(value, &param.ty),
-        });
+    fn construct(&self, graph: &Graph, ty: &TokenStream, library: &Library) -> TokenStream {
+        let params = (0..library.params.len()).map(|param| self.param_value(graph, library, param));
         quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*)))
     }
 
