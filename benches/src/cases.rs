@@ -20,12 +20,15 @@ pub struct Case {
 /// The goal for synchronous graphs.
 pub const SYNCHRONOUS: f64 = 1.1;
 
+/// The goal where something is decided at run time.
+const DISPATCHED: f64 = 2.0;
+
 const fn case(name: &'static str, apex: Run, hand: Run, goal: f64) -> Case {
     Case { name, apex, hand, goal }
 }
 
 /// All graphs.
-pub const CASES: [Case; 14] = [
+pub const CASES: [Case; 16] = [
     case("chain3", graphs::chain3, hand::chain3, SYNCHRONOUS),
     case("chain10", graphs::chain10, hand::chain10, SYNCHRONOUS),
     case("chain100", graphs::chain100, hand::chain100, SYNCHRONOUS),
@@ -37,6 +40,8 @@ pub const CASES: [Case; 14] = [
     case("rate23", graphs::rate23, hand::rate23, SYNCHRONOUS),
     case("nested1000", graphs::nested1000, hand::nested1000, SYNCHRONOUS),
     case("image", graphs::image, hand::image, 1.05),
+    case("timer10", graphs::timer10, hand::timer10, DISPATCHED),
+    case("timers2", graphs::timers2, hand::timers2, DISPATCHED),
     case("silent10", graphs::silent10, hand::silent10, SYNCHRONOUS),
     case("silent100", graphs::silent100, hand::silent100, SYNCHRONOUS),
     case("silent1000", graphs::silent1000, hand::silent1000, SYNCHRONOUS),

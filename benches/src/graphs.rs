@@ -16,6 +16,13 @@ graph!("graphs/throttle.afg");
 graph!("graphs/rate23.afg");
 graph!("graphs/nested1000.afg");
 graph!("graphs/image.afg");
+graph!("graphs/timer10.afg");
+graph!("graphs/timers2.afg");
+
+/// The times of `ticks` ticks.
+pub(crate) fn milliseconds(ticks: u64) -> impl Iterator<Item = Time> {
+    (0..ticks).map(|t| Time::from_millis(t as i64))
+}
 
 macro_rules! runs {
     ($($name:ident: $graph:ident),*) => {
@@ -24,8 +31,8 @@ macro_rules! runs {
             #[inline(never)]
             pub fn $name(ticks: u64) -> u64 {
                 let mut graph = $graph::new();
-                for _ in 0..ticks {
-                    graph.react(Time::ZERO);
+                for now in milliseconds(ticks) {
+                    graph.react(now);
                 }
                 graph.nodes().sink.checksum()
             }
@@ -37,5 +44,6 @@ runs!(
     chain3: Chain3, chain10: Chain10, chain100: Chain100, chain1000: Chain1000,
     silent10: Silent10, silent100: Silent100, silent1000: Silent1000,
     diamond8: Diamond8, diamond64: Diamond64,
-    bot100: Bot100, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image
+    bot100: Bot100, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image,
+    timer10: Timer10, timers2: Timers2
 );

@@ -2,11 +2,13 @@
 //! locals, ⊥ as control flow.
 
 use crate::{
+    graphs::milliseconds,
     image::{Camera, Gray, Labels, blur, components, gray, threshold},
     nodes::{Count, OneOf, Pairs, Rows, Silent, Sink, add, mix, op, sum, sum8, sum64},
 };
-use apex_rt::Out;
+use apex_rt::{Out, Timer};
 use seq_macro::seq;
+use std::time::Duration;
 
 macro_rules! chain {
     ($($name:ident: $source:ty, $n:literal;)*) => {
@@ -148,6 +150,46 @@ pub fn image(ticks: u64) -> u64 {
         blur(&brightness, &mut blurred);
         threshold(&blurred, &mut mask);
         sink.process(&components(&mask, &mut labels));
+    }
+    sink.checksum()
+}
+
+/// A chain whose source has a pace of its own.
+#[inline(never)]
+pub fn timer10(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Count::default(), Sink::default());
+    let mut timer = Timer::new(Duration::from_millis(1));
+    for now in milliseconds(ticks) {
+        while timer.is_due(now) {
+            timer.advance();
+            let x = source.process();
+            seq!(K in 1..=10 { let x = op(&x, K); });
+            sink.process(&x);
+        }
+    }
+    sink.checksum()
+}
+
+/// Two sources with paces of their own, and a join that waits for both.
+#[inline(never)]
+pub fn timers2(ticks: u64) -> u64 {
+    let (mut left, mut right, mut sink) = (Count::default(), Count::default(), Sink::default());
+    let mut timers = [1, 2].map(|ms| Timer::new(Duration::from_millis(ms)));
+    let (mut a, mut b) = (None, None);
+    for now in milliseconds(ticks) {
+        loop {
+            if a.is_none() && timers[0].is_due(now) {
+                timers[0].advance();
+                a = Some(op(&left.process(), 1));
+            }
+            if b.is_none() && timers[1].is_due(now) {
+                timers[1].advance();
+                b = Some(op(&right.process(), 2));
+            }
+            let (Some(x), Some(y)) = (a, b) else { break };
+            sink.process(&add(&x, &y));
+            (a, b) = (None, None);
+        }
     }
     sink.checksum()
 }

@@ -1,7 +1,7 @@
 //! Tables of what was measured.
 
-use crate::measure::{self, Effort, Measurement};
-use apex_bench::{SKIPPED, SYNCHRONOUS};
+use crate::measure::{self, Effort, Measurement, RESOLUTION_NS};
+use apex_bench::{Case, SKIPPED, SYNCHRONOUS};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -9,26 +9,19 @@ use std::fmt::Write as _;
 #[derive(Serialize)]
 pub struct Report {
     graphs: Vec<Measurement>,
-    skipped_ticks: Vec<Skipped>,
+    skipped_ticks: Vec<Measurement>,
 }
 
-/// A tick in which nothing but the source fires.
-#[derive(Serialize)]
-pub struct Skipped {
-    chain: &'static str,
-    /// Its time in times of the shortest chain's.
-    ratio: f64,
-}
-
-/// Compares skipped ticks of all chain lengths with those of the shortest.
-pub fn skipped(effort: Effort) -> Vec<Skipped> {
+/// Compares skipped ticks of all chain lengths with those of the shortest, which stands where code written by hand stands else.
+pub fn skipped(effort: Effort) -> Vec<Measurement> {
     let (_, shortest) = SKIPPED[0];
-    SKIPPED[1..].iter().map(|(chain, run)| Skipped { chain, ratio: measure::ratio(*run, shortest, effort) }).collect()
+    let case = |(name, run)| Case { name, apex: run, hand: shortest, goal: SYNCHRONOUS };
+    SKIPPED[1..].iter().map(|chain| measure::compare(&case(*chain), effort)).collect()
 }
 
 impl Report {
     /// The report of a run.
-    pub fn new(graphs: Vec<Measurement>, skipped_ticks: Vec<Skipped>) -> Self {
+    pub fn new(graphs: Vec<Measurement>, skipped_ticks: Vec<Measurement>) -> Self {
         Self { graphs, skipped_ticks }
     }
 
@@ -40,14 +33,14 @@ impl Report {
     /// For a terminal.
     pub fn text(&self) -> String {
         let mut text = format!(
-            "{:<12}{:>14}{:>14}{:>8}{:>7}{:>10}  {:<9}{}\n",
-            "graph", "apex ns/tick", "hand ns/tick", "ratio", "goal", "alloc/tick", "checksum", "goal"
+            "{:<12}{:>14}{:>14}{:>8}{:>7}{:>12}  {:<10}{}\n",
+            "graph", "apex ns/tick", "hand ns/tick", "ratio", "goal", "alloc/tick", "checksum", "verdict"
         );
         for m in &self.graphs {
             let [equal, met] = verdicts(m);
             let _ = writeln!(
                 text,
-                "{:<12}{:>14.2}{:>14.2}{:>8.2}{:>7.2}{:>10.2}  {equal:<9}{met}",
+                "{:<12}{:>14.2}{:>14.2}{:>8.2}{:>7.2}{:>12.2}  {equal:<10}{met}",
                 m.name, m.apex_ns, m.hand_ns, m.ratio, m.goal, m.allocations
             );
         }
@@ -78,14 +71,15 @@ impl Report {
 
     fn skipped_lines(&self, bullet: &str) -> String {
         let (shortest, _) = SKIPPED[0];
-        let line = |s: &Skipped| {
-            let met = if s.ratio <= SYNCHRONOUS { "met" } else { "missed" };
+        let line = |m: &Measurement| {
+            let [_, met] = verdicts(m);
             format!(
-                "{bullet}skipped tick: {} costs {:.2} times {shortest} (goal {SYNCHRONOUS}): {met}\n",
-                s.chain, s.ratio
+                "{bullet}skipped tick of {}: {:.2} ns, {:.2} times {shortest} (goal {:.2}): {met}\n",
+                m.name, m.apex_ns, m.ratio, m.goal
             )
         };
-        self.skipped_ticks.iter().map(line).collect()
+        let lines: String = self.skipped_ticks.iter().map(line).collect();
+        lines + &format!("{bullet}differences below {RESOLUTION_NS} ns are not counted as missed\n")
     }
 }
 
