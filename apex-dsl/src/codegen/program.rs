@@ -89,6 +89,7 @@ impl Generator<'_> {
                     }
                 }
                 /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
+                #[inline]
                 pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
                 /// The nodes, by instance name.
                 pub fn nodes(&self) -> &#nodes_name { &self.nodes }
