@@ -129,7 +129,8 @@ fn every_code_has_a_text() {
         for constructor in ["error(", "warning("] {
             for (at, _) in text.match_indices(constructor) {
                 let arguments = text[at + constructor.len()..].trim_start();
-                if let Some((code, _)) = arguments.strip_prefix('"').and_then(|a| a.split_once('"')) {
+                let code = arguments.strip_prefix('"').and_then(|a| a.split_once('"')).map(|(code, _)| code);
+                if let Some(code) = code.filter(|c| c.chars().all(|c| c.is_ascii_lowercase() || c == '-')) {
                     emitted.insert(code.to_owned());
                 }
             }

@@ -131,10 +131,13 @@ impl Builder<'_> {
                 for from in symbols[i].iter().flatten() {
                     for to in symbols[i + 1].iter().flatten() {
                         self.connect(from, to, arrow);
+                        if self.is_exhausted() {
+                            return;
+                        }
                     }
                 }
             }
-            if *self.budget == 0 {
+            if self.is_exhausted() {
                 return;
             }
         }
@@ -184,8 +187,10 @@ impl Builder<'_> {
             self.diagnostics.push(error);
             return None;
         };
-        if matches!(symbol, Symbol::Broken) {
-            return None;
+        match symbol {
+            Symbol::Broken => return None,
+            Symbol::Ports(ports) => self.look(ports.len(), reference.span)?,
+            Symbol::Own(_) => {}
         }
         match (symbol, &reference.parts[1..]) {
             (symbol, []) => Some((symbol.clone(), text, reference.span)),
@@ -238,6 +243,10 @@ impl Builder<'_> {
     }
 
     fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow) {
+        let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
+        if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
+            return;
+        }
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other side; so do types.

@@ -1,7 +1,7 @@
 //! Makes instances: nodes of the catalog become nodes, nested graphs are opened in place.
 
 use super::{
-    MAX_NESTING, MAX_NODES, args,
+    Budget, MAX_NESTING, MAX_NODES, args,
     connect::{Place, Symbol, Table},
     flatten, generics,
     names::{GraphId, Made, Texts},
@@ -54,8 +54,8 @@ pub struct Builder<'a> {
     pub claims: Vec<Claim>,
     /// The graphs that are being opened, outermost first.
     pub open: Vec<GraphId>,
-    /// How many more nodes and nested graphs there may be.
-    pub budget: &'a mut usize,
+    /// What may still be added.
+    pub budget: &'a mut Budget,
 }
 
 /// What a graph body is opened with.
@@ -71,7 +71,7 @@ pub fn graph(
     texts: &Texts,
     catalog: &Catalog,
     id: GraphId,
-    budget: &mut usize,
+    budget: &mut Budget,
     diagnostics: &mut Diagnostics,
 ) -> Option<Graph> {
     let builder = Builder {
@@ -176,17 +176,35 @@ impl<'a> Builder<'a> {
     }
 
     pub fn spend(&mut self, span: Span) -> Option<()> {
-        if *self.budget == 0 {
-            let message = format!("this program has more than {MAX_NODES} nodes");
-            let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
-            self.diagnostics.push(
-                Diagnostic::error("too-large", outermost, message)
-                    .note("nested graphs count as often as they are used"),
-            );
+        if self.budget.nodes == 0 {
+            self.too_large(span, format!("this program has more than {MAX_NODES} nodes"));
             return None;
         }
-        *self.budget -= 1;
+        self.budget.nodes -= 1;
         Some(())
+    }
+
+    /// Pays for a look at `count` ports or ends of connections.
+    pub fn look(&mut self, count: usize, span: Span) -> Option<()> {
+        if self.budget.looks < count {
+            self.budget.looks = 0;
+            self.too_large(span, "this program has too many ports and connections".to_owned());
+            return None;
+        }
+        self.budget.looks -= count;
+        Some(())
+    }
+
+    fn too_large(&mut self, span: Span, message: String) {
+        let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
+        self.diagnostics.push(
+            Diagnostic::error("too-large", outermost, message).note("nested graphs count as often as they are used"),
+        );
+    }
+
+    /// Whether it makes no sense to go on.
+    pub fn is_exhausted(&self) -> bool {
+        self.budget.nodes == 0 || self.budget.looks == 0 || self.diagnostics.is_full()
     }
 
     fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {
@@ -209,11 +227,13 @@ impl<'a> Builder<'a> {
             };
             // A node that cannot be made still has its name, so that its uses are no errors of their own.
             table.insert(&node.name, made.unwrap_or(Symbol::Broken), self.diagnostics);
-            if *self.budget == 0 {
+            if self.is_exhausted() {
                 break;
             }
         }
-        self.chains(body, &table);
+        if !self.is_exhausted() {
+            self.chains(body, &table);
+        }
         for claim in &body.item.claims {
             let of = claim
                 .of
@@ -379,6 +399,7 @@ impl<'a> Builder<'a> {
         }
         let values = self.graph_args(body, id, instance);
         let item = self.texts.graph(id);
+        self.look(item.ports.len() + item.params.len() + item.claims.len(), name.span)?;
         self.scopes.push(Scope {
             name: name.text.clone(),
             graph: item.name.text.clone(),
