@@ -84,7 +84,8 @@ fn describe(compiled: &Compiled, diagnostic: &Diagnostic, line: &str) -> Vec<Str
             n if other > number => format!("{n} below"),
             n => format!("{n} above"),
         };
-        lines.push(format!("// | `{}` ({place}): {}", first_line(compiled.sources.text(label.span)), label.text));
+        let text = first_line(compiled.sources.text(label.span));
+        lines.push(format!("// | `{text}` ({place}): {}", label.text).trim_end_matches([' ', ':']).to_owned());
     }
     lines.extend(diagnostic.notes.iter().map(|note| format!("// | {}", without_lines(note))));
     for fix in &diagnostic.fixes {

@@ -156,7 +156,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .take(MAX_CANDIDATES)
         .filter(|c| c.len().abs_diff(name.len()) <= limit)
         .map(|c| (distance(name, c), c))
-        .filter(|(d, _)| *d <= limit)
+        // Of a word with one letter everything is as far away as everything else.
+        .filter(|(d, _)| *d <= limit && *d < name.len())
         .min()
         .map(|(_, c)| c)
 }

@@ -57,8 +57,13 @@ pub fn resolve(
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS };
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
+        let is_nested = used.contains(texts.graph(id).name.text.as_str());
+        // What has to be given at each use can only be checked there.
+        if is_nested && texts.graph(id).params.iter().any(|p| p.default.is_none()) {
+            continue;
+        }
         let resolved = instance::graph(&texts, catalog, id, &mut budget, diagnostics);
-        if !used.contains(texts.graph(id).name.text.as_str()) {
+        if !is_nested {
             graphs.extend(resolved);
         }
     }

@@ -85,8 +85,9 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
             _ => error("bad-number", span, "this number is too large"),
         },
         Err(part) => {
-            let start = span.end as usize - unit.len();
-            let word = Ident { text: part.to_owned(), span: Span::new(span.file, start, span.end as usize) };
+            // `part` is a piece of `unit`, which ends the number.
+            let start = span.end as usize - unit.len() + (part.as_ptr() as usize - unit.as_ptr() as usize);
+            let word = Ident { text: part.to_owned(), span: Span::new(span.file, start, start + part.len()) };
             let diagnostic = Diagnostic::error("unknown-unit", word.span, format!("there is no unit `{part}`")).note(
                 "units are for example `m`, `cm`, `s`, `ms`, `Hz`, `deg`, `rad`, `kg`, `m/s`, `rad/s`, `m/s^2`, `%`",
             );
@@ -214,7 +215,8 @@ impl Wanted<'_> {
     }
 
     fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
-        let message = format!("`{}` is a `{ty}`, but this is {}", self.name, describe(value));
+        let wanted = if ty.name() == "Duration" { "time".to_owned() } else { format!("`{ty}`") };
+        let message = format!("`{}` is a {wanted}, but this is {}", self.name, describe(value));
         error("wrong-value", span, message)
     }
 
@@ -240,7 +242,7 @@ impl Wanted<'_> {
                     return error(
                         "wrong-value",
                         span,
-                        format!("`{}` takes {len} values, but there are {} here", self.name, items.len()),
+                        format!("`{}` takes {len} values, not {}", self.name, items.len()),
                     );
                 }
                 items

@@ -363,8 +363,10 @@ impl<'a> Builder<'a> {
             self.broken = true;
             let message = format!("an expression has at most {MAX_OPERATORS} operators");
             self.diagnostics.push(Diagnostic::error("too-large", span, message));
-            parts.clear();
+            parts.retain(|p| p.as_rule() == Rule::primary);
+            parts.truncate(1);
         }
+        let count = parts.len();
         self.open += count;
         let expr = self.binary(&mut parts.into_iter().peekable(), 0, span);
         self.open -= count;
@@ -422,7 +424,8 @@ impl<'a> Builder<'a> {
                 ExprKind::List(inner.into_inner().filter(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)).collect())
             }
             Rule::expr => return Expr { span, ..self.expr(inner) },
-            _ => match inner.as_str() {
+            // White space behind a word belongs to its pair.
+            _ => match inner.as_str().trim_end() {
                 "true" => ExprKind::Bool(true),
                 "false" => ExprKind::Bool(false),
                 _ => ExprKind::Path(self.path(inner)),
