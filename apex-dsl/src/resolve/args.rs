@@ -14,14 +14,15 @@ use crate::{
 };
 use std::{collections::BTreeMap, time::Duration};
 
-/// The given arguments by name; says what is wrong with the list itself.
-pub fn by_name<'a>(
+/// The given arguments by name, and whether they all have one; says what is wrong with the list itself.
+fn by_name<'a>(
     args: &'a [Arg],
     known: &[&str],
     what: &str,
     diagnostics: &mut Diagnostics,
-) -> BTreeMap<&'a str, &'a Expr> {
+) -> (BTreeMap<&'a str, &'a Expr>, bool) {
     let mut given: BTreeMap<&str, (&Ident, &Expr)> = BTreeMap::new();
+    let mut whole = true;
     for arg in args {
         let Some(name) = &arg.name else {
             let mut error =
@@ -33,6 +34,7 @@ pub fn by_name<'a>(
                 error = error.note(format!("the parameters of `{what}` are {}", quoted(known)));
             }
             diagnostics.push(error);
+            whole = false;
             continue;
         };
         if !known.contains(&name.text.as_str()) {
@@ -45,13 +47,14 @@ pub fn by_name<'a>(
                 format!("its parameters are {}", quoted(known))
             });
             diagnostics.push(error);
+            whole = false;
         } else if let Some((first, _)) = given.insert(&name.text, (name, &arg.value)) {
             let message = format!("`{}` is given twice", name.text);
             diagnostics
                 .push(Diagnostic::error("duplicate-argument", name.span, message).also(first.span, "first given here"));
         }
     }
-    given.into_iter().map(|(name, (_, value))| (name, value)).collect()
+    (given.into_iter().map(|(name, (_, value))| (name, value)).collect(), whole)
 }
 
 fn quoted(names: &[&str]) -> String {
@@ -68,11 +71,13 @@ pub fn of_node(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Value> {
     let known: Vec<&str> = signature.params.iter().map(|p| p.name.as_str()).collect();
-    let given = by_name(args, &known, &signature.name, diagnostics);
+    let (given, whole) = by_name(args, &known, &signature.name, diagnostics);
     let mut values = vec![];
     for param in &signature.params {
         let value = match given.get(param.name.as_str()) {
             Some(expr) => evaluate(expr, scope).and_then(|value| wanted(signature, param).fit(value, expr.span)),
+            // The argument with a wrong name may be this one.
+            None if !whole && param.default.is_none() => Ok(Value::RustDefault),
             None => default(signature, param, at, fed),
         };
         values.push(value.unwrap_or_else(|error| {
@@ -131,13 +136,17 @@ pub fn of_graph(
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Value> {
     let known: Vec<&str> = params.iter().map(|(p, _)| p.name.text.as_str()).collect();
-    let exprs = given.map(|(args, _)| by_name(args, &known, &name.text, diagnostics)).unwrap_or_default();
+    let (exprs, whole) = match given {
+        Some((args, _)) => by_name(args, &known, &name.text, diagnostics),
+        None => (BTreeMap::new(), true),
+    };
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
     for (param, ty) in params {
         let value = match (exprs.get(param.name.text.as_str()), given) {
             (Some(expr), Some((_, scope))) => {
                 graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr.span))
             }
+            _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
             _ => graph_default(name, param, ty, at, &values),
         };
         match value {
