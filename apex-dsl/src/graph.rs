@@ -23,6 +23,8 @@ pub struct Graph {
     pub docs: String,
     /// Whether it is a `robot`.
     pub robot: bool,
+    /// Whether a parameter has no value: it can be checked, but only be run as a part of another graph.
+    pub is_open: bool,
     /// Whether it is the body of an `each`.
     pub is_body: bool,
     /// Its name in the text.

@@ -147,7 +147,8 @@ pub fn of_graph(
                 graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr.span))
             }
             _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
-            _ => graph_default(name, param, ty, at, &values),
+            // As long as a graph is not used, its parameters need no value.
+            _ => graph_default(name, param, ty, at, &values, given.is_some()),
         };
         match value {
             Ok(value) => {
@@ -169,6 +170,7 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
             let bound = |expr: &Expr| match declared(param, expr, before)? {
                 Value::Number(n) => Ok(Some(n.value)),
                 Value::Duration(d) => Ok(Some(d.as_secs_f64())),
+                Value::RustDefault => Ok(None),
                 _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a range goes from number to number"))),
             };
             Some((bound(&range.low)?, bound(&range.high)?, range.inclusive))
@@ -216,10 +218,12 @@ fn graph_default(
     ty: &Type,
     at: Span,
     before: &BTreeMap<String, Value>,
+    is_used: bool,
 ) -> Evaluated<Value> {
     let wanted = graph_param(param, ty, before)?;
     match &param.default {
         Some(expr) => wanted.fit(declared(param, expr, before)?, expr.span),
+        None if !is_used => Ok(Value::RustDefault),
         None => {
             let message = format!("`{}` needs a value for `{}`", name.text, param.name.text);
             Err(Box::new(
@@ -237,6 +241,8 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnos
         let value = evaluate(expr, scope).and_then(|value| match value {
             Value::Number(n) => duration(n, expr.span),
             Value::Duration(d) => Ok(d),
+            // Not known yet: any time will do for the checks.
+            Value::RustDefault => Ok(Duration::from_secs(1)),
             other => Err(Box::new(Diagnostic::error(
                 "wrong-value",
                 expr.span,

@@ -99,6 +99,7 @@ impl<'a> Builder<'a> {
     fn top(mut self, id: GraphId, given: Option<BTreeMap<String, Value>>) -> Option<Graph> {
         let item = self.texts.graph(id);
         let is_body = given.is_some();
+        let is_open = !is_body && item.params.iter().any(|p| p.default.is_none());
         let values = given.unwrap_or_else(|| {
             let params = self.param_types(id);
             args::of_graph(&item.name, &params, None, item.name.span, self.diagnostics)
@@ -144,6 +145,7 @@ impl<'a> Builder<'a> {
             name,
             docs,
             robot,
+            is_open,
             is_body,
             span,
             nodes: self.nodes,
@@ -523,6 +525,7 @@ impl<'a> Builder<'a> {
                 name: instance.path.text(),
                 docs: String::new(),
                 robot: false,
+                is_open: false,
                 is_body: true,
                 span: name.span,
                 nodes: builder.nodes,

@@ -38,7 +38,8 @@ pub struct Budget {
 pub struct Resolved {
     /// The texts.
     pub texts: Texts,
-    /// The graphs that are not used inside another one of the first text: the programs in it.
+    /// The graphs that are not used inside another one of the first text: the programs in it, and those that would
+    /// be programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
 }
 
@@ -58,10 +59,6 @@ pub fn resolve(
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
         let is_nested = used.contains(texts.graph(id).name.text.as_str());
-        // What has to be given at each use can only be checked there.
-        if is_nested && texts.graph(id).params.iter().any(|p| p.default.is_none()) {
-            continue;
-        }
         let resolved = instance::graph(&texts, catalog, id, &mut budget, diagnostics);
         if !is_nested {
             graphs.extend(resolved);

@@ -98,6 +98,7 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
 
 fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
     match (operator, value) {
+        (_, Value::RustDefault) => Ok(Value::RustDefault),
         ("-", Value::Number(n)) => {
             let integer = n.integer.and_then(i128::checked_neg);
             if integer.is_none() && n.integer.is_some() {
@@ -112,6 +113,8 @@ fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
 
 fn binary(operator: &str, (a, at_a): (Value, Span), (b, at_b): (Value, Span), span: Span) -> Evaluated<Value> {
     match (&a, &b) {
+        // What is not known yet fits everywhere.
+        (Value::RustDefault, _) | (_, Value::RustDefault) => Ok(Value::RustDefault),
         (Value::Number(x), Value::Number(y)) => arithmetic(operator, (*x, at_a), (*y, at_b), span),
         (Value::Bool(x), Value::Bool(y)) => match operator {
             "&&" => Ok(Value::Bool(*x && *y)),
