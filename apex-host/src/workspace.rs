@@ -74,7 +74,9 @@ impl Workspace {
         let workspace = Self::from_metadata(&metadata(&manifest)?, &manifest)?;
         if let Some(cache) = cache {
             let manifests = workspace.packages.iter().map(|p| p.manifest.clone());
-            let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]);
+            // A new file in one of these folders may be a new target.
+            let folders = ["src", "src/bin", "examples", "tests", "benches"].map(|name| folder.join(name));
+            let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]).chain(folders);
             let stamps = watched.map(|path| (path.clone(), stamp(&path))).collect();
             // Only a cache: where it cannot be written, cargo is asked again.
             let _ = write_whole(&cache, &Cached { stamps, workspace: workspace.clone() });
