@@ -178,7 +178,8 @@ impl Workspace {
         match seen {
             Seen::Crate(name, binary) => {
                 let targets = own_package.targets.iter().filter(|t| !is_library(&t.kind) && t.kind != "custom-build");
-                let matches = |t: &Target| t.name.replace('-', "_") == *name && matches!(&*t.kind, "bin" | "example") == *binary;
+                let matches =
+                    |t: &Target| t.name.replace('-', "_") == *name && matches!(&*t.kind, "bin" | "example") == *binary;
                 let position = targets.zip(&own).find(|(t, _)| matches(t)).map(|(_, k)| *k);
                 let here = position.or(lib).unwrap_or(0);
                 let own = [Some(here), lib].into_iter().flatten().collect::<Vec<_>>();
