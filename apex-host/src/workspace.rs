@@ -24,6 +24,8 @@ pub struct Workspace {
     pub root: PathBuf,
     /// Where cargo builds.
     pub target: PathBuf,
+    /// The manifest of `apex-rt`.
+    runtime: Option<PathBuf>,
     packages: Vec<Package>,
     here: usize,
 }
@@ -96,6 +98,7 @@ impl Workspace {
         let packages = list(&metadata["packages"]);
         let runtime: BTreeSet<String> =
             packages.iter().filter(|p| p["name"] == "apex-rt").map(|p| text(&p["id"])).collect();
+        let runtime_package = packages.iter().find(|p| p["name"] == "apex-rt");
         let uses_runtime =
             |node: &&Value| list(&node["deps"]).iter().any(|d| runtime.contains(d["pkg"].as_str().unwrap_or_default()));
         let same = |p: &Value| fs::canonicalize(text(&p["manifest_path"])).ok() == fs::canonicalize(manifest).ok();
@@ -104,7 +107,9 @@ impl Workspace {
             .find(|p| same(p))
             .map(|p| text(&p["id"]))
             .ok_or("this folder is not a package of its workspace")?;
-        let scanned: Vec<&Value> = nodes.iter().filter(|n| uses_runtime(n) || n["id"] == own.as_str()).collect();
+        let needed = needed(&nodes, &own);
+        let is_scanned = |n: &&Value| n["id"] == own.as_str() || uses_runtime(n) && needed.contains(&text(&n["id"]));
+        let scanned: Vec<&Value> = nodes.iter().filter(is_scanned).collect();
         let index: BTreeMap<String, usize> = scanned.iter().enumerate().map(|(i, n)| (text(&n["id"]), i)).collect();
         let package = |node: &&Value| {
             let package = packages.iter().find(|p| p["id"] == node["id"])?;
@@ -136,8 +141,28 @@ impl Workspace {
             root: text(&metadata["workspace_root"]).into(),
             target: text(&metadata["target_directory"]).into(),
             packages,
+            runtime: runtime_package.map(|p| text(&p["manifest_path"]).into()),
             here: index[&own],
         })
+    }
+
+    /// The crates to scan for a text that stands in `file`. `crate` in it means the package that it belongs to, even if
+    /// another one compiles it.
+    pub fn crates_for(&self, seen: &Seen<'_>, file: &Path) -> Crates {
+        let mut crates = self.crates(seen);
+        let folder = |package: &Package| {
+            package.manifest.parent().map_or(0, |f| if file.starts_with(f) { f.components().count() } else { 0 })
+        };
+        let owner = (0..self.packages.len())
+            .max_by_key(|p| folder(&self.packages[*p]))
+            .filter(|p| folder(&self.packages[*p]) > 0);
+        if let Some(owner) = owner.filter(|p| *p != self.here)
+            && let Some(target) = self.packages[owner].targets.iter().find(|t| is_library(&t.kind))
+            && let Some(library) = crates.all.iter().position(|c| c.root == target.root)
+        {
+            crates.own.insert(0, library);
+        }
+        crates
     }
 
     /// The crates to scan.
@@ -201,8 +226,26 @@ impl Workspace {
     /// The crates that a program outside of the package would need for a graph in it: name and folder.
     pub fn libraries(&self) -> Vec<(&str, &Path)> {
         let libraries = self.packages.iter().filter(|p| p.targets.iter().any(|t| is_library(&t.kind)));
-        libraries.map(|p| (p.name.as_str(), p.manifest.parent().unwrap_or(Path::new(".")))).collect()
+        let runtime = self.runtime.iter().map(|manifest| ("apex-rt", manifest));
+        let all = runtime.chain(libraries.map(|p| (p.name.as_str(), &p.manifest)));
+        all.map(|(name, manifest)| (name, manifest.parent().unwrap_or(Path::new(".")))).collect()
     }
+}
+
+/// The packages that `package` needs, itself included: the metadata speaks of the whole workspace.
+fn needed(nodes: &[Value], package: &str) -> BTreeSet<String> {
+    let id = |v: &Value| v.as_str().unwrap_or_default().to_owned();
+    let needs: BTreeMap<String, Vec<String>> = nodes
+        .iter()
+        .map(|node| (id(&node["id"]), node["deps"].as_array().into_iter().flatten().map(|d| id(&d["pkg"])).collect()))
+        .collect();
+    let (mut needed, mut open) = (BTreeSet::new(), vec![package.to_owned()]);
+    while let Some(id) = open.pop() {
+        if needed.insert(id.clone()) {
+            open.extend(needs.get(&id).into_iter().flatten().cloned());
+        }
+    }
+    needed
 }
 
 fn is_library(kind: &str) -> bool {

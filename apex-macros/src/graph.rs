@@ -42,7 +42,8 @@ fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
         None => inline(input),
     };
     let name = env::var("CARGO_CRATE_NAME").unwrap_or_default();
-    let crates = workspace.crates(&Seen::Crate(&name, env::var_os("CARGO_BIN_NAME").is_some()));
+    let seen = Seen::Crate(&name, env::var_os("CARGO_BIN_NAME").is_some());
+    let crates = workspace.crates_for(&seen, &workspace.root.join(&text.sources.get(text.root).path));
     // The positions of the compiler's own tokens would all be on line 1.
     proc_macro2::fallback::force();
     let catalog = Catalog::load(crates, &mut disk);
