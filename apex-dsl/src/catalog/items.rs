@@ -149,6 +149,7 @@ pub struct ParamItem {
     /// Unit of plain numbers.
     pub unit: Option<String>,
     /// Default; `Some(None)` is an expression that only Rust can evaluate.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "given")]
     pub default: Option<Option<Literal>>,
     /// Smallest and largest value, and whether the largest belongs to it.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
@@ -168,6 +169,11 @@ pub enum Literal {
 /// Reads the items of one file. A file that is not Rust gives none: rustc will say so.
 pub fn read(text: &str) -> Vec<Item> {
     syn::parse_file(text).map(|file| items(&file.items)).unwrap_or_default()
+}
+
+/// Where a default is given, `null` is one that only Rust can evaluate, not the absence of one.
+fn given<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Literal>>, D::Error> {
+    Option::deserialize(deserializer).map(Some)
 }
 
 fn items(syntax: &[Syn]) -> Vec<Item> {
@@ -409,4 +415,18 @@ fn process(callable: &signature::Callable) -> Process {
         .collect();
     let returns = callable.returns.token.as_ref().map(|t| (Ty::from_syn(&t.ty), t.batch));
     Process { args, returns, maybe: callable.returns.maybe, fallible: callable.returns.fallible }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cached_item_is_the_same() {
+        let text = "#[node] fn n(#[param] a: u8, #[param(default = 1)] b: u8, #[param(default = f())] c: u8) {}";
+        let items = read(text);
+        let json = serde_json::to_string(&items).unwrap();
+        let back: Vec<Item> = serde_json::from_str(&json).unwrap();
+        assert_eq!(format!("{items:?}"), format!("{back:?}"));
+    }
 }
