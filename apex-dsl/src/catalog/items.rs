@@ -419,3 +419,17 @@ fn process(callable: &signature::Callable) -> Process {
     let returns = callable.returns.token.as_ref().map(|t| (Ty::from_syn(&t.ty), t.batch));
     Process { args, returns, maybe: callable.returns.maybe, fallible: callable.returns.fallible }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cached_item_is_the_same() {
+        let text = "#[node] fn n(#[param] a: u8, #[param(default = 1)] b: u8, #[param(default = f())] c: u8) {}";
+        let items = read(text);
+        let json = serde_json::to_string(&items).unwrap();
+        let back: Vec<Item> = serde_json::from_str(&json).unwrap();
+        assert_eq!(format!("{items:?}"), format!("{back:?}"));
+    }
+}

@@ -53,7 +53,7 @@ impl Diagnostic {
     /// An error at `span`.
     pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
         let primary = Label { span, text: String::new() };
-        let message = message.into();
+        let message = shortened(message.into());
         debug_assert!(!message.ends_with('.'), "house style: no final period in {message:?}");
         Self { code, severity: Severity::Error, message, primary, secondary: vec![], notes: vec![], fixes: vec![] }
     }
@@ -66,29 +66,39 @@ impl Diagnostic {
     /// Adds a remark at the primary place.
     #[must_use]
     pub fn label(mut self, text: impl Into<String>) -> Self {
-        self.primary.text = text.into();
+        self.primary.text = shortened(text.into());
         self
     }
 
     /// Adds another place.
     #[must_use]
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.secondary.push(Label { span, text: text.into() });
+        self.secondary.push(Label { span, text: shortened(text.into()) });
         self
     }
 
     /// Adds a sentence.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {
-        self.notes.push(text.into());
+        self.notes.push(shortened(text.into()));
         self
     }
 
     /// Adds a change that would mend it.
     #[must_use]
     pub fn fix(mut self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
-        self.fixes.push(Fix { title: title.into(), span, replacement: replacement.into() });
+        self.fixes.push(Fix { title: shortened(title.into()), span, replacement: replacement.into() });
         self
+    }
+}
+
+/// Longer than any message that somebody reads to its end: names and lists in it may be of any length.
+const MAX_MESSAGE: usize = 1000;
+
+fn shortened(text: String) -> String {
+    match text.char_indices().nth(MAX_MESSAGE) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
     }
 }
 
@@ -120,6 +130,11 @@ impl Diagnostics {
     /// Whether further messages are only counted: what goes on can stop.
     pub fn is_full(&self) -> bool {
         self.list.len() >= MAX_ERRORS
+    }
+
+    /// Counts a message that is not worth making because [`Diagnostics::is_full`].
+    pub fn leave_out(&mut self) {
+        self.left_out += 1;
     }
 
     /// How many messages were left out for being too many.

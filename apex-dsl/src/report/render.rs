@@ -42,12 +42,27 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String
         .collect();
     for (fix, (title, path)) in diagnostic.fixes.iter().zip(&titles) {
         let source = sources.get(fix.span.file);
+        if line_length(&source.text, fix.span) > MAX_LINE {
+            report.push(Group::with_title(Level::HELP.secondary_title(title.as_str())));
+            continue;
+        }
         let patch = Patch::new(range(fix.span), fix.replacement.as_str());
         let snippet = Snippet::source(&*source.text).path(path.as_str()).line_start(source.origin.0 + 1).patch(patch);
         report.push(Group::with_title(Level::HELP.secondary_title(title.as_str())).element(snippet));
     }
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     renderer.render(&report)
+}
+
+/// A change is shown with its whole line: not if that is longer than this.
+const MAX_LINE: usize = 500;
+
+/// Length of the lines that `span` stands in.
+fn line_length(text: &str, span: Span) -> usize {
+    let (start, end) = (span.start as usize, span.end as usize);
+    let first = text[..start].rfind('\n').map_or(0, |n| n + 1);
+    let last = text[end..].find('\n').map_or(text.len(), |n| end + n);
+    last - first
 }
 
 fn annotation(kind: AnnotationKind, label: &Label) -> annotate_snippets::Annotation<'_> {

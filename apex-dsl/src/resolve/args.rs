@@ -24,6 +24,9 @@ fn by_name<'a>(
     let mut given: BTreeMap<&str, (&Ident, &Expr)> = BTreeMap::new();
     let mut whole = true;
     for arg in args {
+        if diagnostics.is_full() {
+            return (BTreeMap::new(), false);
+        }
         let Some(name) = &arg.name else {
             let mut error =
                 Diagnostic::error("unnamed-argument", arg.value.span, "an argument needs the name of its parameter");

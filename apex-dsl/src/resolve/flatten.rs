@@ -62,6 +62,9 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
     let mut first: BTreeMap<Place, usize> = BTreeMap::new();
     let mut pairs: BTreeMap<(Place, Place), usize> = BTreeMap::new();
     for (i, wire) in wires.iter().enumerate() {
+        if builder.diagnostics.is_full() {
+            return;
+        }
         if let Some(&before) = pairs.get(&(wire.from, wire.to)) {
             let error = Diagnostic::error(
                 "connected-twice",

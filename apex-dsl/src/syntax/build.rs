@@ -62,6 +62,9 @@ impl<'a> Builder<'a> {
             }
             _ => {
                 self.broken = true;
+                if self.diagnostics.is_full() {
+                    return self.diagnostics.leave_out();
+                }
                 let start = pair.as_span().start();
                 self.diagnostics.push(recover::item(self.file, start, &self.text[start..pair.as_span().end()]));
             }
@@ -195,6 +198,9 @@ impl<'a> Builder<'a> {
             }
             _ => {
                 self.broken = true;
+                if self.diagnostics.is_full() {
+                    return self.diagnostics.leave_out();
+                }
                 let start = pair.as_span().start();
                 self.diagnostics.push(recover::statement(self.file, start, &self.text[start..pair.as_span().end()]));
             }
