@@ -13,7 +13,7 @@ use std::{
 };
 
 /// Changes when the form of the cached items does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {

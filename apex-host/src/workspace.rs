@@ -11,7 +11,7 @@ use std::{
 
 /// From where a graph is seen: decides what `crate` means.
 pub enum Seen<'a> {
-    /// From a crate that is being compiled: its name, and whether it is a binary.
+    /// From a crate that is being compiled: its name, and whether it is a binary or an example.
     Crate(&'a str, bool),
     /// From outside: all targets of the package count.
     Package,
@@ -176,7 +176,7 @@ impl Workspace {
         match seen {
             Seen::Crate(name, binary) => {
                 let targets = own_package.targets.iter().filter(|t| !is_library(&t.kind) && t.kind != "custom-build");
-                let matches = |t: &Target| t.name.replace('-', "_") == *name && (t.kind == "bin") == *binary;
+                let matches = |t: &Target| t.name.replace('-', "_") == *name && matches!(&*t.kind, "bin" | "example") == *binary;
                 let position = targets.zip(&own).find(|(t, _)| matches(t)).map(|(_, k)| *k);
                 let here = position.or(lib).unwrap_or(0);
                 let own = [Some(here), lib].into_iter().flatten().collect::<Vec<_>>();

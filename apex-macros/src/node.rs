@@ -33,7 +33,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
     let ports = ports(&callable, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
     let decls: Vec<&ParamDecl> =
-        callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(p) } else { None }).collect();
+        callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(&**p) } else { None }).collect();
     let names: Vec<Ident> = callable.args.iter().filter(|a| matches!(a.form, Form::Param(_))).map(ident).collect();
     let params = params(&decls, &names, generics, &quote!(#name #type_args));
     Ok(quote! {

@@ -1,7 +1,7 @@
 //! Decides at run time which cluster fires: for every cluster the set of things it waits for is a set of
 //! bits, and it is ready when all of them are set. All state has a size known at compile time.
 
-use crate::Time;
+use crate::{Time, time::nanos};
 use core::time::Duration;
 
 /// A set of `64·W` conditions.
@@ -89,12 +89,20 @@ impl<const W: usize> Dispatcher<W> {
     }
 
     /// `clusters[index]` has fired: its tokens are sent, and notifications travel upstream.
-    #[inline]
+    ///
+    /// Always inlined: the table and the index are constants, so that mostly a few bit operations are left.
+    #[inline(always)]
     pub fn finish(&mut self, clusters: &[Cluster<W>], index: usize) {
         let cluster = &clusters[index];
         self.holds.insert(&cluster.sends);
         self.holds.remove(&cluster.notified_by);
-        self.notify(clusters, index);
+        // With clusters downstream it is one of them that notifies this one.
+        if cluster.notified_by == Bits::NONE {
+            self.holds.insert(&cluster.notifies);
+            for &up in cluster.upstream {
+                self.notify(clusters, up);
+            }
+        }
     }
 
     /// Clusters form an acyclic graph, so that this ends; its depth is that of the graph of clusters.
@@ -115,13 +123,14 @@ impl<const W: usize> Dispatcher<W> {
 #[derive(Debug, Clone)]
 pub struct Timer {
     due: Time,
-    period: Duration,
+    /// In nanoseconds: adding a `Duration` takes a wide multiplication.
+    period: i64,
 }
 
 impl Timer {
     /// A timer that is due at zero for the first time.
     pub const fn new(period: Duration) -> Self {
-        Self { due: Time::ZERO, period }
+        Self { due: Time::ZERO, period: nanos(period) }
     }
 
     /// Whether it is due at `now`.
@@ -136,7 +145,8 @@ impl Timer {
     }
 
     /// Its source fired.
+    #[inline(always)]
     pub fn advance(&mut self) {
-        self.due += self.period;
+        self.due = Time::from_nanos(self.due.as_nanos().saturating_add(self.period));
     }
 }

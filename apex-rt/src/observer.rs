@@ -1,4 +1,4 @@
-use core::fmt::Debug;
+use core::fmt::{Debug, Display};
 
 /// Watches a program while it reacts. Every method does nothing unless it is overridden; with `()` a
 /// program is compiled as if nobody watched.
@@ -13,7 +13,7 @@ pub trait Observer {
 
     /// `process` of node `node` returned an error; its outputs carry ⊥.
     #[inline(always)]
-    fn failed(&mut self, node: usize, error: &impl Debug) {
+    fn failed(&mut self, node: usize, error: &impl Display) {
         let _ = (node, error);
     }
 
@@ -32,7 +32,7 @@ impl<O: Observer> Observer for &mut O {
         (**self).fired(node);
     }
     #[inline(always)]
-    fn failed(&mut self, node: usize, error: &impl Debug) {
+    fn failed(&mut self, node: usize, error: &impl Display) {
         (**self).failed(node, error);
     }
     #[inline(always)]
@@ -48,8 +48,8 @@ pub struct StdErr(pub &'static crate::Info);
 
 #[cfg(feature = "std")]
 impl Observer for StdErr {
-    fn failed(&mut self, node: usize, error: &impl Debug) {
-        eprintln!("{}: `{}` failed: {error:?}", self.0.name, self.0.nodes[node].name);
+    fn failed(&mut self, node: usize, error: &impl Display) {
+        eprintln!("{}: `{}` failed: {error}", self.0.name, self.0.nodes[node].name);
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.0.nodes[node].name;

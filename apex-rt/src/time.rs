@@ -53,8 +53,10 @@ impl Time {
     }
 }
 
-fn nanos(d: Duration) -> i64 {
-    i64::try_from(d.as_nanos()).unwrap_or(i64::MAX)
+/// The nanoseconds of a duration, as far as they fit.
+pub(crate) const fn nanos(d: Duration) -> i64 {
+    let ns = d.as_nanos();
+    if ns > i64::MAX as u128 { i64::MAX } else { ns as i64 }
 }
 
 impl Add<Duration> for Time {

@@ -1,7 +1,7 @@
 //! What generated code does with tokens.
 
 use crate::{Observer, ParamField};
-use core::fmt::Debug;
+use core::fmt::{Debug, Display};
 
 /// The `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
 #[inline(always)]
@@ -71,7 +71,7 @@ where
 
 /// What a node that may fail sends; an error is reported and leaves ⊥.
 #[inline(always)]
-pub fn sent<T, E: Debug, O: Observer>(result: Result<T, E>, index: usize, observer: &mut O) -> Option<T> {
+pub fn sent<T, E: Display, O: Observer>(result: Result<T, E>, index: usize, observer: &mut O) -> Option<T> {
     match result {
         Ok(value) => Some(value),
         Err(error) => {

@@ -110,7 +110,7 @@ pub fn clusters(
     for &node in order {
         by_guards.entry((regions[node], &accumulated[node])).or_default().push(node);
     }
-    let mut groups: Vec<((usize, &BTreeSet<usize>), Vec<NodeId>)> = by_guards.into_iter().collect();
+    let mut groups: Vec<_> = by_guards.into_iter().collect();
     groups.sort_by_key(|(_, nodes)| nodes.iter().min().copied());
     let mut cluster_of = vec![0; graph.nodes.len()];
     let mut clusters: Vec<Cluster> = vec![];

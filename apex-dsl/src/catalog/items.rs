@@ -99,7 +99,7 @@ pub struct SlotItem {
 }
 
 /// The signature of `process`.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Process {
     /// Arguments in order.
     pub args: Vec<ArgItem>,
@@ -148,10 +148,19 @@ pub struct ParamItem {
     pub ty: Ty,
     /// Unit of plain numbers.
     pub unit: Option<String>,
-    /// Default; `Some(None)` is an expression that only Rust can evaluate.
-    pub default: Option<Option<Literal>>,
+    /// The value where a text gives none.
+    pub default: Option<Default>,
     /// Smallest and largest value, and whether the largest belongs to it.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
+}
+
+/// The default of a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Default {
+    /// A literal.
+    Literal(Literal),
+    /// An expression that only rustc can evaluate.
+    Rust,
 }
 
 /// A literal of Rust.
@@ -329,7 +338,7 @@ fn param(name: String, docs: String, decl: &signature::ParamDecl) -> ParamItem {
         docs,
         ty: Ty::from_syn(&decl.ty),
         unit: decl.unit.clone(),
-        default: decl.default.as_ref().map(literal),
+        default: decl.default.as_ref().map(|expr| literal(expr).map_or(Default::Rust, Default::Literal)),
         range: decl
             .range
             .as_ref()

@@ -13,7 +13,7 @@ use std::{
     path::PathBuf,
 };
 
-pub use items::{Item, Literal, read as read_items};
+pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use tree::{DefId, ModuleId};
 pub use ty::Ty;
 pub use types::{Match, Type};
@@ -101,8 +101,8 @@ pub struct ParamSig {
     pub ty: Type,
     /// Unit of plain numbers.
     pub unit: Option<String>,
-    /// Default; `Some(None)` is an expression that only Rust can evaluate.
-    pub default: Option<Option<Literal>>,
+    /// The value where a text gives none.
+    pub default: Option<DefaultValue>,
     /// Smallest and largest value, and whether the largest belongs to it.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
 }
@@ -269,24 +269,22 @@ impl Catalog {
     }
 
     fn defs(&self, path: &[String]) -> Vec<DefId> {
-        let mut found = vec![];
-        for &own in &self.crates.own {
-            found = self.tree.resolve(self.tree.roots[own], path);
-            if !found.is_empty() {
-                return found;
+        let found = self.crates.own.iter().map(|own| self.defs_in(*own, path)).find(|found| !found.is_empty());
+        found.unwrap_or_default()
+    }
+
+    /// What `path` names in one of the package's own crates. A name without a path may stand in any module.
+    fn defs_in(&self, krate: usize, path: &[String]) -> Vec<DefId> {
+        let found = self.tree.resolve(self.tree.roots[krate], path);
+        match path {
+            [name] if found.is_empty() => {
+                let is_meant = |d: &DefId| {
+                    self.tree.defs[*d].name == *name && self.tree.modules[self.tree.defs[*d].module].krate == krate
+                };
+                (0..self.tree.defs.len()).filter(is_meant).collect()
             }
+            _ => found,
         }
-        // A name without a path may stand in any module of the package itself.
-        if let [name] = path {
-            for own in &self.crates.own {
-                let is_own = |d: &DefId| self.tree.modules[self.tree.defs[*d].module].krate == *own;
-                found = (0..self.tree.defs.len()).filter(|d| self.tree.defs[*d].name == *name && is_own(d)).collect();
-                if !found.is_empty() {
-                    break;
-                }
-            }
-        }
-        found
     }
 
     /// Whether `name` is a crate that a text can import from.

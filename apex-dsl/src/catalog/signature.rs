@@ -33,7 +33,7 @@ pub enum Form {
     /// `&Ctx`.
     Ctx,
     /// A parameter of a function node.
-    Param(ParamDecl),
+    Param(Box<ParamDecl>),
 }
 
 /// An input argument.
@@ -207,7 +207,7 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
             ));
         };
         let form = match param(&arg.attrs, &arg.ty)? {
-            Some(decl) => Form::Param(decl),
+            Some(decl) => Form::Param(Box::new(decl)),
             None => form(&arg.ty)?,
         };
         let name = name.ident.to_string();

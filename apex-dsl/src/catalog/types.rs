@@ -11,6 +11,8 @@ pub enum Type {
     Named(String, Vec<Type>),
     /// A definition that was seen.
     Def(DefId, String, Vec<Type>),
+    /// A `type` of Rust whose meaning the scan cannot see all of.
+    Alias(DefId, String, Box<Type>),
     /// `[T; N]`, `[T]`
     Array(Box<Type>, Option<String>),
     /// `(A, B)`
@@ -57,7 +59,7 @@ impl Type {
     /// The name of a number type, `Duration`, `bool` …: its last word.
     pub fn name(&self) -> &str {
         match self {
-            Self::Primitive(name) | Self::Def(_, name, _) | Self::Param(name) => name,
+            Self::Primitive(name) | Self::Def(_, name, _) | Self::Alias(_, name, _) | Self::Param(name) => name,
             Self::Named(text, _) | Self::Unknown(text) => text.rsplit("::").next().unwrap_or(text),
             _ => "",
         }
@@ -65,8 +67,10 @@ impl Type {
 
     /// Whether two types are the same, as far as can be seen.
     pub fn compare(&self, other: &Self) -> Match {
-        use Type::{Array, Def, Named, Param, Primitive, Ref, Tuple, Unknown};
+        use Type::{Alias, Array, Def, Named, Param, Primitive, Ref, Tuple, Unknown};
         match (self, other) {
+            (Alias(a, ..), Alias(b, ..)) if a == b => Match::Same,
+            (Alias(.., target), other) | (other, Alias(.., target)) => target.compare(other),
             (Unknown(_) | Param(_), _) | (_, Unknown(_) | Param(_)) => Match::Unknown,
             (Primitive(a), Primitive(b)) => Match::of(a == b),
             (Named(a, x), Named(b, y)) => named(a, x, b, y),
@@ -99,7 +103,7 @@ impl Type {
             }
             Self::Tuple(parts) => Self::Tuple(each(parts)),
             Self::Ref(inner) => Self::Ref(Box::new(inner.substitute(lookup))),
-            Self::Primitive(_) | Self::Unknown(_) => self.clone(),
+            Self::Primitive(_) | Self::Alias(..) | Self::Unknown(_) => self.clone(),
         }
     }
 
@@ -128,13 +132,14 @@ impl Type {
             Self::Named(_, args) | Self::Def(_, _, args) | Self::Tuple(args) => args.iter().any(Self::is_open),
             Self::Array(inner, len) => inner.is_open() || len.as_ref().is_some_and(|n| n.parse::<u64>().is_err()),
             Self::Ref(inner) => inner.is_open(),
-            Self::Primitive(_) => false,
+            Self::Primitive(_) | Self::Alias(..) => false,
         }
     }
 
     /// The element type of a list; `None` if it is certainly no list that `each` knows.
     pub fn list_item(&self) -> Option<Type> {
         match self {
+            Self::Alias(.., target) => target.list_item(),
             Self::Named(name, args) if LISTS.contains(&name.as_str()) => args.first().cloned(),
             _ => None,
         }
@@ -175,7 +180,9 @@ impl fmt::Display for Type {
             types.iter().enumerate().try_for_each(|(i, t)| write!(f, "{}{t}", if i > 0 { ", " } else { "" }))
         };
         match self {
-            Self::Primitive(name) | Self::Param(name) | Self::Unknown(name) => f.write_str(name),
+            Self::Primitive(name) | Self::Alias(_, name, _) | Self::Param(name) | Self::Unknown(name) => {
+                f.write_str(name)
+            }
             Self::Named(name, args) | Self::Def(_, name, args) => {
                 f.write_str(name)?;
                 if args.is_empty() {
@@ -197,6 +204,9 @@ impl fmt::Display for Type {
     }
 }
 
+/// What a path names where a type is written: definitions, or the full path of something that is not scanned.
+type Resolve<'a> = dyn Fn(&[String]) -> (Vec<DefId>, Option<String>) + 'a;
+
 impl Catalog {
     /// Looks up the names of a type that was written in a scanned module.
     pub fn type_of(&self, ty: &Ty, module: ModuleId, generics: &[String]) -> Type {
@@ -208,13 +218,7 @@ impl Catalog {
         self.lookup(ty, generics, 0, &|path| (self.types(path), None))
     }
 
-    fn lookup(
-        &self,
-        ty: &Ty,
-        generics: &[String],
-        aliases: usize,
-        resolve: &dyn Fn(&[String]) -> (Vec<DefId>, Option<String>),
-    ) -> Type {
+    fn lookup(&self, ty: &Ty, generics: &[String], aliases: usize, resolve: &Resolve<'_>) -> Type {
         let inner = |t: &Ty| self.lookup(t, generics, aliases, resolve);
         match ty {
             Ty::Array(element, len) => Type::Array(Box::new(inner(element)), len.clone()),
@@ -236,9 +240,10 @@ impl Catalog {
                         None => Type::Def(def, name.to_owned(), args),
                         Some(Some(target)) if aliases < MAX_ALIASES => {
                             let module = self.tree.defs[def].module;
-                            self.lookup(target, &[], aliases + 1, &|path| {
+                            let target = self.lookup(target, &[], aliases + 1, &|path| {
                                 (self.tree.resolve(module, path), self.tree.external(module, path))
-                            })
+                            });
+                            if target.is_open() { Type::Alias(def, name.to_owned(), Box::new(target)) } else { target }
                         }
                         Some(_) => Type::Unknown(ty.to_string()),
                     };

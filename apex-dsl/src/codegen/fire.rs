@@ -8,7 +8,7 @@ use super::{
 use crate::{
     analyse::{Analysis, Block, Links, Step, is_told},
     catalog::{ArgSig, Signature},
-    graph::{End, Graph, Library, NodeId, NodeKind, Value},
+    graph::{End, Graph, Library, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -242,7 +242,7 @@ impl<'a> Emitter<'a> {
                     let token = self.reference(from, block);
                     quote!(::core::clone::Clone::clone(#token))
                 }
-                None => self.constant(library, signature, param),
+                None => self.generator.param_value(self.graph, library, param),
             },
         }
     }
@@ -262,17 +262,6 @@ impl<'a> Emitter<'a> {
             quote_spanned!(span=> #token.map(|token| #link::<#wanted>::pass(token)))
         } else {
             quote_spanned!(span=> #link::<#wanted>::pass(#token))
-        }
-    }
-
-    fn constant(&self, library: &Library, signature: &Signature, param: usize) -> TokenStream {
-        match &library.params[param] {
-            Value::RustDefault => {
-                let node = self.generator.node_type(self.graph, library);
-                let default = format_ident!("apex_default_{}", signature.params[param].name);
-                quote!(<#node>::#default())
-            }
-            value => self.generator.value(value, &signature.params[param].ty),
         }
     }
 
@@ -475,7 +464,7 @@ impl<'a> Emitter<'a> {
                     None => {
                         let (ty, constant) = (
                             spell(&signature.params[param].ty, self.generator.catalog),
-                            self.constant(library, signature, param),
+                            self.generator.param_value(self.graph, library, param),
                         );
                         ty.map_or(quote!(#constant), |ty| quote!({ let value: #ty = #constant; value }))
                     }

@@ -34,7 +34,7 @@ pub struct Generator<'a> {
 /// Names of locals and fields: those of the text, made unique.
 #[derive(Default)]
 pub struct Names {
-    /// What stands before all names: the nodes around the bodies of `each`.
+    /// The program, and the nodes around the body of an `each`.
     prefix: String,
     /// The number of the first node in the table of all nodes.
     base: usize,
@@ -43,8 +43,8 @@ pub struct Names {
 }
 
 impl Names {
-    fn new(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
-        let mut names = Self { prefix: prefix.to_owned(), base: *count, ..Self::default() };
+    fn new(graph: &Graph, program: &str, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
+        let mut names = Self { prefix: format!("{program}_{prefix}"), base: *count, ..Self::default() };
         *count += graph.nodes.len();
         for (node, n) in graph.nodes.iter().enumerate() {
             let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
@@ -60,7 +60,7 @@ impl Names {
                 names.tokens.insert(End { node, port }, name);
             }
             if let NodeKind::Each(each) = &n.kind {
-                names.inner.insert(node, Self::new(&each.body, &format!("{path}_"), count, used));
+                names.inner.insert(node, Self::new(&each.body, program, &format!("{path}_"), count, used));
             }
         }
         names
@@ -75,7 +75,7 @@ pub fn generate(
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
 ) -> TokenStream {
-    let names = Names::new(graph, "", &mut 0, &mut BTreeSet::new());
+    let names = Names::new(graph, &graph.name, "", &mut 0, &mut BTreeSet::new());
     let generator = Generator { catalog, sources, names: &names, place, outer: None };
     generator.program(graph, analysis)
 }

@@ -44,7 +44,8 @@ pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: End) -> bool {
     match &graph.nodes[end.node].kind {
         NodeKind::Library(library) => {
             let args = catalog.signatures[library.signature].process.as_deref().unwrap_or_default();
-            graph.port(end).parameter.is_none() && args.contains(&ArgSig::Port(end.port))
+            let port = graph.port(end);
+            port.kind == PortKind::Output && port.parameter.is_none() && args.contains(&ArgSig::Port(end.port))
         }
         NodeKind::Each(_) => true,
         _ => false,

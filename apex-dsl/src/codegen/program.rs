@@ -11,7 +11,7 @@ use crate::{
     analyse::{Analysis, Guard, Links},
     catalog::Match,
     check::compare_types,
-    graph::{End, Graph, Library, NodeId, NodeKind, Value},
+    graph::{End, Graph, Library, NodeId, NodeKind},
     source::Span,
     syntax::tree::PortKind,
 };
@@ -89,6 +89,7 @@ impl Generator<'_> {
                     }
                 }
                 /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
+                #[inline]
                 pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
                 /// The nodes, by instance name.
                 pub fn nodes(&self) -> &#nodes_name { &self.nodes }
@@ -144,7 +145,7 @@ impl Generator<'_> {
                         handed_in.push((part.clone(), ty.clone()));
                         quote!(parts.#part)
                     } else {
-                        self.construct(&ty, library)
+                        self.construct(graph, &ty, library)
                     };
                     insert(fields, &self.node_path(graph, id), Field::Node { ty, make });
                 }
@@ -158,15 +159,8 @@ impl Generator<'_> {
         }
     }
 
-    fn construct(&self, ty: &TokenStream, library: &Library) -> TokenStream {
-        let signature = &self.catalog.signatures[library.signature];
-        let params = signature.params.iter().zip(&library.params).map(|(param, value)| match value {
-            Value::RustDefault => {
-                let default = format_ident!("apex_default_{}", param.name);
-                quote!(<#ty>::#default())
-            }
-            value => self.value(value, &param.ty),
-        });
+    fn construct(&self, graph: &Graph, ty: &TokenStream, library: &Library) -> TokenStream {
+        let params = (0..library.params.len()).map(|param| self.param_value(graph, library, param));
         quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*)))
     }
 

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     analyse::{Analysis, Links, is_told},
     catalog::{ArgSig, Signature},
-    graph::{End, Graph, Library, NodeId, NodeKind, Value},
+    graph::{End, Graph, Library, NodeId, NodeKind},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -146,7 +146,7 @@ impl Generator<'_> {
             .iter()
             .map(|arg| match *arg {
                 ArgSig::Ctx => quote!(ctx),
-                ArgSig::Param(param) => self.param_constant(graph, library, signature, param),
+                ArgSig::Param(param) => self.param_value(graph, library, param),
                 ArgSig::Port(port) => {
                     let p = &signature.ports[port];
                     match (p.kind, source(port)) {
@@ -190,17 +190,6 @@ impl Generator<'_> {
         match names.as_slice() {
             [] => quote! { observer.fired(#index); #sends },
             _ => quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { observer.fired(#index); #sends } #told },
-        }
-    }
-
-    fn param_constant(&self, graph: &Graph, library: &Library, signature: &Signature, param: usize) -> TokenStream {
-        match &library.params[param] {
-            Value::RustDefault => {
-                let node = self.node_type(graph, library);
-                let default = format_ident!("apex_default_{}", signature.params[param].name);
-                quote!(<#node>::#default())
-            }
-            value => self.value(value, &signature.params[param].ty),
         }
     }
 

@@ -36,6 +36,7 @@ pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
             "Option" => with(quote!(::core::option::Option), args),
             _ => with(format!("::{name}").parse().ok()?, args),
         },
+        Type::Alias(def, ..) => Some(path(catalog.path(*def)?)),
         Type::Def(def, _, args) => with(path(catalog.path(*def)?), args),
         Type::Array(element, Some(len)) => {
             let (element, len): (_, TokenStream) = (spell(element, catalog)?, len.parse().ok()?);
@@ -141,6 +142,29 @@ impl Generator<'_> {
             Some(list) if is_list => quote!(<#list as ::apex_rt::List>::Item),
             Some(ty) => ty,
             None => quote!(()),
+        }
+    }
+
+    /// The value of a parameter as an expression.
+    pub fn param_value(&self, graph: &Graph, library: &Library, param: usize) -> TokenStream {
+        let signature = &self.catalog.signatures[library.signature];
+        let declared = &signature.params[param];
+        match &library.params[param] {
+            Value::RustDefault => {
+                let node = self.node_type(graph, library);
+                let default = format_ident!("apex_default_{}", declared.name);
+                quote!(<#node>::#default())
+            }
+            value => {
+                let known = |name: &str| {
+                    let index = signature.generics.iter().position(|g| g == name)?;
+                    match library.types.get(index)? {
+                        TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+                        TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
+                    }
+                };
+                self.value(value, &declared.ty.substitute(&known))
+            }
         }
     }
 

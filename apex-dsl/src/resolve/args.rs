@@ -5,7 +5,7 @@ use super::{
     value::{Evaluated, Scope, Wanted, duration, evaluate, scaled},
 };
 use crate::{
-    catalog::{Literal, ParamSig, Signature, Type},
+    catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
     graph::{Modifiers, Number, Value},
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -99,16 +99,16 @@ fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str)
         Number { value, integer, dimension: Dimension::NONE }
     };
     match &param.default {
-        Some(Some(Literal::Number(value, _))) if param.ty.name() == "Duration" => {
+        Some(DefaultValue::Literal(Literal::Number(value, _))) if param.ty.name() == "Duration" => {
             duration(Number { dimension: Dimension::TIME, ..number(*value, false) }, at).map(Value::Duration)
         }
-        Some(Some(Literal::Number(value, integer))) => {
+        Some(DefaultValue::Literal(Literal::Number(value, integer))) => {
             let is_float = matches!(param.ty.name(), "f32" | "f64");
             Ok(Value::Number(number(*value, *integer && !is_float)))
         }
-        Some(Some(Literal::Bool(value))) => Ok(Value::Bool(*value)),
-        Some(Some(Literal::Text(text))) => Ok(Value::Text(text.clone())),
-        Some(None) => Ok(Value::RustDefault),
+        Some(DefaultValue::Literal(Literal::Bool(value))) => Ok(Value::Bool(*value)),
+        Some(DefaultValue::Literal(Literal::Text(text))) => Ok(Value::Text(text.clone())),
+        Some(DefaultValue::Rust) => Ok(Value::RustDefault),
         // A function takes the value that arrives at the port; a struct needs one to start with.
         None if signature.is_function && fed(&param.name) => Ok(Value::RustDefault),
         None => {
@@ -187,12 +187,17 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
 /// A value in the declaration of a parameter: a plain number there has the unit of the parameter.
 fn declared(param: &ParamItem, expr: &Expr, before: &BTreeMap<String, Value>) -> Evaluated<Value> {
     let value = evaluate(expr, &Scope { params: before, rust_path: &|_| None })?;
-    match (&param.unit, value) {
-        (Some(unit), Value::Number(n)) if n.dimension.is_none() => {
-            let unit = units::parse(&unit.text).unwrap_or(units::Unit { dimension: Dimension::NONE, factor: 1.0 });
-            Ok(Value::Number(Number { value: scaled(n.value, unit.factor), integer: None, dimension: unit.dimension }))
+    let unit = param.unit.as_ref().and_then(|unit| units::parse(&unit.text).ok());
+    Ok(unit.map_or(value.clone(), |unit| in_unit(value, unit)))
+}
+
+fn in_unit(value: Value, unit: units::Unit) -> Value {
+    match value {
+        Value::Number(n) if n.dimension.is_none() => {
+            Value::Number(Number { value: scaled(n.value, unit.factor), integer: None, dimension: unit.dimension })
         }
-        (_, value) => Ok(value),
+        Value::List(items) => Value::List(items.into_iter().map(|item| in_unit(item, unit)).collect()),
+        value => value,
     }
 }
 

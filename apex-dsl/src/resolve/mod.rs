@@ -44,8 +44,13 @@ pub fn resolve(
     let mut budget = MAX_NODES;
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
+        let nested = is_nested(&texts, id);
+        // Without values for its parameters it can only be checked where it is used.
+        if nested && texts.graph(id).params.iter().any(|p| p.default.is_none()) {
+            continue;
+        }
         let resolved = instance::graph(&texts, catalog, id, &mut budget, diagnostics);
-        if !is_nested(&texts, id) {
+        if !nested {
             graphs.extend(resolved);
         }
     }

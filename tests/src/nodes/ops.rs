@@ -137,7 +137,7 @@ pub fn split_buffered(x: &i64, twos: &mut Out<i64>, threes: &mut Out<i64>) {
 
 /// A list of the value, written in place, and the value itself.
 #[node]
-pub fn split(x: &i64, list: &mut Out<Vec<i64>>) -> i64 {
+pub fn listed(x: &i64, list: &mut Out<Vec<i64>>) -> i64 {
     let list = list.get_mut();
     list.clear();
     list.push(*x);

@@ -1,0 +1,9 @@
+//! A robot of 50 nodes: what `apex-bench compile` edits and builds again.
+
+use apex_rt::prelude::*;
+
+graph!("robot50.afg");
+
+fn main() {
+    run(Robot50::new(), SimClock::until(Time::from_secs(1)));
+}

@@ -1,0 +1,60 @@
+//! What is measured, and what it may cost.
+
+use crate::{graphs, hand};
+
+/// Runs a number of ticks from the beginning and gives the checksum.
+pub type Run = fn(u64) -> u64;
+
+/// One graph, compiled and by hand.
+pub struct Case {
+    /// Name of the graph.
+    pub name: &'static str,
+    /// The program that the text is compiled to.
+    pub apex: Run,
+    /// The same written by hand.
+    pub hand: Run,
+    /// The longest time of the compiled program, in times of the hand-written one.
+    pub goal: f64,
+}
+
+/// The goal for synchronous graphs.
+pub const SYNCHRONOUS: f64 = 1.1;
+
+/// The goal where something is decided at run time.
+const DISPATCHED: f64 = 2.0;
+
+const fn case(name: &'static str, apex: Run, hand: Run, goal: f64) -> Case {
+    Case { name, apex, hand, goal }
+}
+
+/// All graphs.
+pub const CASES: [Case; 16] = [
+    case("chain3", graphs::chain3, hand::chain3, SYNCHRONOUS),
+    case("chain10", graphs::chain10, hand::chain10, SYNCHRONOUS),
+    case("chain100", graphs::chain100, hand::chain100, SYNCHRONOUS),
+    case("chain1000", graphs::chain1000, hand::chain1000, SYNCHRONOUS),
+    case("diamond8", graphs::diamond8, hand::diamond8, SYNCHRONOUS),
+    case("diamond64", graphs::diamond64, hand::diamond64, SYNCHRONOUS),
+    case("bot100", graphs::bot100, hand::bot100, 1.2),
+    case("throttle", graphs::throttle, hand::throttle, SYNCHRONOUS),
+    case("rate23", graphs::rate23, hand::rate23, SYNCHRONOUS),
+    case("nested1000", graphs::nested1000, hand::nested1000, SYNCHRONOUS),
+    case("image", graphs::image, hand::image, 1.05),
+    case("timer10", graphs::timer10, hand::timer10, DISPATCHED),
+    case("timers2", graphs::timers2, hand::timers2, DISPATCHED),
+    case("silent10", graphs::silent10, hand::silent10, SYNCHRONOUS),
+    case("silent100", graphs::silent100, hand::silent100, SYNCHRONOUS),
+    case("silent1000", graphs::silent1000, hand::silent1000, SYNCHRONOUS),
+];
+
+/// Chains whose source sends only ⊥: a tick of the longest costs what one of the shortest costs.
+pub const SKIPPED: [(&str, Run); 3] =
+    [("silent10", graphs::silent10), ("silent100", graphs::silent100), ("silent1000", graphs::silent1000)];
+
+/// How often `ticks` ticks from the beginning allocate memory.
+pub fn allocations(run: Run, ticks: u64) -> u64 {
+    allocation_counter::measure(|| {
+        std::hint::black_box(run(ticks));
+    })
+    .count_total
+}

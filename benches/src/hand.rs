@@ -1,0 +1,195 @@
+//! The same work as straight-line Rust, as somebody who knows the whole graph would write it: values in
+//! locals, ⊥ as control flow.
+
+use crate::{
+    graphs::milliseconds,
+    image::{Camera, Gray, Labels, blur, components, gray, threshold},
+    nodes::{Count, OneOf, Pairs, Rows, Silent, Sink, add, mix, op, sum, sum8, sum64},
+};
+use apex_rt::{Out, Timer};
+use seq_macro::seq;
+use std::time::Duration;
+
+macro_rules! chain {
+    ($($name:ident: $source:ty, $n:literal;)*) => {
+        $(
+            #[doc = concat!(stringify!($n), " operations in a row.")]
+            #[inline(never)]
+            pub fn $name(ticks: u64) -> u64 {
+                let (mut source, mut sink) = (<$source>::default(), Sink::default());
+                for _ in 0..ticks {
+                    let x = source.process();
+                    seq!(K in 1..=$n { let x = op(&x, K); });
+                    sink.process(&x);
+                }
+                sink.checksum()
+            }
+        )*
+    };
+}
+
+chain! {
+    chain3: Count, 3;
+    chain10: Count, 10;
+    chain100: Count, 100;
+    chain1000: Count, 1000;
+}
+
+macro_rules! silent {
+    ($($name:ident: $n:literal;)*) => {
+        $(
+            #[doc = concat!(stringify!($n), " operations in a row that never get a message.")]
+            #[inline(never)]
+            pub fn $name(ticks: u64) -> u64 {
+                let (mut source, mut sink) = (Silent::default(), Sink::default());
+                for _ in 0..ticks {
+                    if let Some(x) = source.process() {
+                        seq!(K in 1..=$n { let x = op(&x, K); });
+                        sink.process(&x);
+                    }
+                }
+                sink.checksum()
+            }
+        )*
+    };
+}
+
+silent! {
+    silent10: 10;
+    silent100: 100;
+    silent1000: 1000;
+}
+
+/// 8 operations side by side.
+#[inline(never)]
+pub fn diamond8(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Count::default(), Sink::default());
+    for _ in 0..ticks {
+        let x = source.process();
+        seq!(K in 1..=8 { sink.process(&sum8(#(&op(&x, K),)*)); });
+    }
+    sink.checksum()
+}
+
+/// 64 operations side by side.
+#[inline(never)]
+pub fn diamond64(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Count::default(), Sink::default());
+    for _ in 0..ticks {
+        let x = source.process();
+        seq!(K in 1..=64 { sink.process(&sum64(#(&op(&x, K),)*)); });
+    }
+    sink.checksum()
+}
+
+/// A filter that passes 1 % in front of 98 operations.
+#[inline(never)]
+pub fn bot100(ticks: u64) -> u64 {
+    let (mut source, mut filter, mut sink) = (Count::default(), OneOf::new(100), Sink::default());
+    for _ in 0..ticks {
+        let x = op(&source.process(), 1);
+        if let Some(x) = filter.process(&x) {
+            seq!(K in 3..=100 { let x = op(&x, K); });
+            sink.process(&x);
+        }
+    }
+    sink.checksum()
+}
+
+/// A join of a filtered and a full branch.
+#[inline(never)]
+pub fn throttle(ticks: u64) -> u64 {
+    let (mut source, mut filter, mut sink) = (Count::default(), OneOf::new(10), Sink::default());
+    for _ in 0..ticks {
+        let x = op(&source.process(), 1);
+        let b = x;
+        seq!(K in 10..=17 { let b = op(&b, K); });
+        if let Some(a) = filter.process(&x) {
+            sink.process(&add(&op(&a, 2), &b));
+        }
+    }
+    sink.checksum()
+}
+
+/// Two tokens a firing meet three tokens a firing.
+#[inline(never)]
+pub fn rate23(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Pairs::default(), Sink::default());
+    for _ in 0..ticks {
+        let [a, b] = source.process();
+        let [c, d] = source.process();
+        let [e, f] = source.process();
+        sink.process(&op(&mix(&[a, b, c]), 3));
+        sink.process(&op(&mix(&[d, e, f]), 3));
+    }
+    sink.checksum()
+}
+
+/// Three operations for each of 1000 elements.
+#[inline(never)]
+pub fn nested1000(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Rows::default(), Sink::default());
+    let (mut list, mut results) = (Out::new(), Vec::new());
+    for _ in 0..ticks {
+        source.process(&mut list);
+        let Some(list) = list.get() else { continue };
+        results.clear();
+        results.extend(list.iter().map(|x| op(&op(&op(x, 1), 2), 3)));
+        sink.process(&sum(&results));
+    }
+    sink.checksum()
+}
+
+/// Finds bright discs.
+#[inline(never)]
+pub fn image(ticks: u64) -> u64 {
+    let (mut camera, mut sink, mut labels) = (Camera::default(), Sink::default(), Labels::default());
+    let (mut brightness, mut blurred, mut mask) = (Gray::default(), Gray::default(), Gray::default());
+    for _ in 0..ticks {
+        gray(&camera.process(), &mut brightness);
+        blur(&brightness, &mut blurred);
+        threshold(&blurred, &mut mask);
+        sink.process(&components(&mask, &mut labels));
+    }
+    sink.checksum()
+}
+
+/// A chain whose source has a pace of its own.
+#[inline(never)]
+pub fn timer10(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Count::default(), Sink::default());
+    let mut timer = Timer::new(Duration::from_millis(1));
+    for now in milliseconds(ticks) {
+        while timer.is_due(now) {
+            timer.advance();
+            let x = source.process();
+            seq!(K in 1..=10 { let x = op(&x, K); });
+            sink.process(&x);
+        }
+    }
+    sink.checksum()
+}
+
+/// Two sources with paces of their own, and a join that waits for both.
+#[inline(never)]
+pub fn timers2(ticks: u64) -> u64 {
+    let (mut left, mut right, mut sink) = (Count::default(), Count::default(), Sink::default());
+    let mut timers = [1, 2].map(|ms| Timer::new(Duration::from_millis(ms)));
+    let (mut a, mut b) = (None, None);
+    for now in milliseconds(ticks) {
+        loop {
+            if a.is_none() && timers[0].is_due(now) {
+                timers[0].advance();
+                a = Some(op(&left.process(), 1));
+            }
+            if b.is_none() && timers[1].is_due(now) {
+                timers[1].advance();
+                b = Some(op(&right.process(), 2));
+            }
+            let (Some(x), Some(y)) = (a, b) else { break };
+            sink.process(&add(&x, &y));
+            (a, b) = (None, None);
+        }
+    }
+    sink.checksum()
+}

@@ -1,0 +1,9 @@
+//! Compiled graphs against the same work written by hand: same node functions, same guards, same checksums.
+
+mod cases;
+pub mod graphs;
+pub mod hand;
+pub mod image;
+pub mod nodes;
+
+pub use cases::{CASES, Case, Run, SKIPPED, SYNCHRONOUS, allocations};

@@ -1,0 +1,88 @@
+//! Tables of what was measured.
+
+use crate::measure::{self, Effort, Measurement, RESOLUTION_NS};
+use apex_bench::{Case, SKIPPED, SYNCHRONOUS};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// All results of a run.
+#[derive(Serialize)]
+pub struct Report {
+    graphs: Vec<Measurement>,
+    skipped_ticks: Vec<Measurement>,
+}
+
+/// Compares skipped ticks of all chain lengths with those of the shortest, which stands where code written by hand stands else.
+pub fn skipped(effort: Effort) -> Vec<Measurement> {
+    let (_, shortest) = SKIPPED[0];
+    let case = |(name, run)| Case { name, apex: run, hand: shortest, goal: SYNCHRONOUS };
+    SKIPPED[1..].iter().map(|chain| measure::compare(&case(*chain), effort)).collect()
+}
+
+impl Report {
+    /// The report of a run.
+    pub fn new(graphs: Vec<Measurement>, skipped_ticks: Vec<Measurement>) -> Self {
+        Self { graphs, skipped_ticks }
+    }
+
+    /// Whether both sides computed the same everywhere.
+    pub fn all_equal(&self) -> bool {
+        self.graphs.iter().all(|m| m.equal)
+    }
+
+    /// For a terminal.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{:<12}{:>14}{:>14}{:>8}{:>7}{:>12}  {:<10}{}\n",
+            "graph", "apex ns/tick", "hand ns/tick", "ratio", "goal", "alloc/tick", "checksum", "verdict"
+        );
+        for m in &self.graphs {
+            let [equal, met] = verdicts(m);
+            let _ = writeln!(
+                text,
+                "{:<12}{:>14.2}{:>14.2}{:>8.2}{:>7.2}{:>12.2}  {equal:<10}{met}",
+                m.name, m.apex_ns, m.hand_ns, m.ratio, m.goal, m.allocations
+            );
+        }
+        text + &self.skipped_lines("")
+    }
+
+    /// For a page.
+    pub fn markdown(&self) -> String {
+        let mut text =
+            "| graph | apex, ns per tick | hand, ns per tick | ratio | goal | allocations per tick | checksum | |\n\
+                        |---|--:|--:|--:|--:|--:|---|---|\n"
+                .to_owned();
+        for m in &self.graphs {
+            let [equal, met] = verdicts(m);
+            let _ = writeln!(
+                text,
+                "| {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {equal} | {met} |",
+                m.name, m.apex_ns, m.hand_ns, m.ratio, m.goal, m.allocations
+            );
+        }
+        text + "\n" + &self.skipped_lines("- ")
+    }
+
+    /// For programs.
+    pub fn json(&self) -> Result<String, String> {
+        serde_json::to_string_pretty(self).map_err(|e| e.to_string())
+    }
+
+    fn skipped_lines(&self, bullet: &str) -> String {
+        let (shortest, _) = SKIPPED[0];
+        let line = |m: &Measurement| {
+            let [_, met] = verdicts(m);
+            format!(
+                "{bullet}skipped tick of {}: {:.2} ns, {:.2} times {shortest} (goal {:.2}): {met}\n",
+                m.name, m.apex_ns, m.ratio, m.goal
+            )
+        };
+        let lines: String = self.skipped_ticks.iter().map(line).collect();
+        lines + &format!("{bullet}differences below {RESOLUTION_NS} ns are not counted as missed\n")
+    }
+}
+
+fn verdicts(m: &Measurement) -> [&'static str; 2] {
+    [if m.equal { "equal" } else { "DIFFERENT" }, if m.meets_goal() { "met" } else { "missed" }]
+}

@@ -1,0 +1,364 @@
+use super::{ReadError, lines::Lines};
+use crate::scan::{MAX_BEAMS, Pose2, Scan};
+use apex_rt::{Ctx, Event, Out, Time, node};
+use core::f32::consts::PI;
+use std::path::Path;
+
+/// What a table of ranges does not say about the scanner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LogGeometry {
+    /// Direction of beam 0, in rad. Not used for CARMEN logs.
+    pub angle_min: f32,
+    /// Angle from beam to beam, in rad. Not used for CARMEN logs.
+    pub angle_increment: f32,
+    /// The shortest range that counts as measured, in m.
+    pub range_min: f32,
+    /// The longest range that counts as measured, in m.
+    pub range_max: f32,
+}
+
+/// What a log says about a scan besides its ranges.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LogEntry {
+    /// Its number: the first column of a table; counted from 0 in a CARMEN log.
+    pub id: u64,
+    /// The pose of the scanner, if the log has it.
+    pub pose: Option<Pose2>,
+    /// When it was taken, since the zero of the recording's clock, if the log has it.
+    pub time: Option<Time>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    /// Rows of number, source number, ranges.
+    Table,
+    /// Lines `FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ time host logger_time`; others are skipped.
+    Carmen,
+}
+
+impl Format {
+    /// The format by the ending of the name, `.gz` aside.
+    fn of(path: &Path) -> Result<Self, ReadError> {
+        let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
+        match name.strip_suffix(".gz").unwrap_or(name).rsplit_once('.').map(|(_, ending)| ending) {
+            Some("csv") => Ok(Self::Table),
+            Some("log" | "clf") => Ok(Self::Carmen),
+            _ => Err(ReadError::open(path, "a scan log ends in .csv, .log or .clf (and .gz)")),
+        }
+    }
+}
+
+/// Reads laser scans from a table of ranges (`.csv`: number, source number, ranges in m) or from the FLASER lines of a
+/// CARMEN log (`.log`, `.clf`), packed (`.gz`) or not.
+#[derive(Debug)]
+pub struct ScanLogReader {
+    lines: Lines,
+    format: Format,
+    geometry: LogGeometry,
+    next_id: u64,
+}
+
+impl ScanLogReader {
+    /// Opens a log.
+    ///
+    /// # Errors
+    /// If its name has none of the known endings, or it cannot be opened.
+    pub fn open(path: impl AsRef<Path>, geometry: LogGeometry) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        let format = Format::of(path)?;
+        Ok(Self { lines: Lines::open(path)?, format, geometry, next_id: 0 })
+    }
+
+    /// Reads the next scan into `scan`, which keeps its stamp unless the log has one; `None` at the end.
+    ///
+    /// # Errors
+    /// If a line is no scan, or the file cannot be read on. The next call goes on behind the error.
+    pub fn read(&mut self, scan: &mut Scan) -> Result<Option<LogEntry>, ReadError> {
+        while let Some(line) = self.lines.next()? {
+            if self.format == Format::Carmen && line.split_whitespace().next() != Some("FLASER") {
+                continue;
+            }
+            scan.range_min = self.geometry.range_min;
+            scan.range_max = self.geometry.range_max;
+            let entry = match self.format {
+                Format::Table => self.table_row(scan),
+                Format::Carmen => self.flaser(scan),
+            };
+            let entry = entry.map_err(|message| self.lines.error(message))?;
+            scan.stamp = entry.time.unwrap_or(scan.stamp);
+            return Ok(Some(entry));
+        }
+        Ok(None)
+    }
+
+    fn table_row(&self, scan: &mut Scan) -> Result<LogEntry, String> {
+        let mut cells = self.lines.current().split(',');
+        let id = parse(cells.next(), "number")?;
+        let _source: u64 = parse(cells.next(), "source number")?;
+        scan.angle_min = self.geometry.angle_min;
+        scan.angle_increment = self.geometry.angle_increment;
+        fill(scan, cells)?;
+        Ok(LogEntry { id, ..LogEntry::default() })
+    }
+
+    /// The beams of FLASER cover 180° about the x axis; an odd number of them includes both ends.
+    fn flaser(&mut self, scan: &mut Scan) -> Result<LogEntry, String> {
+        let mut words = self.lines.current().split_whitespace().skip(1);
+        let beams: usize = parse(words.next(), "number of beams")?;
+        let intervals = if beams % 2 == 1 { beams - 1 } else { beams };
+        scan.angle_min = -0.5 * PI;
+        scan.angle_increment = PI / intervals.max(1) as f32;
+        fill(scan, words.by_ref().take(beams))?;
+        if scan.ranges.len() < beams {
+            return Err(format!("{beams} beams announced, {} found", scan.ranges.len()));
+        }
+        let mut pose = [0.0; 3];
+        for (value, name) in pose.iter_mut().zip(["x", "y", "theta"]) {
+            *value = parse(words.next(), name)?;
+        }
+        let seconds: f64 = parse(words.nth(3), "time")?;
+        let entry = LogEntry {
+            id: self.next_id,
+            pose: Some(Pose2::new(pose[0], pose[1], pose[2])),
+            time: Some(Time::from_nanos((seconds * 1e9) as i64)),
+        };
+        self.next_id += 1;
+        Ok(entry)
+    }
+}
+
+/// The number in a cell.
+fn parse<T: std::str::FromStr>(cell: Option<&str>, name: &str) -> Result<T, String> {
+    let cell = cell.ok_or_else(|| format!("{name} is missing"))?.trim();
+    cell.parse().map_err(|_| format!("{name}: `{cell}` is no valid number"))
+}
+
+/// Replaces the ranges of a scan by those in `cells`.
+fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(), String> {
+    scan.ranges.clear();
+    for (beam, cell) in cells.enumerate() {
+        let range = cell.trim().parse().map_err(|_| format!("beam {beam}: `{cell}` is no range"))?;
+        scan.ranges.push(range).map_err(|_| format!("more than {MAX_BEAMS} beams"))?;
+    }
+    Ok(())
+}
+
+/// Sends the scans of a log, one per firing (formats: see [`ScanLogReader`]). After the last it triggers `done` and
+/// sends ⊥.
+///
+/// Fails on a line that is no scan, and goes on with the next one. Scans of a table are stamped with the time of
+/// the firing.
+#[node]
+#[derive(Debug)]
+pub struct ScanLog {
+    /// The file; its ending tells the format.
+    #[param]
+    path: String,
+    /// Direction of beam 0. CARMEN logs have their own.
+    #[param(unit = "rad", default = -0.5 * PI, range = -6.4..=6.4)]
+    angle_min: f32,
+    /// Angle from beam to beam. CARMEN logs have their own.
+    #[param(unit = "rad", default = PI / 360.0, range = -0.5..=0.5)]
+    angle_increment: f32,
+    /// The shortest range that counts as measured.
+    #[param(unit = "m", default = 0.02, range = 0.0..=100.0)]
+    range_min: f32,
+    /// The longest range that counts as measured.
+    #[param(unit = "m", default = 80.0, range = 0.0..=1000.0)]
+    range_max: f32,
+    reader: Option<ScanLogReader>,
+    finished: bool,
+}
+
+#[node]
+impl ScanLog {
+    /// A node whose log is open already: tells at once if it cannot be opened.
+    ///
+    /// # Errors
+    /// Those of [`ScanLogReader::open`].
+    pub fn open(path: impl AsRef<Path>, geometry: LogGeometry) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        let reader = Some(ScanLogReader::open(path, geometry)?);
+        let path = path.to_string_lossy().into_owned();
+        let LogGeometry { angle_min, angle_increment, range_min, range_max } = geometry;
+        Ok(Self { path, angle_min, angle_increment, range_min, range_max, reader, finished: false })
+    }
+
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        scan: &mut Out<Scan>,
+        entry: &mut Out<LogEntry>,
+        done: Event<()>,
+    ) -> Result<(), ReadError> {
+        if self.finished {
+            return Ok(());
+        }
+        if self.reader.is_none() {
+            // Should it not open, then it is over; a successful `open` starts with `finished: false`.
+            self.finished = true;
+            *self = Self::open(&self.path, self.geometry())?;
+        }
+        let Some(reader) = &mut self.reader else { return Ok(()) };
+        let token = scan.get_mut();
+        token.stamp = ctx.now();
+        match reader.read(token) {
+            Ok(Some(read)) => entry.set(read),
+            Ok(None) => {
+                scan.clear();
+                self.finished = true;
+                done.emit(());
+            }
+            Err(error) => {
+                scan.clear();
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether all scans have been sent, or the log could not be opened.
+    pub fn finished(&self) -> bool {
+        self.finished
+    }
+
+    fn geometry(&self) -> LogGeometry {
+        LogGeometry {
+            angle_min: self.angle_min,
+            angle_increment: self.angle_increment,
+            range_min: self.range_min,
+            range_max: self.range_max,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    const GEOMETRY: LogGeometry =
+        LogGeometry { angle_min: -1.0, angle_increment: 0.5, range_min: 0.1, range_max: 10.0 };
+
+    fn path(name: &str) -> &'static str {
+        let path = std::env::temp_dir().join(format!("apex-log-{}-{name}", std::process::id()));
+        path.to_str().expect("a readable path").to_owned().leak()
+    }
+
+    fn file(name: &str, text: &[u8]) -> &'static str {
+        let path = path(name);
+        std::fs::write(path, text).expect("a temporary file");
+        path
+    }
+
+    #[test]
+    fn packed_tables_are_read_like_plain_ones() {
+        let text = b"7,1,1.5,0.0,2.5\n8,3,1.0,nan,inf\n";
+        let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        packer.write_all(text).expect("memory");
+        let packed = file("packed.csv.gz", &packer.finish().expect("memory"));
+        for path in [file("plain.csv", text), packed] {
+            let mut reader = ScanLogReader::open(path, GEOMETRY).expect("the file");
+            let mut scan = Scan::default();
+            assert_eq!(reader.read(&mut scan).expect("row 1").map(|e| e.id), Some(7));
+            assert_eq!((scan.range(0), scan.range(1), scan.range(2)), (Some(1.5), None, Some(2.5)));
+            assert_eq!((scan.angle_min, scan.angle(2)), (-1.0, 0.0));
+            assert_eq!(reader.read(&mut scan).expect("row 2").map(|e| e.id), Some(8));
+            assert_eq!(scan.points().count(), 1);
+            assert_eq!(reader.read(&mut scan), Ok(None));
+        }
+    }
+
+    #[test]
+    fn flaser_lines_have_pose_and_time() {
+        let text = "# a comment\nPARAM laser yes\nODOM 0 0 0 0 0 0 1.0 host 1.0\n\
+                    FLASER 3 1.0 2.0 81.9 0.5 -0.5 0.25 9 9 9 12.5 host 12.6\nFLASER 2 1.0 2.0 1 1 1 9 9 9 13.0 host 13.1\n";
+        let mut reader = ScanLogReader::open(file("carmen.log", text.as_bytes()), GEOMETRY).expect("the file");
+        let mut scan = Scan::default();
+        let entry = reader.read(&mut scan).expect("a scan").expect("a scan");
+        assert_eq!(entry.pose, Some(Pose2::new(0.5, -0.5, 0.25)));
+        assert_eq!((entry.id, scan.stamp), (0, Time::from_millis(12_500)));
+        assert!((scan.angle(0) + 0.5 * PI).abs() < 1e-6 && (scan.angle(2) - 0.5 * PI).abs() < 1e-6);
+        assert_eq!((scan.range(1), scan.range(2)), (Some(2.0), None));
+        assert_eq!(reader.read(&mut scan).expect("a scan").map(|e| e.id), Some(1));
+        assert_eq!(reader.read(&mut scan), Ok(None));
+    }
+
+    #[test]
+    fn wrong_lines_are_errors_with_their_place() {
+        let many = format!("1,1{}", ",1.0".repeat(MAX_BEAMS + 1));
+        let cases = [
+            ("a.csv", "x,1,1.0", "number: `x` is no valid number"),
+            ("b.csv", "1", "source number is missing"),
+            ("c.csv", "1,1,1.0,?", "beam 1: `?` is no range"),
+            ("d.csv", many.as_str(), "more than 1536 beams"),
+            ("e.log", "FLASER", "number of beams is missing"),
+            ("f.log", "FLASER -1", "number of beams: `-1` is no valid number"),
+            ("g.log", "FLASER 5 1 2", "5 beams announced, 2 found"),
+            ("h.log", "FLASER 18446744073709551615 1 2", "18446744073709551615 beams announced, 2 found"),
+            ("i.log", "FLASER 1 1.0 2 3", "theta is missing"),
+            ("j.log", "FLASER 1 1.0 2 3 4 5 6 7", "time is missing"),
+        ];
+        for (name, line, message) in cases {
+            let path = file(name, format!("\n{line}\n").as_bytes());
+            let mut reader = ScanLogReader::open(path, GEOMETRY).expect("the file");
+            let error = reader.read(&mut Scan::default()).expect_err(name);
+            assert_eq!((error.line, error.message.as_str()), (Some(2), message));
+            assert_eq!(error.to_string(), format!("{path}:2: {message}"));
+            assert_eq!(reader.read(&mut Scan::default()), Ok(None));
+        }
+    }
+
+    #[test]
+    fn broken_files_end_with_an_error() {
+        let mut scan = Scan::default();
+        for path in [file("noise.csv.gz", b"not packed at all"), file("binary.csv", &[0xff; 100])] {
+            let mut reader = ScanLogReader::open(path, GEOMETRY).expect("the file");
+            assert!(reader.read(&mut scan).is_err());
+            assert_eq!(reader.read(&mut scan), Ok(None));
+        }
+        let mut endless = ScanLogReader::open(file("long.csv", &vec![b'1'; 3 << 20]), GEOMETRY).expect("the file");
+        assert!(endless.read(&mut scan).expect_err("no line end").message.contains("longer than"));
+        assert_eq!(endless.read(&mut scan), Ok(None));
+    }
+
+    #[test]
+    fn the_ending_tells_the_format() {
+        let error = ScanLogReader::open("scans.txt", GEOMETRY).expect_err("unknown");
+        assert_eq!(error.to_string(), "scans.txt: a scan log ends in .csv, .log or .clf (and .gz)");
+        assert!(ScanLog::open("/nowhere/at-all.csv", GEOMETRY).is_err());
+    }
+
+    #[test]
+    fn the_node_skips_bad_lines_and_ends_in_bottom() {
+        let mut node = ScanLog::open(file("node.csv", b"1,1,1.0\nbad\n3,1,2.0\n"), GEOMETRY).expect("the file");
+        let (mut scan, mut entry) = (Out::new(), Out::new());
+        let mut sent = Vec::new();
+        while !node.finished() {
+            scan.clear();
+            entry.clear();
+            let mut done = None;
+            let ctx = Ctx::new(Time::from_secs(5));
+            let result = node.process(&ctx, &mut scan, &mut entry, Event::into_slot(&mut done));
+            sent.push((result.is_ok(), entry.get().map(|e: &LogEntry| e.id), done.is_some()));
+            assert_eq!(scan.get().is_some(), entry.get().is_some());
+        }
+        assert_eq!(sent, [(true, Some(1), false), (false, None, false), (true, Some(3), false), (true, None, true)]);
+        let mut done = None;
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &mut scan, &mut entry, Event::into_slot(&mut done)), Ok(()));
+        assert!(done.is_none(), "the end comes once");
+    }
+
+    #[test]
+    fn a_node_made_by_a_graph_opens_its_log_itself() {
+        use apex_rt::Construct;
+        let (mut scan, mut entry) = (Out::new(), Out::new());
+        let ctx = Ctx::new(Time::from_secs(5));
+        let mut node = ScanLog::construct((file("graph.csv", b"1,1,1.0\n").to_owned(), 0.0, 0.1, 0.1, 10.0));
+        node.process(&ctx, &mut scan, &mut entry, Event::unconnected()).expect("a scan");
+        assert_eq!(scan.get().expect("a scan").stamp, Time::from_secs(5));
+        let mut missing = ScanLog::construct((path("missing.csv").to_owned(), 0.0, 0.1, 0.1, 10.0));
+        assert!(missing.process(&ctx, &mut scan, &mut entry, Event::unconnected()).is_err());
+        assert!(missing.finished());
+    }
+}

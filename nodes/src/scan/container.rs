@@ -1,0 +1,325 @@
+use super::{
+    MAX_BEAMS, Point2, Pose2, Scan, Segment, Segments,
+    consensus::{BoxModel, Consensus, Sighting},
+};
+use apex_rt::node;
+use core::f32::consts::PI;
+use heapless::Vec;
+
+/// A container that was found in a scan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Container {
+    /// Its centre and heading in the frame of the scanner. The heading leads from its near wheels to its far ones.
+    pub pose: Pose2,
+    /// Squared deviation of the distance of the near wheels, in m² (ε, thesis eq. 6.18).
+    pub error: f32,
+    /// Points in wheel boxes (|I|).
+    pub inliers: u16,
+    /// Points in the footprint, but in no wheel box (|O|).
+    pub outliers: u16,
+    /// Wheel boxes that hold a point.
+    pub wheels: usize,
+}
+
+impl Container {
+    /// Shows more wheels; where equally many, fits the near wheels better (thesis eq. 6.18).
+    fn is_better_than(&self, other: &Self) -> bool {
+        self.wheels > other.wheels || (self.wheels == other.wheels && self.error < other.error)
+    }
+}
+
+/// Finds a container by two of its wheels (thesis 6.6.1).
+///
+/// Every ordered pair of segments is taken as the two near wheels. Pairs at the wrong distance are dropped (δ_w);
+/// the others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model (eq. 6.17).
+/// ⊥ if no pose does.
+///
+/// What the thesis does not have: of the poses that agree, the one with the most wheels in view wins, and ε (eq.
+/// 6.18) decides between equals, for ε alone often prefers a chance pair in clutter; a number of wheel boxes must
+/// hold a point; those that hold none must be hidden; a strip before the container may be required to be free; and
+/// the model may be limited to be seen from the front. The defaults are for a container on four castors. A pallet
+/// on nine feet differs in numbers only.
+///
+/// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates
+/// nothing.
+#[node]
+#[derive(Debug, Clone)]
+pub struct ContainerSearch {
+    /// Distance of the outer sides of the wheels, across (w).
+    #[param(unit = "m", default = 0.68, range = 0.05..=10.0)]
+    width: f32,
+    /// Distance of the outer sides of the wheels, along (l).
+    #[param(unit = "m", default = 1.2, range = 0.05..=10.0)]
+    length: f32,
+    /// Size of a wheel across (w_w).
+    #[param(unit = "m", default = 0.04, range = 0.0..=1.0)]
+    wheel_width: f32,
+    /// Size of a wheel along (w_l).
+    #[param(unit = "m", default = 0.125, range = 0.0..=1.0)]
+    wheel_length: f32,
+    /// How much the width of a hypothesis may differ from `width` (δ_w).
+    #[param(unit = "m", default = 0.15, range = 0.0..=2.0)]
+    width_tolerance: f32,
+    /// Fewest points of a segment that is taken as a near wheel. Far wheels may have fewer.
+    #[param(default = 1, range = 1..=1000)]
+    min_points: u16,
+    /// Fewest points in wheel boxes (d_I).
+    #[param(default = 4, range = 0..=10_000)]
+    min_inliers: u16,
+    /// So many points in the footprint beside the wheels refute the hypothesis (d_O).
+    #[param(default = 3, range = 1..=10_000)]
+    max_outliers: u16,
+    /// Fewest wheel boxes that must hold a point. Two always do, by construction.
+    #[param(default = 3, range = 0..=100)]
+    min_wheels: usize,
+    /// Most wheel boxes that may hold none although the beams towards them go past.
+    #[param(default = 0, range = 0..=100)]
+    max_missing: usize,
+    /// Length of a strip before the near wheels that belongs to the footprint.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    clearance: f32,
+    /// Largest angle between the line of sight to the centre and the heading: how much from the side it may be
+    /// seen. With π it may be anywhere, also around the scanner, and the far wheels of a symmetric container may
+    /// pass for the near ones.
+    #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
+    max_view_angle: f32,
+    /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its
+    /// centre.
+    #[param(unit = "m")]
+    boxes: &'static [[f32; 4]],
+    /// The points of the scan by beam; NaN where nothing was measured.
+    points: Vec<Point2, MAX_BEAMS>,
+    /// Those of them that belong to segments; NaN elsewhere.
+    candidates: Vec<Point2, MAX_BEAMS>,
+}
+
+#[node]
+impl ContainerSearch {
+    fn process(&mut self, scan: &Scan, segments: &Segments) -> Option<Container> {
+        self.collect_points(scan, segments);
+        let mut best: Option<Container> = None;
+        for (i, a) in segments.iter().enumerate() {
+            for b in &segments[i + 1..] {
+                for found in self.hypotheses(scan, [a, b]).into_iter().flatten() {
+                    if best.is_none_or(|best| found.is_better_than(&best)) {
+                        best = Some(found);
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Fills the lists of points. The segments are in the order of their beams.
+    fn collect_points(&mut self, scan: &Scan, segments: &Segments) {
+        const NOTHING: Point2 = Point2::new(f32::NAN, f32::NAN);
+        for points in [&mut self.points, &mut self.candidates] {
+            points.clear();
+            points.extend(scan.ranges.iter().map(|_| NOTHING));
+        }
+        let mut segments = segments.iter().peekable();
+        for (beam, point) in scan.points() {
+            self.points[beam] = point;
+            while segments.next_if(|s| usize::from(s.last) < beam).is_some() {}
+            if segments.peek().is_some_and(|s| usize::from(s.first) <= beam) {
+                self.candidates[beam] = point;
+            }
+        }
+    }
+
+    /// The containers that have their near wheels at the two segments, in one order or the other.
+    fn hypotheses(&self, scan: &Scan, pair: [&Segment; 2]) -> [Option<Container>; 2] {
+        let [a, b] = pair.map(Segment::mid_range);
+        let deviation = (self.width - self.wheel_width).abs() - (b - a).norm();
+        if deviation.abs() > self.width_tolerance || pair.iter().any(|s| s.points < self.min_points) {
+            return [None; 2];
+        }
+        let error = deviation * deviation;
+        [(a, b), (b, a)].map(|(a, b)| self.pose(a, b).and_then(|pose| self.verify(scan, pose, error)))
+    }
+
+    /// The pose of a container with its near wheels at `a` and `b` (thesis eqs. 6.12–6.16); `None` if it cannot be
+    /// seen so.
+    fn pose(&self, a: Point2, b: Point2) -> Option<Pose2> {
+        let u = b - a;
+        let across = u.norm();
+        if across == 0.0 {
+            return None;
+        }
+        let v = u.perpendicular().scaled((self.length - self.wheel_length) / across);
+        let centre = a + (u + v).scaled(0.5);
+        let faces = centre.dot(v) >= libm::cosf(self.max_view_angle) * centre.norm() * v.norm();
+        (faces || self.max_view_angle >= PI).then(|| Pose2::new(centre.x, centre.y, v.angle()))
+    }
+
+    /// The container at `pose`; `None` if the scan does not agree with that.
+    fn verify(&self, scan: &Scan, pose: Pose2, error: f32) -> Option<Container> {
+        let model = BoxModel { length: self.length, width: self.width, wheels: self.boxes, clearance: self.clearance };
+        let beams = model.beams(&pose, scan);
+        let Consensus { inliers, outliers } = model.consensus(&pose, &self.points[beams.clone()], self.max_outliers);
+        if inliers < self.min_inliers || outliers >= self.max_outliers {
+            return None;
+        }
+        let Sighting { seen, missing } = model.sighting(&pose, &self.candidates[beams], scan);
+        let agrees = seen >= self.min_wheels && missing <= self.max_missing;
+        agrees.then_some(Container { pose, error, inliers, outliers, wheels: seen })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scan::{JumpDistance, SegmentFilter};
+    use apex_rt::Out;
+
+    /// Four wheels of a container of 1.2 m × 0.7 m.
+    const BOXES: &[[f32; 4]] = &[
+        [-0.5375, 0.33, 0.2, 0.12],
+        [-0.5375, -0.33, 0.2, 0.12],
+        [0.5375, 0.33, 0.2, 0.12],
+        [0.5375, -0.33, 0.2, 0.12],
+    ];
+
+    fn node() -> ContainerSearch {
+        ContainerSearch {
+            width: 0.7,
+            length: 1.2,
+            wheel_width: 0.04,
+            wheel_length: 0.125,
+            width_tolerance: 0.15,
+            min_points: 1,
+            min_inliers: 6,
+            max_outliers: 5,
+            min_wheels: 3,
+            max_missing: 0,
+            clearance: 0.0,
+            max_view_angle: 0.5 * PI,
+            boxes: BOXES,
+            points: Vec::new(),
+            candidates: Vec::new(),
+        }
+    }
+
+    /// A scan of discs of 4 cm radius before a wall at 8 m, half a turn wide.
+    fn scan(discs: &[Point2]) -> Scan {
+        let mut scan = Scan { angle_min: -0.5 * PI, angle_increment: PI / 720.0, ..Scan::default() };
+        for beam in 0..=720 {
+            let direction = Point2::polar(1.0, scan.angle(beam));
+            let ranges = discs.iter().filter_map(|disc| {
+                let (along, across) = (direction.dot(*disc), direction.perpendicular().dot(*disc));
+                (along > 0.0 && across.abs() < 0.04).then_some(along)
+            });
+            scan.ranges.push(ranges.fold(8.0, f32::min)).expect("room for a beam");
+        }
+        scan
+    }
+
+    fn wheels(pose: &Pose2) -> [Point2; 4] {
+        core::array::from_fn(|i| pose.to_outer(Point2::new(BOXES[i][0], BOXES[i][1])))
+    }
+
+    fn search(mut node: ContainerSearch, discs: &[Point2]) -> Option<Container> {
+        use apex_rt::Construct;
+        let scan = scan(discs);
+        let mut segments = Out::new();
+        let mut small = Out::new();
+        JumpDistance::construct((0.15, 1)).process(&scan, &mut segments).expect("few segments");
+        SegmentFilter::construct((0.3, 10.0, 1)).process(segments.get().expect("segments"), &mut small);
+        node.process(&scan, small.get().expect("segments"))
+    }
+
+    #[test]
+    fn finds_a_container_at_its_pose() {
+        for theta in [-0.6, 0.0, 0.3, 0.9] {
+            let pose = Pose2::new(2.5, 0.4, theta);
+            let found = search(node(), &wheels(&pose)).expect("a container");
+            let off = found.pose.relative_to(&pose);
+            assert!(off.position().norm() < 0.02 && off.theta.abs() < 0.02, "{off:?} at {theta}");
+            // One wheel may hide behind another.
+            assert!(found.wheels >= 3 && found.outliers == 0, "{found:?} at {theta}");
+            assert!(found.error < 1e-3 && found.inliers >= 6);
+        }
+    }
+
+    #[test]
+    fn the_heading_leads_away_when_seen_from_the_front_only() {
+        // Turned by half a turn, the same wheels stand there: the near ones are those at the scanner.
+        let pose = Pose2::new(2.5, 0.0, PI);
+        let found = search(node(), &wheels(&pose)).expect("a container");
+        assert!(found.pose.theta.abs() < 0.02);
+    }
+
+    #[test]
+    fn one_hidden_wheel_is_forgiven_one_missing_wheel_is_not() {
+        let pose = Pose2::new(2.5, 0.0, 0.2);
+        let three = &wheels(&pose)[..3];
+        assert_eq!(search(node(), three), None);
+        assert!(search(ContainerSearch { max_missing: 1, ..node() }, three).is_some());
+        let leg = wheels(&pose)[3].scaled(0.4);
+        let found = search(node(), &[three, &[leg]].concat()).expect("a container");
+        assert!(found.pose.relative_to(&pose).position().norm() < 0.02);
+        assert_eq!(search(ContainerSearch { min_wheels: 4, ..node() }, &[three, &[leg]].concat()), None);
+    }
+
+    #[test]
+    fn something_inside_or_before_it_refutes_it() {
+        let pose = Pose2::new(2.5, 0.0, 0.0);
+        let with = |x, y| [&wheels(&pose)[..], &[pose.to_outer(Point2::new(x, y))]].concat();
+        assert_eq!(search(node(), &with(0.0, 0.0)), None);
+        assert!(search(node(), &with(-0.8, 0.15)).is_some());
+        assert_eq!(search(ContainerSearch { clearance: 0.4, ..node() }, &with(-0.8, 0.15)), None);
+    }
+
+    #[test]
+    fn a_container_around_the_scanner_is_found_if_it_may_be_anywhere() {
+        // Two wheels in front, the others outside of the field of view.
+        let pose = Pose2::new(0.1, 0.0, PI);
+        assert_eq!(search(node(), &wheels(&pose)), None);
+        let found = search(ContainerSearch { max_view_angle: PI, min_wheels: 2, ..node() }, &wheels(&pose));
+        assert!(found.expect("a container").pose.relative_to(&pose).position().norm() < 0.05);
+    }
+
+    #[test]
+    fn a_wrong_width_is_no_container() {
+        let pose = Pose2::new(2.5, 0.0, 0.0);
+        let stretched = wheels(&pose).map(|w| Point2::new(w.x, w.y * 1.4));
+        assert_eq!(search(node(), &stretched), None);
+    }
+
+    #[test]
+    fn a_wall_is_no_wheel() {
+        let pose = Pose2::new(2.5, 0.0, 0.2);
+        let [a, b, far, _] = wheels(&pose);
+        // A row of posts, so close to each other that they are one segment, through the place of the far wheel.
+        let wall: std::vec::Vec<Point2> = (-12..=12).map(|i| far + Point2::new(0.0, 0.06 * i as f32)).collect();
+        let node = || ContainerSearch { max_outliers: 100, max_missing: 1, ..node() };
+        assert!(search(node(), &[a, b, far]).is_some());
+        assert_eq!(search(node(), &[&[a, b], &wall[..]].concat()), None);
+    }
+
+    #[test]
+    fn near_wheels_need_enough_points() {
+        let pose = Pose2::new(2.5, 0.0, 0.2);
+        assert!(search(ContainerSearch { min_points: 4, ..node() }, &wheels(&pose)).is_some());
+        assert_eq!(search(ContainerSearch { min_points: 40, ..node() }, &wheels(&pose)), None);
+    }
+
+    #[test]
+    fn from_the_side_only_if_allowed() {
+        let pose = Pose2::new(2.5, 0.0, 1.2);
+        assert!(search(node(), &wheels(&pose)).is_some());
+        assert_eq!(search(ContainerSearch { max_view_angle: 0.3, ..node() }, &wheels(&pose)), None);
+    }
+
+    #[test]
+    fn nothing_comes_of_nothing() {
+        assert_eq!(search(node(), &[]), None);
+        assert_eq!(node().process(&Scan::default(), &Segments::new()), None);
+        // Two segments at the same place, and a model that would accept them.
+        let mut same = Segments::new();
+        let segment = Segment { first: 0, last: 0, points: 1, min: Point2::default(), max: Point2::default() };
+        same.extend([segment, segment]);
+        let mut lax = ContainerSearch { width: 0.1, min_inliers: 0, min_wheels: 0, boxes: &[], ..node() };
+        assert_eq!(lax.process(&Scan::default(), &same), None);
+    }
+}

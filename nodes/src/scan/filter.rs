@@ -1,0 +1,121 @@
+use super::Scan;
+use apex_rt::{Out, node};
+use heapless::Vec;
+
+/// Marks as not measured (NaN) what is no number, zero, infinite, or outside of the ranges of the scanner and of
+/// this node.
+///
+/// Beams keep their place, so that their angles stay right.
+#[node]
+#[derive(Debug, Clone)]
+pub struct RangeFilter {
+    /// Shortest range that is kept.
+    #[param(unit = "m", default = 0.05, range = 0.0..=100.0)]
+    min: f32,
+    /// Longest range that is kept.
+    #[param(unit = "m", default = 30.0, range = 0.0..=1000.0)]
+    max: f32,
+}
+
+#[node]
+impl RangeFilter {
+    fn process(&mut self, scan: &Scan, filtered: &mut Out<Scan>) {
+        let filtered = filtered.get_mut();
+        filtered.clone_from(scan);
+        for range in &mut filtered.ranges {
+            if !scan.is_measured(*range) || *range < self.min || *range > self.max {
+                *range = f32::NAN;
+            }
+        }
+    }
+}
+
+/// The widest window of a [`MedianFilter`].
+const MAX_WINDOW: usize = 15;
+
+/// Replaces each measured range by the median of those measured in a window of beams around it.
+///
+/// Removes single wrong beams and keeps edges; what was not measured stays so. With an even number of ranges in
+/// the window the lower one in the middle is taken, so that no range is invented.
+#[node]
+#[derive(Debug, Clone)]
+pub struct MedianFilter {
+    /// Beams to each side that take part: 1 is a window of 3.
+    #[param(default = 1, range = 0..=7)]
+    reach: usize,
+}
+
+#[node]
+impl MedianFilter {
+    fn process(&mut self, scan: &Scan, filtered: &mut Out<Scan>) {
+        let filtered = filtered.get_mut();
+        filtered.clone_from(scan);
+        let reach = self.reach.min(MAX_WINDOW / 2);
+        for (beam, range) in filtered.ranges.iter_mut().enumerate() {
+            if scan.is_measured(*range) {
+                let first = beam.saturating_sub(reach);
+                let last = (beam + reach).min(scan.ranges.len() - 1);
+                *range = median((first..=last).filter_map(|b| scan.range(b))).unwrap_or(*range);
+            }
+        }
+    }
+}
+
+/// The lower median of at most [`MAX_WINDOW`] values; `None` without values.
+fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
+    let mut sorted: Vec<f32, MAX_WINDOW> = values.take(MAX_WINDOW).collect();
+    sorted.sort_unstable_by(f32::total_cmp);
+    sorted.get(sorted.len().saturating_sub(1) / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+
+    fn scan(ranges: &[f32]) -> Scan {
+        Scan { range_min: 0.1, range_max: 20.0, ranges: ranges.iter().copied().collect(), ..Scan::default() }
+    }
+
+    fn measured(out: &Out<Scan>) -> std::vec::Vec<Option<f32>> {
+        let scan = out.get().expect("the filter sends a scan");
+        (0..scan.ranges.len()).map(|beam| scan.range(beam)).collect()
+    }
+
+    #[test]
+    fn range_filter_marks_everything_unusable() {
+        let mut node = RangeFilter::construct((0.5, 10.0));
+        let mut out = Out::new();
+        node.process(&scan(&[0.0, 0.4, 0.5, 10.0, 11.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0]), &mut out);
+        let mut expected = [None; 9];
+        expected[2] = Some(0.5);
+        expected[3] = Some(10.0);
+        assert_eq!(measured(&out), expected);
+    }
+
+    #[test]
+    fn the_limits_of_the_scanner_count_too() {
+        let mut node = RangeFilter::construct((0.0, 1000.0));
+        let mut out = Out::new();
+        node.process(&scan(&[0.05, 0.2, 25.0]), &mut out);
+        assert_eq!(measured(&out), [None, Some(0.2), None]);
+    }
+
+    #[test]
+    fn median_removes_a_spike_and_keeps_an_edge() {
+        let mut node = MedianFilter::construct((1,));
+        let mut out = Out::new();
+        node.process(&scan(&[1.0, 1.0, 9.0, 1.0, 1.0, 5.0, 5.0, 5.0]), &mut out);
+        assert_eq!(measured(&out), [1.0, 1.0, 1.0, 1.0, 1.0, 5.0, 5.0, 5.0].map(Some));
+    }
+
+    #[test]
+    fn median_invents_nothing() {
+        let mut node = MedianFilter::construct((2,));
+        let mut out = Out::new();
+        node.process(&scan(&[f32::NAN, 2.0, f32::NAN, 3.0]), &mut out);
+        assert_eq!(measured(&out), [None, Some(2.0), None, Some(2.0)]);
+        node.process(&scan(&[]), &mut out);
+        assert_eq!(measured(&out), []);
+    }
+}

@@ -1,0 +1,120 @@
+use super::Point2;
+use apex_rt::Time;
+use heapless::Vec;
+
+/// The most beams of a [`Scan`]: a full turn at 0.25° fits (1440), and so do the 1081 of common 270° scanners.
+pub const MAX_BEAMS: usize = 1536;
+
+/// One sweep of a plane laser scanner, in the frame of the scanner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scan {
+    /// Direction of beam 0, in rad, counter-clockwise from the x axis.
+    pub angle_min: f32,
+    /// Angle from one beam to the next, in rad.
+    pub angle_increment: f32,
+    /// The shortest range that counts as measured, in m.
+    pub range_min: f32,
+    /// The longest range that counts as measured, in m.
+    pub range_max: f32,
+    /// When it was taken.
+    pub stamp: Time,
+    /// Measured ranges in m, by beam. NaN, infinite, or outside of `range_min..=range_max`: nothing was measured.
+    pub ranges: Vec<f32, MAX_BEAMS>,
+}
+
+impl Scan {
+    /// The range of a beam; `None` where nothing was measured.
+    #[inline]
+    pub fn range(&self, beam: usize) -> Option<f32> {
+        self.ranges.get(beam).copied().filter(|&r| self.is_measured(r))
+    }
+
+    /// Whether a range is finite and between `range_min` and `range_max`.
+    #[inline]
+    pub fn is_measured(&self, range: f32) -> bool {
+        // False for NaN.
+        range.is_finite() && range >= self.range_min && range <= self.range_max
+    }
+
+    /// The direction of a beam, in rad.
+    pub fn angle(&self, beam: usize) -> f32 {
+        self.angle_min + beam as f32 * self.angle_increment
+    }
+
+    /// The beam nearest to a direction in rad; `None` outside of the field of view.
+    pub fn beam_towards(&self, angle: f32) -> Option<usize> {
+        let turn = core::f32::consts::TAU;
+        // Counted from the middle of the field of view, so that it does not matter in which turn `angle` is.
+        let middle = self.angle(self.ranges.len()) * 0.5 + self.angle_min * 0.5;
+        let beam = (middle + libm::remainderf(angle - middle, turn) - self.angle_min) / self.angle_increment;
+        let beam = libm::roundf(beam);
+        // False for NaN, which an empty or flat scan gives.
+        (beam >= 0.0 && beam < self.ranges.len() as f32).then_some(beam as usize)
+    }
+
+    /// The measured points with their beams, in the frame of the scanner, in order.
+    ///
+    /// Turns one direction on from beam to beam (in double precision: after a full turn it is off by less than
+    /// 10⁻¹² rad), which is several times faster than two trigonometric functions a beam.
+    pub fn points(&self) -> impl Iterator<Item = (usize, Point2)> + '_ {
+        let (sin, cos) = libm::sincos(f64::from(self.angle_min));
+        let (step_sin, step_cos) = libm::sincos(f64::from(self.angle_increment));
+        let mut direction = (cos, sin);
+        self.ranges.iter().enumerate().filter_map(move |(beam, &range)| {
+            let (c, s) = direction;
+            direction = (c * step_cos - s * step_sin, s * step_cos + c * step_sin);
+            self.is_measured(range).then(|| (beam, Point2::new(range * c as f32, range * s as f32)))
+        })
+    }
+}
+
+/// A scan without beams; any positive finite range counts as measured.
+impl Default for Scan {
+    fn default() -> Self {
+        Self {
+            angle_min: 0.0,
+            angle_increment: 0.0,
+            range_min: f32::MIN_POSITIVE,
+            range_max: f32::MAX,
+            stamp: Time::ZERO,
+            ranges: Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::PI;
+
+    #[test]
+    fn only_measured_ranges_are_points() {
+        let mut scan = Scan { angle_increment: 0.1, range_max: 10.0, ..Scan::default() };
+        scan.ranges.extend([1.0, 0.0, f32::NAN, f32::INFINITY, 10.5, -1.0, 2.0]);
+        let beams: std::vec::Vec<usize> = scan.points().map(|(beam, _)| beam).collect();
+        assert_eq!(beams, [0, 6]);
+        assert_eq!((scan.range(0), scan.range(1), scan.range(99)), (Some(1.0), None, None));
+    }
+
+    #[test]
+    fn points_agree_with_trigonometry() {
+        let mut scan = Scan { angle_min: -PI, angle_increment: 2.0 * PI / 1440.0, ..Scan::default() };
+        scan.ranges.extend([5.0; 1440]);
+        for (beam, point) in scan.points() {
+            assert!((point - Point2::polar(5.0, scan.angle(beam))).norm() < 1e-5, "beam {beam}");
+        }
+    }
+
+    #[test]
+    fn beams_are_found_by_direction_in_any_turn() {
+        let mut scan = Scan { angle_min: -2.0, angle_increment: 0.1, ..Scan::default() };
+        assert_eq!(scan.beam_towards(0.0), None);
+        scan.ranges.extend([1.0; 41]);
+        for beam in 0..41 {
+            for turn in [-2.0 * PI, 0.0, 2.0 * PI] {
+                assert_eq!(scan.beam_towards(scan.angle(beam) + turn), Some(beam));
+            }
+        }
+        assert_eq!((scan.beam_towards(3.0), scan.beam_towards(f32::NAN)), (None, None));
+    }
+}

@@ -1,0 +1,16 @@
+//! Plane laser scans: cleaning, segmentation, and the detection of containers by their wheels (thesis 6.6.1).
+//!
+//! The types have fixed capacities and need no heap.
+
+mod consensus;
+mod container;
+mod filter;
+mod geometry;
+mod laser;
+mod segment;
+
+pub use container::{Container, ContainerSearch};
+pub use filter::{MedianFilter, RangeFilter};
+pub use geometry::{Point2, Pose2};
+pub use laser::{MAX_BEAMS, Scan};
+pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};

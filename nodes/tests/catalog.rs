@@ -1,0 +1,100 @@
+//! The catalog and rustc cannot drift apart: `library.afg` uses every node of the library as the catalog describes it, and
+//! is compiled here. `APEX_UPDATE_EXPECTATIONS=1` writes it anew.
+
+use apex_dsl::catalog::{Catalog, Signature, Type};
+use apex_host::{Disk, Seen, Workspace};
+use std::{fmt::Write as _, fs, path::Path};
+
+mod programs {
+    #![allow(missing_docs)]
+    apex_rt::graph!("library.afg");
+}
+
+/// A type as a text would write it; type parameters become `f64`.
+fn spell(ty: &Type, catalog: &Catalog) -> Option<String> {
+    let all =
+        |types: &[Type]| types.iter().map(|t| spell(t, catalog)).collect::<Option<Vec<_>>>().map(|t| t.join(", "));
+    let with =
+        |name: String, args: &[Type]| Some(if args.is_empty() { name } else { format!("{name}<{}>", all(args)?) });
+    match ty {
+        Type::Primitive(name) => Some(name.clone()),
+        Type::Param(_) => Some("f64".to_owned()),
+        Type::Named(name, args) => with(name.clone(), args),
+        Type::Def(def, _, args) => with(catalog.path(*def)?.join("::").trim_start_matches("::").to_owned(), args),
+        Type::Alias(def, ..) => Some(catalog.path(*def)?.join("::").trim_start_matches("::").to_owned()),
+        Type::Tuple(parts) => all(parts).map(|parts| format!("({parts})")),
+        Type::Unknown(number) if number.parse::<u64>().is_ok() => Some(number.clone()),
+        Type::Array(..) | Type::Ref(_) | Type::Unknown(_) => None,
+    }
+}
+
+/// Some legal value of a parameter that has no default.
+fn value(ty: &Type, unit: &str) -> String {
+    match ty {
+        Type::Ref(inner) if matches!(&**inner, Type::Primitive(name) if name == "str") => "\"file.csv\"".to_owned(),
+        Type::Ref(inner) => value(inner, unit),
+        Type::Array(element, len) => {
+            let count = len.as_ref().and_then(|n| n.parse().ok()).unwrap_or(1);
+            format!("[{}]", vec![value(element, unit); count].join(", "))
+        }
+        Type::Named(name, _) if name == "String" => "\"file.csv\"".to_owned(),
+        _ => match ty.name() {
+            "bool" => "true".to_owned(),
+            "f32" | "f64" => format!("1{unit}"),
+            _ => "1".to_owned(),
+        },
+    }
+}
+
+/// A graph whose only node is this one, with all its ports and parameters in use.
+fn graph(number: usize, signature: &Signature, catalog: &Catalog) -> String {
+    use apex_dsl::syntax::tree::PortKind;
+    let path = signature.path.join("::");
+    let types = if signature.generics.is_empty() {
+        String::new()
+    } else {
+        format!("<{}>", vec!["f64"; signature.generics.len()].join(", "))
+    };
+    let params = signature.params.iter().filter(|p| p.default.is_none());
+    let params: Vec<String> =
+        params.map(|p| format!("{} = {}", p.name, value(&p.ty, p.unit.as_deref().unwrap_or_default()))).collect();
+    let mut text = format!(
+        "graph Use{number} {{\n    node it = {}{types}({});\n",
+        path.trim_start_matches("::"),
+        params.join(", ")
+    );
+    for port in &signature.ports {
+        let Some(ty) = spell(&port.ty, catalog) else { continue };
+        let (name, id) = (&port.name, format!("{}_{}", port.kind.word(), port.name));
+        let _ = match port.kind {
+            PortKind::Input => writeln!(text, "    in {id}: {ty};\n    {id} -> it.{name};"),
+            PortKind::Output => writeln!(text, "    out {id}: {ty};\n    it.{name} -> {id};"),
+            PortKind::Slot | PortKind::Event => Ok(()),
+        };
+    }
+    text.push_str("}\n");
+    text
+}
+
+#[test]
+fn every_node_of_the_library_is_used() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let workspace = Workspace::load(folder).expect("cargo knows the package");
+    let catalog = Catalog::load(workspace.crates(&Seen::Crate("catalog", false)), &mut Disk::new(None));
+    let library: Vec<&Signature> =
+        catalog.signatures.iter().filter(|s| s.path.get(1).is_some_and(|krate| krate == "apex_nodes")).collect();
+    assert!(library.len() > 50, "only {} nodes were found", library.len());
+    let mut text = "//! Every node of the library. Written by the test `catalog`.\n".to_owned();
+    for (number, signature) in library.into_iter().enumerate() {
+        let _ = write!(text, "\n{}", graph(number, signature, &catalog));
+    }
+    let file = folder.join("tests/library.afg");
+    if std::env::var_os("APEX_UPDATE_EXPECTATIONS").is_some() {
+        fs::write(&file, &text).expect("the file can be written");
+    }
+    assert_eq!(
+        fs::read_to_string(&file).expect("the file is there"),
+        text,
+        "the library changed: run with APEX_UPDATE_EXPECTATIONS=1"
+    );
+}

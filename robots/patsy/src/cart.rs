@@ -1,0 +1,109 @@
+use apex_nodes::scan::{Point2, Pose2};
+use apex_sim::World;
+
+// The thesis gives no dimensions. These are those of a usual hospital transport cart for about 1.2 m × 0.7 m of goods,
+// on four castors with wheels of 125 mm.
+
+/// Distance of the outer sides of the wheels, across, in m.
+pub const WIDTH: f32 = 0.68;
+/// Distance of the outer sides of the wheels, along, in m.
+pub const LENGTH: f32 = 1.2;
+/// Width of a wheel, in m.
+pub const WHEEL_WIDTH: f32 = 0.04;
+/// Length of a wheel at the height of the scanner, in m.
+pub const WHEEL_LENGTH: f32 = 0.125;
+/// From the pivot of a castor to the axle of its wheel, in m.
+const TRAIL: f32 = 0.04;
+
+/// Where the pivots are, from the centre: ±x along, ±y across.
+const PIVOT: Point2 = Point2::new(0.5 * (LENGTH - WHEEL_LENGTH), 0.5 * (WIDTH - WHEEL_WIDTH));
+/// A wheel stays within 10.5 cm of its pivot; the rest is for noise and the error of the pose.
+const BOX: f32 = 0.25;
+
+/// The box model of the cart: rows of x, y, length, width of the area that a castor can reach, in m, in the frame
+/// of the cart.
+pub const WHEEL_BOXES: &[[f32; 4]] = &[
+    [-PIVOT.x, -PIVOT.y, BOX, BOX],
+    [-PIVOT.x, PIVOT.y, BOX, BOX],
+    [PIVOT.x, -PIVOT.y, BOX, BOX],
+    [PIVOT.x, PIVOT.y, BOX, BOX],
+];
+
+/// A container cart on four castors. Its body is above the plane of the scanner, which sees the wheels only.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cart {
+    pose: Pose2,
+    /// Directions in which the wheels roll, in rad, in the frame of the world.
+    castors: [f32; 4],
+}
+
+impl Cart {
+    /// A cart at `pose` whose wheels roll in the given directions (rad, frame of the world).
+    pub const fn new(pose: Pose2, castors: [f32; 4]) -> Self {
+        Self { pose, castors }
+    }
+
+    /// Where it is.
+    pub const fn pose(&self) -> Pose2 {
+        self.pose
+    }
+
+    /// Moves it to `pose`. Each castor turns towards the way of its pivot, as far as a castor does on that way.
+    pub fn move_to(&mut self, pose: Pose2) {
+        for (castor, pivot) in self.castors.iter_mut().zip(pivots()) {
+            let way = pose.to_outer(pivot) - self.pose.to_outer(pivot);
+            // Rolling without slipping turns a castor by way / trail · sin(direction of the way − its direction).
+            let turn = (way.norm() / TRAIL).min(1.0);
+            *castor += turn * libm::sinf(way.angle() - *castor);
+        }
+        self.pose = pose;
+    }
+
+    /// Puts its wheels into the world.
+    pub fn add_to(&self, world: &mut World) {
+        for (castor, pivot) in self.castors.iter().zip(pivots()) {
+            let axle = self.pose.to_outer(pivot) - Point2::polar(TRAIL, *castor);
+            world.block(&Pose2::new(axle.x, axle.y, *castor), WHEEL_LENGTH, WHEEL_WIDTH);
+        }
+    }
+}
+
+fn pivots() -> impl Iterator<Item = Point2> {
+    WHEEL_BOXES.iter().map(|&[x, y, ..]| Point2::new(x, y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn castors_follow_the_way() {
+        let mut cart = Cart::new(Pose2::default(), [0.1, -0.5, 2.0, -2.0]);
+        for step in 1..100 {
+            cart.move_to(Pose2::new(0.02 * step as f32, 0.0, 0.0));
+        }
+        for castor in cart.castors {
+            assert!(libm::remainderf(castor, core::f32::consts::TAU).abs() < 1e-3, "{castor}");
+        }
+    }
+
+    #[test]
+    fn a_cart_that_stands_keeps_its_castors() {
+        let mut cart = Cart::new(Pose2::default(), [0.1, -0.5, 2.0, -2.0]);
+        let before = cart.clone();
+        cart.move_to(Pose2::default());
+        assert_eq!(cart, before);
+    }
+
+    #[test]
+    fn wheels_stay_in_their_boxes() {
+        let mut world = World::default();
+        for i in 0..16 {
+            Cart::new(Pose2::default(), [i as f32 * 0.4; 4]).add_to(&mut world);
+        }
+        for corner in world.walls().iter().map(|wall| wall.a) {
+            let inside = |b: &[f32; 4]| (corner.x - b[0]).abs() < 0.5 * b[2] && (corner.y - b[1]).abs() < 0.5 * b[3];
+            assert!(WHEEL_BOXES.iter().any(inside), "{corner:?}");
+        }
+    }
+}

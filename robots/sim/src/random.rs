@@ -1,0 +1,73 @@
+use core::f64::consts::TAU;
+
+/// A stream of pseudo-random numbers (SplitMix64; Steele, Lea, Flood 2014). Not for secrets.
+///
+/// Written out here, so that neither a new version of a library nor the platform can change a simulation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Random {
+    state: u64,
+}
+
+impl Random {
+    /// The stream that belongs to `seed`.
+    pub const fn new(seed: u64) -> Self {
+        Self { state: seed }
+    }
+
+    /// The next 64 bits.
+    pub const fn bits(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        // The upper 53 bits: as many as a double holds.
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Uniform in [`low`, `high`).
+    pub fn uniform(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit() as f32
+    }
+
+    /// Normally distributed with mean 0 and the given standard deviation (Box and Muller 1958).
+    pub fn normal(&mut self, sigma: f32) -> f32 {
+        // 1 − u lies in (0, 1], so that its logarithm is finite.
+        let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit()));
+        sigma * (radius * libm::cos(TAU * self.unit())) as f32
+    }
+
+    /// `true` with the given probability.
+    pub fn chance(&mut self, probability: f32) -> bool {
+        self.unit() < f64::from(probability)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stream_is_the_published_one() {
+        // First outputs for seed 0 of the reference implementation.
+        let mut random = Random::new(0);
+        assert_eq!([random.bits(), random.bits()], [0xe220_a839_7b1d_cdaf, 0x6e78_9e6a_a1b9_65f4]);
+    }
+
+    #[test]
+    fn moments_are_right() {
+        let mut random = Random::new(7);
+        let n = 100_000;
+        let normal: Vec<f64> = (0..n).map(|_| f64::from(random.normal(2.0))).collect();
+        let mean = normal.iter().sum::<f64>() / f64::from(n);
+        let variance = normal.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / f64::from(n);
+        assert!(mean.abs() < 0.03 && (variance - 4.0).abs() < 0.08, "{mean} {variance}");
+        let hits = (0..n).filter(|_| random.chance(0.25)).count();
+        assert!((hits as f64 / f64::from(n) - 0.25).abs() < 0.01);
+        assert!((0..n).all(|_| (-1.0..3.0).contains(&random.uniform(-1.0, 3.0))));
+    }
+}

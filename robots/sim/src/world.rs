@@ -1,0 +1,145 @@
+use apex_nodes::scan::{Point2, Pose2};
+
+/// A straight wall between two points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// One end, in m.
+    pub a: Point2,
+    /// The other end.
+    pub b: Point2,
+}
+
+/// A round post.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disc {
+    /// Its centre, in m.
+    pub centre: Point2,
+    /// Its radius, in m.
+    pub radius: f32,
+}
+
+/// What a plane scanner can hit: walls and discs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct World {
+    walls: Vec<Wall>,
+    discs: Vec<Disc>,
+}
+
+impl World {
+    /// Removes everything and keeps the storage.
+    pub fn clear(&mut self) {
+        self.walls.clear();
+        self.discs.clear();
+    }
+
+    /// Adds a wall from `a` to `b`.
+    pub fn wall(&mut self, a: Point2, b: Point2) {
+        self.walls.push(Wall { a, b });
+    }
+
+    /// Adds a disc.
+    pub fn disc(&mut self, centre: Point2, radius: f32) {
+        self.discs.push(Disc { centre, radius });
+    }
+
+    /// Adds the four sides of a box with its centre at `pose`.
+    pub fn block(&mut self, pose: &Pose2, length: f32, width: f32) {
+        let corners = [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
+            .map(|(x, y)| pose.to_outer(Point2::new(x * length, y * width)));
+        for i in 0..4 {
+            self.wall(corners[i], corners[(i + 1) % 4]);
+        }
+    }
+
+    /// All walls.
+    pub fn walls(&self) -> &[Wall] {
+        &self.walls
+    }
+
+    /// All discs.
+    pub fn discs(&self) -> &[Disc] {
+        &self.discs
+    }
+
+    /// The distance from `origin` along the unit vector `direction` to what is hit first; `None` if nothing is.
+    pub fn cast(&self, origin: Point2, direction: Point2) -> Option<f32> {
+        let walls = self.walls.iter().filter_map(|wall| wall.hit(origin, direction));
+        let discs = self.discs.iter().filter_map(|disc| disc.hit(origin, direction));
+        walls.chain(discs).reduce(f32::min)
+    }
+}
+
+impl Wall {
+    fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
+        let (along, from) = (self.b - self.a, self.a - origin);
+        let normal = along.perpendicular();
+        let slope = direction.dot(normal);
+        if slope == 0.0 {
+            return None;
+        }
+        let distance = from.dot(normal) / slope;
+        let place = (direction.scaled(distance) - from).dot(along);
+        (distance >= 0.0 && (0.0..=along.norm_squared()).contains(&place)).then_some(distance)
+    }
+}
+
+impl Disc {
+    fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
+        let to_centre = self.centre - origin;
+        let along = to_centre.dot(direction);
+        let across = direction.perpendicular().dot(to_centre);
+        let half_chord_squared = self.radius * self.radius - across * across;
+        if half_chord_squared < 0.0 {
+            return None;
+        }
+        let distance = along - libm::sqrtf(half_chord_squared);
+        (distance >= 0.0).then_some(distance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: Point2 = Point2::new(1.0, 0.0);
+    const ORIGIN: Point2 = Point2::new(0.0, 0.0);
+
+    #[test]
+    fn the_nearest_thing_is_hit() {
+        let mut world = World::default();
+        assert_eq!(world.cast(ORIGIN, X), None);
+        world.wall(Point2::new(5.0, -1.0), Point2::new(5.0, 1.0));
+        assert_eq!(world.cast(ORIGIN, X), Some(5.0));
+        world.disc(Point2::new(3.0, 0.0), 0.5);
+        assert_eq!(world.cast(ORIGIN, X), Some(2.5));
+        world.clear();
+        assert_eq!(world.cast(ORIGIN, X), None);
+    }
+
+    #[test]
+    fn nothing_behind_or_beside_is_hit() {
+        let mut world = World::default();
+        world.wall(Point2::new(-5.0, -1.0), Point2::new(-5.0, 1.0));
+        world.wall(Point2::new(5.0, 0.1), Point2::new(5.0, 1.0));
+        world.wall(Point2::new(1.0, 0.5), Point2::new(2.0, 0.5));
+        world.disc(Point2::new(-3.0, 0.0), 0.5);
+        world.disc(Point2::new(3.0, 0.6), 0.5);
+        assert_eq!(world.cast(ORIGIN, X), None);
+    }
+
+    #[test]
+    fn a_block_is_hit_from_all_sides() {
+        let mut world = World::default();
+        let pose = Pose2::new(4.0, 0.0, 0.0);
+        world.block(&pose, 2.0, 1.0);
+        assert_eq!((world.walls().len(), world.discs().len()), (4, 0));
+        for (from, direction, distance) in [
+            (ORIGIN, X, 3.0),
+            (Point2::new(10.0, 0.0), Point2::new(-1.0, 0.0), 5.0),
+            (Point2::new(4.0, 3.0), Point2::new(0.0, -1.0), 2.5),
+        ] {
+            let hit = world.cast(from, direction).expect("a side");
+            assert!((hit - distance).abs() < 1e-5, "{hit} for {distance}");
+        }
+    }
+}

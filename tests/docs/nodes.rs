@@ -1,0 +1,26 @@
+use apex_rt::prelude::*;
+
+/// Passes values on while they change by less than `step`.
+#[node]
+#[derive(Default)]
+pub struct Steady {
+    /// Largest change.
+    #[param(unit = "m", default = 0.1, range = 0.0..=1.0)]
+    step: f32,
+    last: Option<f32>,
+}
+
+#[node]
+impl Steady {
+    fn process(&mut self, x: &f32) -> Option<f32> {
+        let steady = self.last.is_none_or(|last| (x - last).abs() <= self.step);
+        self.last = Some(*x);
+        steady.then_some(*x)
+    }
+}
+
+/// Larger of two values.
+#[node]
+pub fn larger<T: PartialOrd + Copy>(a: &T, b: &T) -> T {
+    if a < b { *b } else { *a }
+}
