@@ -29,7 +29,7 @@ fn lc_01_a_failure_sends_nothing_and_the_graph_goes_on() {
     let mut program = Failing::new();
     let log = react(&mut program, 5);
     assert_eq!(program.nodes().k.seen, [0, 2, 3, 4]);
-    assert_eq!(log.failed, [("f", "\"no 1\"".to_owned())]);
+    assert_eq!(log.failed, [("f", "no 1".to_owned())]);
     assert_eq!(log.count("f"), 5, "it fires again after its failure");
 }
 

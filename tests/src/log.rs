@@ -1,5 +1,5 @@
 use apex_rt::prelude::*;
-use std::fmt::Debug;
+use std::fmt::{Debug, Display};
 
 /// What happened while a program reacted.
 #[derive(Debug, Default)]
@@ -34,8 +34,8 @@ impl Observer for Log {
     fn fired(&mut self, node: usize) {
         self.fired.push(self.names[node]);
     }
-    fn failed(&mut self, node: usize, error: &impl Debug) {
-        self.failed.push((self.names[node], format!("{error:?}")));
+    fn failed(&mut self, node: usize, error: &impl Display) {
+        self.failed.push((self.names[node], error.to_string()));
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         self.refused.push((self.names[node], parameter, format!("{value:?}")));

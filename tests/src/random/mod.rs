@@ -29,7 +29,7 @@ struct Instance {
     parameter: i64,
     /// Where its inputs come from; an optional one may be open.
     inputs: Vec<Option<End>>,
-    /// What its outputs send before its own tokens, if they are held back.
+    /// What its outputs send before its own tokens, if they are held back; `None` is the default, 0.
     delay: Option<Vec<Token>>,
 }
 

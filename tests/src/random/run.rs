@@ -14,7 +14,10 @@ impl Case {
     /// Runs `iterations` iterations: R1 (all inputs hold a token), R2 (one token to every output), R3 (⊥).
     pub fn run(&self, iterations: usize) -> Trace {
         let mut states = vec![State::default(); self.nodes.len()];
-        let held = |n: &super::Instance| vec![VecDeque::from(n.delay.clone().unwrap_or_default()); n.kind.outputs.len()];
+        let held = |n: &super::Instance| {
+            let initial: VecDeque<Token> = n.delay.iter().flatten().map(|t| Some(t.unwrap_or(0))).collect();
+            vec![initial; n.kind.outputs.len()]
+        };
         let mut delays: Vec<Vec<VecDeque<Token>>> = self.nodes.iter().map(held).collect();
         let fired = (0..iterations).map(|_| self.iteration(&mut states, &mut delays)).collect();
         let sinks = self.nodes.iter().zip(states).filter(|(n, _)| n.kind.outputs.is_empty());
