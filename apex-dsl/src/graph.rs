@@ -7,7 +7,7 @@ use crate::{
     syntax::tree::PortKind,
     units::Dimension,
 };
-use std::time::Duration;
+use std::{collections::BTreeSet, time::Duration};
 
 /// A node, by number in [`Graph::nodes`].
 pub type NodeId = usize;
@@ -23,6 +23,8 @@ pub struct Graph {
     pub docs: String,
     /// Whether it is a `robot`.
     pub robot: bool,
+    /// Whether a parameter has no value: it can be checked, but only be run as a part of another graph.
+    pub is_open: bool,
     /// Whether it is the body of an `each`.
     pub is_body: bool,
     /// Its name in the text.
@@ -36,7 +38,9 @@ pub struct Graph {
     /// Claims.
     pub claims: Vec<Claim>,
     /// Nodes with an input that hangs on an unconnected port of the nested graph around them; reported there.
-    pub open_pins: std::collections::BTreeSet<NodeId>,
+    pub open_pins: BTreeSet<NodeId>,
+    /// Inputs whose connection could not be made, which has been reported.
+    pub excused: BTreeSet<End>,
 }
 
 /// An instance of a nested graph.
@@ -162,6 +166,8 @@ pub struct Connection {
     pub to: End,
     /// Whether activity passes.
     pub active: bool,
+    /// Its ends carry different types, which has been reported.
+    pub differs: bool,
     /// The arrow in the text (the last one, if it leads through ports of nested graphs).
     pub span: Span,
 }

@@ -33,7 +33,9 @@ pub fn check(
         check::check(&mut graph, catalog, diagnostics);
         if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
             codegen::check_rates(&graph, &analysis, diagnostics);
-            programs.push(Program { graph, analysis });
+            if !graph.is_open {
+                programs.push(Program { graph, analysis });
+            }
         }
     }
     programs

@@ -74,7 +74,9 @@ impl Workspace {
         let workspace = Self::from_metadata(&metadata(&manifest)?, &manifest)?;
         if let Some(cache) = cache {
             let manifests = workspace.packages.iter().map(|p| p.manifest.clone());
-            let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]);
+            // A new file in one of these folders may be a new target.
+            let folders = ["src", "src/bin", "examples", "tests", "benches"].map(|name| folder.join(name));
+            let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]).chain(folders);
             let stamps = watched.map(|path| (path.clone(), stamp(&path))).collect();
             // Only a cache: where it cannot be written, cargo is asked again.
             let _ = write_whole(&cache, &Cached { stamps, workspace: workspace.clone() });
@@ -176,7 +178,8 @@ impl Workspace {
         match seen {
             Seen::Crate(name, binary) => {
                 let targets = own_package.targets.iter().filter(|t| !is_library(&t.kind) && t.kind != "custom-build");
-                let matches = |t: &Target| t.name.replace('-', "_") == *name && matches!(&*t.kind, "bin" | "example") == *binary;
+                let matches =
+                    |t: &Target| t.name.replace('-', "_") == *name && matches!(&*t.kind, "bin" | "example") == *binary;
                 let position = targets.zip(&own).find(|(t, _)| matches(t)).map(|(_, k)| *k);
                 let here = position.or(lib).unwrap_or(0);
                 let own = [Some(here), lib].into_iter().flatten().collect::<Vec<_>>();

@@ -56,8 +56,10 @@ pub struct Cluster<const W: usize> {
     pub notified_by: Bits<W>,
     /// Set when it is enabled again: itself enabled, its incoming connections free (R4).
     pub notifies: Bits<W>,
-    /// The clusters that send to it.
-    pub upstream: &'static [usize],
+    /// The bit "enabled".
+    pub enabled: Bits<W>,
+    /// All clusters from which tokens come to it, also by way of others: those that send to others of them last.
+    pub above: &'static [usize],
 }
 
 /// Which conditions hold, and how firing changes them.
@@ -96,24 +98,16 @@ impl<const W: usize> Dispatcher<W> {
         let cluster = &clusters[index];
         self.holds.insert(&cluster.sends);
         self.holds.remove(&cluster.notified_by);
-        // With clusters downstream it is one of them that notifies this one.
-        if cluster.notified_by == Bits::NONE {
-            self.holds.insert(&cluster.notifies);
-            for &up in cluster.upstream {
-                self.notify(clusters, up);
-            }
-        }
-    }
-
-    /// Clusters form an acyclic graph, so that this ends; its depth is that of the graph of clusters.
-    fn notify(&mut self, clusters: &[Cluster<W>], index: usize) {
-        let cluster = &clusters[index];
-        if !self.holds.contains(&cluster.notified_by) {
+        if cluster.notified_by != Bits::NONE {
+            // One of the clusters downstream will notify this one.
             return;
         }
         self.holds.insert(&cluster.notifies);
-        for &up in cluster.upstream {
-            self.notify(clusters, up);
+        for above in cluster.above.iter().map(|&above| &clusters[above]) {
+            // It has fired, and everything downstream of it has finished.
+            if !self.holds.contains(&above.enabled) && self.holds.contains(&above.notified_by) {
+                self.holds.insert(&above.notifies);
+            }
         }
     }
 }

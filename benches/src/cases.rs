@@ -28,7 +28,7 @@ const fn case(name: &'static str, apex: Run, hand: Run, goal: f64) -> Case {
 }
 
 /// All graphs.
-pub const CASES: [Case; 16] = [
+pub const CASES: [Case; 17] = [
     case("chain3", graphs::chain3, hand::chain3, SYNCHRONOUS),
     case("chain10", graphs::chain10, hand::chain10, SYNCHRONOUS),
     case("chain100", graphs::chain100, hand::chain100, SYNCHRONOUS),
@@ -42,6 +42,7 @@ pub const CASES: [Case; 16] = [
     case("image", graphs::image, hand::image, 1.05),
     case("timer10", graphs::timer10, hand::timer10, DISPATCHED),
     case("timers2", graphs::timers2, hand::timers2, DISPATCHED),
+    case("timers3", graphs::timers3, hand::timers3, DISPATCHED),
     case("silent10", graphs::silent10, hand::silent10, SYNCHRONOUS),
     case("silent100", graphs::silent100, hand::silent100, SYNCHRONOUS),
     case("silent1000", graphs::silent1000, hand::silent1000, SYNCHRONOUS),

@@ -18,6 +18,7 @@ graph!("graphs/nested1000.afg");
 graph!("graphs/image.afg");
 graph!("graphs/timer10.afg");
 graph!("graphs/timers2.afg");
+graph!("graphs/timers3.afg");
 
 /// The times of `ticks` ticks.
 pub(crate) fn milliseconds(ticks: u64) -> impl Iterator<Item = Time> {
@@ -45,5 +46,5 @@ runs!(
     silent10: Silent10, silent100: Silent100, silent1000: Silent1000,
     diamond8: Diamond8, diamond64: Diamond64,
     bot100: Bot100, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image,
-    timer10: Timer10, timers2: Timers2
+    timer10: Timer10, timers2: Timers2, timers3: Timers3
 );

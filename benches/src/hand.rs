@@ -193,3 +193,27 @@ pub fn timers2(ticks: u64) -> u64 {
     }
     sink.checksum()
 }
+
+/// Three sources with paces of their own, and two joins, one behind the other. A source fires again only
+/// when its token has come all the way.
+#[inline(never)]
+pub fn timers3(ticks: u64) -> u64 {
+    let mut sources: [Count; 3] = Default::default();
+    let mut timers = [1, 2, 3].map(|ms| Timer::new(Duration::from_millis(ms)));
+    let mut tokens = [None; 3];
+    let mut sink = Sink::default();
+    for now in milliseconds(ticks) {
+        loop {
+            for (i, token) in tokens.iter_mut().enumerate() {
+                if token.is_none() && timers[i].is_due(now) {
+                    timers[i].advance();
+                    *token = Some(op(&sources[i].process(), i as u64 + 1));
+                }
+            }
+            let [Some(x), Some(y), Some(z)] = tokens else { break };
+            sink.process(&add(&add(&x, &y), &z));
+            tokens = [None; 3];
+        }
+    }
+    sink.checksum()
+}

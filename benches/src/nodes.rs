@@ -146,8 +146,9 @@ impl Rows {
     }
 }
 
-/// Sum of a list.
+/// Sum of a list. Its port takes what `Rows` and `each` send: a `Vec`.
 #[node]
+#[allow(clippy::ptr_arg)]
 pub fn sum(list: &Vec<u64>) -> u64 {
     list.iter().fold(0, |sum, x| sum.wrapping_add(*x))
 }

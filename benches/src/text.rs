@@ -51,7 +51,7 @@ fn diamond(w: u32) -> String {
 fn ops(first: u32, last: u32) -> String {
     let mut text = String::new();
     for k in first..=last {
-        text.push_str(if (k - first) % 5 == 0 { "\n        -> " } else { " -> " });
+        text.push_str(if (k - first).is_multiple_of(5) { "\n        -> " } else { " -> " });
         let _ = write!(text, "op(k = {k})");
     }
     text

@@ -26,6 +26,8 @@ fn ticks_allocate_nothing_when_warm() {
     for case in &CASES {
         // The frames of the camera are all seen, and all storage is as large as it gets.
         let warm = if case.name == "image" { 16 } else { TICKS };
+        // What all runs share (the frames) is made by whichever is the first.
+        (case.apex)(1);
         assert_eq!(allocations(case.apex, warm), allocations(case.apex, warm + 8), "{}", case.name);
     }
 }

@@ -10,7 +10,7 @@ use crate::{
 /// Reports connections whose ends certainly differ. Of all others rustc has the last word.
 pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for connection in &graph.connections {
-        if compare(graph, connection) != Match::Different {
+        if connection.differs || compare(graph, connection) != Match::Different {
             continue;
         }
         let (from, to) = (token_type(graph, connection.from), graph.port(connection.to).ty.clone());
@@ -53,6 +53,7 @@ fn declared(graph: &Graph, catalog: &Catalog, end: End) -> String {
             let signature = &catalog.signatures[library.signature];
             format!("`{name}` is declared at {}:{} (`{}`)", signature.file.display(), signature.line, signature.name)
         }
+        NodeKind::Each(each) => format!("`{name}` is a port of `{}`, which runs once per element", each.body.name),
         _ => format!("`{name}` is a port of the graph `{}`", graph.name),
     }
 }

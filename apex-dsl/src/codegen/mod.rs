@@ -116,7 +116,7 @@ pub fn check_supported(graph: &Graph, diagnostics: &mut Diagnostics) {
                 diagnostics.push(Diagnostic::error(
                     "not-yet",
                     node.span,
-                    format!("a {} of a program can be checked, but not run yet", kind.word()),
+                    format!("the {} `{}` of a program can be checked, but not run yet", kind.word(), node.name),
                 ));
             }
             _ => {}

@@ -17,7 +17,7 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
@@ -539,17 +539,34 @@ impl Bits {
             let frees: Vec<usize> = c.downstream.iter().map(|d| self.free(index, *d)).collect();
             let notifies: Vec<usize> =
                 [self.enabled[&index]].into_iter().chain(c.upstream.iter().map(|u| self.free(*u, index))).collect();
-            let upstream: Vec<usize> = c.upstream.iter().map(|u| row(*u)).collect();
+            let (enabled, above) = (self.enabled[&index], above(analysis, index).into_iter().map(row));
             quote! {
                 ::apex_rt::Cluster {
                     waits_for: ::apex_rt::Bits::of(&[#(#waits),*]),
                     sends: ::apex_rt::Bits::of(&[#(#sends),*]),
                     notified_by: ::apex_rt::Bits::of(&[#(#frees),*]),
                     notifies: ::apex_rt::Bits::of(&[#(#notifies),*]),
-                    upstream: &[#(#upstream),*],
+                    enabled: ::apex_rt::Bits::of(&[#enabled]),
+                    above: &[#(#above),*],
                 }
             }
         });
         rows.collect()
     }
+}
+
+/// All clusters from which tokens come to `cluster`; behind each stand those from which its own tokens come.
+fn above(analysis: &Analysis, cluster: usize) -> Vec<usize> {
+    fn visit(analysis: &Analysis, cluster: usize, seen: &mut BTreeSet<usize>, order: &mut Vec<usize>) {
+        for &up in &analysis.clusters[cluster].upstream {
+            if seen.insert(up) {
+                visit(analysis, up, seen, order);
+                order.push(up);
+            }
+        }
+    }
+    let mut order = vec![];
+    visit(analysis, cluster, &mut BTreeSet::new(), &mut order);
+    order.reverse();
+    order
 }

@@ -117,6 +117,11 @@ impl Diagnostics {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }
 
+    /// Whether further messages are only counted: what goes on can stop.
+    pub fn is_full(&self) -> bool {
+        self.list.len() >= MAX_ERRORS
+    }
+
     /// How many messages were left out for being too many.
     pub fn left_out(&self) -> usize {
         self.left_out
@@ -135,14 +140,24 @@ impl Diagnostics {
     }
 }
 
+/// Longer names are not compared: nobody mistypes them, and comparing takes time.
+const MAX_NAME: usize = 64;
+/// Most names that are looked at for one that is like another.
+const MAX_CANDIDATES: usize = 4000;
+
 /// The name of `candidates` that is most like `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).max(1);
+    if name.len() > MAX_NAME {
+        return None;
+    }
     candidates
         .into_iter()
+        .take(MAX_CANDIDATES)
         .filter(|c| c.len().abs_diff(name.len()) <= limit)
         .map(|c| (distance(name, c), c))
-        .filter(|(d, _)| *d <= limit)
+        // Of a word with one letter everything is as far away as everything else.
+        .filter(|(d, _)| *d <= limit && *d < name.len())
         .min()
         .map(|(_, c)| c)
 }

@@ -14,14 +14,15 @@ use crate::{
 };
 use std::{collections::BTreeMap, time::Duration};
 
-/// The given arguments by name; says what is wrong with the list itself.
-pub fn by_name<'a>(
+/// The given arguments by name, and whether they all have one; says what is wrong with the list itself.
+fn by_name<'a>(
     args: &'a [Arg],
     known: &[&str],
     what: &str,
     diagnostics: &mut Diagnostics,
-) -> BTreeMap<&'a str, &'a Expr> {
+) -> (BTreeMap<&'a str, &'a Expr>, bool) {
     let mut given: BTreeMap<&str, (&Ident, &Expr)> = BTreeMap::new();
+    let mut whole = true;
     for arg in args {
         let Some(name) = &arg.name else {
             let mut error =
@@ -33,6 +34,7 @@ pub fn by_name<'a>(
                 error = error.note(format!("the parameters of `{what}` are {}", quoted(known)));
             }
             diagnostics.push(error);
+            whole = false;
             continue;
         };
         if !known.contains(&name.text.as_str()) {
@@ -45,13 +47,14 @@ pub fn by_name<'a>(
                 format!("its parameters are {}", quoted(known))
             });
             diagnostics.push(error);
+            whole = false;
         } else if let Some((first, _)) = given.insert(&name.text, (name, &arg.value)) {
             let message = format!("`{}` is given twice", name.text);
             diagnostics
                 .push(Diagnostic::error("duplicate-argument", name.span, message).also(first.span, "first given here"));
         }
     }
-    given.into_iter().map(|(name, (_, value))| (name, value)).collect()
+    (given.into_iter().map(|(name, (_, value))| (name, value)).collect(), whole)
 }
 
 fn quoted(names: &[&str]) -> String {
@@ -68,11 +71,13 @@ pub fn of_node(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Value> {
     let known: Vec<&str> = signature.params.iter().map(|p| p.name.as_str()).collect();
-    let given = by_name(args, &known, &signature.name, diagnostics);
+    let (given, whole) = by_name(args, &known, &signature.name, diagnostics);
     let mut values = vec![];
     for param in &signature.params {
         let value = match given.get(param.name.as_str()) {
             Some(expr) => evaluate(expr, scope).and_then(|value| wanted(signature, param).fit(value, expr.span)),
+            // The argument with a wrong name may be this one.
+            None if !whole && param.default.is_none() => Ok(Value::RustDefault),
             None => default(signature, param, at, fed),
         };
         values.push(value.unwrap_or_else(|error| {
@@ -131,14 +136,19 @@ pub fn of_graph(
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Value> {
     let known: Vec<&str> = params.iter().map(|(p, _)| p.name.text.as_str()).collect();
-    let exprs = given.map(|(args, _)| by_name(args, &known, &name.text, diagnostics)).unwrap_or_default();
+    let (exprs, whole) = match given {
+        Some((args, _)) => by_name(args, &known, &name.text, diagnostics),
+        None => (BTreeMap::new(), true),
+    };
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
     for (param, ty) in params {
         let value = match (exprs.get(param.name.text.as_str()), given) {
             (Some(expr), Some((_, scope))) => {
                 graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr.span))
             }
-            _ => graph_default(name, param, ty, at, &values),
+            _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
+            // As long as a graph is not used, its parameters need no value.
+            _ => graph_default(name, param, ty, at, &values, given.is_some()),
         };
         match value {
             Ok(value) => {
@@ -160,6 +170,7 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
             let bound = |expr: &Expr| match declared(param, expr, before)? {
                 Value::Number(n) => Ok(Some(n.value)),
                 Value::Duration(d) => Ok(Some(d.as_secs_f64())),
+                Value::RustDefault => Ok(None),
                 _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a range goes from number to number"))),
             };
             Some((bound(&range.low)?, bound(&range.high)?, range.inclusive))
@@ -207,10 +218,12 @@ fn graph_default(
     ty: &Type,
     at: Span,
     before: &BTreeMap<String, Value>,
+    is_used: bool,
 ) -> Evaluated<Value> {
     let wanted = graph_param(param, ty, before)?;
     match &param.default {
         Some(expr) => wanted.fit(declared(param, expr, before)?, expr.span),
+        None if !is_used => Ok(Value::RustDefault),
         None => {
             let message = format!("`{}` needs a value for `{}`", name.text, param.name.text);
             Err(Box::new(
@@ -228,6 +241,8 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnos
         let value = evaluate(expr, scope).and_then(|value| match value {
             Value::Number(n) => duration(n, expr.span),
             Value::Duration(d) => Ok(d),
+            // Not known yet: any time will do for the checks.
+            Value::RustDefault => Ok(Duration::from_secs(1)),
             other => Err(Box::new(Diagnostic::error(
                 "wrong-value",
                 expr.span,

@@ -115,6 +115,8 @@ pub fn names_port(end: &Endpoint, node: &str, port: &str) -> bool {
 struct Meant {
     candidates: Vec<Candidate>,
     explicit: bool,
+    /// All ports of the node, in words.
+    all: String,
     name: String,
     span: Span,
 }
@@ -128,13 +130,19 @@ impl Builder<'_> {
             let symbols: Vec<Vec<Option<(Symbol, String, Span)>>> =
                 chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
             for (i, arrow) in chain.arrows.iter().enumerate() {
+                if symbols[i].iter().any(Option::is_none) {
+                    symbols[i + 1].iter().flatten().for_each(|to| self.excuse(&to.0));
+                }
                 for from in symbols[i].iter().flatten() {
                     for to in symbols[i + 1].iter().flatten() {
                         self.connect(from, to, arrow);
+                        if self.is_exhausted() {
+                            return;
+                        }
                     }
                 }
             }
-            if *self.budget == 0 {
+            if self.is_exhausted() {
                 return;
             }
         }
@@ -184,8 +192,10 @@ impl Builder<'_> {
             self.diagnostics.push(error);
             return None;
         };
-        if matches!(symbol, Symbol::Broken) {
-            return None;
+        match symbol {
+            Symbol::Broken => return None,
+            Symbol::Ports(ports) => self.look(ports.len(), reference.span)?,
+            Symbol::Own(_) => {}
         }
         match (symbol, &reference.parts[1..]) {
             (symbol, []) => Some((symbol.clone(), text, reference.span)),
@@ -238,14 +248,28 @@ impl Builder<'_> {
     }
 
     fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow) {
+        let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
+        if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
+            return;
+        }
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other side; so do types.
-        let Some((source, target)) = self.choose(sources, targets) else { return };
-        if source.ty.compare(&target.ty) == Match::Different {
+        let Some((source, target)) = self.choose(sources, targets) else { return self.excuse(&to.0) };
+        let differs = source.ty.compare(&target.ty) == Match::Different;
+        if differs {
             self.mismatch(from, to, &source, &target, arrow.span);
         }
-        self.wires.push(Wire { from: source.place, to: target.place, active: arrow.active, span: arrow.span });
+        self.wires.push(Wire { from: source.place, to: target.place, active: arrow.active, differs, span: arrow.span });
+    }
+
+    /// A connection that leads here could not be made: that it is missing is no error of its own.
+    fn excuse(&mut self, to: &Symbol) {
+        match to {
+            Symbol::Ports(ports) => self.excused.extend(ports.iter().filter(|p| !p.kind.sends()).map(|p| p.place)),
+            Symbol::Own(own) => self.excused.extend([own.place]),
+            Symbol::Broken => {}
+        }
     }
 
     fn choose(&mut self, from: Meant, to: Meant) -> Option<(Candidate, Candidate)> {
@@ -260,28 +284,41 @@ impl Builder<'_> {
         match (sources.as_slice(), targets.as_slice()) {
             ([source], [target]) => Some((source.clone(), target.clone())),
             ([_], _) => {
-                self.ambiguous(&to, &targets, "takes", "take");
+                self.ambiguous(&to, &targets, &from, ["takes", "take", "sends"]);
                 None
             }
             _ => {
-                self.ambiguous(&from, &sources, "sends", "send");
+                self.ambiguous(&from, &sources, &to, ["sends", "send", "takes"]);
                 None
             }
         }
     }
 
-    fn ambiguous(&mut self, meant: &Meant, fitting: &[Candidate], one: &str, many: &str) {
+    fn ambiguous(
+        &mut self,
+        meant: &Meant,
+        fitting: &[Candidate],
+        other: &Meant,
+        [one, many, opposite]: [&str; 3],
+    ) {
         let name = &meant.name;
         let error = match (meant.candidates.len(), fitting.len()) {
             (0, _) if meant.explicit => {
-                Diagnostic::error("wrong-direction", meant.span, format!("`{name}` {one} no tokens"))
+                Diagnostic::error("wrong-direction", meant.span, format!("`{name}` {one} no tokens, it {opposite} them"))
             }
             (0, _) => {
                 Diagnostic::error("wrong-direction", meant.span, format!("`{name}` has no port that {one} tokens"))
+                    .note(match meant.all.as_str() {
+                        "" => format!("`{name}` has no ports"),
+                        all => format!("`{name}` has {all}"),
+                    })
             }
             (_, 0) => {
                 let all: Vec<&Candidate> = meant.candidates.iter().collect();
-                Diagnostic::error("type-mismatch", meant.span, format!("no port of `{name}` fits"))
+                let message = format!("no port of `{name}` goes with `{}`", other.name);
+                let others: Vec<&Candidate> = other.candidates.iter().collect();
+                Diagnostic::error("type-mismatch", meant.span, message)
+                    .also(other.span, format!("has {}", list(&others)))
                     .note(format!("`{name}` has {}", list(&all)))
             }
             _ => {
@@ -353,7 +390,14 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
         }
         _ => vec![],
     };
-    Meant { candidates, explicit: explicit || matches!(symbol, Symbol::Own(_)), name: name.clone(), span: *span }
+    let all = match symbol {
+        // Only said where nothing else can be.
+        Symbol::Ports(ports) if candidates.is_empty() => {
+            list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>())
+        }
+        _ => String::new(),
+    };
+    Meant { candidates, all, explicit: explicit || matches!(symbol, Symbol::Own(_)), name: name.clone(), span: *span }
 }
 
 fn list(ports: &[&Candidate]) -> String {

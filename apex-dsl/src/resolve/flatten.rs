@@ -26,18 +26,18 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     for wire in &wires {
         let Place::Port(to) = wire.to else { continue };
         // Follow the wire upstream to the ports it starts at; pins in a circle are left to `check_pins`.
-        let mut ends = vec![(wire.from, wire.active)];
+        let mut ends = vec![(wire.from, wire.active, wire.differs)];
         let mut visited = BTreeSet::new();
-        while let Some((place, active)) = ends.pop() {
+        while let Some((place, active, differs)) = ends.pop() {
             match place {
                 Place::Port(from) => {
                     if seen.insert((from, to)) {
-                        connections.push(Connection { from, to, active, span: wire.span });
+                        connections.push(Connection { from, to, active, differs, span: wire.span });
                     }
                 }
                 Place::Pin(_) if visited.insert(place) => {
                     for &up in into.get(&place).into_iter().flatten() {
-                        ends.push((wires[up].from, active && wires[up].active));
+                        ends.push((wires[up].from, active && wires[up].active, differs || wires[up].differs));
                     }
                 }
                 Place::Pin(_) => {}
@@ -125,7 +125,7 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
     for index in 0..builder.pins.len() {
         let place = Place::Pin(index);
         let pin = &builder.pins[index];
-        if into.contains_key(&place) || !pin.kind.is_synchronous() {
+        if into.contains_key(&place) || builder.excused.contains(&place) || !pin.kind.is_synchronous() {
             continue;
         }
         let scope = &builder.scopes[pin.scope];

@@ -1,7 +1,7 @@
 //! Makes instances: nodes of the catalog become nodes, nested graphs are opened in place.
 
 use super::{
-    MAX_NESTING, MAX_NODES, args,
+    Budget, MAX_NESTING, MAX_NODES, args,
     connect::{Place, Symbol, Table},
     flatten, generics,
     names::{GraphId, Made, Texts},
@@ -16,7 +16,7 @@ use crate::{
         GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr, TypeKind,
     },
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A port of a nested graph, seen from both sides: tokens come in from one and go out to the other.
 pub struct Pin {
@@ -38,6 +38,8 @@ pub struct Wire {
     pub to: Place,
     /// `=>`
     pub active: bool,
+    /// Its ends carry different types, which has been reported.
+    pub differs: bool,
     /// The arrow.
     pub span: Span,
 }
@@ -51,11 +53,13 @@ pub struct Builder<'a> {
     pub scopes: Vec<Scope>,
     pub pins: Vec<Pin>,
     pub wires: Vec<Wire>,
+    /// Inputs whose connection could not be made, which has been reported.
+    pub excused: BTreeSet<Place>,
     pub claims: Vec<Claim>,
     /// The graphs that are being opened, outermost first.
     pub open: Vec<GraphId>,
-    /// How many more nodes and nested graphs there may be.
-    pub budget: &'a mut usize,
+    /// What may still be added.
+    pub budget: &'a mut Budget,
 }
 
 /// What a graph body is opened with.
@@ -71,7 +75,7 @@ pub fn graph(
     texts: &Texts,
     catalog: &Catalog,
     id: GraphId,
-    budget: &mut usize,
+    budget: &mut Budget,
     diagnostics: &mut Diagnostics,
 ) -> Option<Graph> {
     let builder = Builder {
@@ -82,6 +86,7 @@ pub fn graph(
         scopes: vec![],
         pins: vec![],
         wires: vec![],
+        excused: BTreeSet::new(),
         claims: vec![],
         open: vec![],
         budget,
@@ -94,6 +99,7 @@ impl<'a> Builder<'a> {
     fn top(mut self, id: GraphId, given: Option<BTreeMap<String, Value>>) -> Option<Graph> {
         let item = self.texts.graph(id);
         let is_body = given.is_some();
+        let is_open = !is_body && item.params.iter().any(|p| p.default.is_none());
         let values = given.unwrap_or_else(|| {
             let params = self.param_types(id);
             args::of_graph(&item.name, &params, None, item.name.span, self.diagnostics)
@@ -139,6 +145,7 @@ impl<'a> Builder<'a> {
             name,
             docs,
             robot,
+            is_open,
             is_body,
             span,
             nodes: self.nodes,
@@ -146,6 +153,7 @@ impl<'a> Builder<'a> {
             scopes: self.scopes,
             claims: self.claims,
             open_pins,
+            excused: ports(&self.excused),
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
         require_function_params(&mut graph, self.catalog);
@@ -176,17 +184,35 @@ impl<'a> Builder<'a> {
     }
 
     pub fn spend(&mut self, span: Span) -> Option<()> {
-        if *self.budget == 0 {
-            let message = format!("this program has more than {MAX_NODES} nodes");
-            let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
-            self.diagnostics.push(
-                Diagnostic::error("too-large", outermost, message)
-                    .note("nested graphs count as often as they are used"),
-            );
+        if self.budget.nodes == 0 {
+            self.too_large(span, format!("this program has more than {MAX_NODES} nodes"));
             return None;
         }
-        *self.budget -= 1;
+        self.budget.nodes -= 1;
         Some(())
+    }
+
+    /// Pays for a look at `count` ports or ends of connections.
+    pub fn look(&mut self, count: usize, span: Span) -> Option<()> {
+        if self.budget.looks < count {
+            self.budget.looks = 0;
+            self.too_large(span, "this program has too many ports and connections".to_owned());
+            return None;
+        }
+        self.budget.looks -= count;
+        Some(())
+    }
+
+    fn too_large(&mut self, span: Span, message: String) {
+        let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
+        self.diagnostics.push(
+            Diagnostic::error("too-large", outermost, message).note("nested graphs count as often as they are used"),
+        );
+    }
+
+    /// Whether it makes no sense to go on.
+    pub fn is_exhausted(&self) -> bool {
+        self.budget.nodes == 0 || self.budget.looks == 0 || self.diagnostics.is_full()
     }
 
     fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {
@@ -209,11 +235,13 @@ impl<'a> Builder<'a> {
             };
             // A node that cannot be made still has its name, so that its uses are no errors of their own.
             table.insert(&node.name, made.unwrap_or(Symbol::Broken), self.diagnostics);
-            if *self.budget == 0 {
+            if self.is_exhausted() {
                 break;
             }
         }
-        self.chains(body, &table);
+        if !self.is_exhausted() {
+            self.chains(body, &table);
+        }
         for claim in &body.item.claims {
             let of = claim
                 .of
@@ -305,10 +333,15 @@ impl<'a> Builder<'a> {
             return vec![TypeArg::Open; count];
         }
         if given.len() != count {
-            let message =
-                format!("`{}` takes {count} type arguments, but {} are given", instance.path.text(), given.len());
-            self.diagnostics.push(Diagnostic::error("type-arguments", instance.span, message));
-            return vec![TypeArg::Open; count];
+            let takes = match count {
+                0 => "no type arguments".to_owned(),
+                1 => "one type argument".to_owned(),
+                _ => format!("{count} type arguments"),
+            };
+            let message = format!("`{}` takes {takes}, not {}", instance.path.text(), given.len());
+            let span = given.iter().fold(given[0].span, |all, ty| all.to(ty.span));
+            self.diagnostics.push(Diagnostic::error("type-arguments", span, message));
+            return vec![TypeArg::Known(Type::Unknown(String::new())); count];
         }
         given
             .iter()
@@ -373,12 +406,25 @@ impl<'a> Builder<'a> {
     fn nested(&mut self, body: &Body<'_>, name: &Ident, id: GraphId, instance: &Instance) -> Option<Symbol> {
         self.may_open(id, instance.span)?;
         self.spend(name.span)?;
-        if let Some(modifier) = instance.modifiers.iter().find(|m| !matches!(m.kind, ModifierKind::Delay(_))) {
-            let message = "this modifier is for a single node; a nested graph takes `each` and `delay`";
-            self.diagnostics.push(Diagnostic::error("wrong-modifier", modifier.span, message));
+        for modifier in &instance.modifiers {
+            let word = match modifier.kind {
+                ModifierKind::Every(_) => "every",
+                ModifierKind::Timeout(_) => "timeout",
+                ModifierKind::Deadline(_) => "deadline",
+                ModifierKind::On(_) => "on",
+                ModifierKind::Pipelined => "pipelined",
+                ModifierKind::Essential => "essential",
+                ModifierKind::Each { .. } | ModifierKind::Delay(_) => continue,
+            };
+            let message = format!("`{word}` is for a single node, but `{}` is a graph", instance.path.text());
+            self.diagnostics.push(
+                Diagnostic::error("wrong-modifier", modifier.span, message)
+                    .note("a nested graph takes `each` and `delay`; put the others behind a node inside"),
+            );
         }
         let values = self.graph_args(body, id, instance);
         let item = self.texts.graph(id);
+        self.look(item.ports.len() + item.params.len() + item.claims.len(), name.span)?;
         self.scopes.push(Scope {
             name: name.text.clone(),
             graph: item.name.text.clone(),
@@ -446,6 +492,7 @@ impl<'a> Builder<'a> {
             scopes: vec![],
             pins: vec![],
             wires: vec![],
+            excused: BTreeSet::new(),
             claims: vec![],
             open: self.open.clone(),
             budget: self.budget,
@@ -471,13 +518,14 @@ impl<'a> Builder<'a> {
                 let node = builder.node(&ident, 0, NodeKind::Boundary(boundary), vec![outer], "")?;
                 let (library, outside) = (Place::Port(End { node: 0, port }), Place::Port(End { node, port: 0 }));
                 let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };
-                builder.wires.push(Wire { from, to, active: false, span });
+                builder.wires.push(Wire { from, to, active: false, differs: false, span });
             }
             let (connections, open_pins) = flatten::wires(&mut builder);
             let mut graph = Graph {
                 name: instance.path.text(),
                 docs: String::new(),
                 robot: false,
+                is_open: false,
                 is_body: true,
                 span: name.span,
                 nodes: builder.nodes,
@@ -485,6 +533,7 @@ impl<'a> Builder<'a> {
                 scopes: builder.scopes,
                 claims: vec![],
                 open_pins,
+                excused: BTreeSet::new(),
             };
             generics::infer_inside(&mut graph, builder.catalog);
             Some(graph)
@@ -592,11 +641,15 @@ impl<'a> Builder<'a> {
             };
             let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
             let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
-            self.wires.push(Wire { from: out.place, to: Place::Port(End { node, port: 0 }), active: false, span });
+            self.wires.push(Wire { from: out.place, to: Place::Port(End { node, port: 0 }), active: false, differs: false, span });
             out.place = Place::Port(End { node, port: 1 });
         }
         Some(symbol)
     }
+}
+
+fn ports(places: &BTreeSet<Place>) -> BTreeSet<End> {
+    places.iter().filter_map(|p| if let Place::Port(end) = p { Some(*end) } else { None }).collect()
 }
 
 /// Whether some chain of the body ends at `node.param`.

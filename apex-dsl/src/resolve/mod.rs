@@ -13,20 +13,33 @@ use crate::{
     graph::Graph,
     report::{Diagnostic, Diagnostics},
     source::{FileId, Sources, World},
+    syntax::tree::{Endpoint, File, Instance, NodeBody},
 };
+use std::collections::BTreeSet;
 
 pub use names::{GraphId, Texts};
 
 /// Most nodes, nested graphs and connections that one program may have, each.
 pub const MAX_NODES: usize = 50_000;
+/// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
+const MAX_LOOKS: usize = 2_000_000;
 /// How deep graphs nest in each other.
 pub const MAX_NESTING: usize = 64;
+
+/// What may still be added to the programs of a text.
+pub struct Budget {
+    /// Nodes and nested graphs.
+    pub nodes: usize,
+    /// Looks at a port or at an end of a connection.
+    pub looks: usize,
+}
 
 /// What the texts of a program resolve to.
 pub struct Resolved {
     /// The texts.
     pub texts: Texts,
-    /// The graphs that are not used inside another one of the first text: the programs in it.
+    /// The graphs that are not used inside another one of the first text: the programs in it, and those that would
+    /// be programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
 }
 
@@ -40,17 +53,14 @@ pub fn resolve(
 ) -> Resolved {
     let texts = Texts::load(root, catalog, sources, world, diagnostics);
     let broken = texts.files.iter().any(|(_, file)| file.broken);
+    let used = used(&texts.files[0].1);
     let mut graphs = vec![];
-    let mut budget = MAX_NODES;
+    let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS };
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
-        let nested = is_nested(&texts, id);
-        // Without values for its parameters it can only be checked where it is used.
-        if nested && texts.graph(id).params.iter().any(|p| p.default.is_none()) {
-            continue;
-        }
+        let is_nested = used.contains(texts.graph(id).name.text.as_str());
         let resolved = instance::graph(&texts, catalog, id, &mut budget, diagnostics);
-        if !nested {
+        if !is_nested {
             graphs.extend(resolved);
         }
     }
@@ -70,9 +80,8 @@ pub fn resolve(
     Resolved { texts, graphs }
 }
 
-/// Whether another graph of the same text has an instance of `id`.
-fn is_nested(texts: &Texts, id: GraphId) -> bool {
-    use crate::syntax::tree::{Endpoint, Instance, NodeBody};
+/// The names of all graphs and nodes that the graphs of a text have instances of.
+fn used(file: &File) -> BTreeSet<&str> {
     fn in_end<'a>(end: &'a Endpoint, found: &mut Vec<&'a Instance>) {
         match end {
             Endpoint::Instance(instance) => found.push(instance),
@@ -80,17 +89,17 @@ fn is_nested(texts: &Texts, id: GraphId) -> bool {
             Endpoint::Port(_) => {}
         }
     }
-    let name = &texts.graph(id).name.text;
-    texts.files[id.file].1.graphs.iter().any(|graph| {
-        let mut instances: Vec<&Instance> = graph
-            .nodes
-            .iter()
-            .filter_map(|n| match &n.body {
-                NodeBody::Instance(instance) => Some(instance),
-                NodeBody::HandedIn(..) => None,
-            })
-            .collect();
+    let mut instances = vec![];
+    for graph in &file.graphs {
+        instances.extend(graph.nodes.iter().filter_map(|n| match &n.body {
+            NodeBody::Instance(instance) => Some(instance),
+            NodeBody::HandedIn(..) => None,
+        }));
         graph.chains.iter().flat_map(|c| &c.ends).for_each(|end| in_end(end, &mut instances));
-        instances.iter().any(|i| i.path.segments.len() == 1 && i.path.segments[0].text == *name)
-    })
+    }
+    let names = instances.iter().filter_map(|i| match i.path.segments.as_slice() {
+        [name] => Some(name.text.as_str()),
+        _ => None,
+    });
+    names.collect()
 }

@@ -9,7 +9,10 @@ use crate::{
         tree::{File, GraphItem, Ident, PathExpr, TypeExpr, TypeKind},
     },
 };
-use std::collections::BTreeMap;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+};
 
 /// More texts than one program is made of.
 const MAX_FILES: usize = 256;
@@ -28,6 +31,7 @@ pub struct Texts {
     /// The texts; the first is the one that was asked for.
     pub files: Vec<(FileId, File)>,
     names: Vec<BTreeMap<String, Meaning>>,
+    unreadable: BTreeSet<PathBuf>,
 }
 
 #[derive(Debug, Clone)]
@@ -54,7 +58,7 @@ impl Texts {
         world: &mut dyn World,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut texts = Self { files: vec![], names: vec![] };
+        let mut texts = Self { files: vec![], names: vec![], unreadable: BTreeSet::new() };
         let tree = syntax::parse(root, &sources.get(root).text.clone(), diagnostics);
         texts.files.push((root, tree));
         let mut at = 0;
@@ -105,8 +109,9 @@ impl Texts {
                     self.files.push((file, syntax::parse(file, &text, diagnostics)));
                 }
                 Err(reason) => {
-                    let message = format!("cannot read `{}`: {reason}", path.display());
+                    let message = format!("cannot read `{}.afg`: {reason}", module.text);
                     diagnostics.push(Diagnostic::error("unreadable", module.span, message));
+                    self.unreadable.insert(path);
                 }
             }
         }
@@ -162,6 +167,9 @@ impl Texts {
             return Some(Meaning::Rust(words));
         }
         let sibling = sources.get(self.files[file].0).path.parent().map(|p| p.join(format!("{}.afg", first.text)))?;
+        if self.unreadable.contains(&sibling) {
+            return None;
+        }
         let found = self.files.iter().position(|(id, _)| sources.get(*id).path == sibling).filter(|_| path.len() == 2);
         let Some(other) = found else {
             let message = format!("there is no crate and no text `{}`", first.text);

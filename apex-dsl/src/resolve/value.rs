@@ -78,12 +78,16 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
         return Ok(Value::Number(Number { value, integer, dimension: Dimension::NONE }));
     };
     match units::parse(unit) {
-        Ok(unit) => {
-            Ok(Value::Number(Number { value: scaled(value, unit.factor), integer: None, dimension: unit.dimension }))
-        }
+        Ok(unit) => match scaled(value, unit.factor) {
+            value if value.is_finite() => {
+                Ok(Value::Number(Number { value, integer: None, dimension: unit.dimension }))
+            }
+            _ => error("bad-number", span, "this number is too large"),
+        },
         Err(part) => {
-            let start = span.end as usize - unit.len();
-            let word = Ident { text: part.to_owned(), span: Span::new(span.file, start, span.end as usize) };
+            // `part` is a piece of `unit`, which ends the number.
+            let start = span.end as usize - unit.len() + (part.as_ptr() as usize - unit.as_ptr() as usize);
+            let word = Ident { text: part.to_owned(), span: Span::new(span.file, start, start + part.len()) };
             let diagnostic = Diagnostic::error("unknown-unit", word.span, format!("there is no unit `{part}`")).note(
                 "units are for example `m`, `cm`, `s`, `ms`, `Hz`, `deg`, `rad`, `kg`, `m/s`, `rad/s`, `m/s^2`, `%`",
             );
@@ -94,7 +98,14 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
 
 fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
     match (operator, value) {
-        ("-", Value::Number(n)) => Ok(Value::Number(Number { value: -n.value, integer: n.integer.map(|i| -i), ..n })),
+        (_, Value::RustDefault) => Ok(Value::RustDefault),
+        ("-", Value::Number(n)) => {
+            let integer = n.integer.and_then(i128::checked_neg);
+            if integer.is_none() && n.integer.is_some() {
+                return error("bad-number", span, "this number is too large");
+            }
+            Ok(Value::Number(Number { value: -n.value, integer, ..n }))
+        }
         ("!", Value::Bool(b)) => Ok(Value::Bool(!b)),
         (_, value) => error("wrong-value", span, format!("`{operator}` cannot be applied to {}", describe(&value))),
     }
@@ -102,6 +113,8 @@ fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
 
 fn binary(operator: &str, (a, at_a): (Value, Span), (b, at_b): (Value, Span), span: Span) -> Evaluated<Value> {
     match (&a, &b) {
+        // What is not known yet fits everywhere.
+        (Value::RustDefault, _) | (_, Value::RustDefault) => Ok(Value::RustDefault),
         (Value::Number(x), Value::Number(y)) => arithmetic(operator, (*x, at_a), (*y, at_b), span),
         (Value::Bool(x), Value::Bool(y)) => match operator {
             "&&" => Ok(Value::Bool(*x && *y)),
@@ -135,26 +148,24 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
     let Some(dimension) = dimension else {
         return error("wrong-unit", span, "the unit of this value leaves all bounds");
     };
-    let result = |value: f64, integer: Option<i128>| {
-        if value.is_finite() {
-            Ok(Value::Number(Number { value, integer, dimension }))
-        } else {
-            error("bad-number", span, "this value is not a number")
+    // As in Rust, integers stay integers, also when they are divided.
+    let result = |value: f64, exact: fn(i128, i128) -> Option<i128>| {
+        let integer = x.integer.zip(y.integer).map(|(a, b)| exact(a, b));
+        match integer {
+            Some(None) => error("bad-number", span, "this number is too large"),
+            None if !value.is_finite() => error("bad-number", span, "this number is too large"),
+            Some(Some(i)) => Ok(Value::Number(Number { value: i as f64, integer: Some(i), dimension })),
+            None => Ok(Value::Number(Number { value, integer: None, dimension })),
         }
     };
-    let integers = x.integer.zip(y.integer);
     let truth = |value: bool| Ok(Value::Bool(value));
     match operator {
-        "+" => result(x.value + y.value, integers.and_then(|(a, b)| a.checked_add(b))),
-        "-" => result(x.value - y.value, integers.and_then(|(a, b)| a.checked_sub(b))),
-        "*" => result(x.value * y.value, integers.and_then(|(a, b)| a.checked_mul(b))),
-        // As in Rust, integers divide to an integer.
+        "+" => result(x.value + y.value, i128::checked_add),
+        "-" => result(x.value - y.value, i128::checked_sub),
+        "*" => result(x.value * y.value, i128::checked_mul),
         "/" | "%" if y.value == 0.0 => error("bad-number", span, "division by zero"),
-        "/" => match integers {
-            Some((a, b)) => result((a / b) as f64, Some(a / b)),
-            None => result(x.value / y.value, None),
-        },
-        "%" => result(x.value % y.value, integers.and_then(|(a, b)| a.checked_rem(b))),
+        "/" => result(x.value / y.value, i128::checked_div),
+        "%" => result(x.value % y.value, i128::checked_rem),
         "<" => truth(x.value < y.value),
         ">" => truth(x.value > y.value),
         "<=" => truth(x.value <= y.value),
@@ -207,7 +218,8 @@ impl Wanted<'_> {
     }
 
     fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
-        let message = format!("`{}` is a `{ty}`, but this is {}", self.name, describe(value));
+        let wanted = if ty.name() == "Duration" { "time".to_owned() } else { format!("`{ty}`") };
+        let message = format!("`{}` is a {wanted}, but this is {}", self.name, describe(value));
         error("wrong-value", span, message)
     }
 
@@ -233,7 +245,7 @@ impl Wanted<'_> {
                     return error(
                         "wrong-value",
                         span,
-                        format!("`{}` takes {len} values, but there are {} here", self.name, items.len()),
+                        format!("`{}` takes {len} values, not {}", self.name, items.len()),
                     );
                 }
                 items

@@ -7,7 +7,8 @@ use crate::{
 };
 use pest::iterators::Pair;
 
-/// More operators in one expression than anybody writes; bounds the depth of the tree.
+/// More operators in one expression than anybody writes, those of the expressions around it included; bounds the
+/// depth of the tree.
 const MAX_OPERATORS: usize = 200;
 
 /// Builds the tree of one text.
@@ -16,12 +17,14 @@ pub struct Builder<'a> {
     text: &'a str,
     diagnostics: &'a mut Diagnostics,
     broken: bool,
+    /// Operators and values of the expressions that are being built, outermost first.
+    open: usize,
 }
 
 impl<'a> Builder<'a> {
     /// A builder for `file`.
     pub fn new(file: FileId, text: &'a str, diagnostics: &'a mut Diagnostics) -> Self {
-        Self { file, text, diagnostics, broken: false }
+        Self { file, text, diagnostics, broken: false, open: 0 }
     }
 
     fn span(&self, pair: &Pair<'_, Rule>) -> Span {
@@ -355,14 +358,19 @@ impl<'a> Builder<'a> {
     fn expr(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.span(&pair);
         let mut parts: Vec<Pair<'_, Rule>> = pair.into_inner().collect();
-        if parts.len() > 2 * MAX_OPERATORS {
+        let count = parts.len();
+        if self.open + count > 2 * MAX_OPERATORS {
             self.broken = true;
             let message = format!("an expression has at most {MAX_OPERATORS} operators");
             self.diagnostics.push(Diagnostic::error("too-large", span, message));
+            parts.retain(|p| p.as_rule() == Rule::primary);
             parts.truncate(1);
         }
-        let mut parts = parts.into_iter().peekable();
-        self.binary(&mut parts, 0, span)
+        let count = parts.len();
+        self.open += count;
+        let expr = self.binary(&mut parts.into_iter().peekable(), 0, span);
+        self.open -= count;
+        expr
     }
 
     /// Precedence climbing; operators of one level associate to the left.
@@ -416,7 +424,8 @@ impl<'a> Builder<'a> {
                 ExprKind::List(inner.into_inner().filter(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)).collect())
             }
             Rule::expr => return Expr { span, ..self.expr(inner) },
-            _ => match inner.as_str() {
+            // White space behind a word belongs to its pair.
+            _ => match inner.as_str().trim_end() {
                 "true" => ExprKind::Bool(true),
                 "false" => ExprKind::Bool(false),
                 _ => ExprKind::Path(self.path(inner)),

@@ -217,7 +217,8 @@ impl Scanner<'_> {
         let span = Span::new(self.file, self.at, self.at + char.len_utf8());
         self.at = span.end as usize;
         self.unknown += 1;
-        let message = format!("`{}` means nothing here", char.escape_debug());
+        let shown = if char.is_control() { char.escape_debug().to_string() } else { char.to_string() };
+        let message = format!("`{shown}` means nothing here");
         let diagnostic = Diagnostic::error("unknown-character", span, message);
         if self.unknown >= MAX_UNKNOWN {
             self.give_up(diagnostics, diagnostic.note("more follow; is this an `.afg` text"));

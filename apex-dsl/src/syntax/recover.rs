@@ -22,16 +22,22 @@ pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
     again(rule, file, start, text, "a statement is a port, a `node`, a connection or a `claim`")
 }
 
+const OUTSIDE: &str = "a text holds `use`, `graph` and `robot` items";
+
 /// Explains an item that could not be read.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
-    let first = text.split_whitespace().find(|w| !w.starts_with("//")).unwrap_or_default();
-    let span = Span::new(file, start, start + text.trim_end().len().min(first.len().max(1)));
+    let first = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(text, |end| &text[..end]);
+    let first = if first.is_empty() { text.split_whitespace().next().unwrap_or_default() } else { first };
+    let first = first.char_indices().nth(40).map_or(first, |(end, _)| &first[..end]);
+    let span = Span::new(file, start, start + first.len());
     match first {
         "fsm" | "test" => Diagnostic::error("not-yet", span, format!("`{first}` items are not supported yet")),
-        _ if text.trim_start().starts_with("use") => {
+        "use" => {
             again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`")
         }
-        _ => again(Rule::graph_item, file, start, text, "a file holds `use`, `graph` and `robot` items"),
+        "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
+        _ if text.trim_start().starts_with("///") => again(Rule::graph_item, file, start, text, OUTSIDE),
+        _ => Diagnostic::error("syntax", span, format!("`{first}` begins nothing that can stand here")).note(OUTSIDE),
     }
 }
 
@@ -56,16 +62,35 @@ pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> 
     };
     expected.sort_unstable();
     expected.dedup();
+    // A statement that ends with its line lacks the semicolon, whatever else could follow.
+    let before = text[..at].trim_end().len();
+    let ends = text[before..at].contains('\n') || at >= text.trim_end().len() || text[at..].starts_with('}');
+    if ends && expected.contains(&"`;`") {
+        expected = vec!["`;`"];
+    }
     let message = match expected.as_slice() {
         [] => "this does not belong here".to_owned(),
         [one] => format!("expected {one}"),
         [rest @ .., last] => format!("expected {} or {last}", rest.join(", ")),
     };
-    // What is missing is missing behind the last word, not before the next.
-    let missing = expected.contains(&"`;`") || at >= text.trim_end().len();
-    let at = start + if missing { text[..at].trim_end().len() } else { at };
-    let diagnostic = Diagnostic::error("syntax", Span::new(file, at, at), message);
-    if expected == ["`;`"] { diagnostic.fix("end the statement", Span::new(file, at, at), ";") } else { diagnostic }
+    // What is missing is missing behind the last word; what stands there instead is wrong itself.
+    if ends {
+        let behind = Span::new(file, start + before, start + before);
+        let error = Diagnostic::error("syntax", behind, message);
+        return if expected == ["`;`"] { error.fix("end the statement", behind, ";") } else { error };
+    }
+    let at = start + at;
+    Diagnostic::error("syntax", Span::new(file, at, at + token(&text[at - start..])), message)
+}
+
+/// How long the word or sign at the start of `text` is.
+fn token(text: &str) -> usize {
+    let word = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
+    match text.as_bytes() {
+        [b'-' | b'=', b'>', ..] => 2,
+        _ if word > 0 => word,
+        _ => text.chars().next().map_or(0, char::len_utf8),
+    }
 }
 
 fn name(rule: Rule) -> Option<&'static str> {

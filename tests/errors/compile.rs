@@ -1,0 +1,49 @@
+//! Calls the compiler as a library, with the nodes that stand beside this file and no others.
+
+use apex_dsl::{
+    catalog::{Catalog, CrateSpec, Crates},
+    passes,
+    report::Diagnostics,
+    source::Sources,
+};
+use apex_host::Disk;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::{Path, PathBuf},
+};
+
+/// What was read and what was found.
+pub struct Compiled {
+    pub sources: Sources,
+    pub diagnostics: Diagnostics,
+}
+
+/// The folder of this test.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("errors")
+}
+
+/// The nodes that the texts can use: those of `nodes.rs`, and by import those of `library.rs`.
+pub fn catalog() -> Catalog {
+    let spec = |name: &str, dependencies| CrateSpec {
+        name: name.to_owned(),
+        root: folder().join(format!("{name}.rs")),
+        features: BTreeSet::new(),
+        externs: BTreeSet::from(["core".to_owned()]),
+        dependencies,
+    };
+    let dependencies = BTreeMap::from([("library".to_owned(), 1)]);
+    let all = vec![spec("nodes", dependencies), spec("library", BTreeMap::new())];
+    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0] }, &mut Disk::new(None))
+}
+
+/// Takes `text`, which stands in `path`, through all passes up to generated code.
+pub fn compile(path: &Path, text: &str, catalog: &Catalog) -> Compiled {
+    let mut sources = Sources::default();
+    let mut diagnostics = Diagnostics::default();
+    let root = sources.add(path, text);
+    let programs = passes::check(root, catalog, &mut sources, &mut Disk::new(None), &mut diagnostics);
+    let place = |_| proc_macro2::Span::call_site();
+    passes::generate(&programs, catalog, &sources, &place, &mut diagnostics);
+    Compiled { sources, diagnostics }
+}

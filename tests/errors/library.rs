@@ -1,0 +1,12 @@
+//! The nodes of another crate: a text has to import them.
+use apex_rt::prelude::*;
+
+#[node]
+pub fn edges(x: &u64) -> u64 {
+    *x
+}
+
+#[node]
+pub fn corners(x: &u64) -> u64 {
+    *x
+}

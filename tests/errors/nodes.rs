@@ -1,0 +1,175 @@
+//! The nodes of the texts: as few as there are kinds of ports and parameters.
+use apex_rt::prelude::*;
+use core::time::Duration;
+
+pub struct Scan;
+pub struct Image;
+
+pub const LIMIT: u64 = 3;
+
+/// A struct that is no node.
+pub struct Plain;
+
+/// A source.
+#[node]
+#[derive(Default)]
+pub struct Ramp {
+    next: u64,
+}
+
+#[node]
+impl Ramp {
+    fn process(&mut self) -> u64 {
+        self.next += 1;
+        self.next
+    }
+}
+
+/// A source of another type.
+#[node]
+pub fn camera() -> Image {
+    Image
+}
+
+/// A source of two outputs of different types.
+#[node]
+pub fn lidar(scan: &mut Out<Scan>, count: &mut Out<u64>) {
+    scan.set(Scan);
+    count.set(0);
+}
+
+/// A source of two outputs of one type.
+#[node]
+pub fn pair(low: &mut Out<u64>, high: &mut Out<u64>) {
+    low.set(0);
+    high.set(1);
+}
+
+/// A source of lists.
+#[node]
+pub fn list() -> Vec<u64> {
+    vec![1, 2]
+}
+
+#[node]
+pub fn double(x: &u64) -> u64 {
+    x * 2
+}
+
+#[node]
+pub fn sum(a: &u64, b: &u64) -> u64 {
+    a + b
+}
+
+#[node]
+pub fn maybe_sum(a: &u64, b: Option<&u64>) -> u64 {
+    a + b.unwrap_or(&0)
+}
+
+/// Takes two tokens of one type and one of another.
+#[node]
+pub fn label(image: &Image, scan: &Scan) -> Image {
+    let _ = (image, scan);
+    Image
+}
+
+#[node]
+pub fn show(x: &u64) {
+    let _ = x;
+}
+
+#[node]
+pub fn show_image(image: &Image) {
+    let _ = image;
+}
+
+#[node]
+pub fn mul(x: &u64, #[param] k: u64) -> u64 {
+    x * k
+}
+
+/// Parameters of all kinds.
+#[node]
+pub fn tune(
+    x: &u64,
+    #[param(unit = "m", default = 0.15, range = 0.0..=2.0)] gap: f32,
+    #[param(default = 1.0, range = 0.0..1.0)] ratio: f64,
+    #[param(default = 3)] count: u8,
+    #[param(default = 1.0)] wait: Duration,
+    #[param(default = true)] fast: bool,
+    #[param(default = "")] frame: &'static str,
+    #[param(default = [0.0, 0.0])] offset: [f32; 2],
+) -> u64 {
+    let _ = (gap, ratio, count, wait, fast, frame, offset);
+    *x
+}
+
+/// Takes two tokens per firing.
+#[node]
+pub fn halve(x: &[u64; 2]) -> u64 {
+    x[0] + x[1]
+}
+
+/// Takes so many tokens that no iteration can be.
+#[node]
+pub fn thin(x: &[u64; 100000]) -> u64 {
+    x[0]
+}
+
+#[node]
+#[derive(Default)]
+pub struct Base {
+    #[param(unit = "m/s", default = 1.0, range = 0.0..=2.5)]
+    speed: f32,
+}
+
+#[node]
+impl Base {
+    fn process(&mut self, goal: &u64, arrived: Event<u64>) {
+        let _ = self.speed;
+        arrived.emit(*goal);
+    }
+
+    #[slot]
+    fn stop(&mut self) {}
+}
+
+/// A struct without `process` and without slots.
+#[node]
+#[derive(Default)]
+pub struct Idle {
+    _state: u64,
+}
+
+/// Its type is decided by what it is connected to.
+#[node]
+pub struct Latch<T> {
+    last: Option<T>,
+}
+
+#[node]
+impl<T: Clone> Latch<T> {
+    fn process(&mut self, x: Option<&T>) -> Option<T> {
+        self.last = x.cloned().or(self.last.take());
+        self.last.clone()
+    }
+}
+
+/// Two nodes of one name.
+pub mod left {
+    use super::*;
+
+    #[node]
+    pub fn twin() -> u64 {
+        0
+    }
+}
+
+pub mod right {
+    use super::*;
+
+    #[node]
+    pub fn twin() -> u64 {
+        1
+    }
+}
