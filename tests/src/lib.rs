@@ -1,49 +1,35 @@
-//! Nodes for the tests.
-use apex_rt::prelude::*;
+//! What the tests of the whole need: scripted nodes, a firing log, and the compiler as a library.
+//!
+//! All tokens are `i64` unless a test is about types. A negative number in a script stands for ⊥.
 
-/// 0, 1, 2, …
-#[node]
-#[derive(Default)]
-pub struct Ramp {
-    next: u64,
+mod compile;
+mod log;
+mod random;
+
+pub mod nodes {
+    //! Nodes for the texts of the tests.
+    mod generic;
+    mod lists;
+    mod ops;
+    mod params;
+    mod rates;
+    mod sinks;
+    mod sources;
+    mod tapes;
+
+    pub use generic::*;
+    pub use lists::*;
+    pub use ops::*;
+    pub use params::*;
+    pub use rates::*;
+    pub use sinks::*;
+    pub use sources::*;
+    pub use tapes::*;
 }
 
-#[node]
-impl Ramp {
-    fn process(&mut self) -> u64 {
-        self.next += 1;
-        self.next - 1
-    }
-}
+pub use compile::{Found, check, error};
+pub use log::{Log, react, simulate};
+pub use random::{Case, SEED, Trace, cases, text};
 
-/// Times `k`.
-#[node]
-pub fn mul(x: &u64, #[param(default = 2)] k: u64) -> u64 {
-    x * k
-}
-
-/// Product.
-#[node]
-pub fn product(a: &u64, b: &u64) -> u64 {
-    a * b
-}
-
-/// Passes even values.
-#[node]
-pub fn even_only(x: &u64) -> Option<u64> {
-    x.is_multiple_of(2).then_some(*x)
-}
-
-/// Records.
-#[node]
-#[derive(Default)]
-pub struct Sink {
-    pub seen: Vec<u64>,
-}
-
-#[node]
-impl Sink {
-    fn process(&mut self, x: &u64) {
-        self.seen.push(*x);
-    }
-}
+/// A constant that texts use.
+pub const SEVEN: i64 = 7;

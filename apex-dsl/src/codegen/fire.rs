@@ -52,7 +52,10 @@ impl<'a> Emitter<'a> {
         let Some(end) = sends.map(|port| End { node, port }) else { return quote!() };
         let name = self.generator.name(end);
         match self.graph.nodes[node].kind {
-            NodeKind::Delay(_) => quote! { let #name = state.#name.take(); },
+            NodeKind::Delay(_) => {
+                let held = self.generator.held(node);
+                quote! { let #name = state.#held.take(); }
+            }
             NodeKind::Boundary(_) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
                 quote! { let #name = inputs.#port.take(); }
@@ -155,10 +158,10 @@ impl<'a> Emitter<'a> {
             NodeKind::Library(library) => self.fire_library(node, library, block),
             NodeKind::Each(each) => self.fire_each(node, each, block),
             NodeKind::Delay(_) => {
-                let name = self.generator.name(End { node, port: 1 });
+                let held = self.generator.held(node);
                 let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
                 let token = token.unwrap_or_else(|| quote!(None));
-                quote! { state.#name.put(#token.cloned()); }
+                quote! { state.#held.put(#token.cloned()); }
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
@@ -414,13 +417,14 @@ impl<'a> Emitter<'a> {
                 .any(|p| signature.params[p].range.is_some() && self.param_source(node, p).is_some())
     }
 
-    /// `let name = value;`, or the assignment to a name declared further out.
+    /// `let name = value;`, or the assignment to a name declared further out. What is there for certain is used
+    /// by reference in the rest of its own block.
     fn bind(&self, end: End, value: TokenStream, optional: bool) -> TokenStream {
         let name = self.generator.name(end);
         match (self.plan.is_hoisted(end), optional) {
             (false, _) => quote! { let #name = #value; },
             (true, true) => quote! { #name = #value; },
-            (true, false) => quote! { #name = Some(#value); },
+            (true, false) => quote! { let #name = &*#name.insert(#value); },
         }
     }
 

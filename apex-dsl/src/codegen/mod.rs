@@ -39,6 +39,8 @@ pub struct Names {
     /// The number of the first node in the table of all nodes.
     base: usize,
     tokens: BTreeMap<End, String>,
+    /// Where delays hold tokens back.
+    held: BTreeMap<NodeId, String>,
     inner: BTreeMap<NodeId, Names>,
 }
 
@@ -50,14 +52,11 @@ impl Names {
             let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
             for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
                 let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
-                let mut name = if plain { path.clone() } else { format!("{path}_{}", p.name) };
-                // `state`, `nodes` … are names that the generated code itself uses.
-                while ["state", "nodes", "inputs", "outputs", "observer", "ctx", "self"].contains(&name.as_str())
-                    || !used.insert(name.clone())
-                {
-                    name.push('_');
-                }
-                names.tokens.insert(End { node, port }, name);
+                let name = if plain { path.clone() } else { format!("{path}_{}", p.name) };
+                names.tokens.insert(End { node, port }, unique(name, used));
+            }
+            if let NodeKind::Delay(_) = &n.kind {
+                names.held.insert(node, unique(format!("{path}_held"), used));
             }
             if let NodeKind::Each(each) = &n.kind {
                 names.inner.insert(node, Self::new(&each.body, program, &format!("{path}_"), count, used));
@@ -65,6 +64,17 @@ impl Names {
         }
         names
     }
+}
+
+/// `name`, or something like it that is not used yet.
+fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
+    // `state`, `nodes` … are names that the generated code itself uses.
+    while ["state", "nodes", "inputs", "outputs", "observer", "ctx", "self"].contains(&name.as_str())
+        || !used.insert(name.clone())
+    {
+        name.push('_');
+    }
+    name
 }
 
 /// The program of a graph.
@@ -139,5 +149,10 @@ impl<'a> Generator<'a> {
     /// The name of a token.
     fn name(&self, end: End) -> syn::Ident {
         types::ident(self.names.tokens.get(&end).map_or("token", String::as_str))
+    }
+
+    /// The name of the place where a delay holds tokens back.
+    fn held(&self, node: NodeId) -> syn::Ident {
+        types::ident(self.names.held.get(&node).map_or("held", String::as_str))
     }
 }

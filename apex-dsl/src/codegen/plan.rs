@@ -171,11 +171,12 @@ impl Plan {
         }
     }
 
-    /// Whether a block around gives it a name.
+    /// Whether its name stands for a reference: a block around tests it, or it came into being there.
     pub fn is_bound(&self, end: End, block: BlockId) -> bool {
+        let made_in = self.home.get(&end).filter(|_| self.storage(end) == Storage::Local && self.is_hoisted(end));
         let mut at = block;
         loop {
-            if self.tests[at].contains(&end) {
+            if self.tests[at].contains(&end) || made_in == Some(&at) {
                 return true;
             }
             if at == 0 {

@@ -195,15 +195,6 @@ impl Generator<'_> {
                     let ty = self.buffer_type(graph, end);
                     fields.extend(quote! { #name: ::apex_rt::Out<#ty>, });
                     makes.extend(quote! { #name: ::apex_rt::Out::new(), });
-                } else if let NodeKind::Delay(initial) = &n.kind {
-                    let (ty, count) = (self.token_type(graph, end), initial.len());
-                    let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
-                    let values = initial.iter().map(|value| match value {
-                        Some(value) => self.value(value, port_ty),
-                        None => quote!(::core::default::Default::default()),
-                    });
-                    fields.extend(quote! { #name: ::apex_rt::Delay<#ty, #count>, });
-                    makes.extend(quote! { #name: ::apex_rt::Delay::new([#(Some(#values)),*]), });
                 } else if graph
                     .connections
                     .iter()
@@ -214,6 +205,17 @@ impl Generator<'_> {
                     fields.extend(quote! { #name: ::core::option::Option<#ty>, });
                     makes.extend(quote! { #name: None, });
                 }
+            }
+            if let NodeKind::Delay(initial) = &n.kind {
+                let (held, end) = (self.held(node), End { node, port: 1 });
+                let (ty, count) = (self.token_type(graph, end), initial.len());
+                let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
+                let values = initial.iter().map(|value| match value {
+                    Some(value) => self.value(value, port_ty),
+                    None => quote!(::core::default::Default::default()),
+                });
+                fields.extend(quote! { #held: ::apex_rt::Delay<#ty, #count>, });
+                makes.extend(quote! { #held: ::apex_rt::Delay::new([#(Some(#values)),*]), });
             }
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
                 self.inside(graph, node).token_state(&each.body, body, fields, makes);

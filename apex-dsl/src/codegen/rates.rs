@@ -92,7 +92,8 @@ impl Generator<'_> {
             NodeKind::Delay(_) => {
                 let name = self.name(End { node, port: 1 });
                 let count = analysis.repetitions[node] as usize;
-                quote! { for i in 0..#count { #name[i] = state.#name.take_at(i); } }
+                let held = self.held(node);
+                quote! { for i in 0..#count { #name[i] = state.#held.take_at(i); } }
             }
             NodeKind::Boundary(PortKind::Input) => {
                 let (name, port) = (self.name(End { node, port: 0 }), ident(&n.name));
@@ -118,8 +119,8 @@ impl Generator<'_> {
                 quote! { for i in 0..#count { #code } }
             }
             NodeKind::Delay(_) => {
-                let (name, from) = (self.name(End { node, port: 1 }), source(0));
-                quote! { for i in 0..#count { state.#name.put(#from[i].clone()); } }
+                let (held, from) = (self.held(node), source(0));
+                quote! { for i in 0..#count { state.#held.put(#from[i].clone()); } }
             }
             NodeKind::Boundary(PortKind::Output) => {
                 let (port, from) = (ident(&graph.nodes[node].name), source(0));

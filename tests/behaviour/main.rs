@@ -1,0 +1,16 @@
+//! What graphs do: texts are compiled into this program and run, and their firings and records are compared.
+//! Tests whose names begin with a case (`df_01`) check that case of the conformance list.
+
+mod dataflow;
+mod each;
+mod forms;
+mod handed;
+mod lifecycle;
+mod missing;
+mod nesting;
+mod parameters;
+mod random;
+mod rates;
+mod reported;
+mod scale;
+mod timing;

@@ -1,0 +1,69 @@
+//! Several tokens per firing (Lee 1987): balance, ⊥ among the tokens, delays, loops.
+
+use apex_rt::prelude::*;
+use apex_tests::react;
+
+graph!("rates.afg");
+
+#[test]
+fn two_tokens_in_three_tokens_out() {
+    let mut program = TwoToThree::new();
+    let log = react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [11, 52, 101, 142]);
+    assert_eq!((log.count("s"), log.count("t"), log.count("k")), (6, 4, 4));
+}
+
+#[test]
+fn one_missing_token_takes_its_firing_with_it() {
+    let mut program = Gaps::new();
+    let log = react(&mut program, 2);
+    // 10 11 ⊥ | ⊥ 30 31 | 40 41 50 | 51 60 61
+    assert_eq!(program.nodes().k.seen, [None, None, Some(131), Some(172)]);
+    assert_eq!((log.count("p"), log.count("k")), (5, 4));
+}
+
+#[test]
+fn a_source_of_two_tokens() {
+    let mut program = Source::new();
+    react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [3, 12, 21, 30]);
+}
+
+#[test]
+fn tokens_are_written_in_place() {
+    let mut program = InPlace::new();
+    react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [Some(0), None, None, Some(4), None, None]);
+}
+
+#[test]
+fn a_delay_shifts_tokens() {
+    let mut program = Shifted::new();
+    react(&mut program, 3);
+    // 5 6 | 7 0 | 1 10
+    assert_eq!(program.nodes().k.seen, [11, 7, 11]);
+}
+
+#[test]
+fn a_loop_at_two_rates() {
+    let mut program = Loop::new();
+    react(&mut program, 3);
+    // a: 0 + 100; 1 + (1000 + 1001); 2 + (20020 + 20021)
+    assert_eq!(program.nodes().k.seen, [100, 2002, 40_043]);
+}
+
+#[test]
+fn ways_of_one_rate_meet() {
+    let mut program = Joined::new();
+    react(&mut program, 4);
+    assert_eq!(program.nodes().k.seen, [1, 21 + 1 + 100, 41 + 2 + 2, 61 + 3 + 100]);
+}
+
+#[test]
+fn a_nested_graph_among_rates() {
+    let mut program = Mixed::new();
+    react(&mut program, 2);
+    // 0 + 1, 2 + 3: 10 + 11, 50 + 51, all odd.
+    assert!(program.nodes().k.seen.is_empty());
+    assert_eq!(program.nodes().all.seen, [None, None]);
+}

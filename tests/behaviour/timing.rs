@@ -1,0 +1,118 @@
+//! Time: exact paces, and paces that hold each other back.
+
+use apex_rt::prelude::*;
+use apex_tests::{Log, react, simulate};
+
+graph!("timing.afg");
+
+#[test]
+fn lc_04_twenty_firings_per_simulated_second() {
+    let mut program = Paced::new();
+    for second in 1..=10 {
+        let log = simulate(&mut program, Time::from_secs(second - 1), Time::from_secs(second));
+        assert_eq!(log.count("s"), 20, "second {second}");
+    }
+    assert_eq!(program.nodes().k.seen, (0..200).collect::<Vec<_>>());
+}
+
+#[test]
+fn lc_04_a_program_says_when_it_wants_to_be_called() {
+    let mut program = Paced::new();
+    assert_eq!(program.react(Time::ZERO), Next::At(Time::from_millis(50)));
+    assert_eq!(program.react(Time::from_millis(49)), Next::At(Time::from_millis(50)), "nothing is due");
+    assert_eq!(program.nodes().k.seen, [0]);
+    assert_eq!(program.react(Time::from_millis(50)), Next::At(Time::from_millis(100)));
+    assert_eq!(program.nodes().k.seen, [0, 1]);
+}
+
+#[test]
+fn lc_04_a_late_call_makes_up_for_what_was_missed() {
+    let mut program = Paced::new();
+    program.react(Time::from_millis(999));
+    assert_eq!(program.nodes().k.seen, (0..20).collect::<Vec<_>>());
+}
+
+#[test]
+fn the_slower_pace_holds_back_the_faster() {
+    let mut program = Held::new();
+    let log = simulate(&mut program, Time::ZERO, Time::from_millis(90));
+    assert_eq!(program.nodes().k.seen, [(0, 0), (1, 1), (2, 2)]);
+    assert_eq!(program.nodes().near.seen, [0, 1, 2, 3], "one token waits for the slower one, no more");
+    assert_eq!((log.count("fast"), log.count("slow")), (4, 3));
+}
+
+#[test]
+fn paces_that_do_not_meet_are_free() {
+    let mut program = Apart::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(90));
+    assert_eq!(program.nodes().ka.seen, (0..9).map(|i| 2 * i).collect::<Vec<_>>());
+    assert_eq!(program.nodes().kb.seen, [0, 3, 6]);
+}
+
+#[test]
+fn a_nested_graph_takes_its_inputs_together() {
+    let mut program = Together::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(90));
+    assert_eq!(program.nodes().ka.seen, [0, 2, 4]);
+    assert_eq!(program.nodes().kb.seen, [0, 3, 6]);
+}
+
+#[test]
+fn a_token_that_waits_is_not_overwritten() {
+    let mut program = Waiting::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(180));
+    // Doubles of 0 and 3 are missing; the slower source sends 0 … 5.
+    assert_eq!(program.nodes().k.seen, [2 + 1, 4 + 2, 8 + 4, 10 + 5]);
+    assert_eq!(program.nodes().ko.seen, [0, 101, 4, 103, 8, 105]);
+}
+
+#[test]
+fn a_source_without_a_pace_is_held_back_too() {
+    let mut program = Free::new();
+    let mut log = Log::of(&program);
+    for ms in 0..90 {
+        program.react_with(Time::from_millis(ms), &mut log);
+    }
+    assert_eq!(program.nodes().k.seen, [(0, 0), (1, 1), (2, 2)]);
+    assert_eq!(program.nodes().near.seen, [0, 1, 2, 3]);
+}
+
+#[test]
+fn a_graph_input_meets_a_pace() {
+    let mut program = Fed::new();
+    program.react(Time::ZERO);
+    assert_eq!(program.outputs().sum, None);
+    assert_eq!(program.inputs().x.put(100), Ok(()));
+    program.react(Time::from_millis(5));
+    assert_eq!(program.outputs().sum, Some(100), "the tick of 0 ms was waiting");
+    assert_eq!(program.inputs().x.put(200), Ok(()));
+    program.react(Time::from_millis(6));
+    assert_eq!(program.outputs().sum, None, "no tick until 10 ms");
+    program.react(Time::from_millis(10));
+    assert_eq!(program.outputs().sum, Some(201));
+}
+
+#[test]
+fn three_paces_in_a_chain() {
+    let mut program = Three::new();
+    let log = simulate(&mut program, Time::ZERO, Time::from_millis(200));
+    assert_eq!(program.nodes().kabc.seen, [0, 3, 6, 9]);
+    // `ab` may be one ahead of `abc`, `a` and `b` one ahead of `ab`, but only once their last token is taken:
+    // R4 frees a source when the sinks behind it have fired.
+    assert_eq!(program.nodes().kab.seen, [0, 2, 4, 6, 8]);
+    assert_eq!((log.count("a"), log.count("b"), log.count("c")), (5, 5, 4));
+}
+
+#[test]
+fn a_loop_joins_the_paces_in_it() {
+    let mut program = Loose::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(50));
+    // sums: 0, then what was sent before plus the other source's value
+    assert_eq!(program.nodes().k.seen, [0, 1, 4, 9, 16]);
+}
+
+#[test]
+fn time_stands_still_in_a_reaction() {
+    let log = react(&mut Held::new(), 3);
+    assert_eq!((log.count("fast"), log.count("slow")), (1, 1));
+}

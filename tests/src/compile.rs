@@ -1,0 +1,78 @@
+//! The compiler as a library: what it says about a text.
+
+use apex_dsl::{
+    catalog::Catalog,
+    passes,
+    report::{Diagnostic, Diagnostics, Severity},
+    source::{Sources, Span},
+};
+use apex_host::{Disk, Seen, Workspace};
+use std::path::Path;
+
+/// One message, with the text that each of its places stands for.
+#[derive(Debug)]
+pub struct Found {
+    /// Stable name.
+    pub code: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// The text at which the message points.
+    pub at: String,
+    /// Line and column of that text, both from 1.
+    pub place: (usize, usize),
+    /// The texts of all other places.
+    pub also: Vec<String>,
+    /// Notes, labels and titles of fixes.
+    pub remarks: Vec<String>,
+    /// What the fixes put in place.
+    pub fixes: Vec<String>,
+}
+
+impl Found {
+    fn new(diagnostic: &Diagnostic, sources: &Sources) -> Self {
+        let text = |span: Span| sources.text(span).to_owned();
+        let primary = diagnostic.primary.span;
+        let labels = diagnostic.secondary.iter().map(|l| l.text.clone());
+        let titles = diagnostic.fixes.iter().map(|f| f.title.clone());
+        Self {
+            code: diagnostic.code,
+            message: diagnostic.message.clone(),
+            at: text(primary),
+            place: sources.line_column(primary.file, primary.start),
+            also: diagnostic.secondary.iter().map(|l| text(l.span)).collect(),
+            remarks: diagnostic.notes.iter().cloned().chain(labels).chain(titles).collect(),
+            fixes: diagnostic.fixes.iter().map(|f| f.replacement.clone()).collect(),
+        }
+    }
+
+    /// Whether one of the remarks contains `words`.
+    pub fn says(&self, words: &str) -> bool {
+        self.remarks.iter().any(|r| r.contains(words))
+    }
+}
+
+/// All errors of `text`, which sees the nodes of this package, in the order of the text.
+pub fn check(text: &str) -> Vec<Found> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let workspace = Workspace::load(folder).expect("this package has a workspace");
+    let mut disk = Disk::new(Some(&workspace.cache_folder()));
+    let catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
+    let mut sources = Sources::default();
+    let root = sources.add(folder.join("text.afg"), text);
+    let mut diagnostics = Diagnostics::default();
+    let programs = passes::check(root, &catalog, &mut sources, &mut disk, &mut diagnostics);
+    passes::generate(&programs, &catalog, &sources, &|_| proc_macro2::Span::call_site(), &mut diagnostics);
+    disk.save();
+    let sorted = diagnostics.sorted().into_iter();
+    sorted.filter(|d| d.severity == Severity::Error).map(|d| Found::new(d, &sources)).collect()
+}
+
+/// The only error of `text`.
+///
+/// # Panics
+/// If there is none, or more than one.
+pub fn error(text: &str) -> Found {
+    let mut found = check(text);
+    assert_eq!(found.len(), 1, "one error is expected: {found:#?}");
+    found.remove(0)
+}

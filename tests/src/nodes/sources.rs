@@ -1,0 +1,73 @@
+use apex_rt::prelude::*;
+
+/// Sends its values, one a firing, then nothing. A negative value is ⊥.
+#[node]
+pub struct Src {
+    /// The script.
+    #[param]
+    values: &'static [i64],
+    at: usize,
+}
+
+#[node]
+impl Src {
+    fn process(&mut self) -> Option<i64> {
+        self.at += 1;
+        self.values.get(self.at - 1).copied().filter(|v| *v >= 0)
+    }
+}
+
+/// 0, 1, 2, … as long as it is below `end`.
+#[node]
+pub struct Count {
+    /// The first number that is not sent.
+    #[param(default = 1_000_000_000)]
+    end: i64,
+    next: i64,
+}
+
+#[node]
+impl Count {
+    fn process(&mut self) -> Option<i64> {
+        self.next += 1;
+        Some(self.next - 1).filter(|v| *v < self.end)
+    }
+}
+
+/// 1, 2, 3, … without end: an output that is never ⊥.
+#[node]
+#[derive(Default)]
+pub struct OneBased {
+    last: i64,
+}
+
+#[node]
+impl OneBased {
+    fn process(&mut self) -> i64 {
+        self.last += 1;
+        self.last
+    }
+}
+
+/// Nothing but ⊥.
+#[node]
+pub fn silent() -> Option<i64> {
+    None
+}
+
+/// Its lane and how often it has fired before, as one number: `1000·lane + firing`.
+#[node]
+pub struct Lane {
+    /// The lane.
+    #[param]
+    lane: i64,
+    next: i64,
+}
+
+#[node]
+impl Lane {
+    fn process(&mut self) -> i64 {
+        self.next += 1;
+        1000 * self.lane + self.next - 1
+    }
+}

@@ -1,0 +1,131 @@
+//! Random synchronous graphs: as texts for the compiler, and run by the rules R1 to R3 themselves.
+//!
+//! Every graph is written twice, flat and with some neighbouring nodes in a nested graph; both must do the same.
+
+mod kinds;
+mod run;
+mod text;
+
+pub use run::Trace;
+pub use text::text;
+
+use kinds::{COUNT, Kind, ONE_BASED, OPERATIONS, SINKS, Token};
+use std::ops::Range;
+
+/// What the committed texts were made from.
+pub const SEED: u64 = 0x5eed_a9e1;
+
+/// An output of a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct End {
+    node: usize,
+    output: usize,
+}
+
+/// A node of a random graph.
+#[derive(Debug)]
+struct Instance {
+    kind: &'static Kind,
+    parameter: i64,
+    /// Where its inputs come from; an optional one may be open.
+    inputs: Vec<Option<End>>,
+    /// What its outputs send before its own tokens, if they are held back; `None` is the default, 0.
+    delay: Option<Vec<Token>>,
+}
+
+/// A random graph.
+#[derive(Debug)]
+pub struct Case {
+    nodes: Vec<Instance>,
+    /// The nodes that are also written as a nested graph.
+    group: Range<usize>,
+}
+
+/// A small generator of numbers (xorshift64*).
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % n as u64) as usize
+    }
+
+    fn one_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    fn of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
+        &list[self.below(list.len())]
+    }
+}
+
+/// The first `count` graphs that come out of `seed`.
+pub fn cases(seed: u64, count: usize) -> Vec<Case> {
+    let mut dice = Dice(seed);
+    (0..count).map(|_| case(&mut dice)).collect()
+}
+
+fn case(dice: &mut Dice) -> Case {
+    let mut nodes: Vec<Instance> = vec![];
+    let size = 5 + dice.below(36);
+    let sources = 1 + dice.below(1 + size / 8);
+    let sinks = 1 + size / 5;
+    for _ in 0..sources {
+        let kind = if dice.one_in(3) { &ONE_BASED } else { &COUNT };
+        nodes.push(instance(dice, kind, vec![]));
+    }
+    while nodes.len() + sinks < size {
+        let kind = dice.of(OPERATIONS);
+        let optional = kind.inputs.len() - kind.optional..kind.inputs.len();
+        let inputs = (0..kind.inputs.len()).map(|input| {
+            let open = optional.contains(&input) && dice.one_in(6);
+            (!open).then(|| end(dice, &nodes))
+        });
+        let inputs = inputs.collect();
+        let mut node = instance(dice, kind, inputs);
+        if dice.one_in(8) {
+            let tokens = 1 + dice.below(2);
+            let held = (0..tokens).map(|_| Some(dice.below(9) as i64)).collect();
+            node.delay = Some(if dice.one_in(3) { vec![None] } else { held });
+        }
+        nodes.push(node);
+    }
+    close_loops(dice, &mut nodes);
+    let inner = nodes.len();
+    for id in 0..sinks {
+        let kind = dice.of(SINKS);
+        let inputs = vec![Some(end(dice, &nodes[..inner]))];
+        nodes.push(Instance { kind, parameter: id as i64, inputs, delay: None });
+    }
+    let start = dice.below(nodes.len() - 1);
+    let group = start..start + 2 + dice.below((nodes.len() - start - 1).min(10));
+    Case { nodes, group }
+}
+
+fn instance(dice: &mut Dice, kind: &'static Kind, inputs: Vec<Option<End>>) -> Instance {
+    let parameter = kind.parameter.clone().map_or(0, |(_, r)| r.start + dice.below((r.end - r.start) as usize) as i64);
+    Instance { kind, parameter, inputs, delay: None }
+}
+
+/// An output that is there already, rather a late one.
+fn end(dice: &mut Dice, nodes: &[Instance]) -> End {
+    let near = if dice.one_in(2) { nodes.len() } else { nodes.len().min(5) };
+    let node = nodes.len() - 1 - dice.below(near);
+    End { node, output: dice.below(nodes[node].kind.outputs.len()) }
+}
+
+/// Some inputs are connected to a later node that holds its tokens back.
+fn close_loops(dice: &mut Dice, nodes: &mut [Instance]) {
+    for node in 0..nodes.len() {
+        for input in 0..nodes[node].inputs.len() {
+            let later: Vec<usize> = (node..nodes.len()).filter(|n| nodes[*n].delay.is_some()).collect();
+            if !later.is_empty() && dice.one_in(8) {
+                let from = *dice.of(&later);
+                let output = dice.below(nodes[from].kind.outputs.len());
+                nodes[node].inputs[input] = Some(End { node: from, output });
+            }
+        }
+    }
+}
