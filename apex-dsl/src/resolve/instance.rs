@@ -641,7 +641,13 @@ impl<'a> Builder<'a> {
             };
             let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
             let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
-            self.wires.push(Wire { from: out.place, to: Place::Port(End { node, port: 0 }), active: false, differs: false, span });
+            self.wires.push(Wire {
+                from: out.place,
+                to: Place::Port(End { node, port: 0 }),
+                active: false,
+                differs: false,
+                span,
+            });
             out.place = Place::Port(End { node, port: 1 });
         }
         Some(symbol)
