@@ -8,7 +8,7 @@ use crate::{
     source::Span,
     syntax::tree::{Arrow, Endpoint, Ident, PortKind, PortRef},
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An end of a connection as written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -102,12 +102,16 @@ impl Table {
     }
 }
 
-/// Whether an endpoint is exactly `node.port`.
-pub fn names_port(end: &Endpoint, node: &str, port: &str) -> bool {
+/// Adds every `node.port` of an endpoint to `names`.
+pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str)>) {
     match end {
-        Endpoint::Port(reference) => matches!(reference.parts.as_slice(), [n, p] if n.text == node && p.text == port),
-        Endpoint::List(ends, _) => ends.iter().any(|e| names_port(e, node, port)),
-        Endpoint::Instance(_) => false,
+        Endpoint::Port(reference) => {
+            if let [node, port] = reference.parts.as_slice() {
+                names.insert((&node.text, &port.text));
+            }
+        }
+        Endpoint::List(ends, _) => ends.iter().for_each(|e| named_ports(e, names)),
+        Endpoint::Instance(_) => {}
     }
 }
 

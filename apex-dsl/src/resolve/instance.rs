@@ -2,7 +2,7 @@
 
 use super::{
     Budget, MAX_NESTING, MAX_NODES, args,
-    connect::{Place, Symbol, Table},
+    connect::{Place, Symbol, Table, named_ports},
     flatten, generics,
     names::{GraphId, Made, Texts},
     value::{Scope as Names, evaluate},
@@ -68,6 +68,16 @@ pub struct Body<'a> {
     pub scope: ScopeId,
     pub values: BTreeMap<String, Value>,
     pub item: &'a GraphItem,
+    /// All `node.port` that a chain of the body ends at.
+    pub fed: BTreeSet<(&'a str, &'a str)>,
+}
+
+impl<'a> Body<'a> {
+    fn new(id: GraphId, scope: ScopeId, values: BTreeMap<String, Value>, item: &'a GraphItem) -> Self {
+        let mut fed = BTreeSet::new();
+        item.chains.iter().flat_map(|c| &c.ends[1..]).for_each(|end| named_ports(end, &mut fed));
+        Self { id, scope, values, item, fed }
+    }
 }
 
 /// Resolves graph `id` as a program of its own.
@@ -131,7 +141,7 @@ impl<'a> Builder<'a> {
                 self.diagnostics,
             );
         }
-        self.body(&Body { id, scope: 0, values, item }, table);
+        self.body(&Body::new(id, 0, values, item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
             let message = "a `robot` has no ports: nothing stands around it";
@@ -308,7 +318,7 @@ impl<'a> Builder<'a> {
         let texts = self.texts;
         let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
         let scope = Names { params: &body.values, rust_path: &rust_path };
-        let fed = |param: &str| is_fed(body, &name.text, param);
+        let fed = |param: &str| body.fed.contains(&(name.text.as_str(), param));
         let params = args::of_node(signature, &instance.args, instance.span, &scope, &fed, self.diagnostics);
         let types = self.type_args(body, signature.generics.len(), &instance.types, instance);
         let modifiers = args::modifiers(&instance.modifiers, &scope, self.diagnostics);
@@ -448,7 +458,7 @@ impl<'a> Builder<'a> {
             inside.insert(&port.name, Symbol::port(place, inner, &ty, &port.name.text), self.diagnostics);
             symbol.push((port.name.text.clone(), port.kind, ty, place));
         }
-        self.body(&Body { id, scope, values, item }, inside);
+        self.body(&Body::new(id, scope, values, item), inside);
         Some(Symbol::of_graph(symbol))
     }
 
@@ -503,7 +513,12 @@ impl<'a> Builder<'a> {
     fn each_of_node(&mut self, body: &Body<'_>, name: &Ident, id: SignatureId, instance: &Instance) -> Option<Graph> {
         self.inner(|mut builder| {
             builder.scopes.push(Scope { name: String::new(), graph: instance.path.text(), parent: 0, span: name.span });
-            let inside = Body { id: body.id, scope: 0, values: body.values.clone(), item: body.item };
+            let inside = Body {
+                scope: 0,
+                values: body.values.clone(),
+                fed: body.fed.range((name.text.as_str(), "")..).take_while(|(n, _)| *n == name.text).copied().collect(),
+                ..*body
+            };
             builder.library(&inside, name, id, instance, "")?;
             let ports: Vec<Port> = builder.nodes[0].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
             for (port, inner) in ports.into_iter().enumerate() {
@@ -656,11 +671,6 @@ impl<'a> Builder<'a> {
 
 fn ports(places: &BTreeSet<Place>) -> BTreeSet<End> {
     places.iter().filter_map(|p| if let Place::Port(end) = p { Some(*end) } else { None }).collect()
-}
-
-/// Whether some chain of the body ends at `node.param`.
-fn is_fed(body: &Body<'_>, node: &str, param: &str) -> bool {
-    body.item.chains.iter().flat_map(|c| &c.ends[1..]).any(|end| super::connect::names_port(end, node, param))
 }
 
 /// A function keeps nothing: a parameter of it that is connected is an input like any other.
