@@ -168,8 +168,19 @@ pub struct Connection {
     pub active: bool,
     /// Its ends carry different types, which has been reported.
     pub differs: bool,
+    /// The sides of nested graphs that it passes, from its origin to its end.
+    pub crossings: Vec<Crossing>,
     /// The arrow in the text (the last one, if it leads through ports of nested graphs).
     pub span: Span,
+}
+
+/// A side of a nested graph.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Crossing {
+    /// Tokens come in.
+    Enter(ScopeId),
+    /// Tokens go out.
+    Leave(ScopeId),
 }
 
 /// What the text says about the execution of a node.

@@ -6,7 +6,7 @@ use apex_tests::{check, error};
 fn df_02_an_open_mandatory_input_is_named() {
     let found = error("graph G { node x = OneBased(); node j = add(); x -> j.a; }");
     assert_eq!((found.code, found.at.as_str()), ("open-input", "j"));
-    assert!(found.message.contains("`j.b`"), "{found:?}");
+    assert!(found.message.contains("`b` of `j`"), "{found:?}");
     let optional = check("graph G { node x = OneBased(); node j = add_or(); x -> j.x; }");
     assert!(optional.is_empty(), "{optional:?}");
 }
@@ -14,12 +14,12 @@ fn df_02_an_open_mandatory_input_is_named() {
 #[test]
 fn df_09_an_input_takes_one_connection() {
     let found = error("graph G { node x = OneBased(); node y = OneBased(); node k = Snk();\nx -> k;\ny -> k; }");
-    assert_eq!((found.code, found.place.0), ("input-twice", 3));
+    assert_eq!((found.code, found.place.0), ("connected-twice", 3));
     assert!(found.message.contains("`k.x`"), "{found:?}");
     assert!(!found.also.is_empty(), "the first connection is shown: {found:?}");
 
     let found = error("graph G { node x = OneBased(); node k = Snk();\nx -> k;\nx -> k; }");
-    assert_eq!((found.code, found.place.0), ("input-twice", 3));
+    assert_eq!((found.code, found.place.0), ("connected-twice", 3));
 
     let many = check("graph G { node x = OneBased(); node k = Snk(); node l = Snk(); x -> [k, l]; x -> Snk(); }");
     assert!(many.is_empty(), "an output takes many: {many:?}");

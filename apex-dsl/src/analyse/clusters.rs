@@ -1,8 +1,8 @@
 //! Regions, guards and clusters: what runs together as straight-line code (see the execution semantics).
 
-use super::{Block, Links, Step, is_source, order::crossed};
+use super::{Block, Links, Step, is_source};
 use crate::{
-    graph::{Graph, NodeId, NodeKind},
+    graph::{Crossing, Graph, NodeId, NodeKind, ScopeId},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -60,12 +60,20 @@ impl Cluster {
     }
 }
 
-/// The region of each node, numbered in the order of the text.
+/// The region of each node, numbered in the order of the text. What enters or leaves a nested graph does so
+/// together, and belongs to one region.
 pub fn regions(graph: &Graph) -> Vec<usize> {
     let mut root: Vec<usize> = (0..graph.nodes.len()).collect();
-    for c in graph.connections.iter().filter(|c| graph.is_synchronous(c)) {
-        let (a, b) = (find(&mut root, c.from.node), find(&mut root, c.to.node));
+    let mut join = |a: usize, b: usize| {
+        let (a, b) = (find(&mut root, a), find(&mut root, b));
         root[a.max(b)] = a.min(b);
+    };
+    let mut at_scope: BTreeMap<ScopeId, NodeId> = BTreeMap::new();
+    for c in graph.connections.iter().filter(|c| graph.is_synchronous(c)) {
+        join(c.from.node, c.to.node);
+        for Crossing::Enter(scope) | Crossing::Leave(scope) in &c.crossings {
+            join(*at_scope.entry(*scope).or_insert(c.to.node), c.to.node);
+        }
     }
     let mut numbers = BTreeMap::new();
     (0..graph.nodes.len())
@@ -149,8 +157,7 @@ fn add_react_guards(
     guards: &mut Vec<Guard>,
     own: &mut [Option<usize>],
 ) {
-    let plain: Vec<NodeId> =
-        (0..graph.nodes.len()).filter(|n| own[*n].is_none() && is_source(graph, links, *n)).collect();
+    let plain = without_pace(graph, links, order, own);
     let accumulated = accumulate(graph, links, order, own);
     let mut holding = accumulated.clone();
     for &node in order.iter().rev() {
@@ -169,6 +176,20 @@ fn add_react_guards(
     }
 }
 
+/// Sources without a pace, and the delays of loops that no source feeds: nothing else would ever start them, or
+/// let them rest.
+fn without_pace(graph: &Graph, links: &Links, order: &[NodeId], own: &[Option<usize>]) -> Vec<NodeId> {
+    let sources = (0..graph.nodes.len()).filter(|n| own[*n].is_none() && is_source(graph, links, *n));
+    let mut plain: Vec<NodeId> = sources.collect();
+    let mut started = own.to_vec();
+    plain.iter().for_each(|n| started[*n] = Some(usize::MAX));
+    let reached = accumulate(graph, links, order, &started);
+    let delays = (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Delay(_)));
+    plain.extend(delays.filter(|n| reached[*n].is_empty()));
+    plain.sort_unstable();
+    plain
+}
+
 /// All guards upstream of each node. Nested graphs take their inputs together and send their outputs
 /// together; around a delay the guards go in a circle until nothing changes.
 fn accumulate(graph: &Graph, links: &Links, order: &[NodeId], own: &[Option<usize>]) -> Vec<BTreeSet<usize>> {
@@ -180,18 +201,16 @@ fn accumulate(graph: &Graph, links: &Links, order: &[NodeId], own: &[Option<usiz
         for &node in order {
             let mut set = sets[node].clone();
             for &index in &links.into[node] {
-                let from = graph.connections[index].from.node;
-                let (left, entered) = crossed(graph, from, node);
-                let mut token = sets[from].clone();
-                for scope in left {
-                    changed |= !token.is_subset(&leave[scope]);
-                    leave[scope].extend(token);
-                    token = leave[scope].clone();
-                }
-                for scope in entered {
-                    changed |= !token.is_subset(&enter[scope]);
-                    enter[scope].extend(token);
-                    token = enter[scope].clone();
+                let connection = &graph.connections[index];
+                let mut token = sets[connection.from.node].clone();
+                for crossing in &connection.crossings {
+                    let side = match *crossing {
+                        Crossing::Enter(scope) => &mut enter[scope],
+                        Crossing::Leave(scope) => &mut leave[scope],
+                    };
+                    changed |= !token.is_subset(side);
+                    side.extend(token);
+                    token = side.clone();
                 }
                 set.extend(token);
             }

@@ -2,7 +2,7 @@
 
 use super::Links;
 use crate::{
-    graph::{Graph, NodeId, NodeKind, ScopeId},
+    graph::{Crossing, Graph, NodeId, NodeKind, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
 use std::{cmp::Reverse, collections::BinaryHeap};
@@ -36,9 +36,11 @@ impl Precedence {
             if matches!(graph.nodes[c.from.node].kind, NodeKind::Delay(_)) {
                 continue;
             }
-            let (left, entered) = crossed(graph, c.from.node, c.to.node);
-            let stations =
-                left.iter().map(|s| nodes + scopes + s).chain(entered.iter().map(|s| nodes + s)).chain([c.to.node]);
+            let sides = c.crossings.iter().map(|crossing| match crossing {
+                Crossing::Enter(scope) => nodes + scope,
+                Crossing::Leave(scope) => nodes + scopes + scope,
+            });
+            let stations = sides.chain([c.to.node]);
             let mut at = c.from.node;
             for next in stations {
                 edges[at].push((next, Some(*connection)));
@@ -50,15 +52,6 @@ impl Precedence {
         }
         Self { vertices, edges }
     }
-}
-
-/// The scopes that a connection leaves, from the inside out, and those that it enters, from the outside in.
-pub fn crossed(graph: &Graph, from: NodeId, to: NodeId) -> (Vec<ScopeId>, Vec<ScopeId>) {
-    let (a, b) = (graph.scopes_of(from), graph.scopes_of(to));
-    let left = a.iter().filter(|s| !b.contains(s)).copied().collect();
-    let mut entered: Vec<ScopeId> = b.iter().filter(|s| !a.contains(s)).copied().collect();
-    entered.reverse();
-    (left, entered)
 }
 
 /// The order of all nodes; among those that are free, the first in the text comes first.

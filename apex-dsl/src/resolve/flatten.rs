@@ -3,10 +3,10 @@
 use super::{
     MAX_NODES,
     connect::Place,
-    instance::{Builder, Wire},
+    instance::{Builder, Pin, Wire},
 };
 use crate::{
-    graph::{Connection, End, NodeId, NodeKind},
+    graph::{Connection, Crossing, End, NodeId, NodeKind},
     report::Diagnostic,
     syntax::tree::PortKind,
 };
@@ -26,18 +26,22 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     for wire in &wires {
         let Place::Port(to) = wire.to else { continue };
         // Follow the wire upstream to the ports it starts at; pins in a circle are left to `check_pins`.
-        let mut ends = vec![(wire.from, wire.active, wire.differs)];
+        let mut ends = vec![(wire.from, wire.active, wire.differs, vec![])];
         let mut visited = BTreeSet::new();
-        while let Some((place, active, differs)) = ends.pop() {
+        while let Some((place, active, differs, crossings)) = ends.pop() {
             match place {
                 Place::Port(from) => {
                     if seen.insert((from, to)) {
-                        connections.push(Connection { from, to, active, differs, span: wire.span });
+                        let crossings = crossings.into_iter().rev().collect();
+                        connections.push(Connection { from, to, active, differs, crossings, span: wire.span });
                     }
                 }
-                Place::Pin(_) if visited.insert(place) => {
+                Place::Pin(pin) if visited.insert(place) => {
+                    let crossings: Vec<Crossing> =
+                        crossings.into_iter().chain([crossing(&builder.pins[pin])]).collect();
                     for &up in into.get(&place).into_iter().flatten() {
-                        ends.push((wires[up].from, active && wires[up].active, differs || wires[up].differs));
+                        let wire = &wires[up];
+                        ends.push((wire.from, active && wire.active, differs || wire.differs, crossings.clone()));
                     }
                 }
                 Place::Pin(_) => {}
@@ -55,6 +59,13 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
         _ => None,
     });
     (connections, hanging.collect())
+}
+
+fn crossing(pin: &Pin) -> Crossing {
+    match pin.kind {
+        PortKind::Input | PortKind::Slot => Crossing::Enter(pin.scope),
+        PortKind::Output | PortKind::Event => Crossing::Leave(pin.scope),
+    }
 }
 
 /// An input takes one connection; nothing is connected twice to the same.

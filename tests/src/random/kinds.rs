@@ -90,7 +90,10 @@ pub const OPERATIONS: &[Kind] = &[
             vec![some_if(any, t[0].unwrap_or(0) + 10 * t[1].unwrap_or(0))]
         })
     },
-    Kind { parameter: Some(("at", 0..9)), ..plain("fails_at", &["x"], |_, at, t| vec![some_if(value(t, 0) != at, value(t, 0))]) },
+    Kind {
+        parameter: Some(("at", 0..9)),
+        ..plain("fails_at", &["x"], |_, at, t| vec![some_if(value(t, 0) != at, value(t, 0))])
+    },
     plain("odd_fails", &["x"], |_, _, t| vec![some_if(value(t, 0) % 4 == 0, value(t, 0))]),
     Kind { outputs: &["even", "odd"], ..plain("switch", &["x"], |_, _, t| switch(value(t, 0))) },
     Kind {

@@ -1,4 +1,7 @@
-use super::{Case, End, kinds::{State, Token}};
+use super::{
+    Case, End,
+    kinds::{State, Token},
+};
 use std::collections::VecDeque;
 
 /// What a graph did.
@@ -30,7 +33,8 @@ impl Case {
         let mut sent: Vec<Vec<Token>> = waiting.collect();
         let mut fired = vec![];
         for (id, node) in self.nodes.iter().enumerate() {
-            let inputs: Vec<Token> = node.inputs.iter().map(|i| i.and_then(|End { node, output }| sent[node][output])).collect();
+            let inputs: Vec<Token> =
+                node.inputs.iter().map(|i| i.and_then(|End { node, output }| sent[node][output])).collect();
             let mandatory = &inputs[..inputs.len() - node.kind.optional];
             let runs = node.kind.told || mandatory.iter().all(Option::is_some);
             let outputs = if runs {

@@ -8,7 +8,11 @@ pub fn text(cases: &[Case]) -> String {
         let whole = 0..case.nodes.len();
         let _ = write!(text, "\ngraph Flat{number} {{\n{}}}\n", case.body(whole.clone(), &(0..0)));
         let _ = write!(text, "\ngraph Group{number} {{\n{}}}\n", case.body(case.group.clone(), &(0..0)));
-        let _ = write!(text, "\ngraph Nested{number} {{\n{}}}\n", case.body(whole, &case.group).replace("GROUP", &format!("Group{number}")));
+        let _ = write!(
+            text,
+            "\ngraph Nested{number} {{\n{}}}\n",
+            case.body(whole, &case.group).replace("GROUP", &format!("Group{number}"))
+        );
     }
     text
 }
@@ -78,7 +82,12 @@ impl Case {
     }
 
     fn entering(&self, range: &Range<usize>) -> BTreeSet<End> {
-        self.nodes[range.clone()].iter().flat_map(|n| n.inputs.iter().flatten()).filter(|e| !range.contains(&e.node)).copied().collect()
+        self.nodes[range.clone()]
+            .iter()
+            .flat_map(|n| n.inputs.iter().flatten())
+            .filter(|e| !range.contains(&e.node))
+            .copied()
+            .collect()
     }
 
     fn leaving(&self, range: &Range<usize>) -> BTreeSet<End> {
