@@ -39,7 +39,8 @@ pub fn annotate(compiled: &Compiled) -> String {
     }
     let mut text = String::new();
     for (number, line) in lines.iter().enumerate() {
-        let here: Vec<&&Diagnostic> = found.iter().filter(|d| place(compiled, d).is_some_and(|p| p.0 == number)).collect();
+        let here: Vec<&&Diagnostic> =
+            found.iter().filter(|d| place(compiled, d).is_some_and(|p| p.0 == number)).collect();
         text.push_str(line);
         if here.is_empty() {
             continue;

@@ -59,11 +59,7 @@ fn diagnostics_are_as_expected() {
             wrong.push(format!("{}:\n{}", path.display(), difference(&text, &annotated)));
         }
     }
-    assert!(
-        wrong.is_empty(),
-        "{}\nAPEX_UPDATE_EXPECTATIONS=1 writes the expectations anew",
-        wrong.join("\n")
-    );
+    assert!(wrong.is_empty(), "{}\nAPEX_UPDATE_EXPECTATIONS=1 writes the expectations anew", wrong.join("\n"));
 }
 
 /// The lines that only one of two texts has.

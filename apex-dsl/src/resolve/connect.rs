@@ -207,6 +207,7 @@ impl Builder<'_> {
                 let named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
                 if named.is_empty() {
                     self.unknown_port(&first.text, port, ports);
+                    self.excuse(symbol);
                     return None;
                 }
                 Some((Symbol::Ports(named), text, reference.span))
@@ -298,18 +299,14 @@ impl Builder<'_> {
         }
     }
 
-    fn ambiguous(
-        &mut self,
-        meant: &Meant,
-        fitting: &[Candidate],
-        other: &Meant,
-        [one, many, opposite]: [&str; 3],
-    ) {
+    fn ambiguous(&mut self, meant: &Meant, fitting: &[Candidate], other: &Meant, [one, many, opposite]: [&str; 3]) {
         let name = &meant.name;
         let error = match (meant.candidates.len(), fitting.len()) {
-            (0, _) if meant.explicit => {
-                Diagnostic::error("wrong-direction", meant.span, format!("`{name}` {one} no tokens, it {opposite} them"))
-            }
+            (0, _) if meant.explicit => Diagnostic::error(
+                "wrong-direction",
+                meant.span,
+                format!("`{name}` {one} no tokens, it {opposite} them"),
+            ),
             (0, _) => {
                 Diagnostic::error("wrong-direction", meant.span, format!("`{name}` has no port that {one} tokens"))
                     .note(match meant.all.as_str() {

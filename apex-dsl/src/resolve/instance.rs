@@ -149,6 +149,9 @@ impl<'a> Builder<'a> {
                     .note("make it a node of a driver, or write `graph` instead of `robot`"),
             );
         }
+        if self.budget.exceeded {
+            return None;
+        }
         let (connections, open_pins) = flatten::wires(&mut self);
         let mut graph = Graph {
             name,
@@ -203,7 +206,6 @@ impl<'a> Builder<'a> {
     /// Pays for a look at `count` ports or ends of connections.
     pub fn look(&mut self, count: usize, span: Span) -> Option<()> {
         if self.budget.looks < count {
-            self.budget.looks = 0;
             self.too_large(span, "this program has too many ports and connections".to_owned());
             return None;
         }
@@ -212,6 +214,7 @@ impl<'a> Builder<'a> {
     }
 
     fn too_large(&mut self, span: Span, message: String) {
+        self.budget.exceeded = true;
         let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
         self.diagnostics.push(
             Diagnostic::error("too-large", outermost, message).note("nested graphs count as often as they are used"),
@@ -220,7 +223,7 @@ impl<'a> Builder<'a> {
 
     /// Whether it makes no sense to go on.
     pub fn is_exhausted(&self) -> bool {
-        self.budget.nodes == 0 || self.budget.looks == 0 || self.diagnostics.is_full()
+        self.budget.exceeded || self.diagnostics.is_full()
     }
 
     fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {
@@ -653,7 +656,13 @@ impl<'a> Builder<'a> {
             };
             let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
             let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
-            self.wires.push(Wire { from: out.place, to: Place::Port(End { node, port: 0 }), active: false, differs: false, span });
+            self.wires.push(Wire {
+                from: out.place,
+                to: Place::Port(End { node, port: 0 }),
+                active: false,
+                differs: false,
+                span,
+            });
             out.place = Place::Port(End { node, port: 1 });
         }
         Some(symbol)

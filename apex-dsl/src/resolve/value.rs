@@ -79,9 +79,7 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
     };
     match units::parse(unit) {
         Ok(unit) => match scaled(value, unit.factor) {
-            value if value.is_finite() => {
-                Ok(Value::Number(Number { value, integer: None, dimension: unit.dimension }))
-            }
+            value if value.is_finite() => Ok(Value::Number(Number { value, integer: None, dimension: unit.dimension })),
             _ => error("bad-number", span, "this number is too large"),
         },
         Err(part) => {

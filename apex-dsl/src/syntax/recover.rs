@@ -32,9 +32,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
     let span = Span::new(file, start, start + first.len());
     match first {
         "fsm" | "test" => Diagnostic::error("not-yet", span, format!("`{first}` items are not supported yet")),
-        "use" => {
-            again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`")
-        }
+        "use" => again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`"),
         "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ if text.trim_start().starts_with("///") => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ => Diagnostic::error("syntax", span, format!("`{first}` begins nothing that can stand here")).note(OUTSIDE),
