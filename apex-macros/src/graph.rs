@@ -75,7 +75,12 @@ fn from_file(name: &str, folder: &Path, workspace: &Workspace, disk: &mut Disk) 
     let beside =
         source.as_ref().and_then(|s| s.parent()).map(|p| env::current_dir().unwrap_or_default().join(p).join(name));
     let path = beside.filter(|p| disk.exists(p)).unwrap_or_else(|| folder.join(name));
-    let text = disk.read(&path).map_err(|reason| format!("cannot read `{}`: {reason}", path.display()))?;
+    let text = disk.read(&path).map_err(|reason| {
+        format!(
+            "cannot read `{name}`: {reason}\nnote: it is looked for beside this source file, then in `{}`",
+            folder.display()
+        )
+    })?;
     let shown = path.strip_prefix(&workspace.root).unwrap_or(&path).to_owned();
     let mut sources = Sources::default();
     // Messages show the path from the root of the workspace, where cargo runs rustc.

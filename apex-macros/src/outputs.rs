@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{Data, DeriveInput, Fields, spanned::Spanned};
+use syn::{Data, DeriveInput, Fields};
 
 /// Implements `Field<I>` for each field.
 pub fn expand(item: TokenStream) -> syn::Result<TokenStream> {
@@ -17,7 +17,7 @@ pub fn expand(item: TokenStream) -> syn::Result<TokenStream> {
                 ));
             }
         },
-        _ => return Err(syn::Error::new(input.span(), "`Outputs` is for structs")),
+        _ => return Err(syn::Error::new(input.ident.span(), "`Outputs` is for structs")),
     };
     let name = &input.ident;
     let (generics, args, bounds) = input.generics.split_for_impl();

@@ -20,7 +20,7 @@ pub struct Compiled {
 
 /// The folder of this test.
 pub fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("errors")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/errors")
 }
 
 /// The nodes that the texts can use: those of `nodes.rs`, and by import those of `library.rs`.

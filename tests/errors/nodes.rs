@@ -155,6 +155,12 @@ impl<T: Clone> Latch<T> {
     }
 }
 
+/// A filter.
+#[node]
+pub fn maybe(x: &u64) -> Option<u64> {
+    (*x > 1).then_some(*x)
+}
+
 /// Two nodes of one name.
 pub mod left {
     use super::*;

@@ -131,8 +131,8 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
             methods.slots.push(slot(method)?);
         } else if marked(&method.attrs, "no_message") {
             if method.sig.inputs.len() != 1 || method.sig.receiver().is_none() {
-                return Err(syn::Error::new(
-                    method.sig.inputs.span(),
+                return Err(syn::Error::new_spanned(
+                    &method.sig.inputs,
                     "a `#[no_message]` method takes `&mut self` and nothing else",
                 ));
             }
@@ -166,8 +166,8 @@ pub fn docs(attrs: &[Attribute]) -> String {
 fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
     let callable = callable(&method.sig)?;
     if callable.returns.token.is_some() {
-        return Err(syn::Error::new(
-            method.sig.output.span(),
+        return Err(syn::Error::new_spanned(
+            &method.sig.output,
             "a slot returns nothing; send what it finds by an event",
         ));
     }
@@ -180,8 +180,8 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
             }
             Form::Event(_) | Form::Ctx => args.push(arg),
             _ => {
-                return Err(syn::Error::new(
-                    syntax.span(),
+                return Err(syn::Error::new_spanned(
+                    syntax,
                     "a slot takes one token `&T` at most, besides events and `&Ctx`",
                 ));
             }
@@ -201,8 +201,8 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
     for arg in &sig.inputs {
         let FnArg::Typed(arg) = arg else { continue };
         let Pat::Ident(name) = &*arg.pat else {
-            return Err(syn::Error::new(
-                arg.pat.span(),
+            return Err(syn::Error::new_spanned(
+                &arg.pat,
                 "the name of an argument is the name of its port: give it a plain name",
             ));
         };
@@ -220,7 +220,7 @@ fn form(ty: &Type) -> syn::Result<Form> {
     match ty {
         Type::Reference(reference) if reference.mutability.is_some() => match wrapped(&reference.elem, "Out") {
             Some(inner) => Ok(Form::Out(token(inner)?)),
-            None => Err(syn::Error::new(ty.span(), "`&mut` is only for outputs: `&mut Out<T>`")),
+            None => Err(syn::Error::new_spanned(ty, "`&mut` is only for outputs: `&mut Out<T>`")),
         },
         Type::Reference(reference) if is_named(&reference.elem, "Ctx") => Ok(Form::Ctx),
         Type::Reference(reference) => Ok(Form::Input(InputForm { token: token(&reference.elem)?, optional: false })),
@@ -232,8 +232,8 @@ fn form(ty: &Type) -> syn::Result<Form> {
             if let Some(inner) = wrapped(ty, "Event") {
                 return Ok(Form::Event(inner.clone()));
             }
-            Err(syn::Error::new(
-                ty.span(),
+            Err(syn::Error::new_spanned(
+                ty,
                 "an argument of a node is an input `&T`, `Option<&T>` or `&[T; N]`, an output `&mut Out<T>`, an event `Event<T>`, \
                  `&Ctx`, or a parameter marked `#[param]`",
             ))
@@ -269,8 +269,8 @@ fn returns(output: &ReturnType) -> syn::Result<Returns> {
         None => (false, ty),
     };
     if let Type::Reference(reference) = ty {
-        return Err(syn::Error::new(
-            reference.span(),
+        return Err(syn::Error::new_spanned(
+            reference,
             "a node sends values: return `T`, or write into a `&mut Out<T>`",
         ));
     }

@@ -14,18 +14,23 @@ use crate::{
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use std::collections::BTreeSet;
 
 /// Whether a cluster has more than one rate.
 pub fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
     let region = analysis.clusters[cluster].region;
-    (0..graph.nodes.len()).filter(|n| analysis.regions[*n] == region).any(|n| {
-        analysis.repetitions[n] != 1 || graph.nodes[n].ports.iter().any(|p| p.rate != 1 && p.kind.is_synchronous())
-    })
+    (0..graph.nodes.len()).any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
+}
+
+fn has_rates(graph: &Graph, analysis: &Analysis, node: NodeId) -> bool {
+    analysis.repetitions[node] != 1 || graph.nodes[node].ports.iter().any(|p| p.rate != 1 && p.kind.is_synchronous())
 }
 
 /// What cannot be generated for a region with several rates.
 pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
-    for (index, cluster) in analysis.clusters.iter().enumerate().filter(|(c, _)| is_multirate(graph, analysis, *c)) {
+    let regions: BTreeSet<usize> =
+        (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(|n| analysis.regions[n]).collect();
+    for (index, cluster) in analysis.clusters.iter().enumerate().filter(|(_, c)| regions.contains(&c.region)) {
         let first = cluster.nodes.iter().min().copied().unwrap_or(0);
         if !cluster.upstream.is_empty() || !cluster.downstream.is_empty() {
             let message = "a region with several rates can have only one source with a pace of its own";

@@ -207,6 +207,7 @@ impl Builder<'_> {
                 let named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
                 if named.is_empty() {
                     self.unknown_port(&first.text, port, ports);
+                    self.excuse(symbol);
                     return None;
                 }
                 Some((Symbol::Ports(named), text, reference.span))

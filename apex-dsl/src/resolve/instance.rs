@@ -150,6 +150,9 @@ impl<'a> Builder<'a> {
                     .note("make it a node of a driver, or write `graph` instead of `robot`"),
             );
         }
+        if self.budget.exceeded {
+            return None;
+        }
         let (connections, open_pins) = flatten::wires(&mut self);
         let mut graph = Graph {
             name,
@@ -205,7 +208,6 @@ impl<'a> Builder<'a> {
     /// Pays for a look at `count` ports or ends of connections.
     pub fn look(&mut self, count: usize, span: Span) -> Option<()> {
         if self.budget.looks < count {
-            self.budget.looks = 0;
             self.too_large(span, "this program has too many ports and connections".to_owned());
             return None;
         }
@@ -214,6 +216,7 @@ impl<'a> Builder<'a> {
     }
 
     fn too_large(&mut self, span: Span, message: String) {
+        self.budget.exceeded = true;
         let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
         self.diagnostics.push(
             Diagnostic::error("too-large", outermost, message).note("nested graphs count as often as they are used"),
@@ -222,7 +225,7 @@ impl<'a> Builder<'a> {
 
     /// Whether it makes no sense to go on.
     pub fn is_exhausted(&self) -> bool {
-        self.budget.nodes == 0 || self.budget.looks == 0 || self.diagnostics.is_full()
+        self.budget.exceeded || self.diagnostics.is_full()
     }
 
     fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {

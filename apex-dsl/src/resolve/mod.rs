@@ -22,7 +22,7 @@ pub use names::{GraphId, Texts};
 /// Most nodes, nested graphs and connections that one program may have, each.
 pub const MAX_NODES: usize = 50_000;
 /// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
-const MAX_LOOKS: usize = 2_000_000;
+const MAX_LOOKS: usize = 1_000_000;
 /// How deep graphs nest in each other.
 pub const MAX_NESTING: usize = 64;
 
@@ -32,6 +32,8 @@ pub struct Budget {
     pub nodes: usize,
     /// Looks at a port or at an end of a connection.
     pub looks: usize,
+    /// More was wanted, which has been reported.
+    pub exceeded: bool,
 }
 
 /// What the texts of a program resolve to.
@@ -55,10 +57,13 @@ pub fn resolve(
     let broken = texts.files.iter().any(|(_, file)| file.broken);
     let used = used(&texts.files[0].1);
     let mut graphs = vec![];
-    let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS };
+    let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
         let is_nested = used.contains(texts.graph(id).name.text.as_str());
+        if budget.exceeded {
+            break;
+        }
         let resolved = instance::graph(&texts, catalog, id, &mut budget, diagnostics);
         if !is_nested {
             graphs.extend(resolved);

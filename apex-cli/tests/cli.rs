@@ -1,0 +1,150 @@
+//! The built command: what it prints where, and its exit codes.
+
+use serde_json::Value;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output, Stdio},
+};
+
+/// A folder outside of any package, which is removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("apex-cli-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn apex() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_apex"))
+}
+
+fn check(arguments: &[&str], file: &Path) -> Output {
+    apex().arg("check").args(arguments).arg(file).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[test]
+fn a_right_text_says_nothing() {
+    let folder = Folder::new("right");
+    let output = check(&[], &folder.file("right.afg", "graph A { }\n"));
+    assert_eq!((output.status.code(), output.stdout.len(), stderr(&output)), (Some(0), 0, String::new()));
+    let output = check(&["--format", "json"], &folder.file("right.afg", "graph A { }\n"));
+    assert_eq!((output.status.code(), output.stdout.as_slice()), (Some(0), &b"[]\n"[..]));
+}
+
+#[test]
+fn errors_as_text_and_as_json() {
+    let folder = Folder::new("wrong");
+    let file = folder.file("wrong.afg", "graph A {\n    /* ü */ node a = Nothing();\n    node a = Nothing();\n}\n");
+    let output = check(&[], &file);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
+    let text = stderr(&output);
+    assert!(text.starts_with("error[unknown-node]: there is no node or graph `Nothing`\n"), "{text}");
+    assert!(text.lines().nth(1).unwrap().ends_with("wrong.afg:2:22"), "{text}");
+
+    let output = check(&["--format", "json"], &file);
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(1), 0));
+    let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let first = &messages[0];
+    assert_eq!(first["file"], file.display().to_string());
+    assert_eq!((first["line"].as_u64(), first["column"].as_u64()), (Some(2), Some(22)));
+    assert_eq!((first["end_line"].as_u64(), first["end_column"].as_u64()), (Some(2), Some(29)));
+    assert_eq!((first["severity"].as_str(), first["code"].as_str()), (Some("error"), Some("unknown-node")));
+    assert_eq!(first["message"], "there is no node or graph `Nothing`");
+    assert_eq!(messages[1]["labels"][0]["message"], "first defined here");
+    assert_eq!(messages.as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn several_files_are_all_checked() {
+    let folder = Folder::new("several");
+    let (wrong, right) = (folder.file("wrong.afg", "graph {\n"), folder.file("right.afg", "graph A { }\n"));
+    let output = apex().args(["check", "--format", "json"]).args([&wrong, &right, &wrong]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(messages.as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn what_cannot_be_read_is_two() {
+    let folder = Folder::new("unreadable");
+    for (path, reason) in [
+        (folder.0.join("missing.afg"), "there is no such file"),
+        (folder.0.clone(), "it is a folder"),
+        (folder.file("latin1.afg", b"graph \xfc { }"), "byte 6 is not UTF-8"),
+        (folder.file("large.afg", " ".repeat(5 << 20)), "bytes; at most"),
+    ] {
+        for format in ["text", "json"] {
+            let output = check(&["--format", format], &path);
+            assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{}", path.display());
+            let text = stderr(&output);
+            assert!(text.starts_with("error: cannot read `") && text.contains(reason), "{text}");
+        }
+    }
+}
+
+#[test]
+fn wrong_use_is_two() {
+    for arguments in [&["check"][..], &["chekc"], &["check", "--format", "xml", "a.afg"], &[]] {
+        let output = apex().args(arguments).output().unwrap();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}");
+    }
+    assert_eq!(apex().arg("--help").output().unwrap().status.code(), Some(0));
+}
+
+/// The nodes of a package are seen from a text in it; the cache of them says the same as the first reading.
+#[test]
+fn nodes_of_the_package() {
+    let folder = Folder::new("package");
+    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../apex-rt");
+    let manifest = format!(
+        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"
+    );
+    folder.file("Cargo.toml", manifest);
+    fs::create_dir_all(folder.0.join("src")).unwrap();
+    folder.file(
+        "src/lib.rs",
+        "use apex_rt::prelude::*;\n#[node]\npub fn ramp(#[param(default = [0.0, 1.0])] range: [f32; 2]) -> u64 { 1 }\n#[node]\npub fn show(x: &u64) {}\n",
+    );
+    let file = folder.file("robot.afg", "graph Robot {\n    ramp() -> show();\n}\n");
+    for _ in 0..2 {
+        let output = check(&[], &file);
+        assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    }
+    let output = apex().arg("expand").arg(&file).output().unwrap();
+    assert!(String::from_utf8(output.stdout).unwrap().contains("pub struct Robot"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let folder = Folder::new("pipe");
+    let mut text = "graph A {\n".to_owned();
+    (0..90).for_each(|i| text.push_str(&format!("    node a{i} = Nothing{i}();\n")));
+    let file = folder.file("wrong.afg", text + "}\n");
+    for format in ["json", "text"] {
+        let mut command = apex();
+        command.args(["check", "--format", format]).arg(&file).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        drop((child.stdout.take(), child.stderr.take()));
+        assert_eq!(child.wait().unwrap().code(), Some(1), "{format}");
+    }
+}

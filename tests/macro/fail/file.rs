@@ -1,0 +1,12 @@
+//! The second line of the message is the place in the text.
+use apex_rt::prelude::*;
+
+#[node]
+fn ramp() -> u64 {
+    1
+}
+
+graph!("wrong.afg");
+graph!("missing.afg");
+
+fn main() {}

@@ -1,0 +1,81 @@
+//! Each mistake in a signature is explained at the offending argument.
+use apex_rt::prelude::*;
+
+#[node]
+fn by_value(x: u64) {}
+
+#[node]
+fn mutable(x: &mut u64) {}
+
+#[node]
+async fn later(x: &u64) {}
+
+#[node]
+fn lifetime<'a>(x: &'a u64) -> u64 {
+    *x
+}
+
+#[node]
+fn pattern((a, b): &(u64, u64)) {}
+
+#[node]
+fn one(x: &[u64; 1]) {}
+
+#[node]
+fn returns(x: &u64) -> &u64 {
+    x
+}
+
+#[node]
+fn unknown_key(x: &u64, #[param(defualt = 3)] k: u64) {}
+
+#[node]
+fn no_range(x: &u64, #[param(range = 3)] k: u64) {}
+
+#[node(fast)]
+fn arguments(x: &u64) {}
+
+#[node]
+struct Tuple(u64);
+
+#[node]
+enum Either {
+    A,
+}
+
+struct Slots;
+
+#[node]
+impl Slots {
+    #[slot]
+    fn answer(&mut self) -> u64 {
+        0
+    }
+}
+
+struct Two;
+
+#[node]
+impl Two {
+    #[slot]
+    fn both(&mut self, a: &u64, b: &u64) {}
+}
+
+struct Hook;
+
+#[node]
+impl Hook {
+    #[no_message]
+    fn missing(&mut self, x: &u64) {}
+}
+
+struct Trait;
+
+#[node]
+impl Default for Trait {
+    fn default() -> Self {
+        Self
+    }
+}
+
+fn main() {}
