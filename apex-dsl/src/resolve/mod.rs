@@ -7,6 +7,7 @@ mod generics;
 mod instance;
 mod names;
 mod value;
+mod wrap;
 
 use crate::{
     catalog::Catalog,

@@ -1,0 +1,189 @@
+//! Modifiers that put something around an instance: `each` and `delay`.
+
+use super::{
+    connect::{Place, Symbol},
+    flatten, generics,
+    instance::{Body, Builder, Wire},
+    value::{Scope as Names, evaluate},
+};
+use crate::{
+    catalog::SignatureId,
+    graph::{Each, End, Graph, NodeKind, Port, Scope, Value},
+    report::Diagnostic,
+    source::Span,
+    syntax::tree::{Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
+};
+use std::collections::BTreeSet;
+
+impl Builder<'_> {
+    /// The body of an `each` on a single node: a graph with just that node and its ports.
+    pub fn each_of_node(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        id: SignatureId,
+        instance: &Instance,
+    ) -> Option<Graph> {
+        self.inner(|mut builder| {
+            builder.scopes.push(Scope { name: String::new(), graph: instance.path.text(), parent: 0, span: name.span });
+            let inside = Body {
+                scope: 0,
+                values: body.values.clone(),
+                fed: body.fed.range((name.text.as_str(), "")..).take_while(|(n, _)| *n == name.text).copied().collect(),
+                ..*body
+            };
+            builder.library(&inside, name, id, instance, "")?;
+            let ports: Vec<Port> = builder.nodes[0].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
+            for (port, inner) in ports.into_iter().enumerate() {
+                let span = name.span;
+                let ident = Ident { text: inner.name.clone(), span };
+                let (boundary, kind) = match inner.kind {
+                    PortKind::Input => (PortKind::Input, PortKind::Output),
+                    PortKind::Output => (PortKind::Output, PortKind::Input),
+                    PortKind::Slot | PortKind::Event => continue,
+                };
+                let outer = Port { kind, optional: true, rate: 1, ..inner };
+                let node = builder.node(&ident, 0, NodeKind::Boundary(boundary), vec![outer], "")?;
+                let (library, outside) = (Place::Port(End { node: 0, port }), Place::Port(End { node, port: 0 }));
+                let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };
+                builder.wires.push(Wire { from, to, active: false, differs: false, span });
+            }
+            let (connections, open_pins) = flatten::wires(&mut builder);
+            let mut graph = Graph {
+                name: instance.path.text(),
+                docs: String::new(),
+                robot: false,
+                is_open: false,
+                is_body: true,
+                span: name.span,
+                nodes: builder.nodes,
+                connections,
+                scopes: builder.scopes,
+                claims: vec![],
+                open_pins,
+                excused: BTreeSet::new(),
+            };
+            generics::infer_inside(&mut graph, builder.catalog);
+            Some(graph)
+        })
+    }
+
+    pub fn each(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        inner: Graph,
+        (parallel, port, span): (bool, Option<&Ident>, Span),
+        docs: &str,
+    ) -> Option<Symbol> {
+        if parallel {
+            let message = "`each par` is not supported yet";
+            self.diagnostics.push(Diagnostic::error("not-yet", span, message).fix(
+                "run the elements one after the other",
+                span,
+                "each",
+            ));
+        }
+        let mut ports: Vec<Port> = vec![];
+        for node in &inner.nodes {
+            let NodeKind::Boundary(kind) = node.kind else { continue };
+            if !kind.is_synchronous() {
+                self.diagnostics.push(Diagnostic::error(
+                    "each-port",
+                    span,
+                    format!("`each` runs synchronously, but `{}` is a {}", node.name, kind.word()),
+                ));
+                continue;
+            }
+            ports.push(Port { kind, optional: kind == PortKind::Output, ..node.ports[0].clone() });
+        }
+        let inputs: Vec<usize> = (0..ports.len()).filter(|p| ports[*p].kind == PortKind::Input).collect();
+        let list = match (port, inputs.as_slice()) {
+            (Some(port), _) => match inputs.iter().find(|p| ports[**p].name == port.text) {
+                Some(list) => *list,
+                None => {
+                    let error = Diagnostic::error(
+                        "unknown-port",
+                        port.span,
+                        format!("`{}` has no input `{}`", inner.name, port.text),
+                    );
+                    self.diagnostics.push(super::names::suggest(
+                        error,
+                        port,
+                        inputs.iter().map(|p| ports[*p].name.as_str()),
+                    ));
+                    return None;
+                }
+            },
+            (None, [only]) => *only,
+            (None, []) => {
+                self.diagnostics.push(Diagnostic::error(
+                    "each-port",
+                    span,
+                    format!("`{}` has no input to iterate over", inner.name),
+                ));
+                return None;
+            }
+            // Decided when the connections are known.
+            (None, _) => usize::MAX,
+        };
+        let kind = NodeKind::Each(Each { body: Box::new(inner), list, parallel });
+        let node = self.node(name, body.scope, kind, ports, docs)?;
+        Some(Symbol::of_node(node, &self.nodes[node]))
+    }
+
+    /// `delay`: each output is held back.
+    pub fn delayed(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        mut symbol: Symbol,
+        modifiers: &[Modifier],
+    ) -> Option<Symbol> {
+        let Some((expr, span)) = modifiers
+            .iter()
+            .find_map(|m| if let ModifierKind::Delay(expr) = &m.kind { Some((expr, m.span)) } else { None })
+        else {
+            return Some(symbol);
+        };
+        let texts = self.texts;
+        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
+        let scope = Names { params: &body.values, rust_path: &rust_path };
+        let initial = match expr.as_ref().map(|e| evaluate(e, &scope)) {
+            None => vec![None],
+            Some(Ok(Value::List(values))) if !values.is_empty() => values.into_iter().map(Some).collect(),
+            Some(Ok(Value::List(_))) => {
+                self.diagnostics.push(Diagnostic::error("out-of-range", span, "a delay holds one token at least"));
+                return None;
+            }
+            Some(Ok(value)) => vec![Some(value)],
+            Some(Err(error)) => {
+                self.diagnostics.push(*error);
+                return None;
+            }
+        };
+        for out in symbol.outputs() {
+            let ident = Ident { text: format!("{}_{}_delay", name.text, out.name), span };
+            let port = |name: &str, kind| Port {
+                name: name.to_owned(),
+                kind,
+                ty: out.ty.clone(),
+                rate: 1,
+                optional: true,
+                parameter: None,
+                docs: String::new(),
+            };
+            let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
+            let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
+            self.wires.push(Wire {
+                from: out.place,
+                to: Place::Port(End { node, port: 0 }),
+                active: false,
+                differs: false,
+                span,
+            });
+            out.place = Place::Port(End { node, port: 1 });
+        }
+        Some(symbol)
+    }
+}
