@@ -7,6 +7,7 @@ mod forms;
 mod handed;
 mod lifecycle;
 mod missing;
+mod names;
 mod nesting;
 mod parameters;
 mod random;

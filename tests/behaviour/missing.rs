@@ -1,7 +1,7 @@
 //! ⊥: who sees it, who is spared, and what it costs.
 
 use apex_rt::prelude::*;
-use apex_tests::react;
+use apex_tests::{expand, react};
 
 graph!("missing.afg");
 graph!("silent.afg");
@@ -91,6 +91,16 @@ fn bot_08_nothing_costs_nothing_behind_a_source() {
     assert_eq!(react(&mut Silent100::new(), 100).order(), ["s"; 100].join(" "));
     let log = react(&mut Silent100Told::new(), 100);
     assert_eq!(log.order(), ["s k"; 100].join(" "), "only the essential end is told");
+}
+
+#[test]
+fn bot_08_one_test_spares_a_chain_of_any_length() {
+    let tests = |length: usize| {
+        let chain = " -> pass()".repeat(length);
+        let code = expand(&format!("graph G {{ node s = silent(); node k = Snk(); s{chain} -> k; }}"));
+        code.matches("if let").count()
+    };
+    assert_eq!([10, 100, 1000].map(tests), [1, 1, 1]);
 }
 
 #[test]

@@ -116,3 +116,27 @@ fn time_stands_still_in_a_reaction() {
     let log = react(&mut Held::new(), 3);
     assert_eq!((log.count("fast"), log.count("slow")), (1, 1));
 }
+
+#[test]
+fn a_nested_graph_without_nodes_takes_its_inputs_together() {
+    let mut program = PassedTogether::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(90));
+    assert_eq!(program.nodes().ka.seen, [0, 1, 2]);
+    assert_eq!(program.nodes().kb.seen, [0, 1, 2]);
+}
+
+#[test]
+fn a_delay_sends_to_another_pace() {
+    let mut program = LateJoin::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(120));
+    assert_eq!(program.nodes().k.seen, [(70, 0), (80, 1), (0, 2), (1, 3)]);
+}
+
+#[test]
+fn a_loop_without_a_source_runs_once_per_reaction() {
+    let mut program = Alone::new();
+    react(&mut program, 4);
+    assert_eq!(program.nodes().k.seen, [1, 2, 4, 8]);
+    assert_eq!(program.nodes().kj.seen, [1, 3, 6, 11]);
+    assert_eq!(program.nodes().kf.seen, [1, 3, 9, 27]);
+}

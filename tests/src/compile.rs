@@ -53,6 +53,10 @@ impl Found {
 
 /// All errors of `text`, which sees the nodes of this package, in the order of the text.
 pub fn check(text: &str) -> Vec<Found> {
+    compile(text).0
+}
+
+fn compile(text: &str) -> (Vec<Found>, String) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let workspace = Workspace::load(folder).expect("this package has a workspace");
     let mut disk = Disk::new(Some(&workspace.cache_folder()));
@@ -61,10 +65,10 @@ pub fn check(text: &str) -> Vec<Found> {
     let root = sources.add(folder.join("text.afg"), text);
     let mut diagnostics = Diagnostics::default();
     let programs = passes::check(root, &catalog, &mut sources, &mut disk, &mut diagnostics);
-    passes::generate(&programs, &catalog, &sources, &|_| proc_macro2::Span::call_site(), &mut diagnostics);
+    let code = passes::generate(&programs, &catalog, &sources, &|_| proc_macro2::Span::call_site(), &mut diagnostics);
     disk.save();
-    let sorted = diagnostics.sorted().into_iter();
-    sorted.filter(|d| d.severity == Severity::Error).map(|d| Found::new(d, &sources)).collect()
+    let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error);
+    (errors.map(|d| Found::new(d, &sources)).collect(), code.to_string())
 }
 
 /// The only error of `text`.
@@ -75,4 +79,14 @@ pub fn error(text: &str) -> Found {
     let mut found = check(text);
     assert_eq!(found.len(), 1, "one error is expected: {found:#?}");
     found.remove(0)
+}
+
+/// The Rust that `text` is compiled to.
+///
+/// # Panics
+/// If it has errors.
+pub fn expand(text: &str) -> String {
+    let (found, code) = compile(text);
+    assert!(found.is_empty(), "{found:#?}");
+    code
 }

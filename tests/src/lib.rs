@@ -27,7 +27,7 @@ pub mod nodes {
     pub use tapes::*;
 }
 
-pub use compile::{Found, check, error};
+pub use compile::{Found, check, error, expand};
 pub use log::{Log, react, simulate};
 pub use random::{Case, SEED, Trace, cases, text};
 

@@ -41,6 +41,8 @@ pub struct Names {
     tokens: BTreeMap<End, String>,
     /// Where delays hold tokens back.
     held: BTreeMap<NodeId, String>,
+    /// Timers of sources.
+    timers: BTreeMap<NodeId, String>,
     inner: BTreeMap<NodeId, Names>,
 }
 
@@ -58,6 +60,9 @@ impl Names {
             if let NodeKind::Delay(_) = &n.kind {
                 names.held.insert(node, unique(format!("{path}_held"), used));
             }
+            if n.modifiers.every.is_some() {
+                names.timers.insert(node, unique(format!("timer_{path}"), used));
+            }
             if let NodeKind::Each(each) = &n.kind {
                 names.inner.insert(node, Self::new(&each.body, program, &format!("{path}_"), count, used));
             }
@@ -66,12 +71,16 @@ impl Names {
     }
 }
 
+/// Names that the generated code itself uses; besides, `param_0` …, and `token_` with the name of a port.
+const OWN: [&str; 12] =
+    ["state", "nodes", "inputs", "outputs", "observer", "ctx", "self", "now", "i", "sent", "results", "value"];
+
 /// `name`, or something like it that is not used yet.
 fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
-    // `state`, `nodes` … are names that the generated code itself uses.
-    while ["state", "nodes", "inputs", "outputs", "observer", "ctx", "self"].contains(&name.as_str())
-        || !used.insert(name.clone())
-    {
+    if OWN.contains(&name.as_str()) || name.starts_with("param_") || name.starts_with("token_") {
+        name.push('_');
+    }
+    while !used.insert(name.clone()) {
         name.push('_');
     }
     name
@@ -149,6 +158,11 @@ impl<'a> Generator<'a> {
     /// The name of a token.
     fn name(&self, end: End) -> syn::Ident {
         types::ident(self.names.tokens.get(&end).map_or("token", String::as_str))
+    }
+
+    /// The name of the timer of a source.
+    fn timer(&self, node: NodeId) -> syn::Ident {
+        types::ident(self.names.timers.get(&node).map_or("timer", String::as_str))
     }
 
     /// The name of the place where a delay holds tokens back.

@@ -170,7 +170,7 @@ impl Generator<'_> {
         self.token_state(graph, analysis, &mut fields, &mut makes);
         for guard in &analysis.guards {
             if let Guard::Timer(node) = guard {
-                let name = self.timer(graph, *node);
+                let name = self.timer(*node);
                 let period = graph.nodes[*node].modifiers.every.map_or(0, |d| d.as_nanos() as u64);
                 let period = Literal::u64_unsuffixed(period);
                 fields.extend(quote! { #name: ::apex_rt::Timer, });
@@ -229,10 +229,6 @@ impl Generator<'_> {
         if rate > 1 { quote!([#ty; #rate]) } else { ty }
     }
 
-    fn timer(&self, graph: &Graph, node: NodeId) -> Ident {
-        format_ident!("timer_{}", graph.path(node).replace('.', "_"))
-    }
-
     fn clusters(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
         let links = Links::new(graph);
         let functions = (0..analysis.clusters.len()).map(|cluster| {
@@ -281,7 +277,7 @@ impl Generator<'_> {
                     raises.extend(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
                 }
                 Guard::Timer(node) => {
-                    let timer = self.timer(graph, *node);
+                    let timer = self.timer(*node);
                     raises.extend(quote! { if self.state.#timer.is_due(now) { self.state.dispatcher.raise(#bit); } });
                     wishes.extend(quote! { if !self.state.#timer.is_due(now) { next = next.or(::apex_rt::Next::At(self.state.#timer.due())); } });
                 }
@@ -292,7 +288,7 @@ impl Generator<'_> {
         let fires = bits.dispatched.iter().enumerate().map(|(row, &cluster)| {
             let name = format_ident!("cluster_{cluster}");
             let timers = analysis.clusters[cluster].own_guards.iter().filter_map(|g| match analysis.guards[*g] {
-                Guard::Timer(node) => Some(self.timer(graph, node)),
+                Guard::Timer(node) => Some(self.timer(node)),
                 _ => None,
             });
             quote! {

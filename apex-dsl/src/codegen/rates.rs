@@ -189,7 +189,7 @@ impl Generator<'_> {
         let told = if is_told(graph, self.catalog, node) {
             let (place, method) =
                 (self.node_place(graph, node), ident(signature.no_message.as_deref().unwrap_or_default()));
-            quote! { else { #place.#method(); } }
+            quote! { else { observer.fired(#index); #place.#method(); } }
         } else {
             quote!()
         };

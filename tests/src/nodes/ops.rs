@@ -124,6 +124,13 @@ pub fn doubled_in_place(x: &i64, y: &mut Out<i64>) {
     }
 }
 
+/// Three times the value, written in place; fails at 2, after it has written.
+#[node]
+pub fn in_place_or_fails(x: &i64, y: &mut Out<i64>) -> Result<(), String> {
+    y.set(3 * x);
+    if *x == 2 { Err("no 2".to_owned()) } else { Ok(()) }
+}
+
 /// Two outputs written in place: multiples of 2, multiples of 3.
 #[node]
 pub fn split_buffered(x: &i64, twos: &mut Out<i64>, threes: &mut Out<i64>) {

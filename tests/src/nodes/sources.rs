@@ -54,20 +54,3 @@ impl OneBased {
 pub fn silent() -> Option<i64> {
     None
 }
-
-/// Its lane and how often it has fired before, as one number: `1000·lane + firing`.
-#[node]
-pub struct Lane {
-    /// The lane.
-    #[param]
-    lane: i64,
-    next: i64,
-}
-
-#[node]
-impl Lane {
-    fn process(&mut self) -> i64 {
-        self.next += 1;
-        1000 * self.lane + self.next - 1
-    }
-}

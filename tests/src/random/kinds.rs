@@ -123,6 +123,10 @@ pub const OPERATIONS: &[Kind] = &[
         s.number = (s.number + value(t, 0)) % 1009;
         vec![Some(s.number)]
     }),
+    plain("Accumulate", &["x"], |s, _, t| {
+        s.number = (s.number + value(t, 0)) % 1009;
+        vec![Some(s.number)]
+    }),
     plain("Rise", &["x"], |s, _, t| {
         let before = s.last.replace(value(t, 0));
         vec![some_if(before.is_none_or(|b| b < value(t, 0)), value(t, 0))]

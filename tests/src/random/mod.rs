@@ -85,7 +85,7 @@ fn case(dice: &mut Dice) -> Case {
         });
         let inputs = inputs.collect();
         let mut node = instance(dice, kind, inputs);
-        if dice.one_in(8) {
+        if dice.one_in(if ends_loops(kind) { 2 } else { 8 }) {
             let tokens = 1 + dice.below(2);
             let held = (0..tokens).map(|_| Some(dice.below(9) as i64)).collect();
             node.delay = Some(if dice.one_in(3) { vec![None] } else { held });
@@ -116,12 +116,18 @@ fn end(dice: &mut Dice, nodes: &[Instance]) -> End {
     End { node, output: dice.below(nodes[node].kind.outputs.len()) }
 }
 
+/// Numbers that go round must not grow without end: a loop goes through a node whose numbers are small.
+fn ends_loops(kind: &Kind) -> bool {
+    kind.name == "Accumulate"
+}
+
 /// Some inputs are connected to a later node that holds its tokens back.
 fn close_loops(dice: &mut Dice, nodes: &mut [Instance]) {
     for node in 0..nodes.len() {
         for input in 0..nodes[node].inputs.len() {
-            let later: Vec<usize> = (node..nodes.len()).filter(|n| nodes[*n].delay.is_some()).collect();
-            if !later.is_empty() && dice.one_in(8) {
+            let later: Vec<usize> =
+                (node..nodes.len()).filter(|n| nodes[*n].delay.is_some() && ends_loops(nodes[*n].kind)).collect();
+            if !later.is_empty() && dice.one_in(5) {
                 let from = *dice.of(&later);
                 let output = dice.below(nodes[from].kind.outputs.len());
                 nodes[node].inputs[input] = Some(End { node: from, output });
