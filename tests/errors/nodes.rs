@@ -89,6 +89,7 @@ pub fn mul(x: &u64, #[param] k: u64) -> u64 {
 }
 
 /// Parameters of all kinds.
+#[allow(clippy::too_many_arguments, reason = "one of each kind")]
 #[node]
 pub fn tune(
     x: &u64,
