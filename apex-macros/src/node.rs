@@ -36,8 +36,10 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
         callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(&**p) } else { None }).collect();
     let names: Vec<Ident> = callable.args.iter().filter(|a| matches!(a.form, Form::Param(_))).map(ident).collect();
     let params = params(&decls, &names, generics, &quote!(#name #type_args));
+    // A token of type `Vec<T>` is taken as `&Vec<T>`: the signature names the type that is sent.
     Ok(quote! {
         #[inline]
+        #[allow(clippy::ptr_arg)]
         #item
 
         #[doc(hidden)]
@@ -127,6 +129,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
             continue;
         }
         method.attrs.retain(|a| !METHOD_MARKS.iter().any(|mark| a.path().is_ident(mark)));
+        method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg)]));
         if !signature::marked(&method.attrs, "inline") {
             method.attrs.push(syn::parse_quote!(#[inline]));
         }

@@ -67,3 +67,11 @@ fn a_nested_graph_among_rates() {
     assert!(program.nodes().k.seen.is_empty());
     assert_eq!(program.nodes().all.seen, [None, None]);
 }
+
+#[test]
+fn a_node_is_told_of_each_missing_token() {
+    let mut program = Told::new();
+    let log = react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [Some(10), Some(11), None, None]);
+    assert_eq!(log.count("k"), 4, "being told is a firing, as it is at one rate");
+}
