@@ -36,10 +36,10 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
         callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(&**p) } else { None }).collect();
     let names: Vec<Ident> = callable.args.iter().filter(|a| matches!(a.form, Form::Param(_))).map(ident).collect();
     let params = params(&decls, &names, generics, &quote!(#name #type_args));
-    // A token of type `Vec<T>` is taken as `&Vec<T>`: the signature names the type that is sent.
+    // A token of type `Vec<T>` is taken as `&Vec<T>`, the type that is sent; and a node may have many ports.
     Ok(quote! {
         #[inline]
-        #[allow(clippy::ptr_arg)]
+        #[allow(clippy::ptr_arg, clippy::too_many_arguments)]
         #item
 
         #[doc(hidden)]
@@ -70,35 +70,26 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     let state: Vec<&Ident> =
         item.fields.iter().filter_map(|f| f.ident.as_ref()).filter(|name| !fields.contains(name)).collect();
     let constructor = match &item.fields {
-        syn::Fields::Named(_) => quote!(Self { #(#fields,)* #(#state: ::core::default::Default::default(),)* }),
+        syn::Fields::Named(_) => quote!(Self { #(#fields,)* #(#state: ::apex_rt::Fresh::fresh(),)* }),
         syn::Fields::Unit => quote!(Self),
         syn::Fields::Unnamed(_) => {
             return Err(syn::Error::new_spanned(&item.fields, "a node has named fields"));
         }
     };
-    // Without `Default` for all of its state a node cannot be made by a graph, only handed in.
+    // Without `Default` for all of its state a node cannot be made by a graph, only handed in. The lifetime puts
+    // the check off until a graph makes one.
     let state_types =
         item.fields.iter().filter(|f| f.ident.as_ref().is_some_and(|n| !fields.contains(n))).map(|f| &f.ty);
-    let mut where_default = item.generics.clone();
-    let clause = where_default.make_where_clause();
+    let mut where_fresh = item.generics.clone();
+    let clause = where_fresh.make_where_clause();
     for ty in state_types {
-        clause.predicates.push(syn::parse_quote!(#ty: ::core::default::Default));
+        clause.predicates.push(syn::parse_quote!(for<'fresh> #ty: ::apex_rt::Fresh<'fresh>));
     }
-    let make = if where_default.params.is_empty() {
-        // Bounds without parameters would be checked at once; a trait with a parameter puts that off to its use.
-        quote! {
-            impl ::apex_rt::Construct<(#(#types,)*)> for #name {
-                #[inline]
-                fn construct((#(#fields,)*): (#(#types,)*)) -> Self { #constructor }
-            }
-        }
-    } else {
-        let bounds = &where_default.where_clause;
-        quote! {
-            impl #impl_generics ::apex_rt::Construct<(#(#types,)*)> for #name #type_args #bounds {
-                #[inline]
-                fn construct((#(#fields,)*): (#(#types,)*)) -> Self { #constructor }
-            }
+    let bounds = &where_fresh.where_clause;
+    let make = quote! {
+        impl #impl_generics ::apex_rt::Construct<(#(#types,)*)> for #name #type_args #bounds {
+            #[inline]
+            fn construct((#(#fields,)*): (#(#types,)*)) -> Self { #constructor }
         }
     };
     let accessors = quote! { #(#accessors)* };
@@ -129,7 +120,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
             continue;
         }
         method.attrs.retain(|a| !METHOD_MARKS.iter().any(|mark| a.path().is_ident(mark)));
-        method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg)]));
+        method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg, clippy::too_many_arguments)]));
         if !signature::marked(&method.attrs, "inline") {
             method.attrs.push(syn::parse_quote!(#[inline]));
         }

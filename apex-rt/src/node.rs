@@ -39,3 +39,19 @@ pub trait Construct<Params> {
     /// The node with all its other state at its default.
     fn construct(params: Params) -> Self;
 }
+
+/// State that has a value to start with: everything with a `Default`.
+///
+/// The lifetime has no meaning of its own. A bound `for<'a> State: Fresh<'a>` is checked where a node is made, not
+/// where its type is declared, so that a node that is only handed in needs no default.
+pub trait Fresh<'a>: Sized {
+    /// The value to start with.
+    fn fresh() -> Self;
+}
+
+impl<T: Default> Fresh<'_> for T {
+    #[inline]
+    fn fresh() -> Self {
+        T::default()
+    }
+}

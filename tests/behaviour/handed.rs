@@ -3,10 +3,15 @@
 use apex_rt::prelude::*;
 use apex_tests::{nodes::Held, react};
 
-/// Sends what it was made with. No graph can make it: its state has no default.
+/// Something that has no default.
+struct File;
+
+/// Sends what it was made with. No graph can make it.
 #[node]
 pub struct Tape {
-    left: std::vec::IntoIter<i64>,
+    left: Vec<i64>,
+    #[expect(dead_code)]
+    file: File,
     #[param(default = 1)]
     gain: i64,
 }
@@ -14,7 +19,7 @@ pub struct Tape {
 #[node]
 impl Tape {
     fn process(&mut self) -> Option<i64> {
-        self.left.next().map(|v| v * self.gain)
+        self.left.pop().map(|v| v * self.gain)
     }
 }
 
@@ -43,7 +48,7 @@ graph! {
 }
 
 fn tape(values: &[i64], gain: i64) -> Tape {
-    Tape { left: values.to_vec().into_iter(), gain }
+    Tape { left: values.iter().rev().copied().collect(), file: File, gain }
 }
 
 #[test]
@@ -54,4 +59,11 @@ fn nodes_are_handed_in() {
     assert_eq!(program.nodes().kept.seen, [-1, 10, 20, 30]);
     assert_eq!(program.nodes().k.seen, [10, 20, 30]);
     assert_eq!((program.nodes().kp.seen.as_slice(), log.count("paced")), (&[4][..], 1));
+}
+
+#[test]
+fn nodes_of_nested_graphs_are_handed_in() {
+    let mut program = Outer::new(OuterParts { a_tape: tape(&[1, 2], 3) });
+    react(&mut program, 3);
+    assert_eq!(program.nodes().k.seen, [3, 6]);
 }
