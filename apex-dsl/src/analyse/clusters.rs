@@ -2,7 +2,8 @@
 
 use super::{Block, Links, Step, is_source};
 use crate::{
-    graph::{Crossing, Graph, NodeId, NodeKind, ScopeId},
+    graph::{Crossing, Graph, Node, NodeId, NodeKind, ScopeId},
+    report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -58,6 +59,18 @@ impl Cluster {
             && self.downstream.is_empty()
             && self.own_guards.iter().all(|g| guards[*g] == Guard::React)
     }
+}
+
+/// More timers and graph-level inputs than one program has; bounds the time and memory for the sets of guards.
+const MAX_PACES: usize = 1_000;
+
+/// Reports a program with more of them; `None` then.
+pub fn check_paces(graph: &Graph, diagnostics: &mut Diagnostics) -> Option<()> {
+    let sets_a_pace = |n: &&Node| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) || n.modifiers.every.is_some();
+    let Some(node) = graph.nodes.iter().filter(sets_a_pace).nth(MAX_PACES) else { return Some(()) };
+    let message = format!("a program has at most {MAX_PACES} inputs and sources with `every`");
+    diagnostics.push(Diagnostic::error("too-large", node.span, message));
+    None
 }
 
 /// The region of each node, numbered in the order of the text. What enters or leaves a nested graph does so

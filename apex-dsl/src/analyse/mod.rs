@@ -75,6 +75,7 @@ impl Links {
 /// Analyses a checked graph. `None` if an error was found that leaves nothing to schedule.
 pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Option<Analysis> {
     let links = Links::new(graph);
+    clusters::check_paces(graph, diagnostics)?;
     let order = order::order(graph, &links, diagnostics)?;
     let repetitions = rates::repetitions(graph, &links, diagnostics)?;
     let mut bodies = BTreeMap::new();

@@ -22,6 +22,16 @@ pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagn
                     .note("put `every` behind the node that its inputs come from"),
             );
         }
+        if node.modifiers.every.is_some() && graph.is_body {
+            let message = format!(
+                "`{}` stands in the body of an `each`, which runs once per element: it cannot have a pace",
+                node.name
+            );
+            diagnostics.push(
+                Diagnostic::error("every-on-driven", node.span, message)
+                    .note("leave `every` out, or take the source out of the body"),
+            );
+        }
         if node.modifiers.essential && !can_see_missing(graph, catalog, id) {
             let message = format!("`essential` has no effect on `{}`: it has no way to see ⊥", node.name);
             let warning = Diagnostic::warning("essential-without-hook", node.span, message)
