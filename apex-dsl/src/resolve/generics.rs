@@ -27,12 +27,8 @@ pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
     }
 }
 
-/// As [`infer`], for the body of an `each` on one node, whose ports have no types of their own.
-pub fn infer_inside(graph: &mut Graph, catalog: &Catalog) {
-    settle(graph, catalog);
-}
-
-fn settle(graph: &mut Graph, catalog: &Catalog) {
+/// As far as it goes, without complaint: the ports of the body of an `each` on one node have no types of their own.
+pub fn settle(graph: &mut Graph, catalog: &Catalog) {
     substitute(graph, catalog);
     let mut touching: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
     for (index, connection) in graph.connections.iter().enumerate() {

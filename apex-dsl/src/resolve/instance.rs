@@ -88,23 +88,34 @@ pub fn graph(
     budget: &mut Budget,
     diagnostics: &mut Diagnostics,
 ) -> Option<Graph> {
-    let builder = Builder {
-        texts,
-        catalog,
-        diagnostics,
-        nodes: vec![],
-        scopes: vec![],
-        pins: vec![],
-        wires: vec![],
-        excused: BTreeSet::new(),
-        claims: vec![],
-        open: vec![],
-        budget,
-    };
+    let builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
     builder.top(id, None)
 }
 
 impl<'a> Builder<'a> {
+    /// A builder that has nothing yet, while the graphs `open` are being opened.
+    fn new(
+        texts: &'a Texts,
+        catalog: &'a Catalog,
+        diagnostics: &'a mut Diagnostics,
+        open: Vec<GraphId>,
+        budget: &'a mut Budget,
+    ) -> Self {
+        Self {
+            texts,
+            catalog,
+            diagnostics,
+            nodes: vec![],
+            scopes: vec![],
+            pins: vec![],
+            wires: vec![],
+            excused: BTreeSet::new(),
+            claims: vec![],
+            open,
+            budget,
+        }
+    }
+
     /// The whole graph, with boundary nodes for its ports. `given` holds the arguments if it is the body of an `each`.
     fn top(mut self, id: GraphId, given: Option<BTreeMap<String, Value>>) -> Option<Graph> {
         let item = self.texts.graph(id);
@@ -129,12 +140,7 @@ impl<'a> Builder<'a> {
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             // A graph-level input sends into the graph.
-            let kind = match port.kind {
-                PortKind::Input => PortKind::Output,
-                PortKind::Output => PortKind::Input,
-                PortKind::Slot => PortKind::Event,
-                PortKind::Event => PortKind::Slot,
-            };
+            let kind = port.kind.seen_from_inside();
             let inner = Port {
                 name: port.name.text.clone(),
                 kind,
@@ -462,12 +468,7 @@ impl<'a> Builder<'a> {
             self.pins.push(Pin { name: port.name.text.clone(), kind: port.kind, scope, span: port.name.span });
             let place = Place::Pin(self.pins.len() - 1);
             // What takes tokens outside sends them inside.
-            let inner = match port.kind {
-                PortKind::Input => PortKind::Output,
-                PortKind::Output => PortKind::Input,
-                PortKind::Slot => PortKind::Event,
-                PortKind::Event => PortKind::Slot,
-            };
+            let inner = port.kind.seen_from_inside();
             inside.insert(&port.name, Symbol::port(place, inner, &ty, &port.name.text), self.diagnostics);
             symbol.push((port.name.text.clone(), port.kind, ty, place));
         }
@@ -507,19 +508,7 @@ impl<'a> Builder<'a> {
     }
 
     pub fn inner(&mut self, build: impl FnOnce(Builder<'_>) -> Option<Graph>) -> Option<Graph> {
-        build(Builder {
-            texts: self.texts,
-            catalog: self.catalog,
-            diagnostics: self.diagnostics,
-            nodes: vec![],
-            scopes: vec![],
-            pins: vec![],
-            wires: vec![],
-            excused: BTreeSet::new(),
-            claims: vec![],
-            open: self.open.clone(),
-            budget: self.budget,
-        })
+        build(Builder::new(self.texts, self.catalog, self.diagnostics, self.open.clone(), self.budget))
     }
 }
 

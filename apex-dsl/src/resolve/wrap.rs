@@ -63,7 +63,7 @@ impl Builder<'_> {
                 open_pins,
                 excused: BTreeSet::new(),
             };
-            generics::infer_inside(&mut graph, builder.catalog);
+            generics::settle(&mut graph, builder.catalog);
             Some(graph)
         })
     }

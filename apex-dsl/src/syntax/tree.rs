@@ -111,6 +111,16 @@ impl PortKind {
         matches!(self, Self::Input | Self::Output)
     }
 
+    /// What a port of a graph is seen from inside: what takes tokens there sends them on, and the other way round.
+    pub fn seen_from_inside(self) -> Self {
+        match self {
+            Self::Input => Self::Output,
+            Self::Output => Self::Input,
+            Self::Slot => Self::Event,
+            Self::Event => Self::Slot,
+        }
+    }
+
     /// The word for it.
     pub fn word(self) -> &'static str {
         match self {
