@@ -73,6 +73,8 @@ pub struct Node {
     pub span: Span,
     /// Documentation.
     pub docs: String,
+    /// `start` gives it activity.
+    pub starts_active: bool,
 }
 
 /// What a node is.
@@ -86,8 +88,76 @@ pub enum NodeKind {
     Boundary(PortKind),
     /// Holds tokens back for some iterations. Starts with these values; `None` is the default of the type.
     Delay(Vec<Option<Value>>),
-    /// Where activity begins.
+    /// Passes each token on: where a nested graph takes tokens together (or sends them together) that go to a slot.
+    Relay,
+    /// Where activity begins: an event that is triggered once, before anything else, and always carries activity.
     Start,
+    /// A slot of the program that ends it with this code.
+    Exit(u8),
+    /// A slot of the program that takes all activity away and triggers `start` again.
+    Reset,
+}
+
+/// Ports that every node has, besides those that it declares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Standard {
+    /// Slot: the node takes part again.
+    Enable,
+    /// Slot: the node takes its tokens and answers ⊥; its slots but `enable` swallow tokens.
+    Disable,
+    /// Event: the node became active.
+    Activated,
+    /// Event: the node is no longer active.
+    Deactivated,
+    /// Event: `process` ran.
+    Processed,
+    /// Event: `process` or a slot failed.
+    Failed,
+    /// Event: the node was active for as long as its `timeout` says.
+    Timeout,
+    /// Event: the node took a token that was older than its `deadline`.
+    Late,
+}
+
+impl Standard {
+    /// All of them, in the order of their ports.
+    pub const ALL: [Self; 8] = [
+        Self::Enable,
+        Self::Disable,
+        Self::Activated,
+        Self::Deactivated,
+        Self::Processed,
+        Self::Failed,
+        Self::Timeout,
+        Self::Late,
+    ];
+
+    /// The name of the port.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Enable => "enable",
+            Self::Disable => "disable",
+            Self::Activated => "activated",
+            Self::Deactivated => "deactivated",
+            Self::Processed => "processed",
+            Self::Failed => "failed",
+            Self::Timeout => "timeout",
+            Self::Late => "late",
+        }
+    }
+
+    /// Whether it is a slot or an event.
+    pub fn kind(self) -> PortKind {
+        if matches!(self, Self::Enable | Self::Disable) { PortKind::Slot } else { PortKind::Event }
+    }
+
+    /// The type of its tokens.
+    pub fn ty(self) -> Type {
+        match self {
+            Self::Failed => Type::Named("apex_rt::Failure".to_owned(), vec![]),
+            _ => Type::unit(),
+        }
+    }
 }
 
 /// A node of the catalog.
@@ -144,6 +214,8 @@ pub struct Port {
     pub optional: bool,
     /// The parameter that it reads or sets.
     pub parameter: Option<usize>,
+    /// A port that every node has.
+    pub standard: Option<Standard>,
     /// Documentation.
     pub docs: String,
 }
@@ -170,8 +242,21 @@ pub struct Connection {
     pub differs: bool,
     /// The sides of nested graphs that it passes, from its origin to its end.
     pub crossings: Vec<Crossing>,
+    /// It passes a slot or an event of a nested graph: it is asynchronous, whatever its ends are.
+    pub relayed: bool,
     /// The arrow in the text (the last one, if it leads through ports of nested graphs).
     pub span: Span,
+}
+
+/// How tokens travel on a connection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// Output to input: one token per iteration, value or ⊥.
+    Synchronous,
+    /// Event or output to slot: values only, taken one at a time.
+    ToSlot,
+    /// Event (or output by way of a slot of a nested graph) to input: values only; occupied until the region behind it has finished.
+    ToInput,
 }
 
 /// A side of a nested graph.
@@ -188,6 +273,8 @@ pub enum Crossing {
 pub struct Modifiers {
     /// `every`: period of a source.
     pub every: Option<Duration>,
+    /// `after`: time of the first firing of a source.
+    pub after: Option<Duration>,
     /// `timeout`
     pub timeout: Option<Duration>,
     /// `deadline`
@@ -198,6 +285,8 @@ pub struct Modifiers {
     pub pipelined: bool,
     /// `essential`
     pub essential: bool,
+    /// `restart`: after a failure the node is made anew.
+    pub restart: bool,
 }
 
 /// A claim about activity.
@@ -239,6 +328,22 @@ pub struct Number {
     pub integer: Option<i128>,
     /// What it measures.
     pub dimension: Dimension,
+}
+
+impl Port {
+    /// A port for one token per firing that need not be connected.
+    pub fn new(name: &str, kind: PortKind, ty: Type) -> Self {
+        Self {
+            name: name.to_owned(),
+            kind,
+            ty,
+            rate: 1,
+            optional: true,
+            parameter: None,
+            standard: None,
+            docs: String::new(),
+        }
+    }
 }
 
 impl Graph {
@@ -283,8 +388,17 @@ impl Graph {
         self.connections.iter().find(|c| c.to == end)
     }
 
+    /// How tokens travel on a connection.
+    pub fn flow(&self, connection: &Connection) -> Flow {
+        match (self.port(connection.from).kind, self.port(connection.to).kind) {
+            (_, PortKind::Slot) => Flow::ToSlot,
+            (PortKind::Output, _) if !connection.relayed => Flow::Synchronous,
+            _ => Flow::ToInput,
+        }
+    }
+
     /// Whether a connection takes part in synchronous data flow at both ends.
     pub fn is_synchronous(&self, connection: &Connection) -> bool {
-        self.port(connection.from).kind.is_synchronous() && self.port(connection.to).kind.is_synchronous()
+        self.flow(connection) == Flow::Synchronous
     }
 }

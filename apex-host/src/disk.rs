@@ -13,7 +13,7 @@ use std::{
 };
 
 /// Changes when the form of the cached items does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {

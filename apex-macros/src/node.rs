@@ -32,6 +32,9 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
     let ports = ports(&callable, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
+    let events: Vec<&Type> =
+        callable.args.iter().filter_map(|a| if let Form::Event(ty) = &a.form { Some(ty) } else { None }).collect();
+    let events = triggers(&events, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
     let decls: Vec<&ParamDecl> =
         callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(&**p) } else { None }).collect();
     let names: Vec<Ident> = callable.args.iter().filter(|a| matches!(a.form, Form::Param(_))).map(ident).collect();
@@ -46,6 +49,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
         #[allow(non_camel_case_types)]
         #vis struct #name #impl_generics #bounds { _ports: ::core::marker::PhantomData<fn() -> (#(#phantom,)*)> }
         #ports
+        #events
         #params
     })
 }
@@ -96,6 +100,7 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     for field in &mut item.fields {
         field.attrs.retain(|a| !a.path().is_ident("param"));
     }
+    item.attrs.retain(|a| !a.path().is_ident(signature::DEACTIVATES));
     Ok(quote! {
         #item
         #params
@@ -133,11 +138,31 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
     }
     let (impl_generics, _, bounds) = item.generics.split_for_impl();
     let self_type = &item.self_ty;
-    let ports =
-        methods.process.map(|process| ports(&process, &quote!(#impl_generics), &quote!(#self_type), &quote!(#bounds)));
+    let mut events: Vec<(&str, &Type)> = vec![];
+    for (name, ty) in methods.events() {
+        if events.iter().all(|(known, _)| *known != name) {
+            events.push((name, ty));
+        }
+    }
+    let events: Vec<&Type> = events.into_iter().map(|(_, ty)| ty).collect();
+    let events = triggers(&events, &quote!(#impl_generics), &quote!(#self_type), &quote!(#bounds));
+    let unit: Type = syn::parse_quote!(());
+    let slots = methods.slots.iter().enumerate().map(|(i, slot)| {
+        let ty = slot.token.as_ref().unwrap_or(&unit);
+        quote! {
+            impl #impl_generics ::apex_rt::Slot<#i> for #self_type #bounds { type Token = #ty; }
+        }
+    });
+    let slots = quote! { #(#slots)* };
+    let ports = methods
+        .process
+        .as_ref()
+        .map(|process| ports(process, &quote!(#impl_generics), &quote!(#self_type), &quote!(#bounds)));
     Ok(quote! {
         #item
         #ports
+        #events
+        #slots
     })
 }
 
@@ -158,6 +183,16 @@ fn ports(callable: &Callable, generics: &TokenStream, node: &TokenStream, bounds
         }
     });
     quote! { #(#inputs)* #(#outputs)* }
+}
+
+/// Names the types of a node's events (`apex_rt::Trigger`).
+fn triggers(events: &[&Type], generics: &TokenStream, node: &TokenStream, bounds: &TokenStream) -> TokenStream {
+    let events = events.iter().enumerate().map(|(i, ty)| {
+        quote! {
+            impl #generics ::apex_rt::Trigger<#i> for #node #bounds { type Token = #ty; }
+        }
+    });
+    quote! { #(#events)* }
 }
 
 /// Names the types of a node's parameters (`apex_rt::Param`), and makes defaults callable.

@@ -32,7 +32,7 @@ pub use event::Event;
 pub use info::{ConnectionInfo, Info, NodeInfo};
 pub use list::List;
 pub use mailbox::Mailbox;
-pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField};
+pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
 pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::StdErr;

@@ -13,6 +13,18 @@ pub trait Output<const I: usize> {
     type Token;
 }
 
+/// Slot number `I` of a node takes tokens of this type.
+pub trait Slot<const I: usize> {
+    /// The type of one token.
+    type Token: ?Sized;
+}
+
+/// Event number `I` of a node carries tokens of this type.
+pub trait Trigger<const I: usize> {
+    /// The type of one token.
+    type Token;
+}
+
 /// Field number `I` of a `#[derive(Outputs)]` struct.
 pub trait Field<const I: usize> {
     /// The type of one token.

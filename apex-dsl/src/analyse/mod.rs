@@ -113,9 +113,9 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
                 || refuses(&catalog.signatures[library.signature], node)
         }
         // What waits in the program itself is looked up where it lies.
-        NodeKind::Delay(_) | NodeKind::Each(_) => true,
+        NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
         NodeKind::Boundary(_) => !graph.is_body,
-        NodeKind::Start => false,
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
     }
 }
 

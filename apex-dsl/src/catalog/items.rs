@@ -68,6 +68,8 @@ pub struct NodeItem {
     pub params: Vec<ParamItem>,
     /// Whether it has state between firings.
     pub stateful: bool,
+    /// Whether its events take activity away.
+    pub deactivates: bool,
     /// The signature of a function node.
     pub process: Option<Process>,
 }
@@ -85,6 +87,10 @@ pub struct NodeMethods {
     pub slots: Vec<SlotItem>,
     /// Its `#[no_message]` method.
     pub no_message: Option<String>,
+    /// Its `#[on_activate]` method.
+    pub on_activate: Option<String>,
+    /// Its `#[on_deactivate]` method.
+    pub on_deactivate: Option<String>,
 }
 
 /// A slot.
@@ -96,6 +102,10 @@ pub struct SlotItem {
     pub ty: Ty,
     /// Documentation.
     pub docs: String,
+    /// Arguments in order: the token as an input, events, the context.
+    pub args: Vec<ArgItem>,
+    /// `Result`: may fail.
+    pub fallible: bool,
 }
 
 /// The signature of `process`.
@@ -300,6 +310,7 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
         docs: signature::docs(&item.attrs),
         generics: generics(&item.generics),
         stateful: item.fields.len() > declared.len(),
+        deactivates: signature::marked(&item.attrs, signature::DEACTIVATES),
         params,
         process: None,
     };
@@ -371,7 +382,14 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
         }
     }
     let docs = signature::docs(&item.attrs);
-    NodeItem { docs, generics: generics(&item.sig.generics), params, stateful: false, process: Some(process(callable)) }
+    NodeItem {
+        docs,
+        generics: generics(&item.sig.generics),
+        params,
+        stateful: false,
+        deactivates: false,
+        process: Some(process(callable)),
+    }
 }
 
 fn methods(item: &syn::ItemImpl) -> Option<NodeMethods> {
@@ -384,6 +402,8 @@ fn methods(item: &syn::ItemImpl) -> Option<NodeMethods> {
             name: slot.name.clone(),
             ty: slot.token.as_ref().map_or_else(Ty::unit, Ty::from_syn),
             docs: slot.docs.clone(),
+            args: arguments(&slot.args),
+            fallible: slot.fallible,
         })
         .collect();
     Some(NodeMethods {
@@ -392,15 +412,21 @@ fn methods(item: &syn::ItemImpl) -> Option<NodeMethods> {
         process: methods.process.as_ref().map(process),
         slots,
         no_message: methods.no_message,
+        on_activate: methods.on_activate,
+        on_deactivate: methods.on_deactivate,
     })
 }
 
 fn process(callable: &signature::Callable) -> Process {
+    let returns = callable.returns.token.as_ref().map(|t| (Ty::from_syn(&t.ty), t.batch));
+    let args = arguments(&callable.args);
+    Process { args, returns, maybe: callable.returns.maybe, fallible: callable.returns.fallible }
+}
+
+fn arguments(args: &[signature::Arg]) -> Vec<ArgItem> {
     use signature::Form;
     let mut params = 0;
-    let args = callable
-        .args
-        .iter()
+    args.iter()
         .map(|arg| {
             let kind = match &arg.form {
                 Form::Input(input) if input.optional => ArgKind::Optional(Ty::from_syn(&input.token.ty)),
@@ -415,9 +441,7 @@ fn process(callable: &signature::Callable) -> Process {
             };
             ArgItem { name: arg.name.clone(), kind }
         })
-        .collect();
-    let returns = callable.returns.token.as_ref().map(|t| (Ty::from_syn(&t.ty), t.batch));
-    Process { args, returns, maybe: callable.returns.maybe, fallible: callable.returns.fallible }
+        .collect()
 }
 
 #[cfg(test)]

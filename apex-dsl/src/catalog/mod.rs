@@ -81,6 +81,25 @@ pub struct Signature {
     pub returns: ReturnSig,
     /// The method that is called instead of `process` when a mandatory input holds ⊥.
     pub no_message: Option<String>,
+    /// Its slots.
+    pub slots: Vec<SlotSig>,
+    /// The method that is called when the node becomes active.
+    pub on_activate: Option<String>,
+    /// The method that is called when the node is no longer active.
+    pub on_deactivate: Option<String>,
+    /// Whether its events take activity away instead of passing it on.
+    pub deactivates: bool,
+}
+
+/// A slot of a node type: a method.
+#[derive(Debug, Clone)]
+pub struct SlotSig {
+    /// The port.
+    pub port: usize,
+    /// Its arguments: the port itself stands for the token.
+    pub args: Vec<ArgSig>,
+    /// `Result`: may fail.
+    pub fallible: bool,
 }
 
 impl Signature {
@@ -120,7 +139,8 @@ pub struct PortSig {
     pub rate: usize,
     /// Input: ⊥ reaches the node as `None`. Output: may be ⊥ although the node fired.
     pub optional: bool,
-    /// The token type in generated code: `Input<index>` or `Output<index>` of the node, and the field of a struct of outputs.
+    /// The token type in generated code: `Input<index>`, `Output<index>`, `Slot<index>` or `Trigger<index>` of the
+    /// node, and the field of a struct of outputs.
     pub index: usize,
     /// The field of a `#[derive(Outputs)]` struct.
     pub field: Option<(usize, String)>,
@@ -209,6 +229,7 @@ impl Catalog {
             generics: &node.generics,
             renamed: &[],
             ports: vec![],
+            events: 0,
         };
         // The `impl` may call the parameters of the struct by other names.
         let with_process = methods.iter().find(|m| m.process.is_some());
@@ -223,9 +244,7 @@ impl Catalog {
             .unwrap_or_default();
         builder.renamed = &renamed;
         let (args, returns) = process.map_or((None, ReturnSig::default()), |p| builder.process(p));
-        for slot in methods.iter().flat_map(|m| &m.slots) {
-            builder.slot(slot);
-        }
+        let slots = methods.iter().flat_map(|m| &m.slots).enumerate().map(|(i, slot)| builder.slot(slot, i)).collect();
         let ports = builder.ports;
         Signature {
             name: def.name.clone(),
@@ -241,6 +260,10 @@ impl Catalog {
             process: args,
             returns,
             no_message: methods.iter().find_map(|m| m.no_message.clone()),
+            slots,
+            on_activate: methods.iter().find_map(|m| m.on_activate.clone()),
+            on_deactivate: methods.iter().find_map(|m| m.on_deactivate.clone()),
+            deactivates: node.deactivates,
         }
     }
 
@@ -326,6 +349,8 @@ struct SignatureBuilder<'a> {
     generics: &'a [String],
     renamed: &'a [(String, String)],
     ports: Vec<PortSig>,
+    /// How many events there are so far.
+    events: usize,
 }
 
 impl SignatureBuilder<'_> {
@@ -362,7 +387,7 @@ impl SignatureBuilder<'_> {
     }
 
     fn process(&mut self, process: &items::Process) -> (Option<Vec<ArgSig>>, ReturnSig) {
-        use crate::syntax::tree::PortKind::{Event, Input, Output};
+        use crate::syntax::tree::PortKind::{Input, Output};
         let (mut inputs, mut outputs) = (0, 0);
         let next = |counter: &mut usize| {
             *counter += 1;
@@ -378,7 +403,7 @@ impl SignatureBuilder<'_> {
                 ArgKind::Out(ty, batch) => {
                     ArgSig::Port(self.port(&arg.name, Output, ty, *batch, true, next(&mut outputs)))
                 }
-                ArgKind::Event(ty) => ArgSig::Port(self.port(&arg.name, Event, ty, None, false, 0)),
+                ArgKind::Event(ty) => ArgSig::Port(self.event(&arg.name, ty)),
                 ArgKind::Ctx => ArgSig::Ctx,
                 ArgKind::Param(index) => ArgSig::Param(*index),
             });
@@ -415,8 +440,24 @@ impl SignatureBuilder<'_> {
         })
     }
 
-    fn slot(&mut self, slot: &items::SlotItem) {
-        let port = self.port(&slot.name, crate::syntax::tree::PortKind::Slot, &slot.ty, None, false, 0);
+    /// An event is one port, however many methods may trigger it.
+    fn event(&mut self, name: &str, ty: &Ty) -> usize {
+        let kind = crate::syntax::tree::PortKind::Event;
+        if let Some(known) = self.ports.iter().position(|p| p.kind == kind && p.name == name) {
+            return known;
+        }
+        self.events += 1;
+        self.port(name, kind, ty, None, false, self.events - 1)
+    }
+
+    fn slot(&mut self, slot: &items::SlotItem, index: usize) -> SlotSig {
+        let port = self.port(&slot.name, crate::syntax::tree::PortKind::Slot, &slot.ty, None, false, index);
         self.ports[port].docs.clone_from(&slot.docs);
+        let args = slot.args.iter().map(|arg| match &arg.kind {
+            ArgKind::Event(ty) => ArgSig::Port(self.event(&arg.name, ty)),
+            ArgKind::Ctx => ArgSig::Ctx,
+            _ => ArgSig::Port(port),
+        });
+        SlotSig { port, args: args.collect(), fallible: slot.fallible }
     }
 }

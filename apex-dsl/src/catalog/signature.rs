@@ -84,6 +84,10 @@ pub struct Methods {
     pub slots: Vec<Slot>,
     /// The method marked `#[no_message]`: called instead of `process` when a mandatory input holds ⊥.
     pub no_message: Option<String>,
+    /// The method marked `#[on_activate]`: called when the node becomes active.
+    pub on_activate: Option<String>,
+    /// The method marked `#[on_deactivate]`: called when the node is no longer active.
+    pub on_deactivate: Option<String>,
 }
 
 /// A method marked `#[slot]`.
@@ -94,12 +98,16 @@ pub struct Slot {
     pub token: Option<Type>,
     /// Documentation.
     pub docs: String,
-    /// Further arguments: events and the context.
+    /// All arguments in order: the token, events and the context.
     pub args: Vec<Arg>,
+    /// `Result<(), E>`: may fail.
+    pub fallible: bool,
 }
 
 /// Names of the attributes that mark methods of a node.
-pub const METHOD_MARKS: [&str; 2] = ["slot", "no_message"];
+pub const METHOD_MARKS: [&str; 4] = ["slot", "no_message", "on_activate", "on_deactivate"];
+/// The attribute that marks a struct whose events take activity away instead of passing it on.
+pub const DEACTIVATES: &str = "deactivates";
 
 /// The interface of a function node.
 pub fn function(item: &ItemFn) -> syn::Result<Callable> {
@@ -129,17 +137,37 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
             methods.process = Some(callable(&method.sig)?);
         } else if marked(&method.attrs, "slot") {
             methods.slots.push(slot(method)?);
-        } else if marked(&method.attrs, "no_message") {
+        } else if let Some(mark) = METHOD_MARKS.iter().find(|mark| marked(&method.attrs, mark)) {
             if method.sig.inputs.len() != 1 || method.sig.receiver().is_none() {
-                return Err(syn::Error::new_spanned(
-                    &method.sig.inputs,
-                    "a `#[no_message]` method takes `&mut self` and nothing else",
-                ));
+                let message = format!("a `#[{mark}]` method takes `&mut self` and nothing else");
+                return Err(syn::Error::new_spanned(&method.sig.inputs, message));
             }
-            methods.no_message = Some(method.sig.ident.to_string());
+            let name = Some(method.sig.ident.to_string());
+            match *mark {
+                "on_activate" => methods.on_activate = name,
+                "on_deactivate" => methods.on_deactivate = name,
+                _ => methods.no_message = name,
+            }
         }
     }
+    let mut known: Vec<(&str, String)> = vec![];
+    for (name, ty) in methods.events() {
+        let text = quote::ToTokens::to_token_stream(ty).to_string();
+        if known.iter().any(|(other, token)| *other == name && *token != text) {
+            return Err(syn::Error::new_spanned(ty, format!("the event `{name}` has another type elsewhere")));
+        }
+        known.push((name, text));
+    }
     Ok(methods)
+}
+
+impl Methods {
+    /// The events of all methods with the types of their tokens; one that several methods may trigger comes
+    /// several times.
+    pub fn events(&self) -> impl Iterator<Item = (&str, &Type)> {
+        let args = self.process.iter().flat_map(|p| &p.args).chain(self.slots.iter().flat_map(|s| &s.args));
+        args.filter_map(|arg| if let Form::Event(ty) = &arg.form { Some((arg.name.as_str(), ty)) } else { None })
+    }
 }
 
 /// Whether `attrs` contain `#[name]`.
@@ -168,17 +196,16 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
     if callable.returns.token.is_some() {
         return Err(syn::Error::new_spanned(
             &method.sig.output,
-            "a slot returns nothing; send what it finds by an event",
+            "a slot returns nothing (or `Result<(), E>` if it may fail); send what it finds by an event",
         ));
     }
     let mut token = None;
-    let mut args = Vec::new();
-    for (arg, syntax) in callable.args.into_iter().zip(method.sig.inputs.iter().skip(1)) {
-        match arg.form {
+    for (arg, syntax) in callable.args.iter().zip(method.sig.inputs.iter().skip(1)) {
+        match &arg.form {
             Form::Input(input) if token.is_none() && !input.optional && input.token.batch.is_none() => {
-                token = Some(input.token.ty);
+                token = Some(input.token.ty.clone());
             }
-            Form::Event(_) | Form::Ctx => args.push(arg),
+            Form::Event(_) | Form::Ctx => {}
             _ => {
                 return Err(syn::Error::new_spanned(
                     syntax,
@@ -187,7 +214,8 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
             }
         }
     }
-    Ok(Slot { name: method.sig.ident.to_string(), token, docs: docs(&method.attrs), args })
+    let fallible = callable.returns.fallible;
+    Ok(Slot { name: method.sig.ident.to_string(), token, docs: docs(&method.attrs), args: callable.args, fallible })
 }
 
 fn callable(sig: &Signature) -> syn::Result<Callable> {

@@ -168,7 +168,12 @@ impl<'a> Emitter<'a> {
                 let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
                 token.map(|token| quote! { ::apex_rt::store(&mut outputs.#port, #token); }).unwrap_or_default()
             }
-            NodeKind::Boundary(_) | NodeKind::Start => quote!(),
+            NodeKind::Relay => {
+                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
+                let token = token.unwrap_or_else(|| quote!(None));
+                self.bind(End { node, port: 1 }, quote!(#token.cloned()), true)
+            }
+            NodeKind::Boundary(_) | NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => quote!(),
         }
     }
 

@@ -406,7 +406,10 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
         NodeKind::Each(each) => format!("each {}", each.body.name),
         NodeKind::Boundary(kind) => kind.word().to_owned(),
         NodeKind::Delay(_) => "delay".to_owned(),
+        NodeKind::Relay => "relay".to_owned(),
         NodeKind::Start => "start".to_owned(),
+        NodeKind::Exit(_) => "exit".to_owned(),
+        NodeKind::Reset => "reset".to_owned(),
     }
 }
 

@@ -4,6 +4,7 @@ use super::Generator;
 use crate::{
     catalog::{Catalog, Type},
     graph::{End, Graph, Library, NodeId, NodeKind, Number, TypeArg, Value},
+    syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -74,7 +75,7 @@ impl Generator<'_> {
         let port = graph.port(end);
         match &graph.nodes[end.node].kind {
             NodeKind::Each(_) => self.each_type(graph, end),
-            NodeKind::Delay(_) => match graph.incoming(End { node: end.node, port: 0 }) {
+            NodeKind::Delay(_) | NodeKind::Relay => match graph.incoming(End { node: end.node, port: 0 }) {
                 Some(connection) => self.token_type(graph, connection.from),
                 None => quote!(()),
             },
@@ -83,7 +84,7 @@ impl Generator<'_> {
                 Some(ty) => ty,
                 None => self.projection(graph, library, end),
             },
-            NodeKind::Boundary(_) | NodeKind::Start => {
+            NodeKind::Boundary(_) | NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => {
                 spell(&port.ty, self.catalog).unwrap_or_else(|| port.ty.to_string().parse().unwrap_or_default())
             }
         }
@@ -98,6 +99,9 @@ impl Generator<'_> {
         }
         let port = &signature.ports[end.port];
         let index = port.index;
+        if port.kind == PortKind::Event {
+            return quote!(<#node as ::apex_rt::Trigger<#index>>::Token);
+        }
         let whole = quote!(<#node as ::apex_rt::Output<#index>>::Token);
         match &port.field {
             Some((field, _)) => quote!(<#whole as ::apex_rt::Field<#field>>::Token),
@@ -110,9 +114,8 @@ impl Generator<'_> {
         let NodeKind::Each(each) = &graph.nodes[end.node].kind else { return quote!(()) };
         let name = &graph.port(end).name;
         let body = &each.body;
-        let inside = body.nodes.iter().position(|n| {
-            matches!(n.kind, NodeKind::Boundary(crate::syntax::tree::PortKind::Output)) && n.name == *name
-        });
+        let inside =
+            body.nodes.iter().position(|n| matches!(n.kind, NodeKind::Boundary(PortKind::Output)) && n.name == *name);
         let item = inside.and_then(|node| body.incoming(End { node, port: 0 })).map(|c| {
             let outer = self.inside(graph, end.node);
             outer.token_type(body, c.from)
@@ -135,7 +138,7 @@ impl Generator<'_> {
         let NodeKind::Each(each) = &graph.nodes[each_node].kind else { return quote!(()) };
         let name = &body.nodes[node].name;
         let ports = &graph.nodes[each_node].ports;
-        let arriving = ports.iter().position(|p| p.kind == crate::syntax::tree::PortKind::Input && p.name == *name);
+        let arriving = ports.iter().position(|p| p.kind == PortKind::Input && p.name == *name);
         let arriving = arriving.and_then(|port| graph.incoming(End { node: each_node, port }));
         let is_list = ports.get(each.list).is_some_and(|p| p.name == *name);
         match arriving.map(|c| outer.token_type(graph, c.from)) {

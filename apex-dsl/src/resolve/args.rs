@@ -271,11 +271,13 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnos
     for modifier in list {
         match &modifier.kind {
             ModifierKind::Every(expr) => modifiers.every = time(expr),
+            ModifierKind::After(expr) => modifiers.after = time(expr),
             ModifierKind::Timeout(expr) => modifiers.timeout = time(expr),
             ModifierKind::Deadline(expr) => modifiers.deadline = time(expr),
             ModifierKind::On(group) => modifiers.group = Some(group.text.clone()),
             ModifierKind::Pipelined => modifiers.pipelined = true,
             ModifierKind::Essential => modifiers.essential = true,
+            ModifierKind::Restart => modifiers.restart = true,
             ModifierKind::Each { .. } | ModifierKind::Delay(_) => {}
         }
     }

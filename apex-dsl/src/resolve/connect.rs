@@ -3,7 +3,7 @@
 use super::instance::{Body, Builder, Wire};
 use crate::{
     catalog::{Match, Type},
-    graph::{End, Node, NodeId, NodeKind},
+    graph::{End, Node, NodeId, NodeKind, Port, Standard},
     report::{Diagnostic, Diagnostics, nearest},
     source::Span,
     syntax::tree::{Arrow, Endpoint, Ident, PortKind, PortRef},
@@ -115,6 +115,21 @@ pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str
     }
 }
 
+/// What a name means that every graph knows, unless a node has it.
+fn own_node(name: &str) -> Option<NodeKind> {
+    match name {
+        "start" => Some(NodeKind::Start),
+        "reset" => Some(NodeKind::Reset),
+        "exit" => Some(NodeKind::Exit(0)),
+        "abort" => Some(NodeKind::Exit(1)),
+        _ => None,
+    }
+}
+
+fn own(kind: &NodeKind) -> bool {
+    matches!(kind, NodeKind::Start | NodeKind::Reset | NodeKind::Exit(_))
+}
+
 /// One alternative of an endpoint: the ports it may mean and where it stands.
 struct Meant {
     candidates: Vec<Candidate>,
@@ -181,8 +196,8 @@ impl Builder<'_> {
         let first = reference.parts.first()?;
         let text = reference.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".");
         let Some((symbol, _)) = table.symbols.get(&first.text) else {
-            if first.text == "start" {
-                return Some((self.start(body, first)?, text, reference.span));
+            if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
+                return Some((self.own_node(body, first, kind)?, text, reference.span));
             }
             let message = format!("there is no node or port `{}` in this graph", first.text);
             let error = Diagnostic::error("unknown-node", first.span, message);
@@ -204,7 +219,10 @@ impl Builder<'_> {
         match (symbol, &reference.parts[1..]) {
             (symbol, []) => Some((symbol.clone(), text, reference.span)),
             (Symbol::Ports(ports), [port]) => {
-                let named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
+                let mut named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
+                if named.is_empty() {
+                    named.extend(self.standard_port(ports, port));
+                }
                 if named.is_empty() {
                     self.unknown_port(&first.text, port, ports);
                     self.excuse(symbol);
@@ -238,23 +256,68 @@ impl Builder<'_> {
         self.diagnostics.push(error);
     }
 
-    fn start(&mut self, body: &Body<'_>, name: &Ident) -> Option<Symbol> {
-        let event = crate::graph::Port {
-            name: "start".to_owned(),
-            kind: PortKind::Event,
-            ty: Type::Unknown("()".to_owned()),
-            rate: 1,
-            optional: true,
-            parameter: None,
-            docs: String::new(),
+    /// The node that stands for a name that every graph knows; there is one in each graph that uses it.
+    fn own_node(&mut self, body: &Body<'_>, name: &Ident, kind: NodeKind) -> Option<Symbol> {
+        let made = self.nodes.iter().position(|n| n.scope == body.scope && n.name == name.text && own(&n.kind));
+        let node = match made {
+            Some(node) => node,
+            None => {
+                let side = if matches!(kind, NodeKind::Start) { PortKind::Event } else { PortKind::Slot };
+                let ty = if side == PortKind::Event { Type::unit() } else { Type::Unknown("any type".to_owned()) };
+                self.node(name, body.scope, kind, vec![Port::new(&name.text, side, ty)], "")?
+            }
         };
-        let node = self.node(name, body.scope, NodeKind::Start, vec![event], "")?;
         Some(Symbol::of_node(node, &self.nodes[node]))
+    }
+
+    /// A port that every node has; it is added when somebody names it.
+    fn standard_port(&mut self, ports: &[Candidate], port: &Ident) -> Option<Candidate> {
+        let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text)?;
+        let Place::Port(End { node, .. }) = ports.first()?.place else { return None };
+        if !matches!(self.nodes[node].kind, NodeKind::Library(_)) {
+            return None;
+        }
+        let known = self.nodes[node].ports.iter().position(|p| p.standard == Some(standard));
+        let index = known.unwrap_or_else(|| {
+            let made = Port::new(standard.name(), standard.kind(), standard.ty());
+            self.nodes[node].ports.push(Port { standard: Some(standard), ..made });
+            self.nodes[node].ports.len() - 1
+        });
+        Some(Candidate {
+            name: port.text.clone(),
+            kind: standard.kind(),
+            ty: standard.ty(),
+            place: Place::Port(End { node, port: index }),
+            parameter: false,
+        })
+    }
+
+    /// `start => node`: nothing is sent, the node is active from the beginning. A node with a slot for it is sent
+    /// a token as by any other event.
+    fn starts_active(&mut self, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
+        let (Symbol::Ports(from), Symbol::Ports(to_ports)) = (from, &to.0) else { return false };
+        let is_start = from
+            .iter()
+            .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
+        let takes = |c: &Candidate| c.kind == PortKind::Slot && c.ty.compare(&Type::unit()) != Match::Different;
+        if !is_start || !arrow.active || to.1.contains('.') || to_ports.iter().any(takes) {
+            return false;
+        }
+        match to_ports.first().map(|c| c.place) {
+            Some(Place::Port(end)) if matches!(self.nodes[end.node].kind, NodeKind::Library(_)) => {
+                self.nodes[end.node].starts_active = true;
+                true
+            }
+            _ => false,
+        }
     }
 
     fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow) {
         let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
         if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
+            return;
+        }
+        if self.starts_active(&from.0, to, arrow) {
             return;
         }
         let sources = meant(from, true);

@@ -6,16 +6,18 @@ use super::{
     instance::{Builder, Pin, Wire},
 };
 use crate::{
-    graph::{Connection, Crossing, End, NodeId, NodeKind},
+    catalog::Type,
+    graph::{Connection, Crossing, End, NodeId, NodeKind, Port},
     report::Diagnostic,
-    syntax::tree::PortKind,
+    syntax::tree::{Ident, PortKind},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Replaces all pins by what stands behind them. Also gives the nodes that hang on a pin without a token.
 pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
-    let wires = std::mem::take(&mut builder.wires);
+    let mut wires = std::mem::take(&mut builder.wires);
     check_single(builder, &wires);
+    add_relays(builder, &mut wires);
     let mut into: BTreeMap<Place, Vec<usize>> = BTreeMap::new();
     for (i, wire) in wires.iter().enumerate() {
         into.entry(wire.to).or_default().push(i);
@@ -26,22 +28,26 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     for wire in &wires {
         let Place::Port(to) = wire.to else { continue };
         // Follow the wire upstream to the ports it starts at; pins in a circle are left to `check_pins`.
-        let mut ends = vec![(wire.from, wire.active, wire.differs, vec![])];
+        let mut ends = vec![(wire.from, wire.active, wire.differs, false, vec![])];
         let mut visited = BTreeSet::new();
-        while let Some((place, active, differs, crossings)) = ends.pop() {
+        while let Some((place, active, differs, relayed, crossings)) = ends.pop() {
             match place {
                 Place::Port(from) => {
                     if seen.insert((from, to)) {
                         let crossings = crossings.into_iter().rev().collect();
-                        connections.push(Connection { from, to, active, differs, crossings, span: wire.span });
+                        let span = wire.span;
+                        connections.push(Connection { from, to, active, differs, crossings, relayed, span });
                     }
                 }
                 Place::Pin(pin) if visited.insert(place) => {
-                    let crossings: Vec<Crossing> =
-                        crossings.into_iter().chain([crossing(&builder.pins[pin])]).collect();
+                    let relayed = relayed || !builder.pins[pin].kind.is_synchronous();
+                    // Only synchronous ports are taken and sent together.
+                    let side = builder.pins[pin].kind.is_synchronous().then(|| crossing(&builder.pins[pin]));
+                    let crossings: Vec<Crossing> = crossings.into_iter().chain(side).collect();
                     for &up in into.get(&place).into_iter().flatten() {
                         let wire = &wires[up];
-                        ends.push((wire.from, active && wire.active, differs || wire.differs, crossings.clone()));
+                        let (active, differs) = (active && wire.active, differs || wire.differs);
+                        ends.push((wire.from, active, differs, relayed, crossings.clone()));
                     }
                 }
                 Place::Pin(_) => {}
@@ -59,6 +65,43 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
         _ => None,
     });
     (connections, hanging.collect())
+}
+
+/// Inputs of a nested graph are taken together and its outputs sent together, also where they lead to a slot:
+/// there a node of its own takes part in the synchronous flow and sends to the slot. Not needed where the port is
+/// the only one of its side, because nobody can see a difference then.
+fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
+    let mut ports: BTreeMap<(usize, PortKind), usize> = BTreeMap::new();
+    for pin in &builder.pins {
+        *ports.entry((pin.scope, pin.kind)).or_default() += 1;
+    }
+    let mut relays: BTreeMap<usize, NodeId> = BTreeMap::new();
+    for index in 0..wires.len() {
+        let Place::Pin(pin) = wires[index].from else { continue };
+        let to_slot = match wires[index].to {
+            Place::Port(end) => builder.nodes[end.node].ports[end.port].kind == PortKind::Slot,
+            Place::Pin(to) => !builder.pins[to].kind.is_synchronous(),
+        };
+        let Pin { kind, scope, span, .. } = builder.pins[pin];
+        if !to_slot || !kind.is_synchronous() || ports[&(scope, kind)] < 2 {
+            continue;
+        }
+        let relay = match relays.get(&pin) {
+            Some(relay) => *relay,
+            None => {
+                let at = if kind == PortKind::Input { scope } else { builder.scopes[scope].parent };
+                let name = Ident { text: format!("{}_relay", builder.pins[pin].name), span };
+                let port = |name, kind| Port::new(name, kind, Type::Unknown(String::new()));
+                let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
+                let Some(node) = builder.node(&name, at, NodeKind::Relay, ports, "") else { return };
+                let wire = Wire { from: Place::Pin(pin), to: Place::Port(End { node, port: 0 }), ..wires[index] };
+                wires.push(wire);
+                relays.insert(pin, node);
+                node
+            }
+        };
+        wires[index].from = Place::Port(End { node: relay, port: 1 });
+    }
 }
 
 fn crossing(pin: &Pin) -> Crossing {

@@ -141,15 +141,7 @@ impl<'a> Builder<'a> {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             // A graph-level input sends into the graph.
             let kind = port.kind.seen_from_inside();
-            let inner = Port {
-                name: port.name.text.clone(),
-                kind,
-                ty,
-                rate: 1,
-                optional: true,
-                parameter: None,
-                docs: port.docs.clone(),
-            };
+            let inner = Port { docs: port.docs.clone(), ..Port::new(&port.name.text, kind, ty) };
             let node = self.node(&port.name, 0, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
             table.insert(
                 &port.name,
@@ -207,6 +199,7 @@ impl<'a> Builder<'a> {
             modifiers: Default::default(),
             span: name.span,
             docs: docs.to_owned(),
+            starts_active: false,
         };
         self.nodes.push(node);
         Some(self.nodes.len() - 1)
@@ -438,11 +431,13 @@ impl<'a> Builder<'a> {
         for modifier in &instance.modifiers {
             let word = match modifier.kind {
                 ModifierKind::Every(_) => "every",
+                ModifierKind::After(_) => "after",
                 ModifierKind::Timeout(_) => "timeout",
                 ModifierKind::Deadline(_) => "deadline",
                 ModifierKind::On(_) => "on",
                 ModifierKind::Pipelined => "pipelined",
                 ModifierKind::Essential => "essential",
+                ModifierKind::Restart => "restart",
                 ModifierKind::Each { .. } | ModifierKind::Delay(_) => continue,
             };
             let message = format!("`{word}` is for a single node, but `{}` is a graph", instance.path.text());
@@ -536,6 +531,7 @@ fn library_ports(signature: &crate::catalog::Signature) -> Vec<Port> {
         rate: p.rate,
         optional: p.optional,
         parameter: None,
+        standard: None,
         docs: p.docs.clone(),
     });
     let params = signature.params.iter().enumerate().flat_map(|(i, p)| {
@@ -546,6 +542,7 @@ fn library_ports(signature: &crate::catalog::Signature) -> Vec<Port> {
             rate: 1,
             optional: kind == PortKind::Input,
             parameter: Some(i),
+            standard: None,
             docs: p.docs.clone(),
         })
     });

@@ -164,16 +164,10 @@ impl Builder<'_> {
         };
         for out in symbol.outputs() {
             let ident = Ident { text: format!("{}_{}_delay", name.text, out.name), span };
-            let port = |name: &str, kind| Port {
-                name: name.to_owned(),
-                kind,
-                ty: out.ty.clone(),
-                rate: 1,
-                optional: true,
-                parameter: None,
-                docs: String::new(),
-            };
-            let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
+            let ports = vec![
+                Port::new("in", PortKind::Input, out.ty.clone()),
+                Port::new("out", PortKind::Output, out.ty.clone()),
+            ];
             let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
             self.wires.push(Wire {
                 from: out.place,

@@ -300,17 +300,25 @@ impl<'a> Builder<'a> {
         let mut parts = inner.into_inner().filter(|p| {
             !matches!(
                 p.as_rule(),
-                Rule::every_kw | Rule::timeout_kw | Rule::deadline_kw | Rule::on_kw | Rule::each_kw | Rule::delay_kw
+                Rule::every_kw
+                    | Rule::after_kw
+                    | Rule::timeout_kw
+                    | Rule::deadline_kw
+                    | Rule::on_kw
+                    | Rule::each_kw
+                    | Rule::delay_kw
             )
         });
         let kind = match rule {
             Rule::every => ModifierKind::Every(self.expr(parts.next()?)),
+            Rule::after => ModifierKind::After(self.expr(parts.next()?)),
             Rule::timeout => ModifierKind::Timeout(self.expr(parts.next()?)),
             Rule::deadline => ModifierKind::Deadline(self.expr(parts.next()?)),
             Rule::on => ModifierKind::On(self.ident(&parts.next()?)),
             Rule::delay => ModifierKind::Delay(parts.next().map(|p| self.expr(p))),
             Rule::pipelined => ModifierKind::Pipelined,
             Rule::essential => ModifierKind::Essential,
+            Rule::restart => ModifierKind::Restart,
             _ => {
                 let (mut parallel, mut port) = (false, None);
                 for part in parts {

@@ -219,6 +219,8 @@ pub struct Modifier {
 pub enum ModifierKind {
     /// `every 20ms`
     Every(Expr),
+    /// `after 500ms`
+    After(Expr),
     /// `timeout 5s`
     Timeout(Expr),
     /// `deadline 10ms`
@@ -238,6 +240,8 @@ pub enum ModifierKind {
     Pipelined,
     /// `essential`
     Essential,
+    /// `restart`
+    Restart,
 }
 
 /// `a -> b => c;`
