@@ -3,6 +3,7 @@
 
 mod dataflow;
 mod each;
+mod events;
 mod forms;
 mod handed;
 mod lifecycle;

@@ -8,6 +8,7 @@ mod random;
 
 pub mod nodes {
     //! Nodes for the texts of the tests.
+    mod events;
     mod generic;
     mod lists;
     mod ops;
@@ -17,6 +18,7 @@ pub mod nodes {
     mod sources;
     mod tapes;
 
+    pub use events::*;
     pub use generic::*;
     pub use lists::*;
     pub use ops::*;
