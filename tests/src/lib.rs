@@ -8,6 +8,7 @@ mod random;
 
 pub mod nodes {
     //! Nodes for the texts of the tests.
+    mod active;
     mod events;
     mod generic;
     mod lists;
@@ -18,6 +19,7 @@ pub mod nodes {
     mod sources;
     mod tapes;
 
+    pub use active::*;
     pub use events::*;
     pub use generic::*;
     pub use lists::*;
