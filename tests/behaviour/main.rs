@@ -2,6 +2,7 @@
 //! Tests whose names begin with a case (`df_01`) check that case of the conformance list.
 
 mod activity;
+mod borders;
 mod dataflow;
 mod each;
 mod events;

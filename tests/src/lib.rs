@@ -9,6 +9,7 @@ mod random;
 pub mod nodes {
     //! Nodes for the texts of the tests.
     mod active;
+    mod control;
     mod events;
     mod generic;
     mod lists;
@@ -20,6 +21,7 @@ pub mod nodes {
     mod tapes;
 
     pub use active::*;
+    pub use control::*;
     pub use events::*;
     pub use generic::*;
     pub use lists::*;
