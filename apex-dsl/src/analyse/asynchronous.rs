@@ -7,7 +7,7 @@ use crate::{
     graph::{Flow, Graph, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The asynchronous part of a graph.
 #[derive(Debug)]
@@ -17,6 +17,9 @@ pub struct Asynchronous {
     /// For each connection whether it may hold a token at a time when clusters are looked at (execution semantics,
     /// section 3): it leads to an input, out of the program, or to a slot that can itself be held back.
     pub stays: Vec<bool>,
+    /// For each connection whether it is known at run time that it holds a token: it may stay occupied, or a slot of its
+    /// node might be called again before that token was taken (R5).
+    pub tracked: Vec<bool>,
     /// Whether tokens may go round for ever while the time stands still.
     pub endless: bool,
 }
@@ -25,9 +28,12 @@ impl Asynchronous {
     /// Looks at all asynchronous connections of `graph`.
     pub fn new(graph: &Graph, catalog: &Catalog, links: &Links) -> Self {
         let flows: Vec<Flow> = graph.connections.iter().map(|c| graph.flow(c)).collect();
-        let slots = (0..flows.len()).filter(|c| flows[*c] == Flow::ToSlot).collect();
+        let slots: Vec<usize> = (0..flows.len()).filter(|c| flows[*c] == Flow::ToSlot).collect();
         let stays = stays(graph, links, &flows);
-        Self { slots, stays, endless: is_endless(graph, catalog, links) }
+        let called: BTreeSet<NodeId> = slots.iter().map(|c| graph.connections[*c].to.node).collect();
+        let mut tracked = stays.clone();
+        called.iter().flat_map(|node| events(graph, links, *node)).for_each(|c| tracked[c] = true);
+        Self { slots, stays, tracked, endless: is_endless(graph, catalog, links) }
     }
 
     /// The number of the slot token on `connection`.
@@ -43,6 +49,16 @@ impl Asynchronous {
         node: NodeId,
     ) -> impl Iterator<Item = usize> + 'a {
         events(graph, links, node).filter(|c| self.stays[*c])
+    }
+
+    /// The connections of a node's events that may be occupied when one of its slots is to be called (R5).
+    pub fn not_yet_taken<'a>(
+        &'a self,
+        graph: &'a Graph,
+        links: &'a Links,
+        node: NodeId,
+    ) -> impl Iterator<Item = usize> + 'a {
+        events(graph, links, node).filter(|c| self.tracked[*c])
     }
 }
 

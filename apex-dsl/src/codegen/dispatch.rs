@@ -56,7 +56,7 @@ impl Bits {
             }
         }
         for (index, c) in graph.connections.iter().enumerate() {
-            if analysis.asynchronous.stays[index] {
+            if analysis.asynchronous.tracked[index] {
                 let bit = bits.next();
                 bits.free.insert(index, bit);
             }
@@ -163,7 +163,7 @@ impl Bits {
     fn needs(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<Vec<usize>> {
         let needs = |connection: &usize| {
             let node = graph.connections[*connection].to.node;
-            let events = analysis.asynchronous.holding_back(graph, links, node).filter_map(|c| self.free(c));
+            let events = analysis.asynchronous.not_yet_taken(graph, links, node).filter_map(|c| self.free(c));
             events.chain(self.room.get(&node).copied()).collect()
         };
         analysis.asynchronous.slots.iter().map(needs).collect()
