@@ -127,8 +127,8 @@ impl Generator<'_> {
         let c = &graph.connections[connection];
         let node = c.to.node;
         match (&graph.nodes[node].kind, graph.port(c.to).standard) {
-            (_, Some(Standard::Enable)) => self.set_enabled(node, true),
             (_, Some(Standard::Disable)) => self.set_enabled(node, false),
+            (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => self.set_enabled(node, true),
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
