@@ -11,6 +11,7 @@ pub mod nodes {
     mod active;
     mod control;
     mod events;
+    mod figures;
     mod generic;
     mod lists;
     mod ops;
@@ -23,6 +24,7 @@ pub mod nodes {
     pub use active::*;
     pub use control::*;
     pub use events::*;
+    pub use figures::*;
     pub use generic::*;
     pub use lists::*;
     pub use ops::*;
