@@ -336,10 +336,14 @@ impl Generator<'_> {
         };
         let loops = !bits.dispatched.is_empty() || !raises.is_empty();
         let any_stays = !bits.free.is_empty();
+        let has_exit = self.has_exit(graph);
+        let exit =
+            has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
         let fires = (0..analysis.clusters.len()).map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
             let c = &analysis.clusters[cluster];
             let served = if c.sends.is_empty() && !any_stays { quote!() } else { serve(false) };
+            let served = quote! { #served #exit };
             let Some(row) = bits.row(cluster) else {
                 let fire = quote! { self.#name(ctx, observer); #served };
                 return if loops && (serves || any_stays) {
@@ -373,9 +377,6 @@ impl Generator<'_> {
         let (inside, before): (Vec<usize>, Vec<usize>) =
             (0..analysis.clusters.len()).partition(|c| loops && (is_dispatched(c) || serves || any_stays));
         let (before, inside) = (before.iter().map(|c| &fires[*c]), inside.iter().map(|c| &fires[*c]));
-        let has_exit = self.has_exit(graph);
-        let exit =
-            has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
         let start = self.has_start(whole).then(|| {
             let serve = serve(false);
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
