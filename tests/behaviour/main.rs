@@ -8,6 +8,7 @@ mod events;
 mod forms;
 mod handed;
 mod lifecycle;
+mod machines;
 mod missing;
 mod names;
 mod nesting;

@@ -7,7 +7,7 @@ use super::{
     fire::Emitter,
     plan::{Storage, is_buffer, storage},
     rates,
-    types::ident,
+    types::{constant, ident},
 };
 use crate::{
     analyse::{Analysis, Guard, Links},
@@ -269,7 +269,7 @@ impl Generator<'_> {
                 let (ty, count) = (self.token_type(graph, end), initial.len());
                 let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
                 let values = initial.iter().map(|value| match value {
-                    Some(value) => self.value(value, port_ty),
+                    Some(value) => constant(value, port_ty),
                     None => quote!(::core::default::Default::default()),
                 });
                 fields.extend(quote! { #held: ::apex_rt::Delay<#ty, #count>, });
@@ -448,7 +448,7 @@ fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, T
     (item, quote!(#struct_name { #made }))
 }
 
-fn camel(word: &str) -> String {
+pub fn camel(word: &str) -> String {
     word.split('_')
         .map(|part| {
             let mut chars = part.chars();
