@@ -17,6 +17,7 @@ mod mailbox;
 mod node;
 mod observer;
 mod out;
+pub mod params;
 mod run;
 mod time;
 mod token;
@@ -37,6 +38,7 @@ pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::StdErr;
 pub use out::Out;
+pub use params::Parameters;
 pub use run::{Next, Program, run};
 pub use time::Time;
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
@@ -44,7 +46,7 @@ pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {
     pub use crate::{
-        Clock, Ctx, Event, Mailbox, Next, Observer, Out, Outputs, Program, SimClock, Time, graph, node, run,
+        Clock, Ctx, Event, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, graph, node, run,
     };
     #[cfg(feature = "std")]
     pub use crate::{StdErr, WallClock};

@@ -33,6 +33,14 @@ pub trait Program {
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next;
 }
 
+impl<P: Program> Program for &mut P {
+    const INFO: Info = P::INFO;
+
+    fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next {
+        (**self).react_with(now, observer)
+    }
+}
+
 /// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, or the clock ends.
 pub fn run<P: Program, C: Clock>(mut program: P, mut clock: C) {
     #[cfg(feature = "std")]

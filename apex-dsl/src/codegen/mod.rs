@@ -2,6 +2,7 @@
 
 mod each;
 mod fire;
+mod params;
 mod plan;
 mod program;
 mod rates;

@@ -64,6 +64,7 @@ impl Generator<'_> {
         let clusters = self.clusters(graph, analysis);
         let info = self.info(graph, analysis);
         let links = self.links(graph);
+        let parameters = self.parameters(graph, analysis);
         quote! {
             #[doc = #docs]
             pub struct #name { nodes: #nodes_name, state: #state_name, inputs: #inputs_name, outputs: #outputs_name }
@@ -105,6 +106,7 @@ impl Generator<'_> {
                 const INFO: ::apex_rt::Info = #info;
                 #react
             }
+            #parameters
         }
     }
 
@@ -115,7 +117,8 @@ impl Generator<'_> {
         quote!(nodes #(.#segments)*)
     }
 
-    fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
+    /// The fields on the way to a node of the catalog.
+    pub fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
         let own = graph.path(node);
         let mut segments: Vec<String> = match self.outer {
             Some((outer, each, generator)) => generator.node_path(outer, each),

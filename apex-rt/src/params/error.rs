@@ -1,0 +1,129 @@
+//! What can be wrong with a value for a parameter.
+
+use super::ParamInfo;
+use core::fmt;
+
+/// Why a value was not taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// It is of another kind.
+    Kind {
+        /// What the parameter takes: `a number`.
+        expected: &'static str,
+        /// What was given: `a string`.
+        found: &'static str,
+    },
+    /// It does not fit into this type.
+    Fit(&'static str),
+    /// It is a list of another length.
+    Length {
+        /// How many elements the parameter takes.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// It is a list or a string that is too long.
+    Long {
+        /// How many elements or bytes the parameter takes.
+        most: usize,
+    },
+    /// It is out of the declared range.
+    Range,
+    /// The type of the parameter is no [`ParamValue`](super::ParamValue).
+    Opaque,
+}
+
+/// Why a parameter could not be read or set.
+#[derive(Debug, Clone, Copy)]
+pub enum ParamError {
+    /// There is no parameter of this name.
+    Unknown {
+        /// The one whose name is most like it, if one is near enough to be meant.
+        nearest: Option<&'static ParamInfo>,
+    },
+    /// The parameter does not take the value; it keeps the one that it has.
+    Refused {
+        /// The parameter.
+        param: &'static ParamInfo,
+        /// Why.
+        refusal: Refusal,
+    },
+}
+
+impl Refusal {
+    /// The sentence about `param`; `value` is shown if it is known.
+    pub(super) fn say(
+        &self,
+        param: &ParamInfo,
+        value: Option<&dyn fmt::Display>,
+        f: &mut fmt::Formatter<'_>,
+    ) -> fmt::Result {
+        let name = param.name;
+        match self {
+            Self::Kind { expected, found } => write!(f, "`{name}` ({}) takes {expected}, not {found}", param.ty),
+            Self::Fit(ty) => write!(f, "the value of `{name}` does not fit into `{ty}`"),
+            Self::Length { expected, found } => {
+                write!(f, "`{name}` ({}) takes {expected} elements; here are {found}", param.ty)
+            }
+            Self::Long { most } => write!(f, "the value of `{name}` is too long: there is room for {most}"),
+            Self::Range => {
+                match value {
+                    Some(value) => write!(f, "`{name}` cannot be {value}")?,
+                    None => write!(f, "the value of `{name}` is out of range")?,
+                }
+                match (param.range.is_known(), param.unit) {
+                    (true, Some(unit)) => write!(f, ": its range is {} ({unit})", param.range),
+                    (true, None) => write!(f, ": its range is {}", param.range),
+                    (false, _) => f.write_str(": its node type declares a range that it is out of"),
+                }
+            }
+            Self::Opaque => {
+                write!(f, "`{name}` is a `{}`: parameters of this type can only be set in the graph", param.ty)
+            }
+        }
+    }
+}
+
+impl fmt::Display for ParamError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown { nearest: Some(near) } => {
+                write!(f, "there is no parameter of this name; did you mean `{}`?", near.name)
+            }
+            Self::Unknown { nearest: None } => {
+                f.write_str("there is no parameter of this name; `PARAMS` of the program lists all")
+            }
+            Self::Refused { param, refusal } => refusal.say(param, None, f),
+        }
+    }
+}
+
+impl core::error::Error for ParamError {}
+
+/// Longer names are not compared.
+const MAX_NAME: usize = 128;
+
+/// The parameter whose name is most like `name`, if one is near enough to be meant.
+pub(super) fn nearest(name: &str, params: &'static [ParamInfo]) -> Option<&'static ParamInfo> {
+    let limit = (name.len() / 4).max(1);
+    let distances = params.iter().filter(|p| p.name.len().abs_diff(name.len()) <= limit);
+    let distances = distances.filter_map(|p| Some((distance(name, p.name)?, p)));
+    distances.filter(|(d, _)| *d <= limit).min_by_key(|(d, _)| *d).map(|(_, p)| p)
+}
+
+/// Edit distance of two names in bytes; `None` for very long ones.
+fn distance(a: &str, b: &str) -> Option<usize> {
+    let mut row = [0; MAX_NAME + 1];
+    let row = row.get_mut(..=b.len())?;
+    row.iter_mut().enumerate().for_each(|(j, cell)| *cell = j);
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.bytes().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row.last().copied()
+}
