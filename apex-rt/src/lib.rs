@@ -19,6 +19,8 @@ mod observer;
 mod out;
 pub mod params;
 mod run;
+#[cfg(feature = "std")]
+mod stop;
 mod time;
 mod token;
 
@@ -40,6 +42,8 @@ pub use observer::StdErr;
 pub use out::Out;
 pub use params::Parameters;
 pub use run::{Next, Program, run};
+#[cfg(feature = "std")]
+pub use stop::UntilStopped;
 pub use time::Time;
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 

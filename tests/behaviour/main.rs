@@ -10,6 +10,7 @@ mod missing;
 mod names;
 mod nesting;
 mod parameters;
+mod params;
 mod random;
 mod rates;
 mod reported;

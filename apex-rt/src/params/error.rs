@@ -38,8 +38,8 @@ pub enum Refusal {
 pub enum ParamError {
     /// There is no parameter of this name.
     Unknown {
-        /// The one whose name is most like it, if one is near enough to be meant.
-        nearest: Option<&'static ParamInfo>,
+        /// The name that is most like it, if one is near enough to be meant.
+        nearest: Option<&'static str>,
     },
     /// The parameter does not take the value; it keeps the one that it has.
     Refused {
@@ -88,7 +88,7 @@ impl fmt::Display for ParamError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unknown { nearest: Some(near) } => {
-                write!(f, "there is no parameter of this name; did you mean `{}`?", near.name)
+                write!(f, "there is no parameter of this name; did you mean `{near}`?")
             }
             Self::Unknown { nearest: None } => {
                 f.write_str("there is no parameter of this name; `PARAMS` of the program lists all")
@@ -103,12 +103,11 @@ impl core::error::Error for ParamError {}
 /// Longer names are not compared.
 const MAX_NAME: usize = 128;
 
-/// The parameter whose name is most like `name`, if one is near enough to be meant.
-pub(super) fn nearest(name: &str, params: &'static [ParamInfo]) -> Option<&'static ParamInfo> {
+/// The one of `names` that is most like `name`, if one is near enough to be meant.
+pub(super) fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> Option<&'static str> {
     let limit = (name.len() / 4).max(1);
-    let distances = params.iter().filter(|p| p.name.len().abs_diff(name.len()) <= limit);
-    let distances = distances.filter_map(|p| Some((distance(name, p.name)?, p)));
-    distances.filter(|(d, _)| *d <= limit).min_by_key(|(d, _)| *d).map(|(_, p)| p)
+    let near = names.filter(|n| n.len().abs_diff(name.len()) <= limit).filter_map(|n| Some((distance(name, n)?, n)));
+    near.filter(|(distance, _)| *distance <= limit).min_by_key(|(distance, _)| *distance).map(|(_, n)| n)
 }
 
 /// Edit distance of two names in bytes; `None` for very long ones.

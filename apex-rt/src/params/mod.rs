@@ -19,7 +19,7 @@ pub use file::{load_file, save_file};
 #[doc(hidden)]
 pub use probe::{Known, Opaque, Probe};
 #[cfg(feature = "params")]
-pub use run::{UntilStopped, run_with_files};
+pub use run::run_with_files;
 #[cfg(feature = "params")]
 pub use text::{LoadError, Problem, load, not_saved, save, set_text};
 pub use value::{Give, Given, GivenList, ParamValue};
@@ -152,5 +152,6 @@ impl<T> ParamVisitor for At<'_, T> {
 fn at<P: Parameters + ?Sized, T>(program: &mut P, name: &str, act: Act<'_, T>) -> Result<T, ParamError> {
     let mut at = At { name, act, result: None };
     program.visit_params(&mut at);
-    at.result.unwrap_or_else(|| Err(ParamError::Unknown { nearest: error::nearest(name, P::PARAMS) }))
+    at.result
+        .unwrap_or_else(|| Err(ParamError::Unknown { nearest: error::nearest(name, P::PARAMS.iter().map(|p| p.name)) }))
 }

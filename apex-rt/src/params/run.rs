@@ -1,12 +1,8 @@
 //! What `apex run --params FILE --save-params FILE` does.
 
 use super::{Parameters, load_file, save_file};
-use crate::{Clock, Program, Time};
-use std::{
-    path::Path,
-    sync::atomic::{AtomicBool, Ordering},
-    time::Duration,
-};
+use crate::{Clock, Program};
+use std::path::Path;
 
 /// Drives `program` as [`run`](crate::run()) does, with parameters from the file `load`; at the end they are written into
 /// the file `save`.
@@ -28,43 +24,5 @@ pub fn run_with_files<P: Program + Parameters, C: Clock>(
             save_file(&mut program, path).map_err(|error| format!("cannot write `{}`: {error}", path.display()))
         }
         None => Ok(()),
-    }
-}
-
-/// A clock that ends when a switch is set, by the handler of a signal or by another thread.
-#[derive(Debug, Clone, Copy)]
-pub struct UntilStopped<C> {
-    clock: C,
-    stopped: &'static AtomicBool,
-}
-
-/// How long it may take until the switch is noticed.
-const NOTICED: Duration = Duration::from_millis(20);
-
-impl<C: Clock> UntilStopped<C> {
-    /// `clock` until `stopped` is true.
-    pub const fn new(clock: C, stopped: &'static AtomicBool) -> Self {
-        Self { clock, stopped }
-    }
-}
-
-impl<C: Clock> Clock for UntilStopped<C> {
-    fn now(&mut self) -> Time {
-        self.clock.now()
-    }
-
-    fn wait_until(&mut self, time: Time) -> bool {
-        loop {
-            if self.stopped.load(Ordering::Relaxed) {
-                return false;
-            }
-            let soon = self.clock.now() + NOTICED;
-            if time <= soon {
-                return self.clock.wait_until(time) && !self.stopped.load(Ordering::Relaxed);
-            }
-            if !self.clock.wait_until(soon) {
-                return false;
-            }
-        }
     }
 }

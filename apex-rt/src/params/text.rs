@@ -190,20 +190,15 @@ impl<'a> File<'a> {
                 let message = format!("`{name}` is a node: its parameters stand in a table, such as `{}`", param.name);
                 self.problems.add(at, message);
             }
-            (DeValue::Table(table), None) => self.unknown_table(name, at, table),
+            (DeValue::Table(_), None) => {
+                let hint = self.hint(nearest(name, self.params.iter().filter_map(|p| node_of(p.name, name))));
+                self.problems.add(at, format!("there is no node `{name}` with parameters; {hint}"));
+            }
             (_, None) => {
-                let hint = self.hint(nearest(name, self.params).map(|p| p.name));
+                let hint = self.hint(nearest(name, self.params.iter().map(|p| p.name)));
                 self.problems.add(at, format!("there is no parameter `{name}`; {hint}"));
             }
         }
-    }
-
-    fn unknown_table(&mut self, name: &str, at: usize, table: &DeTable<'_>) {
-        // A node that is like it has a parameter of the name of one in the table.
-        let in_table = |key: &Spanned<_>| nearest(&format!("{name}.{}", key.get_ref()), self.params);
-        let near = table.keys().find_map(in_table).and_then(|p| p.name.rsplit_once('.')).map(|(node, _)| node);
-        let hint = self.hint(near);
-        self.problems.add(at, format!("there is no node `{name}` with parameters; {hint}"));
     }
 
     fn hint(&self, near: Option<&str>) -> String {
@@ -213,6 +208,12 @@ impl<'a> File<'a> {
             None => "remove it, or save the parameters to see what there are".to_owned(),
         }
     }
+}
+
+/// So many names from the front of `param` as `like` has.
+fn node_of(param: &'static str, like: &str) -> Option<&'static str> {
+    let dots = like.matches('.').count();
+    param.match_indices('.').nth(dots).map(|(end, _)| &param[..end])
 }
 
 /// Looks for values that are not taken.
