@@ -105,24 +105,29 @@ const MAX_NAME: usize = 128;
 
 /// The one of `names` that is most like `name`, if one is near enough to be meant.
 pub(super) fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> Option<&'static str> {
-    let limit = (name.len() / 4).max(1);
+    let limit = (name.len() / 3).max(1);
     let near = names.filter(|n| n.len().abs_diff(name.len()) <= limit).filter_map(|n| Some((distance(name, n)?, n)));
     near.filter(|(distance, _)| *distance <= limit).min_by_key(|(distance, _)| *distance).map(|(_, n)| n)
 }
 
-/// Edit distance of two names in bytes; `None` for very long ones.
+/// Edit distance of two names in bytes, in which a swap of two neighbours counts one; `None` for very long ones.
 fn distance(a: &str, b: &str) -> Option<usize> {
-    let mut row = [0; MAX_NAME + 1];
-    let row = row.get_mut(..=b.len())?;
-    row.iter_mut().enumerate().for_each(|(j, cell)| *cell = j);
-    for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.bytes().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let width = b.len() + 1;
+    if width > MAX_NAME {
+        return None;
     }
-    row.last().copied()
+    let mut rows = [[0; MAX_NAME]; 2];
+    rows[0].iter_mut().enumerate().for_each(|(j, cell)| *cell = j);
+    for (i, x) in a.iter().enumerate() {
+        let [above, before] = rows;
+        let mut row = [i + 1; MAX_NAME];
+        for (j, y) in b.iter().enumerate() {
+            let best = (above[j] + usize::from(x != y)).min(above[j + 1] + 1).min(row[j] + 1);
+            let swapped = i > 0 && j > 0 && *x == b[j - 1] && a[i - 1] == *y;
+            row[j + 1] = if swapped { best.min(before[j - 1] + 1) } else { best };
+        }
+        rows = [row, above];
+    }
+    rows[0][..width].last().copied()
 }
