@@ -147,7 +147,7 @@ use std::{{env, path::PathBuf, process::ExitCode}};
 
 graph!({file:?});
 
-fn drive() -> Result<(), String> {{
+fn drive() -> Result<u8, String> {{
     let file = |name| env::var_os(name).map(PathBuf::from);
     let (load, save) = (file("{LOAD}"), file("{SAVE}"));
     // Without it the program would end at once, and nothing would be saved.
@@ -157,7 +157,7 @@ fn drive() -> Result<(), String> {{
 
 fn main() -> ExitCode {{
     match drive() {{
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => ExitCode::from(code),
         Err(message) => {{
             eprintln!("error: {{message}}");
             ExitCode::from(2)

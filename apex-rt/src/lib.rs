@@ -11,6 +11,7 @@ mod clock;
 mod ctx;
 mod dispatch;
 mod event;
+mod failure;
 mod info;
 mod list;
 mod mailbox;
@@ -18,10 +19,12 @@ mod node;
 mod observer;
 mod out;
 pub mod params;
+mod queue;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
 mod time;
+mod timer;
 mod token;
 
 pub use apex_macros::{Outputs, graph, node};
@@ -30,8 +33,9 @@ pub use apex_macros::{Outputs, graph, node};
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
-pub use dispatch::{Bits, Cluster, Dispatcher, Timer};
+pub use dispatch::{Bits, Cluster, Dispatcher};
 pub use event::Event;
+pub use failure::{Failure, contain, contain_fallible};
 pub use info::{ConnectionInfo, Info, NodeInfo};
 pub use list::List;
 pub use mailbox::Mailbox;
@@ -41,16 +45,19 @@ pub use observer::Observer;
 pub use observer::StdErr;
 pub use out::Out;
 pub use params::Parameters;
-pub use run::{Next, Program, run};
+pub use queue::{Queue, Steps};
+pub use run::{Next, Program, drive, run};
 #[cfg(feature = "std")]
 pub use stop::UntilStopped;
 pub use time::Time;
+pub use timer::{Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {
     pub use crate::{
-        Clock, Ctx, Event, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, graph, node, run,
+        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, graph,
+        node, run,
     };
     #[cfg(feature = "std")]
     pub use crate::{StdErr, WallClock};
