@@ -13,6 +13,7 @@ mod missing;
 mod names;
 mod nesting;
 mod parameters;
+mod params;
 mod random;
 mod rates;
 mod reported;

@@ -5,6 +5,7 @@ mod dispatch;
 mod each;
 mod fire;
 mod machine;
+mod params;
 mod plan;
 mod program;
 mod rates;

@@ -76,6 +76,7 @@ impl Generator<'_> {
         let is_active = self.is_active(whole);
         let info = self.info(graph, analysis);
         let links = self.links(graph);
+        let parameters = self.parameters(graph, analysis);
         quote! {
             #[doc = #docs]
             pub struct #name {
@@ -131,6 +132,7 @@ impl Generator<'_> {
                 #react
                 #is_active
             }
+            #parameters
         }
     }
 
@@ -141,7 +143,8 @@ impl Generator<'_> {
         quote!(nodes #(.#segments)*)
     }
 
-    fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
+    /// The fields on the way to a node of the catalog.
+    pub fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
         let own = graph.path(node);
         let mut segments: Vec<String> = match self.outer {
             Some((outer, each, generator)) => generator.node_path(outer, each),

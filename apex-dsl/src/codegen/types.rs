@@ -158,17 +158,21 @@ impl Generator<'_> {
                 let default = format_ident!("apex_default_{}", declared.name);
                 quote!(<#node>::#default())
             }
-            value => {
-                let known = |name: &str| {
-                    let index = signature.generics.iter().position(|g| g == name)?;
-                    match library.types.get(index)? {
-                        TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
-                        TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
-                    }
-                };
-                constant(value, &declared.ty.substitute(&known))
-            }
+            value => constant(value, &self.param_type(library, param)),
         }
+    }
+
+    /// The type of a parameter, with type parameters of the node replaced as far as they are known.
+    pub fn param_type(&self, library: &Library, param: usize) -> Type {
+        let signature = &self.catalog.signatures[library.signature];
+        let known = |name: &str| {
+            let index = signature.generics.iter().position(|g| g == name)?;
+            match library.types.get(index)? {
+                TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+                TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
+            }
+        };
+        signature.params[param].ty.substitute(&known)
     }
 }
 
