@@ -17,6 +17,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use activity::reachable as active_nodes;
 pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
