@@ -145,14 +145,6 @@ fn an_event_meets_a_pace() {
 }
 
 #[test]
-fn an_event_of_a_region_with_several_rates() {
-    let mut program = SeveralRates::new();
-    react(&mut program, 3);
-    assert_eq!(program.nodes().end.seen, [0, 1, 2, 3, 4, 5]);
-    assert_eq!(program.nodes().k.seen, [0, 1, 2, 3, 4, 5]);
-}
-
-#[test]
 fn an_event_that_nobody_takes_holds_back() {
     let mut program = Untaken::new();
     let mut log = Log::of(&program);

@@ -8,6 +8,7 @@ mod dataflow;
 mod each;
 mod events;
 mod failures;
+mod figures;
 mod forms;
 mod handed;
 mod lifecycle;
