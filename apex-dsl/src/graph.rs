@@ -373,6 +373,11 @@ impl Port {
             docs: String::new(),
         }
     }
+
+    /// Whether it is the event that activity came, or went.
+    pub fn tells_of_activity(&self) -> bool {
+        matches!(self.standard, Some(Standard::Activated | Standard::Deactivated))
+    }
 }
 
 impl Graph {

@@ -4,7 +4,7 @@
 use super::Links;
 use crate::{
     catalog::{ArgSig, Catalog},
-    graph::{Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,6 +33,9 @@ impl Asynchronous {
         let called: BTreeSet<NodeId> = slots.iter().map(|c| graph.connections[*c].to.node).collect();
         let mut tracked = stays.clone();
         called.iter().flat_map(|node| events(graph, links, *node)).for_each(|c| tracked[c] = true);
+        if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
+            sent_by_reset(graph).for_each(|c| tracked[c] = true);
+        }
         Self { slots, stays, tracked, endless: is_endless(graph, catalog, links) }
     }
 
@@ -51,20 +54,28 @@ impl Asynchronous {
         events(graph, links, node).filter(|c| self.stays[*c])
     }
 
-    /// The connections of a node's events that may be occupied when one of its slots is to be called (R5).
-    pub fn not_yet_taken<'a>(
-        &'a self,
-        graph: &'a Graph,
-        links: &'a Links,
-        node: NodeId,
-    ) -> impl Iterator<Item = usize> + 'a {
-        events(graph, links, node).filter(|c| self.tracked[*c])
+    /// The connections that may be occupied when the slot at the end of `connection` is to be called: those of its
+    /// node's events (R5), or of all that `reset` triggers.
+    pub fn not_yet_taken(&self, graph: &Graph, links: &Links, connection: usize) -> Vec<usize> {
+        let node = graph.connections[connection].to.node;
+        let resets = matches!(graph.nodes[node].kind, NodeKind::Reset);
+        let all: Vec<usize> =
+            if resets { sent_by_reset(graph).collect() } else { events(graph, links, node).collect() };
+        // The token that `reset` takes is no longer under way.
+        all.into_iter().filter(|c| self.tracked[*c] && !(resets && *c == connection)).collect()
     }
 }
 
 /// The connections of a node's events.
 fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = usize> + 'a {
     links.sends[node].iter().copied().filter(|c| graph.port(graph.connections[*c].from).kind == PortKind::Event)
+}
+
+/// The connections on which a reset sends: `start`, and the events of nodes that activity comes and goes.
+fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
+    let sent =
+        |from: End| matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity();
+    (0..graph.connections.len()).filter(move |c| sent(graph.connections[*c].from))
 }
 
 /// A node whose events all lead to slots that are served at once is served at once itself. That is found from the

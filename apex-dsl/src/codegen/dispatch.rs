@@ -163,8 +163,8 @@ impl Bits {
     fn needs(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<Vec<usize>> {
         let needs = |connection: &usize| {
             let node = graph.connections[*connection].to.node;
-            let events = analysis.asynchronous.not_yet_taken(graph, links, node).filter_map(|c| self.free(c));
-            events.chain(self.room.get(&node).copied()).collect()
+            let events = analysis.asynchronous.not_yet_taken(graph, links, *connection);
+            events.into_iter().filter_map(|c| self.free(c)).chain(self.room.get(&node).copied()).collect()
         };
         analysis.asynchronous.slots.iter().map(needs).collect()
     }

@@ -19,12 +19,17 @@ impl Generator<'_> {
     /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
     /// are queued, those for inputs lie there. A slot sends on events only.
     pub fn emit(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, by_process: bool) -> TokenStream {
+        self.emit_from(whole, bits, node, &|end| by_process || whole.graph.port(end).kind == PortKind::Event)
+    }
+
+    /// The same for the events that activity came, or went.
+    fn tell(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
+        self.emit_from(whole, bits, node, &|end| whole.graph.port(end).tells_of_activity())
+    }
+
+    fn emit_from(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, wanted: &dyn Fn(End) -> bool) -> TokenStream {
         let from = |c: usize| whole.graph.connections[c].from;
-        let sends: Vec<usize> = whole.links.sends[node]
-            .iter()
-            .copied()
-            .filter(|c| by_process || whole.graph.port(from(*c)).kind == PortKind::Event)
-            .collect();
+        let sends: Vec<usize> = whole.links.sends[node].iter().copied().filter(|c| wanted(from(*c))).collect();
         let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
             let sent = connections.iter().map(|c| self.sent(whole, bits, *c));
             let present = self.waits(whole.graph, from(connections[0]));
@@ -266,9 +271,8 @@ impl Generator<'_> {
         let mut code = quote!();
         for (node, n) in graph.nodes.iter().enumerate() {
             if n.starts_active && whole.analysis.active.contains(&node) {
-                let (clear, activate) = (self.clear_events(whole, node), self.activate(whole, node));
-                let emit = if clear.is_empty() { quote!() } else { self.emit(whole, bits, node, false) };
-                code.extend(quote! { #clear #activate #emit });
+                let (activate, tell) = (self.activate(whole, node), self.tell(whole, bits, node));
+                code.extend(quote! { #activate #tell });
             }
             if matches!(n.kind, NodeKind::Start) {
                 let end = End { node, port: 0 };
@@ -295,7 +299,15 @@ impl Generator<'_> {
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
     pub fn reset(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let deactivates = whole.analysis.active.iter().map(|node| self.deactivate(whole, *node));
+        // Those that `start` makes active again say both at once.
+        let deactivates = whole.analysis.active.iter().map(|&node| {
+            let ports = 0..whole.graph.nodes[node].ports.len();
+            let told = ports.map(|port| End { node, port }).filter(|end| whole.graph.port(*end).tells_of_activity());
+            let names = told.filter(|end| self.is_sent_event(whole, *end)).map(|end| self.name(end));
+            let deactivate = self.deactivate(whole, node);
+            let tell = (!whole.graph.nodes[node].starts_active).then(|| self.tell(whole, bits, node));
+            quote! { #(state.#names = None;)* #deactivate #tell }
+        });
         let modifiers = self.flags(whole).into_iter().filter(|(name, ..)| {
             let name = name.to_string();
             ["gains_", "loses_", "carries_"].iter().any(|prefix| name.starts_with(prefix))
