@@ -191,3 +191,64 @@ fn an_event_port_with_two_connections() {
     react(&mut program, 4);
     assert_eq!(program.nodes().k.seen, [0, 0, 1, 1, 2, 2]);
 }
+
+#[test]
+fn a_relay_is_free_when_what_it_leads_to_is() {
+    let mut program = Wired::new();
+    let log = simulate(&mut program, Time::ZERO, END);
+    assert_eq!(program.nodes().k.seen, [(1, 0), (2, 1), (3, 2), (4, 3), (5, 4)]);
+    assert_eq!(log.count("a"), 6, "the wire itself has no room");
+}
+
+#[test]
+fn ports_of_a_graph_turn_one_kind_into_the_other() {
+    let mut program = Turned::new();
+    react(&mut program, 5);
+    assert_eq!(program.nodes().t.seen, [0, 1, 2]);
+    assert_eq!(program.nodes().k.seen, [10, 20, 30]);
+}
+
+#[test]
+fn relays_two_graphs_deep() {
+    let mut program = DeepUsed::new();
+    react(&mut program, 5);
+    assert_eq!(program.nodes().t.seen, [1, 2, 3]);
+}
+
+#[test]
+fn sub_03_a_graph_with_only_a_clock_inside_sends_events() {
+    let mut program = Bells::new();
+    simulate(&mut program, Time::ZERO, END);
+    assert_eq!(program.nodes().k.count, 20);
+}
+
+#[test]
+fn what_is_inside_is_switched_and_fails() {
+    let mut program = CarefulUsed::new();
+    react(&mut program, 6);
+    assert_eq!(program.nodes().k.seen, [0, 2, 3, 5]);
+    assert_eq!(program.nodes().notes.seen, ["no 4"]);
+}
+
+#[test]
+fn events_of_one_region_come_in_the_order_of_firing() {
+    let mut program = InOrder::new();
+    let log = react(&mut program, 3);
+    let two_first = log.order().find("two") < log.order().find("one");
+    let seen = if two_first { [0, 0, 10, 1, 20, 2] } else { [0, 0, 1, 10, 2, 20] };
+    assert_eq!(program.nodes().k.seen, seen);
+}
+
+#[test]
+fn lc_05_the_end_may_come_from_inside() {
+    let mut program = QuitsUsed::new();
+    assert_eq!(program.react(Time::ZERO), Next::Now);
+    assert_eq!(program.react(Time::ZERO), Next::Exit(0));
+}
+
+#[test]
+fn one_event_over_two_ways() {
+    let mut program = TwoWays::new();
+    react(&mut program, 3);
+    assert_eq!(program.nodes().k.seen, [1, 1, 2, 2]);
+}
