@@ -252,3 +252,14 @@ fn one_event_over_two_ways() {
     react(&mut program, 3);
     assert_eq!(program.nodes().k.seen, [1, 1, 2, 2]);
 }
+
+#[test]
+fn ev_11_no_token_of_a_circle_is_lost() {
+    let mut program = SecondHop::new();
+    program.set_budget(100);
+    react(&mut program, 3);
+    let before = program.nodes().b.seen.len();
+    react(&mut program, 1);
+    let seen = &program.nodes().b.seen[before..];
+    assert!(seen.contains(&7) && seen.contains(&8), "{seen:?}");
+}
