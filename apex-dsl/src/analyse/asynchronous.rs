@@ -149,9 +149,11 @@ fn is_single(
     regions: &[usize],
 ) -> bool {
     let to_slot = |c: &usize| flows[*c] == Flow::ToSlot;
+    // The slot takes the token away: nobody else may want it.
     let alone = |c: &usize| {
         let from = graph.connections[*c].from;
-        links.sends[from.node].iter().filter(|other| graph.connections[**other].from == from).count() == 1
+        let connections = links.sends[from.node].iter().chain(&links.out_of[from.node]);
+        connections.filter(|other| graph.connections[**other].from == from).count() == 1
     };
     let mut by_region: BTreeMap<usize, usize> = BTreeMap::new();
     let mut at_start = 0;
