@@ -348,6 +348,11 @@ impl Node {
         self.standard(Standard::Disable).is_some()
     }
 
+    /// Whether it holds tokens back for some iterations.
+    pub fn is_delay(&self) -> bool {
+        matches!(self.kind, NodeKind::Delay(_))
+    }
+
     /// Whether its failures are contained: somebody wants to know of them, or it is to be made anew.
     pub fn is_contained(&self) -> bool {
         self.modifiers.restart || self.standard(Standard::Failed).is_some()

@@ -90,13 +90,6 @@ fn act_09_what_is_lost_is_told() {
 }
 
 #[test]
-fn activity_passes_a_delay_with_the_token() {
-    let mut program = Delayed::new();
-    assert_eq!(after_each(&mut program), ["", "", "k", "k"]);
-    assert_eq!(program.nodes().k.seen, [false, false, true, true]);
-}
-
-#[test]
 fn act_08_over_an_input() {
     let mut program = Doused::new();
     assert_eq!(after_each(&mut program), ["k", "", ""]);

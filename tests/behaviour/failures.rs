@@ -175,3 +175,38 @@ fn lc_05_the_process_ends_with_the_code() {
     };
     assert_eq!((code("exit"), code("abort")), (Some(0), Some(1)));
 }
+
+#[test]
+fn nodes_of_every_form_are_switched_off() {
+    let mut program = AllForms::new();
+    react(&mut program, 6);
+    let n = program.nodes();
+    let some = |values: [i64; 4]| {
+        let [a, b, c, d] = values.map(|v| Some(v).filter(|v| *v != 99));
+        [a, b, None, None, c, d]
+    };
+    assert_eq!(n.a_even.seen, some([0, 99, 4, 99]));
+    assert_eq!(n.a_odd.seen, some([99, 1, 99, 5]));
+    assert_eq!(n.b_plus.seen, some([0, 1, 4, 5]));
+    assert_eq!(n.b_minus.seen, some([99, -1, 99, -5]));
+    assert_eq!(n.c_out.seen, some([99, 2, 8, 10]));
+    assert_eq!(n.d_twos.seen, some([0, 99, 4, 99]));
+    assert_eq!(n.d_threes.seen, some([0, 99, 99, 99]));
+    assert_eq!(n.e_out.seen, some([0, 1, 4, 5]));
+    assert_eq!(n.f_even.seen, some([99, 99, 4, 99]));
+    assert_eq!(n.f_odd.seen, some([99, 1, 99, 99]));
+    assert_eq!(n.g_out.seen, some([0, 1, 4, 5]));
+    assert_eq!(n.h_out.seen, some([100, 101, 104, 105]));
+    assert_eq!(n.i_out.seen, some([0, 3, 12, 15]));
+    assert_eq!(n.j_out.seen, some([0, 99, 4, 99]));
+    assert_eq!(n.told.seen, [0, 1, 4, 5].map(Some));
+    assert_eq!(n.g.seen, [0, 1, 4, 5]);
+    assert_eq!(n.notes.seen, ["0 is a multiple of 5", "odd", "5 is a multiple of 5", "odd"]);
+}
+
+#[test]
+fn a_panic_that_nobody_listens_to_is_one() {
+    let mut program = PanicsUnheard::new();
+    let caught = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| react(&mut program, 5)));
+    assert!(caught.is_err());
+}

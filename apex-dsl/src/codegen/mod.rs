@@ -167,6 +167,12 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
 
 /// What can be written but not run yet.
 pub fn check_supported(graph: &Graph, diagnostics: &mut Diagnostics) {
+    for c in graph.connections.iter().filter(|c| c.active) {
+        if let Some(node) = [c.from.node, c.to.node].map(|n| &graph.nodes[n]).into_iter().find(|n| n.is_delay()) {
+            let message = format!("activity cannot pass the delay `{}` yet", node.name);
+            diagnostics.push(Diagnostic::error("not-yet", c.span, message).note("use `->` here"));
+        }
+    }
     for node in &graph.nodes {
         if let NodeKind::Each(each) = &node.kind {
             check_supported(&each.body, diagnostics);
