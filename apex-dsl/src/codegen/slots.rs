@@ -5,6 +5,7 @@ use super::{
     activity::{Carries, Whole, carries},
     dispatch::Bits,
     plan::is_buffer,
+    test::probe,
     types::ident,
 };
 use crate::{
@@ -146,6 +147,10 @@ impl Generator<'_> {
             (_, Some(Standard::Enable)) => self.set_enabled(node, true),
             (_, Some(Standard::Disable)) => self.set_enabled(node, false),
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
+            (NodeKind::Probe, _) => {
+                let (probe, token) = (probe(node), self.token(whole, c.from));
+                quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
+            }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
