@@ -22,4 +22,5 @@ mod random;
 mod rates;
 mod reported;
 mod scale;
+mod scripts;
 mod timing;

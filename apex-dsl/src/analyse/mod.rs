@@ -154,7 +154,7 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
         // What waits in the program itself is looked up where it lies.
         NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
         NodeKind::Boundary(_) => !graph.is_body,
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Probe => false,
     }
 }
 
@@ -177,6 +177,7 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         }
         NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
         NodeKind::Boundary(kind) => kind.is_synchronous(),
+        NodeKind::Probe => !links.inputs[node].is_empty(),
         NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
     }
 }

@@ -5,6 +5,7 @@ use super::{
     activity::{Carries, Whole, carries},
     dispatch::Bits,
     plan::is_buffer,
+    test::probe,
     types::ident,
 };
 use crate::{
@@ -151,6 +152,10 @@ impl Generator<'_> {
             (_, Some(Standard::Disable)) => self.set_enabled(node, false),
             (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => self.set_enabled(node, true),
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
+            (NodeKind::Probe, _) => {
+                let (probe, token) = (probe(node), self.token(whole, c.from));
+                quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
+            }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
