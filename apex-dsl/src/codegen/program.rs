@@ -77,7 +77,7 @@ impl Generator<'_> {
         let react = self.react(whole, &bits);
         let clusters = self.clusters(whole, &bits);
         let dispatcher = self.dispatcher(whole, &bits);
-        let is_active = self.is_active(whole);
+        let (is_active, waiting) = (self.is_active(whole), self.waiting(whole, &bits));
         let info = self.info(graph, analysis);
         let links = self.links(graph);
         let parameters = self.parameters(graph, analysis);
@@ -138,6 +138,7 @@ impl Generator<'_> {
                 const INFO: ::apex_rt::Info = #info;
                 #react
                 #is_active
+                #waiting
             }
             #parameters
         }
