@@ -252,7 +252,6 @@ fn lc_05_the_end_may_come_from_inside() {
 }
 
 #[test]
-#[ignore = "two ways through nested graphs are taken for one connection"]
 fn one_event_over_two_ways() {
     let mut program = TwoWays::new();
     react(&mut program, 3);
@@ -260,7 +259,6 @@ fn one_event_over_two_ways() {
 }
 
 #[test]
-#[ignore = "where one token is thought to be under way, a second one replaces it"]
 fn ev_11_no_token_of_a_circle_is_lost() {
     let mut program = SecondHop::new();
     program.set_budget(100);

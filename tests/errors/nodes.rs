@@ -180,3 +180,16 @@ pub mod right {
         1
     }
 }
+
+/// Passes tokens on.
+#[node]
+#[derive(Default)]
+pub struct Pass;
+
+#[node]
+impl Pass {
+    #[slot]
+    fn put(&mut self, value: &u64, sent: Event<u64>) {
+        sent.emit(*value);
+    }
+}

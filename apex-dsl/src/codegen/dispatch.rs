@@ -423,10 +423,11 @@ impl Generator<'_> {
             let served = quote! { #served #exit };
             let Some(row) = bits.row(cluster) else {
                 let fire = quote! { self.#name(ctx, observer); #served };
-                return if loops && (serves || any_stays) {
-                    quote! { if first { #fire } }
-                } else {
-                    fire
+                return match (loops && ordered, endless) {
+                    (true, true) => quote! { if first && !self.state.steps.is_used_up() { #fire } },
+                    (true, false) => quote! { if first { #fire } },
+                    (false, true) => quote! { if !self.state.steps.is_used_up() { #fire } },
+                    (false, false) => fire,
                 };
             };
             let timers = c.own_guards.iter().filter_map(|g| match analysis.guards[*g] {
@@ -577,17 +578,21 @@ impl Generator<'_> {
         (raises, wishes)
     }
 
+    /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
+    pub fn allows(&self, whole: Whole<'_>, free: &[usize]) -> TokenStream {
+        let free =
+            (!free.is_empty()).then(|| quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*]))));
+        let budget = whole.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
+        quote!(#free #budget)
+    }
+
     /// A node was active for as long as its `timeout` says: it triggers the event, with its activity.
     fn expire(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
         let graph = whole.graph;
         let timeout = self.flag(Flag::Timeout, node);
         let free: Vec<usize> =
             whole.analysis.asynchronous.holding_back(graph, whole.links, node).filter_map(|c| bits.free(c)).collect();
-        let test = if free.is_empty() {
-            quote!()
-        } else {
-            quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*])))
-        };
+        let test = self.allows(whole, &free);
         let clear = self.clear_events(whole, node);
         let trigger = self.trigger(graph, node, Standard::Timeout);
         let pass = self.pass_activity(whole, node, &|end| {

@@ -274,11 +274,7 @@ impl Generator<'_> {
         let graph = whole.graph;
         let (name, port) = (self.name(End { node, port: 0 }), ident(&graph.nodes[node].name));
         let free: Vec<usize> = whole.links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
-        let test = if free.is_empty() {
-            quote!()
-        } else {
-            quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*])))
-        };
+        let test = self.allows(whole, &free);
         let emit = self.emit(whole, bits, node, false);
         let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());
         quote! {

@@ -68,11 +68,13 @@ impl<'a> Opener<'a> {
                         .note("outputs go to its slots, and its events go to inputs, without a node between them"),
                 );
             }
-            if let Some((first, _)) = self.ports.insert(&port.name.text, (port, ty(port))) {
+            if let Some((first, _)) = self.ports.get(port.name.text.as_str()) {
                 let message = format!("`{}` is already defined here", port.name.text);
                 let error = Diagnostic::error("duplicate-name", port.name.span, message);
                 self.diagnostics.push(error.also(first.name.span, "first defined here"));
+                continue;
             }
+            self.ports.insert(&port.name.text, (port, ty(port)));
         }
     }
 

@@ -33,7 +33,9 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
         while let Some((place, active, differs, relayed, crossings)) = ends.pop() {
             match place {
                 Place::Port(from) => {
-                    if seen.insert((from, to)) {
+                    // Two ways to a slot are two tokens.
+                    let to_slot = builder.nodes[to.node].ports[to.port].kind == PortKind::Slot;
+                    if seen.insert((from, to)) || to_slot {
                         let crossings = crossings.into_iter().rev().collect();
                         let span = wire.span;
                         connections.push(Connection { from, to, active, differs, crossings, relayed, span });

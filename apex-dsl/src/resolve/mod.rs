@@ -26,6 +26,18 @@ pub use names::{GraphId, Texts};
 pub const MAX_NODES: usize = 50_000;
 /// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
 const MAX_LOOKS: usize = 1_000_000;
+/// What may be wrong only because a broken statement declares something that is not known.
+const UNCERTAIN: [&str; 9] = [
+    "unknown-node",
+    "unknown-port",
+    "open-input",
+    "open-output",
+    "unknown-import",
+    "unknown-name",
+    "no-state",
+    "unknown-state",
+    "never-entered",
+];
 /// How deep graphs nest in each other.
 pub const MAX_NESTING: usize = 64;
 
@@ -83,10 +95,7 @@ pub fn resolve(
     }
     if broken {
         // What a broken statement declares is not known, so that these would be false alarms.
-        diagnostics.retain(|d| {
-            !["unknown-node", "unknown-port", "open-input", "open-output", "unknown-import", "unknown-name"]
-                .contains(&d.code)
-        });
+        diagnostics.retain(|d| !UNCERTAIN.contains(&d.code));
     } else if texts.files[0].1.is_empty() && !diagnostics.has_errors() {
         let span = crate::source::Span::new(root, 0, 0);
         diagnostics.push(

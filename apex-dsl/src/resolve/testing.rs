@@ -5,7 +5,7 @@ use super::{
     args,
     instance::{Builder, Purpose},
     names::{GraphId, Made, Texts, suggest},
-    value::{Scope, as_rust, duration, evaluate},
+    value::{Scope, Wanted, as_rust, duration, evaluate},
 };
 use crate::{
     catalog::{Catalog, Type},
@@ -157,12 +157,22 @@ impl Writer<'_> {
                 self.diagnostics.push(Diagnostic::error("missing-argument", port.span, message));
                 return None;
             }
-            Some(value) => match self.value(value)? {
-                Value::List(values) if every.is_some() => values,
-                value => vec![value],
-            },
+            Some(expr) => {
+                let values = match self.value(expr)? {
+                    Value::List(values) if every.is_some() => values,
+                    value => vec![value],
+                };
+                values.into_iter().map(|value| self.fit(port, &ty, value, expr.span)).collect::<Option<_>>()?
+            }
         };
         Some(Step::Feed { port: node, values, every })
+    }
+
+    /// A token for a port, if it has the type of the port.
+    fn fit(&mut self, port: &Ident, ty: &Type, value: Value, span: Span) -> Option<Value> {
+        let declared = format!("`{}` takes `{ty}`", port.text);
+        let wanted = Wanted { name: &port.text, ty, unit: None, range: None, declared };
+        wanted.fit(value, span).map_err(|error| self.diagnostics.push(*error)).ok()
     }
 
     fn value(&mut self, expr: &Expr) -> Option<Value> {
