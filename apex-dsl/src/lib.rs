@@ -12,6 +12,7 @@ pub mod check;
 pub mod codegen;
 pub mod graph;
 pub mod passes;
+pub mod petri;
 pub mod report;
 pub mod resolve;
 pub mod source;
