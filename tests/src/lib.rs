@@ -4,6 +4,7 @@
 
 mod compile;
 mod log;
+pub mod oracle;
 mod random;
 
 pub mod nodes {
@@ -13,6 +14,7 @@ pub mod nodes {
     mod ops;
     mod params;
     mod rates;
+    mod scripted;
     mod sinks;
     mod sources;
     mod tapes;
@@ -22,6 +24,7 @@ pub mod nodes {
     pub use ops::*;
     pub use params::*;
     pub use rates::*;
+    pub use scripted::*;
     pub use sinks::*;
     pub use sources::*;
     pub use tapes::*;

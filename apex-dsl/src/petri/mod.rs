@@ -20,7 +20,7 @@ use std::fmt;
 pub use build::net;
 pub use pnml::pnml;
 pub use replay::{Replay, Wrong};
-pub use state::{Call, Origin, Script, State, Token, unsupported};
+pub use state::{Call, Origin, Preview, Script, State, Token, unsupported};
 
 /// A place, by number in [`Net::places`].
 pub type PlaceId = usize;

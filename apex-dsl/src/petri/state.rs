@@ -334,7 +334,9 @@ impl<'a> State<'a> {
                 colours.insert(link.token, sent);
             } else {
                 let decided = self.decided.entry(c.from).or_insert_with(|| token.value.then(BTreeMap::new));
-                decided.iter_mut().for_each(|d| drop(d.insert(link.token, sent)));
+                if let Some(tokens) = decided {
+                    tokens.insert(link.token, sent);
+                }
             }
         }
         colours
@@ -373,7 +375,9 @@ impl<'a> State<'a> {
                     colours.insert(link.token, token);
                 } else {
                     let decided = self.decided.entry(end).or_insert_with(|| value.then(BTreeMap::new));
-                    decided.iter_mut().for_each(|d| drop(d.insert(link.token, token)));
+                    if let Some(tokens) = decided {
+                        tokens.insert(link.token, token);
+                    }
                 }
             }
         }

@@ -1,0 +1,3 @@
+//! Compiled programs against the Petri nets of their graphs.
+
+mod nets;
