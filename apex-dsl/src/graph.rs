@@ -330,6 +330,35 @@ pub struct Number {
     pub dimension: Dimension,
 }
 
+impl Modifiers {
+    /// Whether a source with these fires by a timer.
+    pub fn has_pace(&self) -> bool {
+        self.every.is_some() || self.after.is_some()
+    }
+}
+
+impl Node {
+    /// Its port of this kind, if somebody named it.
+    pub fn standard(&self, standard: Standard) -> Option<usize> {
+        self.ports.iter().position(|p| p.standard == Some(standard))
+    }
+
+    /// Whether it can be disabled.
+    pub fn can_be_disabled(&self) -> bool {
+        self.standard(Standard::Disable).is_some()
+    }
+
+    /// Whether its failures are contained: somebody wants to know of them, or it is to be made anew.
+    pub fn is_contained(&self) -> bool {
+        self.modifiers.restart || self.standard(Standard::Failed).is_some()
+    }
+
+    /// Whether it may send nothing although it takes tokens.
+    pub fn may_be_silent(&self) -> bool {
+        self.can_be_disabled() || self.is_contained()
+    }
+}
+
 impl Port {
     /// A port for one token per firing that need not be connected.
     pub fn new(name: &str, kind: PortKind, ty: Type) -> Self {

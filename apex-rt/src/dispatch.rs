@@ -1,9 +1,6 @@
 //! Decides at run time which cluster fires: for every cluster the set of things it waits for is a set of
 //! bits, and it is ready when all of them are set. All state has a size known at compile time.
 
-use crate::{Time, time::nanos};
-use core::time::Duration;
-
 /// A set of `64·W` conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bits<const W: usize>(pub [u64; W]);
@@ -44,15 +41,20 @@ impl<const W: usize> Bits<W> {
 
 /// A cluster's place among the others (static data).
 ///
-/// Conditions: each timer and each graph-level input has a bit, each connection between clusters has one for
-/// "holds a token" and one for "free", each cluster has one for "enabled".
+/// Conditions: each timer and each graph-level input has a bit; each connection between clusters, and each
+/// asynchronous one that may stay occupied, has one for "free" and, if it leads to an input, one for "holds a
+/// token"; each cluster has one for "enabled".
 #[derive(Debug)]
 pub struct Cluster<const W: usize> {
-    /// What must hold for it to fire: its guards, tokens on all incoming connections, itself enabled.
+    /// What must hold for it to fire: its guards, tokens on all incoming connections, its events and itself enabled.
     pub waits_for: Bits<W>,
-    /// Set when it fires: tokens on its outgoing connections.
+    /// What is used up by that: all of it but the enabled events.
+    pub takes: Bits<W>,
+    /// Set when it fires: tokens on its outgoing synchronous connections.
     pub sends: Bits<W>,
-    /// Its outgoing connections are free. Cleared when it fires; when all hold again, everything downstream has finished and the cluster is enabled again.
+    /// Cleared when it fires: its outgoing synchronous connections are free.
+    pub occupies: Bits<W>,
+    /// When all of these hold after it fired, everything downstream has finished, and it is enabled again.
     pub notified_by: Bits<W>,
     /// Set when it is enabled again: itself enabled, its incoming connections free (R4).
     pub notifies: Bits<W>,
@@ -74,10 +76,22 @@ impl<const W: usize> Dispatcher<W> {
         Self { holds: initial }
     }
 
-    /// Sets the bit of a guard.
+    /// Makes a condition hold: a guard, or a connection that is free again.
     #[inline(always)]
     pub fn raise(&mut self, bit: usize) {
         self.holds.insert(&Bits::of(&[bit]));
+    }
+
+    /// Ends a condition: a connection is occupied.
+    #[inline(always)]
+    pub fn clear(&mut self, bit: usize) {
+        self.holds.remove(&Bits::of(&[bit]));
+    }
+
+    /// Whether all of `bits` hold.
+    #[inline(always)]
+    pub fn holds(&self, bits: &Bits<W>) -> bool {
+        self.holds.contains(bits)
     }
 
     /// If `cluster` is ready, takes its tokens and guards and returns `true`: it is to be fired now.
@@ -85,7 +99,7 @@ impl<const W: usize> Dispatcher<W> {
     pub fn start(&mut self, cluster: &Cluster<W>) -> bool {
         let ready = self.holds.contains(&cluster.waits_for);
         if ready {
-            self.holds.remove(&cluster.waits_for);
+            self.holds.remove(&cluster.takes);
         }
         ready
     }
@@ -97,9 +111,16 @@ impl<const W: usize> Dispatcher<W> {
     pub fn finish(&mut self, clusters: &[Cluster<W>], index: usize) {
         let cluster = &clusters[index];
         self.holds.insert(&cluster.sends);
-        self.holds.remove(&cluster.notified_by);
-        if cluster.notified_by != Bits::NONE {
-            // One of the clusters downstream will notify this one.
+        self.holds.remove(&cluster.occupies);
+        self.settle(clusters, index);
+    }
+
+    /// If everything downstream of `clusters[index]` has finished, notifies it, and those above for which that was
+    /// the last.
+    #[inline(always)]
+    pub fn settle(&mut self, clusters: &[Cluster<W>], index: usize) {
+        let cluster = &clusters[index];
+        if self.holds.contains(&cluster.enabled) || !self.holds.contains(&cluster.notified_by) {
             return;
         }
         self.holds.insert(&cluster.notifies);
@@ -109,38 +130,5 @@ impl<const W: usize> Dispatcher<W> {
                 self.holds.insert(&above.notifies);
             }
         }
-    }
-}
-
-/// The clock of a source with `every`: due at 0, `period`, 2·`period`, … Late calls are made up for, so
-/// that the number of firings depends on the time alone and never drifts.
-#[derive(Debug, Clone)]
-pub struct Timer {
-    due: Time,
-    /// In nanoseconds: adding a `Duration` takes a wide multiplication.
-    period: i64,
-}
-
-impl Timer {
-    /// A timer that is due at zero for the first time.
-    pub const fn new(period: Duration) -> Self {
-        Self { due: Time::ZERO, period: nanos(period) }
-    }
-
-    /// Whether it is due at `now`.
-    #[inline(always)]
-    pub fn is_due(&self, now: Time) -> bool {
-        now >= self.due
-    }
-
-    /// The next time at which it is due.
-    pub const fn due(&self) -> Time {
-        self.due
-    }
-
-    /// Its source fired.
-    #[inline(always)]
-    pub fn advance(&mut self) {
-        self.due = Time::from_nanos(self.due.as_nanos().saturating_add(self.period));
     }
 }

@@ -11,14 +11,17 @@ mod clock;
 mod ctx;
 mod dispatch;
 mod event;
+mod failure;
 mod info;
 mod list;
 mod mailbox;
 mod node;
 mod observer;
 mod out;
+mod queue;
 mod run;
 mod time;
+mod timer;
 mod token;
 
 pub use apex_macros::{Outputs, graph, node};
@@ -27,8 +30,9 @@ pub use apex_macros::{Outputs, graph, node};
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
-pub use dispatch::{Bits, Cluster, Dispatcher, Timer};
+pub use dispatch::{Bits, Cluster, Dispatcher};
 pub use event::Event;
+pub use failure::{Failure, contain, contain_fallible};
 pub use info::{ConnectionInfo, Info, NodeInfo};
 pub use list::List;
 pub use mailbox::Mailbox;
@@ -37,14 +41,16 @@ pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::StdErr;
 pub use out::Out;
-pub use run::{Next, Program, run};
+pub use queue::{Queue, Steps};
+pub use run::{Next, Program, drive, run};
 pub use time::Time;
+pub use timer::{Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {
     pub use crate::{
-        Clock, Ctx, Event, Mailbox, Next, Observer, Out, Outputs, Program, SimClock, Time, graph, node, run,
+        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Program, SimClock, Time, graph, node, run,
     };
     #[cfg(feature = "std")]
     pub use crate::{StdErr, WallClock};

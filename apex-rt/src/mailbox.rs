@@ -1,6 +1,7 @@
-/// The way into a graph: room for one token of a graph-level input.
+/// The way into a graph and out of it: room for one token of a graph-level input, slot or event.
 ///
-/// Like every connection it holds at most one token; nothing is ever overwritten.
+/// Like every connection it holds at most one token; nothing is ever overwritten. As long as nobody takes the token
+/// of an event, what sends it is held back.
 #[derive(Debug, Clone)]
 pub struct Mailbox<T> {
     token: Option<T>,
@@ -29,8 +30,7 @@ impl<T> Mailbox<T> {
         self.token.is_some()
     }
 
-    /// Called by generated code when the graph takes the token.
-    #[doc(hidden)]
+    /// Takes the token out: the graph does so with what comes in, its user with the events that come out.
     pub fn take(&mut self) -> Option<T> {
         self.token.take()
     }

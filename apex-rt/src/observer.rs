@@ -3,7 +3,8 @@ use core::fmt::{Debug, Display};
 /// Watches a program while it reacts. Every method does nothing unless it is overridden; with `()` a
 /// program is compiled as if nobody watched.
 ///
-/// Nodes are given by their index in [`Info::nodes`](crate::Info::nodes).
+/// Nodes are given by their index in [`Info::nodes`](crate::Info::nodes), connections by theirs in
+/// [`Info::connections`](crate::Info::connections).
 pub trait Observer {
     /// Node `node` is about to fire.
     #[inline(always)]
@@ -11,7 +12,25 @@ pub trait Observer {
         let _ = node;
     }
 
-    /// `process` of node `node` returned an error; its outputs carry ⊥.
+    /// The slot at the end of connection `connection` is about to take its token.
+    #[inline(always)]
+    fn handled(&mut self, connection: usize) {
+        let _ = connection;
+    }
+
+    /// Node `node` became active, or is no longer.
+    #[inline(always)]
+    fn activity(&mut self, node: usize, active: bool) {
+        let _ = (node, active);
+    }
+
+    /// A reaction used up its steps, because tokens go round while the time stands still. `nodes` took part in the
+    /// last steps, each as often as `counts` says.
+    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
+        let _ = (nodes, counts);
+    }
+
+    /// Node `node` returned an error, or panicked where that is contained; its outputs carry ⊥.
     #[inline(always)]
     fn failed(&mut self, node: usize, error: &impl Display) {
         let _ = (node, error);
@@ -28,6 +47,17 @@ impl Observer for () {}
 
 impl<O: Observer> Observer for &mut O {
     #[inline(always)]
+    fn handled(&mut self, connection: usize) {
+        (**self).handled(connection);
+    }
+    #[inline(always)]
+    fn activity(&mut self, node: usize, active: bool) {
+        (**self).activity(node, active);
+    }
+    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
+        (**self).endless(nodes, counts);
+    }
+    #[inline(always)]
     fn fired(&mut self, node: usize) {
         (**self).fired(node);
     }
@@ -41,7 +71,7 @@ impl<O: Observer> Observer for &mut O {
     }
 }
 
-/// Writes failures and refused parameter values to standard error, with the names of the nodes.
+/// Writes failures, refused parameter values and endless loops to standard error, with the names of the nodes.
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct StdErr(pub &'static crate::Info);
@@ -54,5 +84,12 @@ impl Observer for StdErr {
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.0.nodes[node].name;
         eprintln!("{}: `{name}` keeps its `{parameter}`: {value:?} is out of range", self.0.name);
+    }
+    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
+        let total: u32 = counts.iter().sum();
+        eprintln!("{}: tokens go round while the time stands still; of the last {total} steps:", self.0.name);
+        for (node, count) in nodes.iter().zip(counts).filter(|(_, count)| **count > 0) {
+            eprintln!("{count:>8}  `{}`", self.0.nodes[*node].name);
+        }
     }
 }

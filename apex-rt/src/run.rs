@@ -9,6 +9,8 @@ pub enum Next {
     At(Time),
     /// Only when a token is put into a mailbox.
     Input,
+    /// Never: a token came to `exit` (0) or `abort` (1).
+    Exit(u8),
 }
 
 impl Next {
@@ -16,6 +18,7 @@ impl Next {
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         match (self, other) {
+            (Self::Exit(code), _) | (_, Self::Exit(code)) => Self::Exit(code),
             (Self::Now, _) | (_, Self::Now) => Self::Now,
             (Self::At(a), Self::At(b)) => Self::At(if a < b { a } else { b }),
             (Self::At(t), Self::Input) | (Self::Input, Self::At(t)) => Self::At(t),
@@ -31,10 +34,17 @@ pub trait Program {
 
     /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next;
+
+    /// Whether node `node` is active (thesis eq. 7.1).
+    fn is_active(&self, node: usize) -> bool {
+        let _ = node;
+        false
+    }
 }
 
-/// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, or the clock ends.
-pub fn run<P: Program, C: Clock>(mut program: P, mut clock: C) {
+/// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
+/// token comes to `exit`. Returns the exit code: 0, or 1 after a token came to `abort`.
+pub fn drive<P: Program, C: Clock>(mut program: P, mut clock: C) -> u8 {
     #[cfg(feature = "std")]
     let mut observer = crate::StdErr(const { &P::INFO });
     #[cfg(not(feature = "std"))]
@@ -44,10 +54,22 @@ pub fn run<P: Program, C: Clock>(mut program: P, mut clock: C) {
         let wake = match program.react_with(now, &mut observer) {
             Next::Now => now,
             Next::At(time) => time,
-            Next::Input => return,
+            Next::Input => return 0,
+            Next::Exit(code) => return code,
         };
         if !clock.wait_until(wake) {
-            return;
+            return 0;
         }
     }
+}
+
+/// As [`drive`], for a `main` that ends with it: after `abort` the process ends with code 1.
+pub fn run<P: Program, C: Clock>(program: P, clock: C) {
+    let code = drive(program, clock);
+    #[cfg(feature = "std")]
+    if code != 0 {
+        std::process::exit(i32::from(code));
+    }
+    #[cfg(not(feature = "std"))]
+    let _ = code;
 }

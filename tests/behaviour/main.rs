@@ -1,8 +1,10 @@
 //! What graphs do: texts are compiled into this program and run, and their firings and records are compared.
 //! Tests whose names begin with a case (`df_01`) check that case of the conformance list.
 
+mod activity;
 mod dataflow;
 mod each;
+mod events;
 mod forms;
 mod handed;
 mod lifecycle;

@@ -9,6 +9,8 @@ mod random;
 
 pub mod nodes {
     //! Nodes for the texts of the tests.
+    mod active;
+    mod events;
     mod generic;
     mod lists;
     mod ops;
@@ -19,6 +21,8 @@ pub mod nodes {
     mod sources;
     mod tapes;
 
+    pub use active::*;
+    pub use events::*;
     pub use generic::*;
     pub use lists::*;
     pub use ops::*;

@@ -5,8 +5,15 @@ use std::fmt::{Debug, Display};
 #[derive(Debug, Default)]
 pub struct Log {
     names: Vec<&'static str>,
+    takers: Vec<usize>,
     /// The names of the nodes that fired, in order.
     pub fired: Vec<&'static str>,
+    /// The names of the nodes whose slots were called, in order.
+    pub handled: Vec<&'static str>,
+    /// Nodes that became active (`true`), or are no longer.
+    pub activity: Vec<(&'static str, bool)>,
+    /// Nodes that took part in an endless loop, with how often.
+    pub endless: Vec<(&'static str, u32)>,
     /// Nodes that failed, with what they said.
     pub failed: Vec<(&'static str, String)>,
     /// Nodes that refused a value: node, parameter, value.
@@ -16,7 +23,8 @@ pub struct Log {
 impl Log {
     /// An empty log for `P`.
     pub fn of<P: Program>(_: &P) -> Self {
-        Self { names: P::INFO.nodes.iter().map(|n| n.name).collect(), ..Self::default() }
+        let names = P::INFO.nodes.iter().map(|n| n.name).collect();
+        Self { names, takers: P::INFO.connections.iter().map(|c| c.to).collect(), ..Self::default() }
     }
 
     /// How often `node` fired.
@@ -33,6 +41,16 @@ impl Log {
 impl Observer for Log {
     fn fired(&mut self, node: usize) {
         self.fired.push(self.names[node]);
+    }
+    fn handled(&mut self, connection: usize) {
+        self.handled.push(self.names[self.takers[connection]]);
+    }
+    fn activity(&mut self, node: usize, active: bool) {
+        self.activity.push((self.names[node], active));
+    }
+    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
+        let took_part = nodes.iter().zip(counts).filter(|(_, count)| **count > 0);
+        self.endless.extend(took_part.map(|(node, count)| (self.names[*node], *count)));
     }
     fn failed(&mut self, node: usize, error: &impl Display) {
         self.failed.push((self.names[node], error.to_string()));
@@ -59,7 +77,7 @@ pub fn simulate<P: Program>(program: &mut P, start: Time, end: Time) -> Log {
         now = match program.react_with(now, &mut log) {
             Next::At(time) => time,
             Next::Now => now + std::time::Duration::from_millis(1),
-            Next::Input => break,
+            Next::Input | Next::Exit(_) => break,
         };
     }
     log

@@ -17,13 +17,13 @@ pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId],
     for &node in order {
         let mut clock = Clock::new();
         if !fires_always(graph, catalog, node) {
-            for &index in &links.into[node] {
+            for &index in &links.inputs[node] {
                 let c = &graph.connections[index];
                 if !is_mandatory(graph, c.to) {
                     continue;
                 }
                 // What another cluster left is always looked at: it may be ⊥.
-                let outside = cluster_of[c.from.node] != cluster_of[node];
+                let outside = cluster_of[c.from.node] != cluster_of[node] || !graph.is_synchronous(c);
                 clock.extend(if outside { Clock::from([c.from]) } else { presence(graph, catalog, &clocks, c.from) });
             }
         }

@@ -1,8 +1,9 @@
 //! Regions, guards and clusters: what runs together as straight-line code (see the execution semantics).
 
-use super::{Block, Links, Step, is_source};
+use super::{Analysis, Asynchronous, Block, Links, Step, fires, is_source};
 use crate::{
-    graph::{Crossing, Graph, Node, NodeId, NodeKind, ScopeId},
+    catalog::Catalog,
+    graph::{Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -17,6 +18,10 @@ pub enum Guard {
     Input(NodeId),
     /// Sources without a pace of their own: once per `react`. They share a guard where they wait for the same things downstream.
     React,
+    /// The token on an asynchronous connection into an input.
+    Token(usize),
+    /// The events of this node are enabled: it can trigger them (R1).
+    Events(NodeId),
 }
 
 /// Nodes that fire together.
@@ -34,6 +39,8 @@ pub struct Cluster {
     pub upstream: BTreeSet<usize>,
     /// Clusters that it sends to.
     pub downstream: BTreeSet<usize>,
+    /// The asynchronous connections that its nodes send on, in the order in which their tokens are emitted.
+    pub sends: Vec<usize>,
     /// What a firing does.
     pub block: Block,
 }
@@ -54,10 +61,14 @@ impl Cluster {
     }
 
     /// Whether it just runs once per `react`: nothing to wait for, nothing between it and others.
-    pub fn is_free(&self, guards: &[Guard]) -> bool {
+    pub fn is_free(&self, graph: &Graph, analysis: &Analysis) -> bool {
+        let holds_back = |c: &usize| {
+            analysis.asynchronous.stays[*c] && graph.port(graph.connections[*c].from).kind == PortKind::Output
+        };
         self.upstream.is_empty()
             && self.downstream.is_empty()
-            && self.own_guards.iter().all(|g| guards[*g] == Guard::React)
+            && self.own_guards.iter().all(|g| analysis.guards[*g] == Guard::React)
+            && !self.sends.iter().any(holds_back)
     }
 }
 
@@ -66,7 +77,7 @@ const MAX_PACES: usize = 1_000;
 
 /// Reports a program with more of them; `None` then.
 pub fn check_paces(graph: &Graph, diagnostics: &mut Diagnostics) -> Option<()> {
-    let sets_a_pace = |n: &&Node| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) || n.modifiers.every.is_some();
+    let sets_a_pace = |n: &&Node| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) || n.modifiers.has_pace();
     let Some(node) = graph.nodes.iter().filter(sets_a_pace).nth(MAX_PACES) else { return Some(()) };
     let message = format!("a program has at most {MAX_PACES} inputs and sources with `every`");
     diagnostics.push(Diagnostic::error("too-large", node.span, message));
@@ -82,8 +93,10 @@ pub fn regions(graph: &Graph) -> Vec<usize> {
         root[a.max(b)] = a.min(b);
     };
     let mut at_scope: BTreeMap<ScopeId, NodeId> = BTreeMap::new();
-    for c in graph.connections.iter().filter(|c| graph.is_synchronous(c)) {
-        join(c.from.node, c.to.node);
+    for c in graph.connections.iter().filter(|c| graph.flow(c) != Flow::ToSlot) {
+        if graph.is_synchronous(c) {
+            join(c.from.node, c.to.node);
+        }
         for Crossing::Enter(scope) | Crossing::Leave(scope) in &c.crossings {
             join(*at_scope.entry(*scope).or_insert(c.to.node), c.to.node);
         }
@@ -108,27 +121,40 @@ fn find(root: &mut [usize], mut node: usize) -> usize {
 /// Guards, clusters, and the cluster of each node.
 pub fn clusters(
     graph: &Graph,
+    catalog: &Catalog,
     links: &Links,
     order: &[NodeId],
     regions: &[usize],
+    asynchronous: &Asynchronous,
 ) -> (Vec<Guard>, Vec<Cluster>, Vec<usize>) {
     let mut guards = vec![];
-    let mut own: Vec<Option<usize>> = vec![None; graph.nodes.len()];
+    let mut own: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
     for (id, node) in graph.nodes.iter().enumerate() {
-        let guard = match node.kind {
-            // The body of an `each` runs when it is called, with all its inputs.
-            _ if graph.is_body => continue,
-            NodeKind::Boundary(PortKind::Input) => Guard::Input(id),
-            _ if is_source(graph, links, id) && node.modifiers.every.is_some() => Guard::Timer(id),
-            _ => continue,
+        // The body of an `each` runs when it is called, with all its inputs.
+        if graph.is_body || !fires(graph, catalog, links, id) {
+            continue;
+        }
+        let mut add = |guard: Guard| {
+            own[id].push(guards.len());
+            guards.push(guard);
         };
-        own[id] = Some(guards.len());
-        guards.push(guard);
+        match node.kind {
+            NodeKind::Boundary(PortKind::Input) => add(Guard::Input(id)),
+            _ if is_source(graph, catalog, links, id) && node.modifiers.has_pace() => add(Guard::Timer(id)),
+            _ => {}
+        }
+        for &c in links.inputs[id].iter().filter(|c| graph.flow(&graph.connections[**c]) == Flow::ToInput) {
+            add(Guard::Token(c));
+        }
+        if asynchronous.holding_back(graph, links, id).next().is_some() {
+            add(Guard::Events(id));
+        }
     }
-    add_react_guards(graph, links, order, regions, &mut guards, &mut own);
-    let accumulated = accumulate(graph, links, order, &own);
+    let view = View { graph, catalog, links, order, regions };
+    add_react_guards(&view, &mut guards, &mut own);
+    let accumulated = accumulate(&view, &guards, &own);
     let mut by_guards: BTreeMap<(usize, &BTreeSet<usize>), Vec<NodeId>> = BTreeMap::new();
-    for &node in order {
+    for &node in order.iter().filter(|n| fires(graph, catalog, links, **n)) {
         by_guards.entry((regions[node], &accumulated[node])).or_default().push(node);
     }
     let mut groups: Vec<_> = by_guards.into_iter().collect();
@@ -137,7 +163,7 @@ pub fn clusters(
     let mut clusters: Vec<Cluster> = vec![];
     for ((region, set), nodes) in groups {
         nodes.iter().for_each(|n| cluster_of[*n] = clusters.len());
-        let own_guards: BTreeSet<usize> = nodes.iter().filter_map(|n| own[*n]).collect();
+        let own_guards: BTreeSet<usize> = nodes.iter().flat_map(|n| own[*n].iter().copied()).collect();
         let (upstream, downstream) = (BTreeSet::new(), BTreeSet::new());
         let own_guards = own_guards.into_iter().collect();
         clusters.push(Cluster {
@@ -147,6 +173,7 @@ pub fn clusters(
             own_guards,
             upstream,
             downstream,
+            sends: vec![],
             block: Block::default(),
         });
     }
@@ -160,52 +187,62 @@ pub fn clusters(
     (guards, clusters, cluster_of)
 }
 
+/// What the functions below look at.
+struct View<'a> {
+    graph: &'a Graph,
+    catalog: &'a Catalog,
+    links: &'a Links,
+    order: &'a [NodeId],
+    regions: &'a [usize],
+}
+
 /// Sources without a pace fire once per `react`. Two of them may share a cluster only if the same things
 /// downstream hold them back; else one would wait for what holds back the other.
-fn add_react_guards(
-    graph: &Graph,
-    links: &Links,
-    order: &[NodeId],
-    regions: &[usize],
-    guards: &mut Vec<Guard>,
-    own: &mut [Option<usize>],
-) {
-    let plain = without_pace(graph, links, order, own);
-    let accumulated = accumulate(graph, links, order, own);
-    let mut holding = accumulated.clone();
-    for &node in order.iter().rev() {
-        for &c in &links.out_of[node] {
-            let next = holding[graph.connections[c].to.node].clone();
+fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut [Vec<usize>]) {
+    let plain = without_pace(view, guards, own);
+    let mut holding = accumulate(view, guards, own);
+    for &node in view.order.iter().rev() {
+        for &c in &view.links.out_of[node] {
+            let next = holding[view.graph.connections[c].to.node].clone();
             holding[node].extend(next);
         }
     }
     let mut shared: BTreeMap<(usize, BTreeSet<usize>), usize> = BTreeMap::new();
     for node in plain {
-        let guard = *shared.entry((regions[node], holding[node].clone())).or_insert_with(|| {
+        let guard = *shared.entry((view.regions[node], holding[node].clone())).or_insert_with(|| {
             guards.push(Guard::React);
             guards.len() - 1
         });
-        own[node] = Some(guard);
+        own[node].push(guard);
     }
 }
 
 /// Sources without a pace, and the delays of loops that no source feeds: nothing else would ever start them, or
 /// let them rest.
-fn without_pace(graph: &Graph, links: &Links, order: &[NodeId], own: &[Option<usize>]) -> Vec<NodeId> {
-    let sources = (0..graph.nodes.len()).filter(|n| own[*n].is_none() && is_source(graph, links, *n));
+fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<NodeId> {
+    let View { graph, catalog, links, .. } = *view;
+    let paced = |n: NodeId| own[n].iter().any(|g| matches!(guards[*g], Guard::Timer(_) | Guard::Input(_)));
+    let sources = (0..graph.nodes.len()).filter(|n| !paced(*n) && is_source(graph, catalog, links, *n));
     let mut plain: Vec<NodeId> = sources.collect();
     let mut started = own.to_vec();
-    plain.iter().for_each(|n| started[*n] = Some(usize::MAX));
-    let reached = accumulate(graph, links, order, &started);
+    plain.iter().for_each(|n| started[*n].push(usize::MAX));
+    let reached = accumulate(view, guards, &started);
     let delays = (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Delay(_)));
-    plain.extend(delays.filter(|n| reached[*n].is_empty()));
+    let starts = |g: &usize| *g == usize::MAX || !matches!(guards[*g], Guard::Events(_));
+    plain.extend(delays.filter(|n| !reached[*n].iter().any(starts)));
     plain.sort_unstable();
     plain
 }
 
 /// All guards upstream of each node. Nested graphs take their inputs together and send their outputs
 /// together; around a delay the guards go in a circle until nothing changes.
-fn accumulate(graph: &Graph, links: &Links, order: &[NodeId], own: &[Option<usize>]) -> Vec<BTreeSet<usize>> {
+fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
+    let View { graph, links, order, .. } = *view;
+    let tokens: BTreeMap<usize, usize> = guards
+        .iter()
+        .enumerate()
+        .filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })
+        .collect();
     let mut sets: Vec<BTreeSet<usize>> = own.iter().map(|g| g.iter().copied().collect()).collect();
     let mut enter: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); graph.scopes.len()];
     let mut leave: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); graph.scopes.len()];
@@ -213,9 +250,12 @@ fn accumulate(graph: &Graph, links: &Links, order: &[NodeId], own: &[Option<usiz
         let mut changed = false;
         for &node in order {
             let mut set = sets[node].clone();
-            for &index in &links.into[node] {
+            for &index in &links.inputs[node] {
                 let connection = &graph.connections[index];
-                let mut token = sets[connection.from.node].clone();
+                let mut token = match tokens.get(&index) {
+                    Some(guard) => BTreeSet::from([*guard]),
+                    None => sets[connection.from.node].clone(),
+                };
                 for crossing in &connection.crossings {
                     let side = match *crossing {
                         Crossing::Enter(scope) => &mut enter[scope],

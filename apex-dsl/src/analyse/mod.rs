@@ -1,5 +1,7 @@
 //! What is decided before a program runs: order, rates, clusters, and what ⊥ can spare.
 
+mod activity;
+mod asynchronous;
 mod clocks;
 mod clusters;
 mod order;
@@ -9,12 +11,13 @@ mod schedule;
 
 use crate::{
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
     report::Diagnostics,
     syntax::tree::PortKind,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
 pub use pruning::Characteristics;
@@ -39,6 +42,10 @@ pub struct Analysis {
     pub characteristics: Vec<Characteristics>,
     /// When each node fires within its cluster.
     pub clocks: Vec<Clock>,
+    /// Slots, events and hybrid connections.
+    pub asynchronous: Asynchronous,
+    /// The nodes that activity can reach.
+    pub active: BTreeSet<NodeId>,
     /// The bodies of `each` nodes.
     pub bodies: BTreeMap<NodeId, Analysis>,
 }
@@ -46,21 +53,35 @@ pub struct Analysis {
 /// How nodes hang together: who sends to whom, by node.
 #[derive(Debug)]
 pub struct Links {
-    /// Connections into each node, by number.
+    /// Synchronous connections into each node, by number.
     pub into: Vec<Vec<usize>>,
-    /// Connections out of each node, by number.
+    /// Synchronous connections out of each node, by number.
     pub out_of: Vec<Vec<usize>>,
+    /// All connections into the inputs of each node.
+    pub inputs: Vec<Vec<usize>>,
+    /// Asynchronous connections out of each node, in the order of its ports, then of the text.
+    pub sends: Vec<Vec<usize>>,
 }
 
 impl Links {
-    /// The synchronous connections of `graph`.
+    /// The connections of `graph`.
     pub fn new(graph: &Graph) -> Self {
-        let mut links = Self { into: vec![vec![]; graph.nodes.len()], out_of: vec![vec![]; graph.nodes.len()] };
+        let none = vec![vec![]; graph.nodes.len()];
+        let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none };
         for (index, connection) in graph.connections.iter().enumerate() {
-            if graph.is_synchronous(connection) {
+            let flow = graph.flow(connection);
+            if flow == Flow::Synchronous {
                 links.into[connection.to.node].push(index);
                 links.out_of[connection.from.node].push(index);
+            } else {
+                links.sends[connection.from.node].push(index);
             }
+            if flow != Flow::ToSlot {
+                links.inputs[connection.to.node].push(index);
+            }
+        }
+        for sends in &mut links.sends {
+            sends.sort_by_key(|c| (graph.connections[*c].from.port, *c));
         }
         links
     }
@@ -85,14 +106,29 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         }
     }
     let regions = clusters::regions(graph);
-    let (guards, clusters, cluster_of) = clusters::clusters(graph, &links, &order, &regions);
+    let asynchronous = Asynchronous::new(graph, catalog, &links);
+    let (guards, clusters, cluster_of) = clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
     let characteristics = pruning::characteristics(graph, catalog, &links, &order);
     let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);
-    let mut analysis =
-        Analysis { order, repetitions, regions, guards, clusters, cluster_of, characteristics, clocks, bodies };
+    let active = activity::reachable(graph);
+    let mut analysis = Analysis {
+        order,
+        repetitions,
+        regions,
+        guards,
+        clusters,
+        cluster_of,
+        characteristics,
+        clocks,
+        asynchronous,
+        active,
+        bodies,
+    };
     for cluster in 0..analysis.clusters.len() {
         let block = schedule::schedule(graph, &links, &analysis, cluster);
         analysis.clusters[cluster].block = block;
+        let order = analysis.clusters[cluster].schedule();
+        analysis.clusters[cluster].sends = order.iter().flat_map(|n| links.sends[*n].iter().copied()).collect();
     }
     Some(analysis)
 }
@@ -106,6 +142,8 @@ pub fn is_told(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
 pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
     let node = &graph.nodes[from.node];
     match &node.kind {
+        // A node that is disabled, or that failed, sends nothing.
+        NodeKind::Library(_) if graph.nodes[from.node].may_be_silent() => true,
         NodeKind::Library(_) if graph.port(from).parameter.is_some() => false,
         NodeKind::Library(library) => {
             graph.port(from).optional
@@ -130,11 +168,26 @@ fn refuses(signature: &crate::catalog::Signature, node: &crate::graph::Node) -> 
             .any(|p| p.parameter.is_some_and(|i| signature.params[i].range.is_some()))
 }
 
-/// Whether a node starts a region: nothing synchronous flows into it.
-pub fn is_source(graph: &Graph, links: &Links, node: NodeId) -> bool {
-    links.into[node].is_empty()
-        && !matches!(
-            graph.nodes[node].kind,
-            NodeKind::Start | NodeKind::Boundary(PortKind::Output | PortKind::Event | PortKind::Slot)
-        )
+/// Whether a node fires, so that it belongs to a cluster. A node that only has slots does not.
+pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> bool {
+    match &graph.nodes[node].kind {
+        NodeKind::Library(library) => {
+            catalog.signatures[library.signature].process.is_some() || !links.inputs[node].is_empty()
+        }
+        NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
+        NodeKind::Boundary(kind) => kind.is_synchronous(),
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
+    }
+}
+
+/// Whether a node starts a region: it fires, and nothing flows into it.
+pub fn is_source(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> bool {
+    fires(graph, catalog, links, node)
+        && links.inputs[node].is_empty()
+        && !matches!(graph.nodes[node].kind, NodeKind::Boundary(PortKind::Output))
+}
+
+/// Whether a port that every node has is connected.
+pub fn has_standard(graph: &Graph, node: NodeId, wanted: &[Standard]) -> bool {
+    graph.nodes[node].ports.iter().any(|p| p.standard.is_some_and(|s| wanted.contains(&s)))
 }

@@ -28,7 +28,7 @@ pub fn characteristics(graph: &Graph, catalog: &Catalog, links: &Links, order: &
         let downstream = links.successors(graph, node).map(|next| list[next].essential || list[next].required);
         let required = downstream.fold(false, |any, one| any | one);
         list[node] =
-            Characteristics { essential, required, siblings: siblings[node], joins: links.into[node].len() > 1 };
+            Characteristics { essential, required, siblings: siblings[node], joins: links.inputs[node].len() > 1 };
     }
     list
 }

@@ -1,6 +1,7 @@
 //! `each`: the body as a closure over the elements of a list.
 
 use super::{
+    activity::Whole,
     fire::Emitter,
     plan::{BlockId, Storage},
 };
@@ -20,7 +21,7 @@ impl Emitter<'_> {
         let body = &*each.body;
         let (Some(analysis), links) = (self.analysis.bodies.get(&node), Links::new(body)) else { return quote!() };
         let clusters: Vec<Emitter<'_>> = (0..analysis.clusters.len())
-            .map(|cluster| Emitter::new(&generator, body, analysis, &links, cluster))
+            .map(|cluster| Emitter::new(&generator, Whole { graph: body, analysis, links: &links }, cluster))
             .collect();
         let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());

@@ -1,14 +1,16 @@
 //! One cluster as straight-line code: blocks, firings, and how tokens get from one to the next.
 
 use super::{
-    Generator,
+    Flag, Generator,
+    activity::Whole,
+    dispatch::Bits,
     plan::{BlockId, Plan, Storage},
     types::{ident, path, spell},
 };
 use crate::{
     analyse::{Analysis, Block, Links, Step, is_told},
     catalog::{ArgSig, Signature},
-    graph::{End, Graph, Library, NodeId, NodeKind},
+    graph::{End, Graph, Library, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -17,6 +19,7 @@ use quote::{format_ident, quote, quote_spanned};
 /// Writes the code of one cluster.
 pub struct Emitter<'a> {
     pub generator: &'a Generator<'a>,
+    pub whole: Whole<'a>,
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
     pub links: &'a Links,
@@ -26,15 +29,22 @@ pub struct Emitter<'a> {
 
 impl<'a> Emitter<'a> {
     /// An emitter for `cluster`.
-    pub fn new(
-        generator: &'a Generator<'a>,
-        graph: &'a Graph,
-        analysis: &'a Analysis,
-        links: &'a Links,
-        cluster: usize,
-    ) -> Self {
+    pub fn new(generator: &'a Generator<'a>, whole: Whole<'a>, cluster: usize) -> Self {
+        let Whole { graph, analysis, links } = whole;
         let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
-        Self { generator, graph, analysis, links, plan, cluster }
+        Self { generator, whole, graph, analysis, links, plan, cluster }
+    }
+
+    /// The cluster of a program: around what it does, events are emptied before and emitted when all is done.
+    pub fn program_cluster(&self, bits: &Bits) -> TokenStream {
+        let cluster = &self.analysis.clusters[self.cluster];
+        let clear = cluster.nodes.iter().map(|node| self.generator.clear_events(self.whole, *node));
+        let code = self.cluster();
+        let order = cluster.schedule();
+        // A node that was skipped because of ⊥ took its tokens all the same (A1).
+        let take = order.iter().map(|node| self.generator.take_activity(self.whole, *node));
+        let emit = order.iter().map(|node| self.generator.emit(self.whole, bits, *node, true));
+        quote! { #(#clear)* #code #(#take)* #(#emit)* }
     }
 
     /// Everything that the cluster does.
@@ -66,12 +76,14 @@ impl<'a> Emitter<'a> {
 
     /// Tokens for other clusters are left in the program when the cluster ends.
     fn leave(&self, node: NodeId) -> TokenStream {
-        let mut ends: Vec<End> = self.links.out_of[node]
+        let to_others = self.links.out_of[node]
             .iter()
             .map(|c| &self.graph.connections[*c])
             .filter(|c| self.analysis.cluster_of[c.to.node] != self.cluster)
-            .map(|c| c.from)
-            .collect();
+            .map(|c| c.from);
+        let asynchronous = self.links.sends[node].iter().map(|c| self.graph.connections[*c].from);
+        let outputs = asynchronous.filter(|end| self.graph.port(*end).kind == PortKind::Output);
+        let mut ends: Vec<End> = to_others.chain(outputs).collect();
         ends.sort_unstable();
         ends.dedup();
         let stores = ends.into_iter().filter(|end| self.plan.storage(*end) != Storage::Buffer).map(|end| {
@@ -96,7 +108,7 @@ impl<'a> Emitter<'a> {
             .steps
             .iter()
             .map(|step| match step {
-                Step::Fire(node) => self.fire(*node, id),
+                Step::Fire(node) => self.step(*node, id),
                 Step::Block(inner) => {
                     let test = self.test(*next);
                     let body = self.block(inner, next);
@@ -153,6 +165,22 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// A node fires: its tokens' activity counts before, and its own goes with what it sends.
+    fn step(&self, node: NodeId, block: BlockId) -> TokenStream {
+        let (take, fire) = (self.generator.take_activity(self.whole, node), self.fire(node, block));
+        let pass = self.generator.pass_activity(self.whole, node, &|end| match self.graph.port(end).kind {
+            PortKind::Output => {
+                let token = self.option(end, block);
+                Some(quote!(#token.is_some()))
+            }
+            _ => self.generator.is_sent_event(self.whole, end).then(|| {
+                let name = self.generator.name(end);
+                quote!(state.#name.is_some())
+            }),
+        });
+        quote! { #take #fire #pass }
+    }
+
     fn fire(&self, node: NodeId, block: BlockId) -> TokenStream {
         match &self.graph.nodes[node].kind {
             NodeKind::Library(library) => self.fire_library(node, library, block),
@@ -183,14 +211,15 @@ impl<'a> Emitter<'a> {
     }
 
     fn connection(&self, to: End) -> Option<usize> {
-        self.links.into[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
+        self.links.inputs[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
     }
 
     fn fire_library(&self, node: NodeId, library: &Library, block: BlockId) -> TokenStream {
         let signature = &self.generator.catalog.signatures[library.signature];
-        let Some(args) = &signature.process else { return quote!() };
         let index = self.generator.names.base + node;
         let params = self.set_params(node, signature, block);
+        // Tokens at its parameters are all that a node without `process` takes.
+        let Some(args) = &signature.process else { return params };
         let told = is_told(self.graph, self.generator.catalog, node);
         let args: Vec<TokenStream> =
             args.iter().map(|arg| self.argument(node, library, signature, *arg, block, told)).collect();
@@ -201,11 +230,20 @@ impl<'a> Emitter<'a> {
             let place = self.generator.node_place(self.graph, node);
             quote!(#place.process(#(#args),*))
         };
+        let processed = self.generator.trigger(self.graph, node, Standard::Processed);
+        let call = if processed.is_empty() { call } else { quote!({ #processed #call }) };
         let call = self.with_checked_params(node, library, signature, call, block);
         let call = if told { self.told(node, signature, call, block) } else { call };
-        let results = self.results(node, signature, call, told);
+        let results = self.results(node, library, signature, call, told);
         let outputs = self.param_outputs(node, library, signature, block);
-        quote! { observer.fired(#index); #params #results #outputs }
+        let code = quote! { observer.fired(#index); #params #results #outputs };
+        if self.graph.nodes[node].can_be_disabled() {
+            let enabled = self.generator.flag(Flag::Enabled, node);
+            let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });
+            quote! { if state.#enabled { #code } else { #(#clears)* } }
+        } else {
+            code
+        }
     }
 
     fn argument(
@@ -218,7 +256,7 @@ impl<'a> Emitter<'a> {
         told: bool,
     ) -> TokenStream {
         match arg {
-            ArgSig::Ctx => quote!(ctx),
+            ArgSig::Ctx => self.generator.context(self.whole, node),
             ArgSig::Port(port) => {
                 let (end, p) = (End { node, port }, &signature.ports[port]);
                 match p.kind {
@@ -238,7 +276,7 @@ impl<'a> Emitter<'a> {
                         Some(from) => self.judged(end, self.reference(from, block), false),
                         None => quote!(),
                     },
-                    PortKind::Event | PortKind::Slot => quote!(::apex_rt::Event::unconnected()),
+                    PortKind::Event | PortKind::Slot => self.generator.event(self.whole, end),
                 }
             }
             ArgSig::Param(param) => match self.param_source(node, param) {
@@ -374,17 +412,24 @@ impl<'a> Emitter<'a> {
     }
 
     /// The call as a statement that gives names to what it returns.
-    fn results(&self, node: NodeId, signature: &Signature, call: TokenStream, told: bool) -> TokenStream {
+    fn results(
+        &self,
+        node: NodeId,
+        library: &Library,
+        signature: &Signature,
+        call: TokenStream,
+        told: bool,
+    ) -> TokenStream {
         let returns = signature.returns;
-        let index = self.generator.names.base + node;
+        let failing = returns.fallible || self.graph.nodes[node].is_contained();
         let mut optional = returns.maybe || told || self.returns_checked(node, signature);
         let mut value = call;
         let mut before = quote!();
-        if returns.fallible {
-            value = quote!(::apex_rt::sent(#value, #index, observer));
+        if failing {
+            value = self.generator.contained(self.graph, node, library, value, returns.fallible);
             let clears: Vec<TokenStream> =
                 self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); }).collect();
-            let nested = returns.value && (returns.maybe || told);
+            let nested = returns.value && (returns.maybe || told || self.returns_checked(node, signature));
             if !clears.is_empty() {
                 before = quote! { let sent = #value; if sent.is_none() { #(#clears)* } };
                 value = quote!(sent);
@@ -407,7 +452,7 @@ impl<'a> Emitter<'a> {
             .collect();
         let results = match outputs.as_slice() {
             // A call that returns nothing needs no name for it.
-            [] if !returns.value && !returns.fallible && !told => quote! { #value; },
+            [] if !returns.value && !failing && !told => quote! { #value; },
             [] if before.is_empty() => quote! { let _ = #value; },
             [] => quote!(),
             _ if !returns.several => self.bind(outputs[0].0, value, optional),
@@ -482,7 +527,9 @@ impl<'a> Emitter<'a> {
                 let place = self.generator.node_place(self.graph, node);
                 quote!(::core::clone::Clone::clone(::apex_rt::ParamField::<#param>::field(&mut #place)))
             };
-            self.bind(end, value, false)
+            let maybe = self.plan.storage(end) == Storage::Maybe;
+            let value = if maybe { quote!(Some(#value)) } else { value };
+            self.bind(end, value, maybe)
         });
         binds.collect()
     }

@@ -1,10 +1,13 @@
 //! Graph + analysis → Rust. The text that comes out is meant to be read (`apex expand`).
 
+mod activity;
+mod dispatch;
 mod each;
 mod fire;
 mod plan;
 mod program;
 mod rates;
+mod slots;
 mod types;
 
 pub use plan::{Storage, storage};
@@ -12,7 +15,7 @@ pub use plan::{Storage, storage};
 use crate::{
     analyse::Analysis,
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{End, Graph, NodeId, NodeKind, Standard},
     report::{Diagnostic, Diagnostics},
     source::{Sources, Span},
 };
@@ -43,7 +46,34 @@ pub struct Names {
     held: BTreeMap<NodeId, String>,
     /// Timers of sources.
     timers: BTreeMap<NodeId, String>,
+    /// What is kept about a node besides its state.
+    flags: BTreeMap<(Flag, NodeId), String>,
     inner: BTreeMap<NodeId, Names>,
+}
+
+/// Something that is kept about a node besides its state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Flag {
+    /// Whether it is active.
+    Active,
+    /// Whether a token that lies at an input brings activity.
+    Gains,
+    /// Whether a token that lies at an input takes activity away.
+    Loses,
+    /// Whether it is enabled.
+    Enabled,
+    /// How long it has been active.
+    Timeout,
+}
+
+impl Flag {
+    const ALL: [(Self, &'static str); 5] = [
+        (Self::Active, "active"),
+        (Self::Gains, "gains"),
+        (Self::Loses, "loses"),
+        (Self::Enabled, "enabled"),
+        (Self::Timeout, "timeout"),
+    ];
 }
 
 impl Names {
@@ -60,7 +90,10 @@ impl Names {
             if let NodeKind::Delay(_) = &n.kind {
                 names.held.insert(node, unique(format!("{path}_held"), used));
             }
-            if n.modifiers.every.is_some() {
+            for (flag, word) in Flag::ALL {
+                names.flags.insert((flag, node), unique(format!("{word}_{path}"), used));
+            }
+            if n.modifiers.has_pace() {
                 names.timers.insert(node, unique(format!("timer_{path}"), used));
             }
             if let NodeKind::Each(each) = &n.kind {
@@ -71,13 +104,33 @@ impl Names {
     }
 }
 
-/// Names that the generated code itself uses; besides, `param_0` …, and `token_` with the name of a port.
-const OWN: [&str; 12] =
-    ["state", "nodes", "inputs", "outputs", "observer", "ctx", "self", "now", "i", "sent", "results", "value"];
+/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, and `token_` with the name of a
+/// port.
+const OWN: [&str; 19] = [
+    "state",
+    "nodes",
+    "inputs",
+    "outputs",
+    "events",
+    "observer",
+    "ctx",
+    "self",
+    "now",
+    "i",
+    "sent",
+    "results",
+    "value",
+    "token",
+    "dispatcher",
+    "queue",
+    "steps",
+    "exit",
+    "started",
+];
 
 /// `name`, or something like it that is not used yet.
 fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
-    if OWN.contains(&name.as_str()) || name.starts_with("param_") || name.starts_with("token_") {
+    if OWN.contains(&name.as_str()) || ["param_", "token_", "carries_"].iter().any(|own| name.starts_with(own)) {
         name.push('_');
     }
     while !used.insert(name.clone()) {
@@ -111,38 +164,18 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
 
 /// What can be written but not run yet.
 pub fn check_supported(graph: &Graph, diagnostics: &mut Diagnostics) {
-    for connection in &graph.connections {
-        if connection.active || !graph.is_synchronous(connection) {
-            let what = if connection.active { "activity (`=>`)" } else { "an asynchronous connection" };
-            let message = format!("{what} can be checked, but not run yet");
-            diagnostics.push(Diagnostic::error("not-yet", connection.span, message));
-        }
-    }
     for node in &graph.nodes {
-        match &node.kind {
-            NodeKind::Each(each) => check_supported(&each.body, diagnostics),
-            NodeKind::Boundary(kind) if !kind.is_synchronous() => {
-                diagnostics.push(Diagnostic::error(
-                    "not-yet",
-                    node.span,
-                    format!("the {} `{}` of a program can be checked, but not run yet", kind.word(), node.name),
-                ));
-            }
-            _ => {}
+        if let NodeKind::Each(each) = &node.kind {
+            check_supported(&each.body, diagnostics);
         }
         let m = &node.modifiers;
-        for (given, word) in [
-            (m.pipelined, "pipelined"),
-            (m.timeout.is_some(), "timeout"),
-            (m.deadline.is_some(), "deadline"),
-            (m.group.is_some(), "on"),
-        ] {
+        let late = node.standard(Standard::Late).is_some();
+        for (given, word) in
+            [(m.pipelined, "pipelined"), (m.deadline.is_some() || late, "deadline"), (m.group.is_some(), "on")]
+        {
             if given {
-                diagnostics.push(Diagnostic::error(
-                    "not-yet",
-                    node.span,
-                    format!("`{word}` can be checked, but not run yet"),
-                ));
+                let message = format!("`{word}` can be checked, but not run yet");
+                diagnostics.push(Diagnostic::error("not-yet", node.span, message));
             }
         }
     }
@@ -163,6 +196,11 @@ impl<'a> Generator<'a> {
     /// The name of the timer of a source.
     fn timer(&self, node: NodeId) -> syn::Ident {
         types::ident(self.names.timers.get(&node).map_or("timer", String::as_str))
+    }
+
+    /// The name of a flag.
+    fn flag(&self, flag: Flag, node: NodeId) -> syn::Ident {
+        types::ident(self.names.flags.get(&(flag, node)).map_or("flag", String::as_str))
     }
 
     /// The name of the place where a delay holds tokens back.

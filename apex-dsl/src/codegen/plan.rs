@@ -37,6 +37,8 @@ pub struct Plan {
     /// The tokens whose presence a block tests, and which it gives names to.
     pub tests: Vec<Vec<End>>,
     storage: BTreeMap<End, Storage>,
+    /// Tokens of nodes that can be disabled: they are declared outside the test of that.
+    gated: BTreeSet<End>,
 }
 
 /// Whether a node has its token written in place.
@@ -71,6 +73,7 @@ impl Plan {
             declared: BTreeMap::new(),
             tests: vec![],
             storage: BTreeMap::new(),
+            gated: BTreeSet::new(),
         };
         let mut fires = vec![];
         plan.number(&analysis.clusters[cluster].block, 0, &mut fires);
@@ -91,14 +94,15 @@ impl Plan {
         for end in plan.home.keys() {
             plan.storage.insert(*end, storage(graph, catalog, *end));
         }
+        plan.gated = plan.home.keys().copied().filter(|end| graph.nodes[end.node].can_be_disabled()).collect();
         let mut uses: Vec<(End, BlockId, bool)> = vec![];
         for (&node, &block) in &block_of {
             let told = is_told(graph, catalog, node);
-            for &index in &links.into[node] {
+            for &index in &links.inputs[node] {
                 let c = &graph.connections[index];
                 let writes = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
                 uses.push((c.from, block, is_mandatory(graph, c.to) && !told && !writes));
-                if analysis.cluster_of[c.from.node] != cluster {
+                if analysis.cluster_of[c.from.node] != cluster || !graph.is_synchronous(c) {
                     let buffer = is_buffer(graph, catalog, c.from);
                     plan.storage.insert(c.from, if buffer { Storage::Buffer } else { Storage::Outside });
                     plan.home.insert(c.from, 0);
@@ -110,6 +114,10 @@ impl Plan {
                     uses.push((c.from, 0, false));
                 }
             }
+            let asynchronous = links.sends[node].iter().map(|c| graph.connections[*c].from);
+            uses.extend(
+                asynchronous.filter(|end| graph.port(*end).kind == PortKind::Output).map(|end| (end, 0, false)),
+            );
         }
         for (block, opens) in plan.tests.iter().enumerate() {
             uses.extend(opens.iter().map(|end| (*end, plan.parents[block], false)));
@@ -152,9 +160,10 @@ impl Plan {
         self.storage.get(&end).copied().unwrap_or(Storage::Outside)
     }
 
-    /// Whether a local has to be declared as an `Option` further out than where it comes into being.
+    /// Whether a local has to be declared as an `Option` before it comes into being.
     pub fn is_hoisted(&self, end: End) -> bool {
-        self.declared.get(&end).is_some_and(|declared| self.home.get(&end).is_some_and(|home| declared != home))
+        let moves = |declared: &BlockId| self.home.get(&end).is_some_and(|home| declared != home);
+        self.declared.get(&end).is_some_and(|declared| moves(declared) || self.gated.contains(&end))
     }
 
     /// Whether somebody uses the token.

@@ -1,7 +1,9 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
 use super::{
-    Generator,
+    Flag, Generator,
+    activity::{Whole, nanos},
+    dispatch::Bits,
     fire::Emitter,
     plan::{Storage, is_buffer, storage},
     rates,
@@ -17,7 +19,7 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::{BTreeMap, BTreeSet};
+use std::{collections::BTreeMap, time::Duration};
 use syn::Ident;
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
@@ -34,11 +36,18 @@ impl Generator<'_> {
         let mut handed_in = vec![];
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
         let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields);
-        let (state_fields, state_make) = self.state(graph, analysis);
-        let (inputs, outputs) = (boundaries(graph, PortKind::Input), boundaries(graph, PortKind::Output));
+        let links = Links::new(graph);
+        let whole = Whole { graph, analysis, links: &links };
+        let bits = Bits::new(graph, analysis);
+        let (state_fields, state_make) = self.state(whole, &bits);
+        let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
+        let inputs = boundaries(graph, comes_in);
+        let outputs = boundaries(graph, |kind| kind == PortKind::Output);
+        let events = boundaries(graph, |kind| kind == PortKind::Event);
         let (nodes_name, state_name) = (format_ident!("{}Nodes", name), format_ident!("{}State", name));
         let (inputs_name, outputs_name, parts_name) =
             (format_ident!("{}Inputs", name), format_ident!("{}Outputs", name), format_ident!("{}Parts", name));
+        let events_name = format_ident!("{}Events", name);
         let port_types = |ports: &[NodeId]| -> Vec<TokenStream> {
             ports.iter().map(|n| self.token_type(graph, End { node: *n, port: 0 })).collect()
         };
@@ -46,6 +55,7 @@ impl Generator<'_> {
             |ports: &[NodeId]| -> Vec<Ident> { ports.iter().map(|n| ident(&graph.nodes[*n].name)).collect() };
         let (input_names, input_types) = (port_names(&inputs), port_types(&inputs));
         let (output_names, output_types) = (port_names(&outputs), port_types(&outputs));
+        let (event_names, event_types) = (port_names(&events), port_types(&events));
         let (part_names, part_types): (Vec<Ident>, Vec<TokenStream>) = handed_in.into_iter().unzip();
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
         let (new_args, parts_item, default) = if part_names.is_empty() {
@@ -60,13 +70,21 @@ impl Generator<'_> {
             };
             (quote!(parts: #parts_name), item, quote!())
         };
-        let react = self.react(graph, analysis);
-        let clusters = self.clusters(graph, analysis);
+        let react = self.react(whole, &bits);
+        let clusters = self.clusters(whole, &bits);
+        let dispatcher = self.dispatcher(whole, &bits);
+        let is_active = self.is_active(whole);
         let info = self.info(graph, analysis);
         let links = self.links(graph);
         quote! {
             #[doc = #docs]
-            pub struct #name { nodes: #nodes_name, state: #state_name, inputs: #inputs_name, outputs: #outputs_name }
+            pub struct #name {
+                nodes: #nodes_name,
+                state: #state_name,
+                inputs: #inputs_name,
+                outputs: #outputs_name,
+                events: #events_name,
+            }
             #parts_item
             #nodes_items
             #[allow(private_interfaces, missing_docs)]
@@ -75,6 +93,9 @@ impl Generator<'_> {
             #[allow(private_interfaces, missing_docs)]
             #[doc = "The tokens that came out last; `None` is ⊥."]
             pub struct #outputs_name { #(pub #output_names: ::core::option::Option<#output_types>,)* }
+            #[allow(private_interfaces, missing_docs)]
+            #[doc = "Events that wait to be taken. As long as one waits, what triggers it is held back."]
+            pub struct #events_name { #(pub #event_names: ::apex_rt::Mailbox<#event_types>,)* }
             struct #state_name { #state_fields }
             #links
             #[allow(unused, clippy::all, private_interfaces)]
@@ -86,6 +107,7 @@ impl Generator<'_> {
                         state: #state_name { #state_make },
                         inputs: #inputs_name { #(#input_names: ::apex_rt::Mailbox::new(),)* },
                         outputs: #outputs_name { #(#output_names: None,)* },
+                        events: #events_name { #(#event_names: ::apex_rt::Mailbox::new(),)* },
                     }
                 }
                 /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
@@ -93,17 +115,21 @@ impl Generator<'_> {
                 pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
                 /// The nodes, by instance name.
                 pub fn nodes(&self) -> &#nodes_name { &self.nodes }
-                /// The graph-level inputs.
+                /// The graph-level inputs and slots.
                 pub fn inputs(&mut self) -> &mut #inputs_name { &mut self.inputs }
                 /// The graph-level outputs.
                 pub fn outputs(&self) -> &#outputs_name { &self.outputs }
+                /// The graph-level events.
+                pub fn events(&mut self) -> &mut #events_name { &mut self.events }
                 #clusters
+                #dispatcher
             }
             #default
             #[allow(unused, clippy::all)]
             impl ::apex_rt::Program for #name {
                 const INFO: ::apex_rt::Info = #info;
                 #react
+                #is_active
             }
         }
     }
@@ -159,46 +185,78 @@ impl Generator<'_> {
         }
     }
 
+    /// Makes a node anew, unless Rust made it.
+    pub fn remake(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
+        if library.handed_in || self.catalog.signatures[library.signature].is_function {
+            return quote!();
+        }
+        let (place, make) =
+            (self.node_place(graph, node), self.construct(graph, &self.node_type(graph, library), library));
+        quote! { #place = #make; }
+    }
+
     fn construct(&self, graph: &Graph, ty: &TokenStream, library: &Library) -> TokenStream {
         let params = (0..library.params.len()).map(|param| self.param_value(graph, library, param));
         quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*)))
     }
 
     /// Fields of the program's state, with what they start as.
-    fn state(&self, graph: &Graph, analysis: &Analysis) -> (TokenStream, TokenStream) {
+    fn state(&self, whole: Whole<'_>, bits: &Bits) -> (TokenStream, TokenStream) {
         let (mut fields, mut makes) = (quote!(), quote!());
-        self.token_state(graph, analysis, &mut fields, &mut makes);
-        for guard in &analysis.guards {
+        self.token_state(whole.graph, whole.analysis, &mut fields, &mut makes);
+        for guard in &whole.analysis.guards {
             if let Guard::Timer(node) = guard {
-                let name = self.timer(*node);
-                let period = graph.nodes[*node].modifiers.every.map_or(0, |d| d.as_nanos() as u64);
-                let period = Literal::u64_unsuffixed(period);
+                let (name, modifiers) = (self.timer(*node), &whole.graph.nodes[*node].modifiers);
+                let [first, period] = [modifiers.after.unwrap_or_default(), modifiers.every.unwrap_or(Duration::MAX)]
+                    .map(|time| {
+                        let nanos = nanos(time);
+                        quote!(::core::time::Duration::from_nanos(#nanos))
+                    });
                 fields.extend(quote! { #name: ::apex_rt::Timer, });
-                makes.extend(quote! { #name: ::apex_rt::Timer::new(::core::time::Duration::from_nanos(#period)), });
+                makes.extend(quote! { #name: ::apex_rt::Timer::new(#first, #period), });
             }
         }
-        let words = Bits::new(analysis).words();
-        if words > 0 {
-            let initial = Bits::new(analysis).initial();
-            fields.extend(quote! { dispatcher: ::apex_rt::Dispatcher<#words>, });
-            makes.extend(quote! { dispatcher: ::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])), });
+        for (name, ty, make) in self.flags(whole).into_iter().chain(self.dispatcher_state(whole, bits)) {
+            fields.extend(quote! { #name: #ty, });
+            makes.extend(quote! { #name: #make, });
         }
         (fields, makes)
     }
 
+    /// Whether a node is active, by its index.
+    fn is_active(&self, whole: Whole<'_>) -> TokenStream {
+        if whole.analysis.active.is_empty() {
+            return quote!();
+        }
+        let arms = whole.analysis.active.iter().map(|node| {
+            let (index, flag) = (self.names.base + node, self.flag(Flag::Active, *node));
+            quote! { #index => self.state.#flag, }
+        });
+        quote! {
+            fn is_active(&self, node: usize) -> bool {
+                match node { #(#arms)* _ => false }
+            }
+        }
+    }
+
     fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
         for (node, n) in graph.nodes.iter().enumerate() {
-            for (port, _) in n.ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Output) {
+            for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
                 let end = End { node, port };
                 let name = self.name(end);
+                let is_sent = graph.connections.iter().any(|c| c.from == end && !graph.is_synchronous(c));
+                if p.kind == PortKind::Event && !is_sent {
+                    continue;
+                }
                 if is_buffer(graph, self.catalog, end) {
                     let ty = self.buffer_type(graph, end);
                     fields.extend(quote! { #name: ::apex_rt::Out<#ty>, });
                     makes.extend(quote! { #name: ::apex_rt::Out::new(), });
-                } else if graph
-                    .connections
-                    .iter()
-                    .any(|c| c.from == end && analysis.cluster_of[c.to.node] != analysis.cluster_of[node])
+                } else if is_sent
+                    || graph
+                        .connections
+                        .iter()
+                        .any(|c| c.from == end && analysis.cluster_of[c.to.node] != analysis.cluster_of[node])
                 {
                     debug_assert_ne!(storage(graph, self.catalog, end), Storage::Argument);
                     let ty = self.token_type(graph, end);
@@ -229,94 +287,23 @@ impl Generator<'_> {
         if rate > 1 { quote!([#ty; #rate]) } else { ty }
     }
 
-    fn clusters(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
-        let links = Links::new(graph);
-        let functions = (0..analysis.clusters.len()).map(|cluster| {
+    fn clusters(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let functions = (0..whole.analysis.clusters.len()).map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
-            let code = if rates::is_multirate(graph, analysis, cluster) {
-                self.rates(graph, analysis, &links, cluster)
+            let code = if rates::is_multirate(whole.graph, whole.analysis, cluster) {
+                self.rates(whole.graph, whole.analysis, whole.links, cluster)
             } else {
-                Emitter::new(self, graph, analysis, &links, cluster).cluster()
+                Emitter::new(self, whole, cluster).program_cluster(bits)
             };
             quote! {
                 #[inline]
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                    let Self { nodes, state, inputs, outputs } = self;
+                    let Self { nodes, state, inputs, outputs, .. } = self;
                     #code
                 }
             }
         });
         quote! { #(#functions)* }
-    }
-
-    fn react(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
-        let bits = Bits::new(analysis);
-        let free = (0..analysis.clusters.len()).filter(|c| !bits.is_dispatched(*c)).map(|cluster| {
-            let name = format_ident!("cluster_{cluster}");
-            quote! { self.#name(ctx, observer); }
-        });
-        let has_react =
-            analysis.clusters.iter().flat_map(|c| &c.own_guards).any(|g| analysis.guards[*g] == Guard::React);
-        let next = if has_react { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
-        if bits.words() == 0 {
-            return quote! {
-                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
-                    let ctx = &::apex_rt::Ctx::new(now);
-                    #(#free)*
-                    #next
-                }
-            };
-        }
-        let (mut once, mut raises, mut wishes) = (quote!(), quote!(), quote!());
-        for (index, guard) in analysis.guards.iter().enumerate() {
-            let Some(bit) = bits.guard(index) else { continue };
-            match guard {
-                Guard::React => once.extend(quote! { self.state.dispatcher.raise(#bit); }),
-                Guard::Input(node) => {
-                    let port = ident(&graph.nodes[*node].name);
-                    raises.extend(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
-                }
-                Guard::Timer(node) => {
-                    let timer = self.timer(*node);
-                    raises.extend(quote! { if self.state.#timer.is_due(now) { self.state.dispatcher.raise(#bit); } });
-                    wishes.extend(quote! { if !self.state.#timer.is_due(now) { next = next.or(::apex_rt::Next::At(self.state.#timer.due())); } });
-                }
-            }
-        }
-        let table = bits.table(analysis);
-        let (words, count) = (bits.words(), table.len());
-        let fires = bits.dispatched.iter().enumerate().map(|(row, &cluster)| {
-            let name = format_ident!("cluster_{cluster}");
-            let timers = analysis.clusters[cluster].own_guards.iter().filter_map(|g| match analysis.guards[*g] {
-                Guard::Timer(node) => Some(self.timer(node)),
-                _ => None,
-            });
-            quote! {
-                if self.state.dispatcher.start(&CLUSTERS[#row]) {
-                    #(self.state.#timers.advance();)*
-                    self.#name(ctx, observer);
-                    self.state.dispatcher.finish(&CLUSTERS, #row);
-                    quiet = false;
-                }
-            }
-        });
-        quote! {
-            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
-                const CLUSTERS: [::apex_rt::Cluster<#words>; #count] = [#(#table),*];
-                let ctx = &::apex_rt::Ctx::new(now);
-                #(#free)*
-                #once
-                loop {
-                    let mut quiet = true;
-                    #raises
-                    #(#fires)*
-                    if quiet { break; }
-                }
-                let mut next = #next;
-                #wishes
-                next
-            }
-        }
     }
 
     fn info(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
@@ -413,8 +400,8 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
     }
 }
 
-fn boundaries(graph: &Graph, kind: PortKind) -> Vec<NodeId> {
-    (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if k == kind)).collect()
+fn boundaries(graph: &Graph, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId> {
+    (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
 }
 
 fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
@@ -468,104 +455,4 @@ fn camel(word: &str) -> String {
             chars.next().map(|c| c.to_uppercase().collect::<String>() + chars.as_str()).unwrap_or_default()
         })
         .collect()
-}
-
-/// The conditions of the dispatcher, by number: guards, then for each dispatched cluster "enabled", then for each
-/// connection between clusters "holds a token" and "free".
-struct Bits {
-    dispatched: Vec<usize>,
-    guards: BTreeMap<usize, usize>,
-    enabled: BTreeMap<usize, usize>,
-    edges: BTreeMap<(usize, usize), usize>,
-    count: usize,
-}
-
-impl Bits {
-    fn new(analysis: &Analysis) -> Self {
-        let clusters = &analysis.clusters;
-        let dispatched: Vec<usize> = (0..clusters.len()).filter(|c| !clusters[*c].is_free(&analysis.guards)).collect();
-        let mut bits =
-            Self { dispatched, guards: BTreeMap::new(), enabled: BTreeMap::new(), edges: BTreeMap::new(), count: 0 };
-        for &cluster in &bits.dispatched {
-            for &guard in &clusters[cluster].own_guards {
-                bits.guards.insert(guard, bits.count);
-                bits.count += 1;
-            }
-            bits.enabled.insert(cluster, bits.count);
-            bits.count += 1;
-            for &down in &clusters[cluster].downstream {
-                bits.edges.insert((cluster, down), bits.count);
-                bits.count += 2;
-            }
-        }
-        bits
-    }
-
-    fn words(&self) -> usize {
-        self.count.div_ceil(64)
-    }
-
-    fn is_dispatched(&self, cluster: usize) -> bool {
-        self.enabled.contains_key(&cluster)
-    }
-
-    fn guard(&self, guard: usize) -> Option<usize> {
-        self.guards.get(&guard).copied()
-    }
-
-    fn token(&self, from: usize, to: usize) -> usize {
-        self.edges[&(from, to)]
-    }
-
-    fn free(&self, from: usize, to: usize) -> usize {
-        self.edges[&(from, to)] + 1
-    }
-
-    /// At first every cluster is enabled and every connection free.
-    fn initial(&self) -> Vec<usize> {
-        let free = self.edges.values().map(|bit| bit + 1);
-        self.enabled.values().copied().chain(free).collect()
-    }
-
-    fn table(&self, analysis: &Analysis) -> Vec<TokenStream> {
-        let row = |cluster: usize| self.dispatched.iter().position(|c| *c == cluster).unwrap_or(0);
-        let rows = self.dispatched.iter().map(|&index| {
-            let c = &analysis.clusters[index];
-            let guards = c.own_guards.iter().filter_map(|g| self.guard(*g));
-            let waits: Vec<usize> =
-                guards.chain([self.enabled[&index]]).chain(c.upstream.iter().map(|u| self.token(*u, index))).collect();
-            let sends: Vec<usize> = c.downstream.iter().map(|d| self.token(index, *d)).collect();
-            let frees: Vec<usize> = c.downstream.iter().map(|d| self.free(index, *d)).collect();
-            let notifies: Vec<usize> =
-                [self.enabled[&index]].into_iter().chain(c.upstream.iter().map(|u| self.free(*u, index))).collect();
-            let (enabled, above) = (self.enabled[&index], above(analysis, index).into_iter().map(row));
-            quote! {
-                ::apex_rt::Cluster {
-                    waits_for: ::apex_rt::Bits::of(&[#(#waits),*]),
-                    sends: ::apex_rt::Bits::of(&[#(#sends),*]),
-                    notified_by: ::apex_rt::Bits::of(&[#(#frees),*]),
-                    notifies: ::apex_rt::Bits::of(&[#(#notifies),*]),
-                    enabled: ::apex_rt::Bits::of(&[#enabled]),
-                    above: &[#(#above),*],
-                }
-            }
-        });
-        rows.collect()
-    }
-}
-
-/// All clusters from which tokens come to `cluster`; behind each stand those from which its own tokens come.
-fn above(analysis: &Analysis, cluster: usize) -> Vec<usize> {
-    fn visit(analysis: &Analysis, cluster: usize, seen: &mut BTreeSet<usize>, order: &mut Vec<usize>) {
-        for &up in &analysis.clusters[cluster].upstream {
-            if seen.insert(up) {
-                visit(analysis, up, seen, order);
-                order.push(up);
-            }
-        }
-    }
-    let mut order = vec![];
-    visit(analysis, cluster, &mut BTreeSet::new(), &mut order);
-    order.reverse();
-    order
 }

@@ -93,8 +93,14 @@ fn steps(text: &mut String, graph: &Graph, analysis: &Analysis, block: &Block, i
 fn guard(graph: &Graph, guard: Guard) -> String {
     match guard {
         Guard::Timer(node) => {
-            format!("timer of {} (every {:?})", graph.path(node), graph.nodes[node].modifiers.every.unwrap_or_default())
+            let modifiers = &graph.nodes[node].modifiers;
+            let every = modifiers.every.map(|period| format!("every {period:?}"));
+            let after = modifiers.after.map(|time| format!("after {time:?}"));
+            let times: Vec<String> = every.into_iter().chain(after).collect();
+            format!("timer of {} ({})", graph.path(node), times.join(" "))
         }
+        Guard::Token(connection) => format!("event {}", graph.end_name(graph.connections[connection].from)),
+        Guard::Events(node) => format!("events of {} enabled", graph.path(node)),
         Guard::Input(node) => format!("input {}", graph.path(node)),
         Guard::React => "each reaction".to_owned(),
     }

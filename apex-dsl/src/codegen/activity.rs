@@ -1,0 +1,221 @@
+//! Activity (execution semantics, section 5): flags of nodes and of tokens, for the nodes that activity can reach.
+//! All others are never active, and nothing is generated for them.
+
+use super::{Flag, Generator};
+use crate::{
+    analyse::{Analysis, Links},
+    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
+};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+/// What the code of a program is generated from.
+#[derive(Clone, Copy)]
+pub struct Whole<'a> {
+    pub graph: &'a Graph,
+    pub analysis: &'a Analysis,
+    pub links: &'a Links,
+}
+
+/// How a token changes the activity of the node that takes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carries {
+    /// Not at all.
+    Nothing,
+    /// It activates: it is from `start`.
+    Always,
+    /// It activates if its sender was active.
+    Sometimes,
+    /// It takes activity away.
+    Away,
+}
+
+impl Generator<'_> {
+    /// What the tokens on `connection` may carry.
+    pub fn carries(&self, whole: Whole<'_>, connection: usize) -> Carries {
+        let c = &whole.graph.connections[connection];
+        if !c.active || !whole.analysis.active.contains(&c.to.node) {
+            return Carries::Nothing;
+        }
+        match &whole.graph.nodes[c.from.node].kind {
+            NodeKind::Start => Carries::Always,
+            NodeKind::Library(library) if self.catalog.signatures[library.signature].deactivates => Carries::Away,
+            _ if whole.analysis.active.contains(&c.from.node) => Carries::Sometimes,
+            _ => Carries::Nothing,
+        }
+    }
+
+    /// The connections into the inputs of a node whose tokens may carry one of `what`.
+    fn inputs_carry(&self, whole: Whole<'_>, node: NodeId, what: &[Carries]) -> bool {
+        whole.links.inputs[node].iter().any(|c| what.contains(&self.carries(whole, *c)))
+    }
+
+    /// The flags of a program, with what they start as.
+    pub fn flags(&self, whole: Whole<'_>) -> Vec<(syn::Ident, TokenStream, TokenStream)> {
+        let mut flags = vec![];
+        let mut bit = |name, value: bool| flags.push((name, quote!(bool), quote!(#value)));
+        for &node in &whole.analysis.active {
+            bit(self.flag(Flag::Active, node), false);
+            if self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]) {
+                bit(self.flag(Flag::Gains, node), false);
+            }
+            if self.inputs_carry(whole, node, &[Carries::Away]) {
+                bit(self.flag(Flag::Loses, node), false);
+            }
+        }
+        for (slot, &connection) in whole.analysis.asynchronous.slots.iter().enumerate() {
+            if self.carries(whole, connection) == Carries::Sometimes {
+                bit(carries(slot), false);
+            }
+        }
+        for (node, n) in whole.graph.nodes.iter().enumerate() {
+            if n.can_be_disabled() {
+                bit(self.flag(Flag::Enabled, node), true);
+            }
+        }
+        for &node in whole.analysis.active.iter().filter(|n| whole.graph.nodes[**n].modifiers.timeout.is_some()) {
+            flags.push((self.flag(Flag::Timeout, node), quote!(::apex_rt::Timeout), quote!(::apex_rt::Timeout::new())));
+        }
+        flags
+    }
+
+    /// A node becomes active, unless it is already.
+    pub fn activate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        let (flag, index) = (self.flag(Flag::Active, node), self.names.base + node);
+        let timeout = whole.graph.nodes[node].modifiers.timeout.map(|timeout| {
+            let (name, nanos) = (self.flag(Flag::Timeout, node), nanos(timeout));
+            quote! { state.#name.start(ctx.now(), ::core::time::Duration::from_nanos(#nanos)); }
+        });
+        let event = self.trigger(whole.graph, node, Standard::Activated);
+        let hook = self.hook(whole.graph, node, |s| s.on_activate.as_deref());
+        quote! {
+            if !state.#flag {
+                state.#flag = true;
+                observer.activity(#index, true);
+                #timeout #event #hook
+            }
+        }
+    }
+
+    /// A node is no longer active.
+    pub fn deactivate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        let (flag, index) = (self.flag(Flag::Active, node), self.names.base + node);
+        let timeout = whole.graph.nodes[node].modifiers.timeout.map(|_| {
+            let name = self.flag(Flag::Timeout, node);
+            quote! { state.#name.stop(); }
+        });
+        let event = self.trigger(whole.graph, node, Standard::Deactivated);
+        let hook = self.hook(whole.graph, node, |s| s.on_deactivate.as_deref());
+        quote! {
+            if state.#flag {
+                state.#flag = false;
+                observer.activity(#index, false);
+                #timeout #event #hook
+            }
+        }
+    }
+
+    /// Triggers an event that every node has, if it is connected.
+    pub fn trigger(&self, graph: &Graph, node: NodeId, standard: Standard) -> TokenStream {
+        match graph.nodes[node].standard(standard) {
+            Some(port) => {
+                let name = self.name(End { node, port });
+                quote! { state.#name = Some(()); }
+            }
+            None => quote!(),
+        }
+    }
+
+    fn hook(
+        &self,
+        graph: &Graph,
+        node: NodeId,
+        method: impl Fn(&crate::catalog::Signature) -> Option<&str>,
+    ) -> TokenStream {
+        let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
+        match method(&self.catalog.signatures[library.signature]) {
+            Some(method) => {
+                let (place, method) = (self.node_place(graph, node), super::types::ident(method));
+                quote! { #place.#method(); }
+            }
+            None => quote!(),
+        }
+    }
+
+    /// A1 for the inputs of a node: what its tokens carried counts now.
+    pub fn take_activity(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        if !whole.analysis.active.contains(&node) {
+            return quote!();
+        }
+        let gains = self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
+        let loses = self.inputs_carry(whole, node, &[Carries::Away]);
+        let (gains_flag, loses_flag) = (self.flag(Flag::Gains, node), self.flag(Flag::Loses, node));
+        let (activate, deactivate) = (self.activate(whole, node), self.deactivate(whole, node));
+        match (gains, loses) {
+            (false, false) => quote!(),
+            (true, false) => quote! { if ::core::mem::take(&mut state.#gains_flag) { #activate } },
+            (false, true) => quote! { if ::core::mem::take(&mut state.#loses_flag) { #deactivate } },
+            (true, true) => quote! {
+                match (::core::mem::take(&mut state.#gains_flag), ::core::mem::take(&mut state.#loses_flag)) {
+                    (true, _) => { #activate }
+                    (false, true) => { #deactivate }
+                    _ => {}
+                }
+            },
+        }
+    }
+
+    /// A2 and A5 for the ports of a node that `present` knows: its activity goes with the first token over an
+    /// active connection.
+    pub fn pass_activity(
+        &self,
+        whole: Whole<'_>,
+        node: NodeId,
+        present: &dyn Fn(End) -> Option<TokenStream>,
+    ) -> TokenStream {
+        let mut code = quote!();
+        for port in 0..whole.graph.nodes[node].ports.len() {
+            let end = End { node, port };
+            let (mut carry, mut away, mut any) = (quote!(), quote!(), false);
+            for (index, c) in whole.graph.connections.iter().enumerate().filter(|(_, c)| c.from == end && c.active) {
+                let to_slot = whole.graph.flow(c) == Flow::ToSlot;
+                any = true;
+                match self.carries(whole, index) {
+                    Carries::Sometimes if to_slot => {
+                        let flag = carries(whole.analysis.asynchronous.slot(index));
+                        carry.extend(quote! { state.#flag = true; });
+                    }
+                    Carries::Sometimes => {
+                        let flag = self.flag(Flag::Gains, c.to.node);
+                        carry.extend(quote! { state.#flag = true; });
+                    }
+                    Carries::Away if !to_slot => {
+                        let flag = self.flag(Flag::Loses, c.to.node);
+                        away.extend(quote! { state.#flag = true; });
+                    }
+                    _ => {}
+                }
+            }
+            let Some(present) = present(end).filter(|_| any) else { continue };
+            if !away.is_empty() {
+                code.extend(quote! { if #present { #away } });
+            }
+            let deactivates = matches!(&whole.graph.nodes[node].kind, NodeKind::Library(l) if self.catalog.signatures[l.signature].deactivates);
+            if whole.analysis.active.contains(&node) && !deactivates {
+                let (active, deactivate) = (self.flag(Flag::Active, node), self.deactivate(whole, node));
+                code.extend(quote! { if state.#active && #present { #deactivate #carry } });
+            }
+        }
+        code
+    }
+}
+
+/// The flag of the token for a slot: whether it carries activity.
+pub fn carries(slot: usize) -> syn::Ident {
+    quote::format_ident!("carries_{slot}")
+}
+
+/// A duration as a literal.
+pub fn nanos(duration: std::time::Duration) -> Literal {
+    Literal::u64_unsuffixed(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX))
+}

@@ -1,0 +1,307 @@
+//! Slots: one function for each connection to one, and what is emitted when a firing ends.
+
+use super::{
+    Flag, Generator,
+    activity::{Carries, Whole, carries},
+    dispatch::Bits,
+    plan::is_buffer,
+    types::ident,
+};
+use crate::{
+    catalog::{ArgSig, Signature},
+    graph::{End, Flow, Graph, Library, NodeId, NodeKind, Standard},
+    syntax::tree::PortKind,
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+
+impl Generator<'_> {
+    /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
+    /// are queued, those for inputs lie there. A slot sends on events only.
+    pub fn emit(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, by_process: bool) -> TokenStream {
+        let from = |c: usize| whole.graph.connections[c].from;
+        let sends: Vec<usize> = whole.links.sends[node]
+            .iter()
+            .copied()
+            .filter(|c| by_process || whole.graph.port(from(*c)).kind == PortKind::Event)
+            .collect();
+        let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
+            let sent = connections.iter().map(|c| self.sent(whole, bits, *c));
+            let present = self.waits(whole.graph, from(connections[0]));
+            quote! { if #present { #(#sent)* } }
+        });
+        ports.collect()
+    }
+
+    fn sent(&self, whole: Whole<'_>, bits: &Bits, connection: usize) -> TokenStream {
+        let occupied = bits.free(connection).map(|bit| quote! { state.dispatcher.clear(#bit); });
+        match bits.token(connection) {
+            Some(token) => quote! { state.dispatcher.raise(#token); #occupied },
+            None => {
+                let slot = whole.analysis.asynchronous.slot(connection) as u16;
+                quote! { state.queue.push(#slot); #occupied }
+            }
+        }
+    }
+
+    /// Whether a token lies in the program's state.
+    fn waits(&self, graph: &Graph, end: End) -> TokenStream {
+        let name = self.name(end);
+        if is_buffer(graph, self.catalog, end) {
+            quote!(state.#name.get().is_some())
+        } else {
+            quote!(state.#name.is_some())
+        }
+    }
+
+    /// Events of a node that are connected are empty before it may trigger them.
+    pub fn clear_events(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        let ports = 0..whole.graph.nodes[node].ports.len();
+        let clears = ports.map(|port| End { node, port }).filter(|end| self.is_sent_event(whole, *end)).map(|end| {
+            let name = self.name(end);
+            quote! { state.#name = None; }
+        });
+        clears.collect()
+    }
+
+    /// Whether somebody listens to an event.
+    pub fn is_sent_event(&self, whole: Whole<'_>, end: End) -> bool {
+        whole.graph.port(end).kind == PortKind::Event
+            && whole.links.sends[end.node].iter().any(|c| whole.graph.connections[*c].from == end)
+    }
+
+    /// An event as an argument.
+    pub fn event(&self, whole: Whole<'_>, end: End) -> TokenStream {
+        if self.is_sent_event(whole, end) {
+            let name = self.name(end);
+            quote!(::apex_rt::Event::into_slot(&mut state.#name))
+        } else {
+            quote!(::apex_rt::Event::unconnected())
+        }
+    }
+
+    /// One function for each connection to a slot.
+    pub fn slot_functions(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let functions = whole.analysis.asynchronous.slots.iter().enumerate().map(|(slot, &connection)| {
+            let (name, code) = (format_ident!("slot_{slot}"), self.slot(whole, bits, slot, connection));
+            quote! {
+                #[inline]
+                fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                    let Self { nodes, state, inputs, outputs, events } = self;
+                    #code
+                }
+            }
+        });
+        functions.collect()
+    }
+
+    fn slot(&self, whole: Whole<'_>, bits: &Bits, slot: usize, connection: usize) -> TokenStream {
+        let Whole { graph, analysis, .. } = whole;
+        let c = &graph.connections[connection];
+        let node = c.to.node;
+        let free = bits.free(connection).map(|bit| quote! { state.dispatcher.raise(#bit); });
+        // What an output sent on is notified as soon as the slot took it.
+        let settles = graph.port(c.from).kind == PortKind::Output && free.is_some();
+        let settle = settles.then(|| bits.row(analysis.cluster_of[c.from.node])).flatten().map(|row| {
+            quote! { state.dispatcher.settle(&Self::CLUSTERS, #row); }
+        });
+        let activity = match self.carries(whole, connection) {
+            Carries::Nothing => quote!(),
+            Carries::Always => self.activate(whole, node),
+            Carries::Away => self.deactivate(whole, node),
+            Carries::Sometimes => {
+                let (flag, activate) = (carries(slot), self.activate(whole, node));
+                quote! { if ::core::mem::take(&mut state.#flag) { #activate } }
+            }
+        };
+        let call = self.call_slot(whole, connection);
+        let clear = self.clear_events(whole, node);
+        let pass =
+            self.pass_activity(whole, node, &|end| self.is_sent_event(whole, end).then(|| self.waits(graph, end)));
+        let emit = self.emit(whole, bits, node, false);
+        quote! { observer.handled(#connection); #free #clear #activity #call #pass #emit #settle }
+    }
+
+    fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
+        let graph = whole.graph;
+        let c = &graph.connections[connection];
+        let node = c.to.node;
+        match (&graph.nodes[node].kind, graph.port(c.to).standard) {
+            (_, Some(Standard::Enable)) => self.set_enabled(node, true),
+            (_, Some(Standard::Disable)) => self.set_enabled(node, false),
+            (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
+            (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
+            (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
+            (NodeKind::Boundary(_), _) => {
+                let (port, token) = (ident(&graph.nodes[node].name), self.token(graph, c.from));
+                let room = Bits::room_name(node);
+                quote! {
+                    if let Some(token) = #token { let _ = events.#port.put(::core::clone::Clone::clone(token)); }
+                    state.dispatcher.clear(Self::#room);
+                }
+            }
+            _ => quote!(),
+        }
+    }
+
+    fn set_enabled(&self, node: NodeId, value: bool) -> TokenStream {
+        let flag = self.flag(Flag::Enabled, node);
+        quote! { state.#flag = #value; }
+    }
+
+    /// The token of a connection, where it lies: `Option<&T>`.
+    fn token(&self, graph: &Graph, from: End) -> TokenStream {
+        let name = self.name(from);
+        if is_buffer(graph, self.catalog, from) { quote!(state.#name.get()) } else { quote!(state.#name.as_ref()) }
+    }
+
+    fn call_method(&self, whole: Whole<'_>, connection: usize, library: &Library) -> TokenStream {
+        let graph = whole.graph;
+        let c = &graph.connections[connection];
+        let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
+        let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else { return quote!() };
+        let mut takes = false;
+        let args: Vec<TokenStream> = slot
+            .args
+            .iter()
+            .map(|arg| match *arg {
+                ArgSig::Port(port) if port == slot.port => {
+                    takes = true;
+                    self.judged_slot(graph, connection, library, signature)
+                }
+                ArgSig::Port(port) => self.event(whole, End { node, port }),
+                _ => self.context(whole, node),
+            })
+            .collect();
+        let (place, method) = (self.node_place(graph, node), ident(&signature.ports[slot.port].name));
+        let call = quote!(#place.#method(#(#args),*));
+        let call = self.contained(graph, node, library, call, slot.fallible);
+        let call = if takes {
+            let token = self.token(graph, c.from);
+            quote! { if let Some(token) = #token { #call; } }
+        } else {
+            quote! { #call; }
+        };
+        if graph.nodes[node].can_be_disabled() {
+            let flag = self.flag(Flag::Enabled, node);
+            quote! { if state.#flag { #call } }
+        } else {
+            call
+        }
+    }
+
+    /// The context for a node, which knows whether it is active.
+    pub fn context(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        if whole.analysis.active.contains(&node) {
+            let flag = self.flag(Flag::Active, node);
+            quote!(&ctx.of_node(state.#flag))
+        } else {
+            quote!(ctx)
+        }
+    }
+
+    /// A call whose failure is reported: its value as an `Option`, or the call itself where nothing can fail.
+    pub fn contained(
+        &self,
+        graph: &Graph,
+        node: NodeId,
+        library: &Library,
+        call: TokenStream,
+        fallible: bool,
+    ) -> TokenStream {
+        let index = self.names.base + node;
+        let n = &graph.nodes[node];
+        if !n.is_contained() {
+            return if fallible { quote!(::apex_rt::sent(#call, #index, observer)) } else { call };
+        }
+        let how = if fallible { quote!(contain_fallible) } else { quote!(contain) };
+        let event = n.standard(Standard::Failed).map(|port| {
+            let name = self.name(End { node, port });
+            quote! { state.#name = Some(failure); }
+        });
+        let restart = n.modifiers.restart.then(|| self.remake(graph, node, library));
+        quote! {
+            match ::apex_rt::#how(|| #call) {
+                Ok(value) => Some(value),
+                Err(failure) => { observer.failed(#index, &failure); #event #restart None }
+            }
+        }
+    }
+
+    /// Lets rustc judge a connection to a slot whose types the scan could not compare.
+    fn judged_slot(&self, graph: &Graph, connection: usize, library: &Library, signature: &Signature) -> TokenStream {
+        if !self.is_judged(graph, connection) {
+            return quote!(token);
+        }
+        let c = &graph.connections[connection];
+        let (node, index) = (self.node_type(graph, library), signature.ports[c.to.port].index);
+        let (link, span) = (self.link_name(connection), (self.place)(c.span));
+        quote_spanned!(span=> #link::<<#node as ::apex_rt::Slot<#index>>::Token>::pass(token))
+    }
+
+    /// Tokens that come from outside to a graph-level slot, and the moment of `start`.
+    pub fn enter(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
+        let graph = whole.graph;
+        let (name, port) = (self.name(End { node, port: 0 }), ident(&graph.nodes[node].name));
+        let free: Vec<usize> = whole.links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
+        let test = if free.is_empty() {
+            quote!()
+        } else {
+            quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*])))
+        };
+        let emit = self.emit(whole, bits, node, false);
+        quote! {
+            if self.inputs.#port.is_full() #test {
+                let Self { state, inputs, .. } = self;
+                state.#name = inputs.#port.take();
+                #emit
+                quiet = false;
+            }
+        }
+    }
+
+    /// `start`: the nodes that are active from the beginning, and the tokens of its events.
+    pub fn begin(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let graph = whole.graph;
+        let mut code = quote!();
+        for (node, n) in graph.nodes.iter().enumerate() {
+            if n.starts_active && whole.analysis.active.contains(&node) {
+                let (clear, activate) = (self.clear_events(whole, node), self.activate(whole, node));
+                let emit = if clear.is_empty() { quote!() } else { self.emit(whole, bits, node, false) };
+                code.extend(quote! { #clear #activate #emit });
+            }
+            if matches!(n.kind, NodeKind::Start) {
+                let end = End { node, port: 0 };
+                if !self.is_sent_event(whole, end) {
+                    continue;
+                }
+                let (name, emit) = (self.name(end), self.emit(whole, bits, node, false));
+                let gains = graph
+                    .connections
+                    .iter()
+                    .enumerate()
+                    .filter(|(i, c)| {
+                        c.from == end && graph.flow(c) != Flow::ToSlot && self.carries(whole, *i) == Carries::Always
+                    })
+                    .map(|(_, c)| {
+                        let flag = self.flag(Flag::Gains, c.to.node);
+                        quote! { state.#flag = true; }
+                    });
+                code.extend(quote! { state.#name = Some(()); #(#gains)* #emit });
+            }
+        }
+        code
+    }
+
+    /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
+    pub fn reset(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let deactivates = whole.analysis.active.iter().map(|node| self.deactivate(whole, *node));
+        let modifiers = self.flags(whole).into_iter().filter(|(name, ..)| {
+            let name = name.to_string();
+            ["gains_", "loses_", "carries_"].iter().any(|prefix| name.starts_with(prefix))
+        });
+        let clears = modifiers.map(|(name, ..)| quote! { state.#name = false; });
+        let begin = self.begin(whole, bits);
+        quote! { #(#deactivates)* #(#clears)* #begin }
+    }
+}

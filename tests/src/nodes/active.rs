@@ -1,0 +1,82 @@
+use apex_rt::prelude::*;
+
+/// Numbers and events, without end; its slot only takes activity.
+#[node]
+#[derive(Default)]
+pub struct Starter {
+    last: i64,
+}
+
+#[node]
+impl Starter {
+    fn process(&mut self, e: Event<i64>) -> i64 {
+        self.last += 1;
+        e.emit(self.last);
+        self.last
+    }
+    #[slot]
+    fn s(&mut self, _token: &i64) {}
+}
+
+/// As `Src`, with a slot that only takes activity.
+#[node]
+pub struct Scripted {
+    /// The script.
+    #[param]
+    values: &'static [i64],
+    at: usize,
+}
+
+#[node]
+impl Scripted {
+    fn process(&mut self) -> Option<i64> {
+        self.at += 1;
+        self.values.get(self.at - 1).copied().filter(|v| *v >= 0)
+    }
+    #[slot]
+    fn s(&mut self, _token: &i64) {}
+}
+
+/// Takes activity, and counts how often it came and went.
+#[node]
+#[derive(Default)]
+pub struct Taker {
+    /// What came.
+    pub seen: Vec<i64>,
+    /// How often it became active.
+    pub came: usize,
+    /// How often it was no longer active.
+    pub went: usize,
+}
+
+#[node]
+impl Taker {
+    #[slot]
+    fn s(&mut self, token: &i64) {
+        self.seen.push(*token);
+    }
+    #[on_activate]
+    fn came(&mut self) {
+        self.came += 1;
+    }
+    #[on_deactivate]
+    fn went(&mut self) {
+        self.went += 1;
+    }
+}
+
+/// Counts signals.
+#[node]
+#[derive(Default)]
+pub struct Told {
+    /// How many came.
+    pub count: usize,
+}
+
+#[node]
+impl Told {
+    #[slot]
+    fn s(&mut self) {
+        self.count += 1;
+    }
+}

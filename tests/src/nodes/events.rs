@@ -1,0 +1,105 @@
+use apex_rt::prelude::*;
+
+/// Triggers its event with its values, one a firing, then no more. A negative value triggers nothing.
+#[node]
+pub struct Emit {
+    /// The script.
+    #[param]
+    values: &'static [i64],
+    at: usize,
+}
+
+#[node]
+impl Emit {
+    fn process(&mut self, e: Event<i64>) {
+        self.at += 1;
+        if let Some(value) = self.values.get(self.at - 1).filter(|v| **v >= 0) {
+            e.emit(*value);
+        }
+    }
+}
+
+/// Four events of one firing.
+#[node]
+pub fn four(a: Event<i64>, b: Event<i64>, c: Event<i64>, d: Event<i64>) {
+    d.emit(4);
+    c.emit(3);
+    b.emit(2);
+    a.emit(1);
+}
+
+/// Records what comes to its slot.
+#[node]
+#[derive(Default)]
+pub struct Take {
+    /// What came.
+    pub seen: Vec<i64>,
+}
+
+#[node]
+impl Take {
+    #[slot]
+    fn s(&mut self, token: &i64) {
+        self.seen.push(*token);
+    }
+}
+
+/// Passes what comes to its slot on as an event.
+#[node]
+#[derive(Default)]
+pub struct Pass {
+    /// What came.
+    pub seen: Vec<i64>,
+}
+
+#[node]
+impl Pass {
+    #[slot]
+    fn s(&mut self, token: &i64, e: Event<i64>) {
+        self.seen.push(*token);
+        e.emit(*token);
+    }
+}
+
+/// Passes values on, and triggers an event with each.
+#[node]
+#[derive(Default)]
+pub struct Tee;
+
+#[node]
+impl Tee {
+    fn process(&mut self, x: &i64, e: Event<i64>) -> i64 {
+        e.emit(*x);
+        *x
+    }
+}
+
+/// Passes values on, and says whether it is active.
+#[node]
+#[derive(Default)]
+pub struct Watch {
+    /// Whether it was active, by firing.
+    pub seen: Vec<bool>,
+}
+
+#[node]
+impl Watch {
+    fn process(&mut self, ctx: &Ctx, x: &i64) -> i64 {
+        self.seen.push(ctx.active());
+        *x
+    }
+}
+
+/// Takes activity away.
+#[node]
+#[deactivates]
+#[derive(Default)]
+pub struct Dampen;
+
+#[node]
+impl Dampen {
+    #[slot]
+    fn s(&mut self, token: &i64, e: Event<i64>) {
+        e.emit(*token);
+    }
+}
