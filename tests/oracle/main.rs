@@ -1,3 +1,5 @@
 //! Compiled programs against the Petri nets of their graphs.
 
+mod cargo;
 mod nets;
+mod programs;

@@ -128,7 +128,7 @@ impl Case {
         self.nodes.iter().find(|n| n.id == id)
     }
 
-    /// All that is a little smaller: without a node, a connection, a group, activity, or a delay.
+    /// All that is a little smaller, the smallest first: without some nodes, a node, a connection, a group, activity, or a delay.
     pub fn smaller(&self) -> Vec<Self> {
         let mut found = vec![];
         let mut add = |change: &dyn Fn(&mut Self)| {
@@ -137,6 +137,14 @@ impl Case {
             case.clean();
             found.push(case);
         };
+        let mut size = self.nodes.len() / 2;
+        while size > 1 {
+            for start in (0..self.nodes.len()).step_by(size) {
+                let end = (start + size).min(self.nodes.len());
+                add(&|c| drop(c.nodes.drain(start..end)));
+            }
+            size /= 2;
+        }
         for n in (0..self.nodes.len()).rev() {
             add(&|c| drop(c.nodes.remove(n)));
         }

@@ -8,6 +8,7 @@ use apex_dsl::{
     petri::{self, Call, Net, Origin, Replay},
     report::{Diagnostics, Severity},
     source::Sources,
+    syntax::tree::PortKind,
 };
 use apex_host::{Disk, Seen, Workspace};
 use std::{collections::BTreeMap, path::Path, time::Duration};
@@ -44,6 +45,23 @@ pub enum Record {
 
 /// What is wrong with a run: the number of the record, from 0, and why.
 pub type Failure = (usize, String);
+
+impl Record {
+    /// The record in words; `name` names nodes.
+    pub fn named(&self, name: &dyn Fn(NodeId) -> String, checked: &Checked) -> String {
+        match self {
+            Self::Begin(now) => format!("reaction at {now} ns"),
+            Self::Fired(node) => format!("fired {}", name(*node)),
+            Self::Handled(connection) => {
+                let c = &checked.graph.connections[*connection];
+                format!("handled {} -> {}", checked.graph.end_name(c.from), checked.graph.end_name(c.to))
+            }
+            Self::Activity(node, active) => format!("{} {}active", name(*node), if *active { "" } else { "in" }),
+            Self::Took(tokens) => format!("  took {tokens:?}"),
+            Self::End => "reaction ends".to_owned(),
+        }
+    }
+}
 
 impl Checker {
     /// Sees the nodes of this package.
@@ -146,6 +164,9 @@ pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result
         }
         None => true,
     };
+    let is_connected = |node: NodeId, port: usize| graph.incoming(End { node, port }).is_some();
+    // For each input of the node that fired last whether it is connected.
+    let mut inputs: Vec<bool> = vec![];
     let mut replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
     for (step, record) in records.iter().enumerate() {
         let result = match record {
@@ -155,12 +176,23 @@ pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result
             }
             // Nodes in the body of an `each` come after all others.
             Record::Fired(node) if *node >= graph.nodes.len() => Ok(()),
-            Record::Fired(node) => replay.fired(*node),
-            Record::Handled(connection) => replay.handled(*connection),
+            Record::Fired(node) => {
+                let ports = graph.nodes[*node].ports.iter().enumerate();
+                let own = ports.filter(|(_, p)| p.kind == PortKind::Input && p.parameter.is_none());
+                inputs = own.map(|(port, _)| is_connected(*node, port)).collect();
+                replay.fired(*node)
+            }
+            Record::Handled(connection) => {
+                inputs.clear();
+                replay.handled(*connection)
+            }
             Record::Activity(node, active) => replay.activity(*node, *active),
             Record::Took(tokens) => {
                 let found: Vec<Option<Origin>> =
                     tokens.iter().map(|t| t.map(|value| origin(graph, &by_id, value))).collect();
+                let is_open = |i: usize| found.len() == inputs.len() && !inputs[i];
+                let found: Vec<Option<Origin>> =
+                    found.iter().enumerate().filter(|(i, f)| f.is_some() || !is_open(*i)).map(|(_, f)| *f).collect();
                 replay.took(&found)
             }
             Record::End => replay.end(),
