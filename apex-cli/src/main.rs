@@ -45,6 +45,9 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+        /// Print the Petri net of each program instead, as PNML.
+        #[arg(long, conflicts_with = "format")]
+        pnml: bool,
     },
     /// Build and run a robot.
     #[command(
@@ -76,7 +79,8 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check { files, format } => check::run(&files, format),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { file, format } => explain::run(&file, format),
+        Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
+        Command::Explain { file, format, .. } => explain::run(&file, format),
         Command::Run { file, robot, args } => run::run(&file, robot.as_deref(), &args),
     };
     match result {

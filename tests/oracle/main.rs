@@ -2,4 +2,5 @@
 
 mod cargo;
 mod nets;
+mod pnml;
 mod programs;

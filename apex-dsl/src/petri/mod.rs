@@ -9,6 +9,7 @@
 //! and its inside like a node of its own at each side.
 
 mod build;
+mod early;
 mod pnml;
 mod replay;
 mod route;

@@ -5,7 +5,7 @@
 //! difference. Only a node that does not run because of ⊥ and takes activity at the same time waits for the record of it.
 
 use super::{
-    Meaning, Net, Origin, Script, State, Token, TransitionId, connection_name,
+    Meaning, Net, Origin, Script, State, Token, TransitionId, connection_name, side_name,
     state::{Preview, unsupported},
 };
 use crate::{
@@ -116,6 +116,7 @@ impl<'a> Replay<'a> {
             return Err(self.wrong(&what, "a source fires once per reaction, or at its times".to_owned()));
         }
         self.check_early(&what, |early| early == node)?;
+        self.forget_optional();
         self.run(take);
         self.last = self.state.tokens_of(node);
         self.settle();
@@ -132,10 +133,12 @@ impl<'a> Replay<'a> {
             return Err(self.wrong(&format!("handled {connection}"), "no slot is at the end of it".to_owned()));
         };
         let what = format!("handled {}", connection_name(self.graph, connection));
+        self.check_debts(&what)?;
         self.prepare(handle, &what)?;
         let node = self.graph.connections[connection].to.node;
         let resets = matches!(self.graph.nodes[node].kind, NodeKind::Reset);
         self.check_early(&what, |early| resets || early == node)?;
+        self.forget_optional();
         self.run(handle);
         self.last = self.state.tokens_of(node);
         self.settle();
@@ -193,6 +196,7 @@ impl<'a> Replay<'a> {
         self.step += 1;
         let what = "the reaction ends";
         self.hurry();
+        self.check_debts(what)?;
         self.check_early(what, |_| false)?;
         for (transition, t) in self.net.transitions.iter().enumerate() {
             if !self.state.is_enabled(transition) {
@@ -245,6 +249,9 @@ impl<'a> Replay<'a> {
         if !self.state.is_enabled(transition) {
             self.hurry();
         }
+        if !self.state.is_enabled(transition) {
+            self.state.advance(transition);
+        }
         if self.state.is_enabled(transition) {
             return Ok(());
         }
@@ -289,10 +296,29 @@ impl<'a> Replay<'a> {
 
     /// All that is silent, until nothing of it is enabled.
     fn settle(&mut self) {
-        while let Some(transition) = self.agenda.pop_first() {
-            while self.is_silent(transition) && self.state.is_enabled(transition) {
-                self.run(transition);
+        loop {
+            while let Some(transition) = self.agenda.pop_first() {
+                while self.is_silent(transition) && self.state.is_enabled(transition) {
+                    self.run(transition);
+                }
             }
+            for passed in self.state.follow() {
+                self.agenda.extend(self.state.behind(passed));
+            }
+            if self.agenda.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// Tokens that went ahead at a side of a nested graph belong to the same firing as those that follow.
+    fn check_debts(&self, what: &str) -> Result<(), Wrong> {
+        match self.state.owes() {
+            Some(side) => {
+                let side = side_name(self.graph, side);
+                Err(self.wrong(what, format!("some tokens passed `{side}` before, but not all of them")))
+            }
+            None => Ok(()),
         }
     }
 
@@ -313,6 +339,11 @@ impl<'a> Replay<'a> {
         for (node, active) in self.state.take_changes() {
             self.expected.entry(node).or_default().push_back(Change { active, step: self.step, optional });
         }
+    }
+
+    /// What is active from the beginning is recorded before anything else, or not at all.
+    fn forget_optional(&mut self) {
+        self.expected.values_mut().for_each(|changes| changes.retain(|c| !c.optional));
     }
 
     fn matches_expected(&mut self, node: NodeId, active: bool) -> bool {

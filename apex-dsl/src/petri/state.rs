@@ -3,6 +3,7 @@
 use super::{
     Meaning, Net, PlaceId, TransitionId,
     build::has_process,
+    early::Early,
     route::{self, Stop},
 };
 use crate::{
@@ -88,6 +89,7 @@ pub struct State<'a> {
     consumers: Vec<Vec<TransitionId>>,
     /// Nodes that nothing leads to, and delays on loops that nothing feeds.
     sources: BTreeSet<NodeId>,
+    early: Early,
 }
 
 /// A leg with its token place.
@@ -156,6 +158,7 @@ impl<'a> State<'a> {
             from,
             consumers,
             sources,
+            early: Early::new(graph, net),
         }
     }
 
@@ -183,6 +186,23 @@ impl<'a> State<'a> {
     pub fn missing(&self, transition: TransitionId) -> Vec<PlaceId> {
         let takes = &self.net.transitions[transition].takes;
         takes.iter().copied().filter(|p| self.marking[*p].is_empty()).collect()
+    }
+
+    /// Lets tokens that `transition` lacks pass sides of nested graphs before the others are there, if they can.
+    pub fn advance(&mut self, transition: TransitionId) {
+        for place in self.missing(transition) {
+            self.early.advance(place, &mut self.marking);
+        }
+    }
+
+    /// Lets the others follow where all of them are there; the transitions that this is in place of.
+    pub fn follow(&mut self) -> Vec<TransitionId> {
+        self.early.follow(&mut self.marking)
+    }
+
+    /// A side at which some token went ahead and others have not followed.
+    pub fn owes(&self) -> Option<Crossing> {
+        self.early.owes()
     }
 
     /// Whether `transition` may occur.
