@@ -51,7 +51,7 @@ enum Command {
     },
     /// Build and run a robot.
     #[command(
-        after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock."
+        after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock. Only that one takes --params and --save-params: a program of your\nown calls `apex_rt::params::load_file` and `save_file`."
     )]
     Run {
         /// The text.
@@ -59,6 +59,12 @@ enum Command {
         /// Which robot or graph, if the text has several.
         #[arg(long)]
         robot: Option<String>,
+        /// Sets parameters from this file (TOML) before the robot runs; others keep what the text says.
+        #[arg(long, value_name = "FILE")]
+        params: Option<PathBuf>,
+        /// Writes all parameters into this file when the run ends, also by Ctrl-C.
+        #[arg(long, value_name = "FILE")]
+        save_params: Option<PathBuf>,
         /// Arguments for the program.
         #[arg(last = true)]
         args: Vec<String>,
@@ -81,7 +87,9 @@ fn main() -> ExitCode {
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
         Command::Explain { file, format, .. } => explain::run(&file, format),
-        Command::Run { file, robot, args } => run::run(&file, robot.as_deref(), &args),
+        Command::Run { file, robot, params, save_params, args } => {
+            run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)
+        }
     };
     match result {
         Ok(code) => code,

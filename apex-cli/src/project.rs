@@ -38,11 +38,11 @@ pub fn check(file: &Path) -> Result<Checked, String> {
     let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
     let text = disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))?;
     let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
-    let catalog = Catalog::load(crates, &mut disk);
+    let mut catalog = Catalog::load(crates, &mut disk);
     let mut sources = Sources::default();
     let root = sources.add(file, text);
     let mut diagnostics = Diagnostics::default();
-    let programs = passes::check(root, &catalog, &mut sources, &mut disk, &mut diagnostics);
+    let programs = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
     disk.save();
     Ok(Checked { sources, diagnostics, programs, catalog })
 }

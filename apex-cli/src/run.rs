@@ -9,8 +9,36 @@ use std::{
     process::{Command, ExitCode},
 };
 
+/// Files with the parameters of the program that is run.
+pub struct Params {
+    /// Read before the run.
+    pub load: Option<PathBuf>,
+    /// Written at its end.
+    pub save: Option<PathBuf>,
+}
+
+impl Params {
+    fn are_wanted(&self) -> bool {
+        self.load.is_some() || self.save.is_some()
+    }
+
+    /// Tells the made program, whose arguments belong to the nodes, by its environment.
+    fn tell(&self, command: &mut Command) {
+        for (name, path) in [(LOAD, &self.load), (SAVE, &self.save)] {
+            match path {
+                Some(path) => command.env(name, path),
+                None => command.env_remove(name),
+            };
+        }
+    }
+}
+
+/// The variables by which the made program learns the files.
+const LOAD: &str = "APEX_PARAMS";
+const SAVE: &str = "APEX_SAVE_PARAMS";
+
 /// Checks, builds and runs.
-pub fn run(file: &Path, robot: Option<&str>, args: &[String]) -> Result<ExitCode, String> {
+pub fn run(file: &Path, robot: Option<&str>, params: &Params, args: &[String]) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
@@ -23,6 +51,11 @@ pub fn run(file: &Path, robot: Option<&str>, args: &[String]) -> Result<ExitCode
     let (package, binary) = workspace.binary();
     let mut command = cargo();
     match binary.filter(|_| robot.is_none()) {
+        Some(binary) if params.are_wanted() => {
+            return Err(format!(
+                "`--params` and `--save-params` are for programs that are made for the text, but `{binary}` is a program of its own: leave them out, or choose a robot with `--robot`"
+            ));
+        }
         Some(binary) => {
             command
                 .args(["run", "--release", "--quiet", "--package", package, "--bin", binary, "--"])
@@ -31,7 +64,7 @@ pub fn run(file: &Path, robot: Option<&str>, args: &[String]) -> Result<ExitCode
         }
         None => {
             let program = choose(&checked.programs, robot)?;
-            let made = driver(file, program, &workspace)?;
+            let made = driver(file, program, &workspace, params.are_wanted())?;
             command
                 .args(["run", "--release", "--quiet", "--manifest-path"])
                 .arg(made)
@@ -39,6 +72,7 @@ pub fn run(file: &Path, robot: Option<&str>, args: &[String]) -> Result<ExitCode
                 .arg(workspace.target.join("apex/run"))
                 .arg("--")
                 .args(args);
+            params.tell(&mut command);
         }
     }
     let status = command.status().map_err(|e| format!("cannot run cargo: {e}"))?;
@@ -67,22 +101,25 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
 }
 
 /// Makes a package whose only job is to drive the program.
-fn driver(file: &Path, program: &Program, workspace: &Workspace) -> Result<PathBuf, String> {
+fn driver(file: &Path, program: &Program, workspace: &Workspace, params: bool) -> Result<PathBuf, String> {
     let graph = &program.graph;
     if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
         return Err(format!("`{}` of `{}` is made in Rust: run it from a program of your own", node.name, graph.name));
     }
     let folder = workspace.cache_folder().join("run").join(&graph.name);
     let file = fs::canonicalize(file).map_err(|e| format!("cannot find `{}`: {e}", file.display()))?;
-    let dependencies: String =
-        workspace.libraries().iter().map(|(name, path)| format!("{name} = {{ path = {path:?} }}\n")).collect();
+    let dependencies: String = workspace
+        .libraries()
+        .iter()
+        .map(|(name, path)| match *name {
+            "apex-rt" if params => format!("{name} = {{ path = {path:?}, features = [\"params\", \"ctrl-c\"] }}\n"),
+            _ => format!("{name} = {{ path = {path:?} }}\n"),
+        })
+        .collect();
     let manifest = format!(
         "[package]\nname = \"apex-run\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
     );
-    let main = format!(
-        "use apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({}::new(), WallClock::new());\n}}\n",
-        graph.name
-    );
+    let main = main_file(&file, &graph.name, params);
     let write = |path: PathBuf, text: &str| {
         let same = fs::read_to_string(&path).is_ok_and(|old| old == text);
         let result = if same {
@@ -95,4 +132,38 @@ fn driver(file: &Path, program: &Program, workspace: &Workspace) -> Result<PathB
     write(folder.join("Cargo.toml"), &manifest)?;
     write(folder.join("src/main.rs"), &main)?;
     Ok(folder.join("Cargo.toml"))
+}
+
+/// The code of the made program: it drives the graph `name` of `file`, with parameters from files if they are wanted.
+fn main_file(file: &Path, name: &str, params: bool) -> String {
+    if !params {
+        return format!(
+            "use apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({name}::new(), WallClock::new());\n}}\n"
+        );
+    }
+    format!(
+        r#"use apex_rt::{{UntilStopped, params::run_with_files, prelude::*}};
+use std::{{env, path::PathBuf, process::ExitCode}};
+
+graph!({file:?});
+
+fn drive() -> Result<u8, String> {{
+    let file = |name| env::var_os(name).map(PathBuf::from);
+    let (load, save) = (file("{LOAD}"), file("{SAVE}"));
+    // Without it the program would end at once, and nothing would be saved.
+    let clock = UntilStopped::ctrl_c(WallClock::new())?;
+    run_with_files({name}::new(), clock, load.as_deref(), save.as_deref())
+}}
+
+fn main() -> ExitCode {{
+    match drive() {{
+        Ok(code) => ExitCode::from(code),
+        Err(message) => {{
+            eprintln!("error: {{message}}");
+            ExitCode::from(2)
+        }}
+    }}
+}}
+"#
+    )
 }

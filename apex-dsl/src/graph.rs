@@ -412,6 +412,11 @@ impl Graph {
         scopes
     }
 
+    /// Whether a node can be active. `start` is a moment, not a state; what ends the program or leaves it has none.
+    pub fn can_hold_activity(&self, node: NodeId) -> bool {
+        matches!(self.nodes[node].kind, NodeKind::Library(_) | NodeKind::Each(_) | NodeKind::Relay)
+    }
+
     /// The connection into a port, if there is one.
     pub fn incoming(&self, end: End) -> Option<&Connection> {
         self.connections.iter().find(|c| c.to == end)

@@ -11,6 +11,7 @@ pub mod catalog;
 pub mod check;
 pub mod codegen;
 pub mod graph;
+pub mod machine;
 pub mod passes;
 pub mod petri;
 pub mod report;

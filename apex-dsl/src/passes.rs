@@ -22,11 +22,12 @@ pub struct Program {
 /// Checks the text `root` and everything it imports. Programs are given as far as they are whole.
 pub fn check(
     root: FileId,
-    catalog: &Catalog,
+    catalog: &mut Catalog,
     sources: &mut Sources,
     world: &mut dyn World,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Program> {
+    catalog.forget_machines();
     let resolved = resolve::resolve(root, catalog, sources, world, diagnostics);
     let mut programs = vec![];
     for mut graph in resolved.graphs {
@@ -56,5 +57,7 @@ pub fn generate(
     if diagnostics.has_errors() {
         return TokenStream::new();
     }
-    programs.iter().map(|p| codegen::generate(&p.graph, &p.analysis, catalog, sources, place)).collect()
+    let machines = codegen::machines(catalog);
+    let programs = programs.iter().map(|p| codegen::generate(&p.graph, &p.analysis, catalog, sources, place));
+    std::iter::once(machines).chain(programs).collect()
 }

@@ -46,10 +46,10 @@ fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
     let crates = workspace.crates_for(&seen, &workspace.root.join(&text.sources.get(text.root).path));
     // The positions of the compiler's own tokens would all be on line 1.
     proc_macro2::fallback::force();
-    let catalog = Catalog::load(crates, &mut disk);
+    let mut catalog = Catalog::load(crates, &mut disk);
     proc_macro2::fallback::unforce();
     let mut diagnostics = Diagnostics::default();
-    let programs = passes::check(text.root, &catalog, &mut text.sources, &mut disk, &mut diagnostics);
+    let programs = passes::check(text.root, &mut catalog, &mut text.sources, &mut disk, &mut diagnostics);
     disk.save();
     let place = |span: Span| place(&text, span);
     let code = passes::generate(&programs, &catalog, &text.sources, &place, &mut diagnostics);

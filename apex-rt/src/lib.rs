@@ -18,8 +18,11 @@ mod mailbox;
 mod node;
 mod observer;
 mod out;
+pub mod params;
 mod queue;
 mod run;
+#[cfg(feature = "std")]
+mod stop;
 mod time;
 mod timer;
 mod token;
@@ -41,8 +44,11 @@ pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::StdErr;
 pub use out::Out;
+pub use params::Parameters;
 pub use queue::{Queue, Steps};
 pub use run::{Next, Program, drive, run};
+#[cfg(feature = "std")]
+pub use stop::UntilStopped;
 pub use time::Time;
 pub use timer::{Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
@@ -50,7 +56,8 @@ pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {
     pub use crate::{
-        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Program, SimClock, Time, graph, node, run,
+        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, graph,
+        node, run,
     };
     #[cfg(feature = "std")]
     pub use crate::{StdErr, WallClock};

@@ -42,6 +42,18 @@ pub trait Program {
     }
 }
 
+impl<P: Program> Program for &mut P {
+    const INFO: Info = P::INFO;
+
+    fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next {
+        (**self).react_with(now, observer)
+    }
+
+    fn is_active(&self, node: usize) -> bool {
+        (**self).is_active(node)
+    }
+}
+
 /// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
 /// token comes to `exit`. Returns the exit code: 0, or 1 after a token came to `abort`.
 pub fn drive<P: Program, C: Clock>(mut program: P, mut clock: C) -> u8 {

@@ -31,11 +31,11 @@ fn messages(text: &str) -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let workspace = Workspace::load(folder).expect("cargo knows the package");
     let mut disk = Disk::new(None);
-    let catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
+    let mut catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
     let mut sources = Sources::default();
     let root = sources.add("robot.afg", text);
     let mut diagnostics = Diagnostics::default();
-    passes::check(root, &catalog, &mut sources, &mut disk, &mut diagnostics);
+    passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
     diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect()
 }
 

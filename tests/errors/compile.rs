@@ -38,7 +38,7 @@ pub fn catalog() -> Catalog {
 }
 
 /// Takes `text`, which stands in `path`, through all passes up to generated code.
-pub fn compile(path: &Path, text: &str, catalog: &Catalog) -> Compiled {
+pub fn compile(path: &Path, text: &str, catalog: &mut Catalog) -> Compiled {
     let mut sources = Sources::default();
     let mut diagnostics = Diagnostics::default();
     let root = sources.add(path, text);

@@ -32,13 +32,13 @@ fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
 
 /// All texts with what the compiler says about them.
 fn compiled() -> Vec<(PathBuf, String, Compiled)> {
-    let catalog = catalog();
+    let mut catalog = catalog();
     let texts = files(&folder().join("texts"), "afg");
     assert!(!texts.is_empty());
     let compile = |path: PathBuf| {
         // One is not UTF-8; another text tries to import it.
         let text = fs::read_to_string(&path).ok()?;
-        let compiled = compile(&path, &expect::strip(&text), &catalog);
+        let compiled = compile(&path, &expect::strip(&text), &mut catalog);
         Some((path, text, compiled))
     };
     texts.into_iter().filter_map(compile).collect()
@@ -72,13 +72,13 @@ fn difference(expected: &str, found: &str) -> String {
 
 #[test]
 fn a_fix_removes_its_diagnostic() {
-    let catalog = catalog();
+    let mut catalog = catalog();
     let mut tried = 0;
     for (path, _, before) in compiled() {
         for diagnostic in before.diagnostics.sorted() {
             for fix in diagnostic.fixes.iter().filter(|f| f.span.file.0 == 0) {
                 let text = expect::apply(&before.sources.get(fix.span.file).text, fix.span, &fix.replacement);
-                let after = compile(&path, &text, &catalog);
+                let after = compile(&path, &text, &mut catalog);
                 assert!(
                     count(&after, diagnostic) < count(&before, diagnostic),
                     "{}: `{}` does not mend {:?}:\n{text}",

@@ -23,11 +23,11 @@ const GUARD: Duration = Duration::from_secs(120);
 fn run(texts: Vec<(String, String)>) {
     let (sender, receiver) = mpsc::channel();
     let worker = thread::spawn(move || {
-        let catalog = catalog();
+        let mut catalog = catalog();
         for (name, text) in texts {
             let start = Instant::now();
             let _ = sender.send(name.clone());
-            let compiled = compile(Path::new("hostile.afg"), &text, &catalog);
+            let compiled = compile(Path::new("hostile.afg"), &text, &mut catalog);
             let mut length = 0;
             for diagnostic in compiled.diagnostics.sorted() {
                 length += render(diagnostic, &compiled.sources, false).len();

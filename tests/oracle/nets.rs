@@ -32,7 +32,7 @@ fn runs_of_a_net_are_legal() {
     let (mut count, mut records) = (0, 0);
     for seed in 0..100 {
         let Some((case, checked)) = checked(&checker, seed) else { continue };
-        let run = walk(checker.catalog(), &checked, &mut Dice(seed | 1), 8);
+        let run = walk(&checker.catalog(), &checked, &mut Dice(seed | 1), 8);
         if let Err((step, why)) = checker.judge(&checked, &run) {
             panic!("seed {seed}: {why}\n{}\n{:?}", case.text("Random"), &run[..=step]);
         }
@@ -95,7 +95,7 @@ fn spoiled_runs_are_refused() {
     for seed in 0..100 {
         let Some((_, checked)) = checked(&checker, seed) else { continue };
         let mut dice = Dice(seed | 1);
-        let run = walk(checker.catalog(), &checked, &mut dice, 4);
+        let run = walk(&checker.catalog(), &checked, &mut dice, 4);
         for way in 0..7 {
             let Some(run) = spoiled(&run, way, &mut dice) else { continue };
             tried[way] += 1;

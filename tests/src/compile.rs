@@ -60,11 +60,11 @@ fn compile(text: &str) -> (Vec<Found>, String) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let workspace = Workspace::load(folder).expect("this package has a workspace");
     let mut disk = Disk::new(Some(&workspace.cache_folder()));
-    let catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
+    let mut catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
     let mut sources = Sources::default();
     let root = sources.add(folder.join("text.afg"), text);
     let mut diagnostics = Diagnostics::default();
-    let programs = passes::check(root, &catalog, &mut sources, &mut disk, &mut diagnostics);
+    let programs = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
     let code = passes::generate(&programs, &catalog, &sources, &|_| proc_macro2::Span::call_site(), &mut diagnostics);
     disk.save();
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error);

@@ -20,7 +20,6 @@ pub fn reachable(graph: &Graph) -> BTreeSet<NodeId> {
             stack.extend(&next[node]);
         }
     }
-    // `start` itself is a moment, not a state; what ends the program or leaves it has none.
-    found.retain(|n| matches!(graph.nodes[*n].kind, NodeKind::Library(_) | NodeKind::Each(_) | NodeKind::Relay));
+    found.retain(|n| graph.can_hold_activity(*n));
     found
 }

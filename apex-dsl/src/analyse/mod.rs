@@ -17,6 +17,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use activity::reachable as active_nodes;
 pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
@@ -106,7 +107,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         }
     }
     let regions = clusters::regions(graph);
-    let asynchronous = Asynchronous::new(graph, catalog, &links);
+    let asynchronous = Asynchronous::new(graph, catalog, &links, &regions);
     let (guards, clusters, cluster_of) = clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
     let characteristics = pruning::characteristics(graph, catalog, &links, &order);
     let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);

@@ -7,7 +7,7 @@ mod tree;
 mod ty;
 mod types;
 
-use crate::source::World;
+use crate::{machine::Machine, source::World};
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::PathBuf,
@@ -53,7 +53,7 @@ pub struct Crates {
 pub type SignatureId = usize;
 
 /// A node type: what `#[node]` declares.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Signature {
     /// Its name.
     pub name: String,
@@ -103,6 +103,47 @@ pub struct SlotSig {
 }
 
 impl Signature {
+    /// A state machine as a node: slots and events. If something happens when it starts, `begin` is a slot too.
+    fn of_machine(machine: &Machine, (file, line): (PathBuf, usize)) -> Self {
+        use crate::syntax::tree::PortKind;
+        let port = |name: &str, kind, ty: &Type, index| PortSig {
+            name: name.to_owned(),
+            kind,
+            ty: ty.clone(),
+            rate: 1,
+            optional: false,
+            index,
+            field: None,
+            field_is_option: false,
+            docs: String::new(),
+        };
+        let events = machine.events.iter().enumerate().map(|(i, (name, ty))| port(name, PortKind::Event, ty, i));
+        let mut ports: Vec<PortSig> = events.collect();
+        let mut slots = vec![];
+        for (index, slot) in machine.slots.iter().enumerate() {
+            ports.push(port(&slot.name, PortKind::Slot, &slot.ty, index));
+            let token = slot.uses_token().then(|| ArgSig::Port(ports.len() - 1));
+            let args = token.into_iter().chain(slot.events().into_iter().map(ArgSig::Port)).collect();
+            slots.push(SlotSig { port: ports.len() - 1, args, fallible: false });
+        }
+        if !machine.begin.is_empty() {
+            ports.push(port(Machine::BEGIN, PortKind::Slot, &Type::unit(), machine.slots.len()));
+            let args = machine.begin.iter().map(|s| ArgSig::Port(s.event)).collect();
+            slots.push(SlotSig { port: ports.len() - 1, args, fallible: false });
+        }
+        Self {
+            name: machine.name.clone(),
+            docs: machine.docs.clone(),
+            file,
+            line,
+            path: vec![machine.name.clone()],
+            stateful: true,
+            ports,
+            slots,
+            ..Self::default()
+        }
+    }
+
     /// Whether the tokens of a firing at this port stand in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1
@@ -181,6 +222,8 @@ pub struct Catalog {
     pub signatures: Vec<Signature>,
     tree: Tree,
     crates: Crates,
+    /// The state machines of the texts that were checked last, by signature.
+    pub machines: BTreeMap<SignatureId, Machine>,
     by_def: BTreeMap<DefId, SignatureId>,
     paths: BTreeMap<DefId, Vec<String>>,
 }
@@ -193,6 +236,25 @@ impl Catalog {
         let mut catalog = Self { tree, crates, paths, ..Self::default() };
         catalog.collect();
         catalog
+    }
+
+    /// Forgets the machines of texts that were checked before.
+    pub fn forget_machines(&mut self) {
+        self.signatures.truncate(self.by_def.len());
+        self.machines.clear();
+    }
+
+    /// Makes room for `count` machines and returns the number of the first.
+    pub fn reserve_machines(&mut self, count: usize) -> SignatureId {
+        let first = self.signatures.len();
+        self.signatures.extend((0..count).map(|_| Signature::default()));
+        first
+    }
+
+    /// Makes a state machine that is declared at `place` a node.
+    pub fn add_machine(&mut self, id: SignatureId, machine: Machine, place: (PathBuf, usize)) {
+        self.signatures[id] = Signature::of_machine(&machine, place);
+        self.machines.insert(id, machine);
     }
 
     fn collect(&mut self) {

@@ -1,5 +1,7 @@
 //! What can be wrong with a graph whose names are all known. One pass a file; each reports all it finds.
 
+mod activity;
+mod asynchronous;
 mod inputs;
 mod lists;
 mod modifiers;
@@ -20,6 +22,8 @@ pub fn check(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
     lists::resolve_lists(graph, diagnostics);
     types::check_types(graph, catalog, diagnostics);
     modifiers::check_modifiers(graph, catalog, diagnostics);
+    asynchronous::check_asynchronous(graph, catalog, diagnostics);
+    activity::check_activity(graph, diagnostics);
     for node in &mut graph.nodes {
         if let NodeKind::Each(each) = &mut node.kind {
             check(&mut each.body, catalog, diagnostics);

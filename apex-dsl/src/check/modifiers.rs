@@ -14,15 +14,16 @@ pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagn
     let driven: BTreeSet<NodeId> =
         graph.connections.iter().filter(|c| graph.port(c.to).kind == PortKind::Input).map(|c| c.to.node).collect();
     for (id, node) in graph.nodes.iter().enumerate() {
-        if node.modifiers.every.is_some() && driven.contains(&id) {
+        let word = if node.modifiers.every.is_some() { "every" } else { "after" };
+        if node.modifiers.has_pace() && driven.contains(&id) {
             let message =
-                format!("`every` sets the pace of a source, but `{}` fires when its inputs arrive", node.name);
+                format!("`{word}` sets the pace of a source, but `{}` fires when its inputs arrive", node.name);
             diagnostics.push(
                 Diagnostic::error("every-on-driven", node.span, message)
-                    .note("put `every` behind the node that its inputs come from"),
+                    .note(format!("put `{word}` behind the node that its inputs come from")),
             );
         }
-        if node.modifiers.every.is_some() && graph.is_body {
+        if node.modifiers.has_pace() && graph.is_body {
             let message = format!(
                 "`{}` stands in the body of an `each`, which runs once per element: it cannot have a pace",
                 node.name

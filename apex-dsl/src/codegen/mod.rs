@@ -4,12 +4,15 @@ mod activity;
 mod dispatch;
 mod each;
 mod fire;
+mod machine;
+mod params;
 mod plan;
 mod program;
 mod rates;
 mod slots;
 mod types;
 
+pub use machine::machines;
 pub use plan::{Storage, storage};
 
 use crate::{

@@ -7,7 +7,7 @@ use super::{
     fire::Emitter,
     plan::{Storage, is_buffer, storage},
     rates,
-    types::ident,
+    types::{constant, ident},
 };
 use crate::{
     analyse::{Analysis, Guard, Links},
@@ -76,6 +76,7 @@ impl Generator<'_> {
         let is_active = self.is_active(whole);
         let info = self.info(graph, analysis);
         let links = self.links(graph);
+        let parameters = self.parameters(graph, analysis);
         quote! {
             #[doc = #docs]
             pub struct #name {
@@ -131,6 +132,7 @@ impl Generator<'_> {
                 #react
                 #is_active
             }
+            #parameters
         }
     }
 
@@ -141,7 +143,8 @@ impl Generator<'_> {
         quote!(nodes #(.#segments)*)
     }
 
-    fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
+    /// The fields on the way to a node of the catalog.
+    pub fn node_path(&self, graph: &Graph, node: NodeId) -> Vec<String> {
         let own = graph.path(node);
         let mut segments: Vec<String> = match self.outer {
             Some((outer, each, generator)) => generator.node_path(outer, each),
@@ -269,7 +272,7 @@ impl Generator<'_> {
                 let (ty, count) = (self.token_type(graph, end), initial.len());
                 let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
                 let values = initial.iter().map(|value| match value {
-                    Some(value) => self.value(value, port_ty),
+                    Some(value) => constant(value, port_ty),
                     None => quote!(::core::default::Default::default()),
                 });
                 fields.extend(quote! { #held: ::apex_rt::Delay<#ty, #count>, });
@@ -448,7 +451,7 @@ fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, T
     (item, quote!(#struct_name { #made }))
 }
 
-fn camel(word: &str) -> String {
+pub fn camel(word: &str) -> String {
     word.split('_')
         .map(|part| {
             let mut chars = part.chars();

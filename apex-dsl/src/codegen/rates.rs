@@ -43,6 +43,16 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
                 NodeKind::Boundary(PortKind::Input) if count > 1 && !graph.is_body => {
                     format!("one iteration would take {count} tokens from the input `{}`, which holds one", n.name)
                 }
+                _ if graph
+                    .connections
+                    .iter()
+                    .any(|c| (c.active || !graph.is_synchronous(c)) && (c.from.node == node || c.to.node == node)) =>
+                {
+                    format!(
+                        "`{}` fires in a region with several rates: it can have neither events and slots nor active connections",
+                        n.name
+                    )
+                }
                 NodeKind::Each(_) => format!("`each` cannot stand in a region with several rates; `{}` does", n.name),
                 NodeKind::Boundary(_) if graph.is_body => "the body of an `each` has one rate".to_owned(),
                 NodeKind::Delay(initial) if (initial.len() as u64) < count => {

@@ -158,48 +158,52 @@ impl Generator<'_> {
                 let default = format_ident!("apex_default_{}", declared.name);
                 quote!(<#node>::#default())
             }
-            value => {
-                let known = |name: &str| {
-                    let index = signature.generics.iter().position(|g| g == name)?;
-                    match library.types.get(index)? {
-                        TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
-                        TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
-                    }
-                };
-                self.value(value, &declared.ty.substitute(&known))
-            }
+            value => constant(value, &self.param_type(library, param)),
         }
     }
 
-    /// A constant as an expression of type `ty`.
-    pub fn value(&self, value: &Value, ty: &Type) -> TokenStream {
-        match value {
-            Value::Number(n) => number(n, ty),
-            Value::Bool(b) => quote!(#b),
-            Value::Text(text) if matches!(ty, Type::Named(name, _) if name == "String") => {
-                quote!(::std::string::String::from(#text))
+    /// The type of a parameter, with type parameters of the node replaced as far as they are known.
+    pub fn param_type(&self, library: &Library, param: usize) -> Type {
+        let signature = &self.catalog.signatures[library.signature];
+        let known = |name: &str| {
+            let index = signature.generics.iter().position(|g| g == name)?;
+            match library.types.get(index)? {
+                TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+                TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
             }
-            Value::Text(text) => quote!(#text),
-            Value::Duration(d) => {
-                let nanos = Literal::u64_unsuffixed(u64::try_from(d.as_nanos()).unwrap_or(u64::MAX));
-                quote!(::core::time::Duration::from_nanos(#nanos))
-            }
-            Value::Path(segments) => match segments.first().map(String::as_str) {
-                Some("crate") => path(segments),
-                _ => path(&[vec![String::new()], segments.clone()].concat()),
-            },
-            Value::List(items) => {
-                let (element, by_reference) = match ty {
-                    Type::Ref(inner) => (inner.as_ref(), true),
-                    other => (other, false),
-                };
-                let unknown = Type::Unknown(String::new());
-                let item_type = if let Type::Array(item, _) = element { item } else { &unknown };
-                let items = items.iter().map(|item| self.value(item, item_type));
-                if by_reference { quote!(&[#(#items),*]) } else { quote!([#(#items),*]) }
-            }
-            Value::RustDefault => quote!(::core::default::Default::default()),
+        };
+        signature.params[param].ty.substitute(&known)
+    }
+}
+
+/// A constant as an expression of type `ty`.
+pub fn constant(value: &Value, ty: &Type) -> TokenStream {
+    match value {
+        Value::Number(n) => number(n, ty),
+        Value::Bool(b) => quote!(#b),
+        Value::Text(text) if matches!(ty, Type::Named(name, _) if name == "String") => {
+            quote!(::std::string::String::from(#text))
         }
+        Value::Text(text) => quote!(#text),
+        Value::Duration(d) => {
+            let nanos = Literal::u64_unsuffixed(u64::try_from(d.as_nanos()).unwrap_or(u64::MAX));
+            quote!(::core::time::Duration::from_nanos(#nanos))
+        }
+        Value::Path(segments) => match segments.first().map(String::as_str) {
+            Some("crate") => path(segments),
+            _ => path(&[vec![String::new()], segments.clone()].concat()),
+        },
+        Value::List(items) => {
+            let (element, by_reference) = match ty {
+                Type::Ref(inner) => (inner.as_ref(), true),
+                other => (other, false),
+            };
+            let unknown = Type::Unknown(String::new());
+            let item_type = if let Type::Array(item, _) = element { item } else { &unknown };
+            let items = items.iter().map(|item| constant(item, item_type));
+            if by_reference { quote!(&[#(#items),*]) } else { quote!([#(#items),*]) }
+        }
+        Value::RustDefault => quote!(::core::default::Default::default()),
     }
 }
 

@@ -122,6 +122,14 @@ impl Diagnostics {
         }
     }
 
+    /// Adds a message unless there is one of its kind at the same place.
+    pub fn push_once(&mut self, diagnostic: Diagnostic) {
+        let same = |d: &Diagnostic| d.code == diagnostic.code && d.primary.span == diagnostic.primary.span;
+        if !self.list.iter().any(same) {
+            self.push(diagnostic);
+        }
+    }
+
     /// Whether one of them is an error.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|d| d.severity == Severity::Error)

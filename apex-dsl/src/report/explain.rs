@@ -4,7 +4,8 @@ use crate::{
     analyse::{Analysis, Block, Guard, Step},
     catalog::Catalog,
     codegen::{Storage, storage},
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{End, Flow, Graph, Node, NodeId, NodeKind},
+    machine,
     passes::Program,
     syntax::tree::PortKind,
 };
@@ -17,7 +18,28 @@ pub fn explain(program: &Program, catalog: &Catalog) -> String {
     let kind = if program.graph.robot { "robot" } else { "graph" };
     let _ = writeln!(text, "{kind} {}", program.graph.name);
     section(&mut text, &program.graph, &program.analysis, catalog, 0);
+    let machines: BTreeSet<usize> = program.graph.nodes.iter().filter_map(signature).collect();
+    for machine in machines.iter().filter_map(|signature| catalog.machines.get(signature)) {
+        text.push_str(&machine::translation(machine));
+    }
     text
+}
+
+fn signature(node: &Node) -> Option<usize> {
+    if let NodeKind::Library(library) = &node.kind { Some(library.signature) } else { None }
+}
+
+/// Slots in the order of the text, and which connections can hold back who sends on them.
+fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
+    for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
+        let arrow = if c.active { "=>" } else { "->" };
+        let how = match (graph.flow(c), analysis.asynchronous.stays[index]) {
+            (Flow::ToInput, _) => "occupied until the region behind it has finished",
+            (_, true) => "occupied until the slot can be served",
+            (_, false) => "served at once",
+        };
+        let _ = writeln!(text, "{pad}  {} {arrow} {}: {how}", graph.end_name(c.from), graph.end_name(c.to));
+    }
 }
 
 fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Catalog, indent: usize) {
@@ -38,6 +60,16 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Cata
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
         let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}", cluster.region);
         steps(text, graph, analysis, &cluster.block, indent + 2);
+    }
+    if graph.connections.iter().any(|c| !graph.is_synchronous(c)) {
+        let _ = writeln!(text, "{pad}asynchronous connections");
+        asynchronous(text, graph, analysis, &pad);
+        if analysis.asynchronous.endless {
+            let _ = writeln!(
+                text,
+                "{pad}  tokens can go round while the time stands still: the steps of a reaction are counted"
+            );
+        }
     }
     let _ = writeln!(text, "{pad}pruning");
     let width = (0..graph.nodes.len()).map(|n| graph.path(n).len()).max().unwrap_or(0);

@@ -197,7 +197,8 @@ impl Builder<'_> {
         let text = reference.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".");
         let Some((symbol, _)) = table.symbols.get(&first.text) else {
             if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
-                return Some((self.own_node(body, first, kind)?, text, reference.span));
+                let node = self.own_node(body, first, kind)?;
+                return Some((Symbol::of_node(node, &self.nodes[node]), text, reference.span));
             }
             let message = format!("there is no node or port `{}` in this graph", first.text);
             let error = Diagnostic::error("unknown-node", first.span, message);
@@ -257,17 +258,16 @@ impl Builder<'_> {
     }
 
     /// The node that stands for a name that every graph knows; there is one in each graph that uses it.
-    fn own_node(&mut self, body: &Body<'_>, name: &Ident, kind: NodeKind) -> Option<Symbol> {
+    pub fn own_node(&mut self, body: &Body<'_>, name: &Ident, kind: NodeKind) -> Option<NodeId> {
         let made = self.nodes.iter().position(|n| n.scope == body.scope && n.name == name.text && own(&n.kind));
-        let node = match made {
-            Some(node) => node,
+        match made {
+            Some(node) => Some(node),
             None => {
                 let side = if matches!(kind, NodeKind::Start) { PortKind::Event } else { PortKind::Slot };
                 let ty = if side == PortKind::Event { Type::unit() } else { Type::Unknown("any type".to_owned()) };
-                self.node(name, body.scope, kind, vec![Port::new(&name.text, side, ty)], "")?
+                self.node(name, body.scope, kind, vec![Port::new(&name.text, side, ty)], "")
             }
-        };
-        Some(Symbol::of_node(node, &self.nodes[node]))
+        }
     }
 
     /// A port that every node has; it is added when somebody names it.

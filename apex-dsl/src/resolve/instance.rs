@@ -10,6 +10,7 @@ use super::{
 use crate::{
     catalog::{Catalog, SignatureId, Type},
     graph::{Claim, End, Graph, Library, Node, NodeKind, Port, Scope, ScopeId, TypeArg, Value},
+    machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{
@@ -327,6 +328,10 @@ impl<'a> Builder<'a> {
         docs: &str,
     ) -> Option<Symbol> {
         let signature = &self.catalog.signatures[id];
+        // A state machine that is wrong has been reported.
+        if signature.name.is_empty() {
+            return None;
+        }
         let texts = self.texts;
         let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
         let scope = Names { params: &body.values, rust_path: &rust_path };
@@ -347,7 +352,21 @@ impl<'a> Builder<'a> {
         let docs = if docs.is_empty() { &signature.docs } else { docs };
         let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
         self.nodes[node].modifiers = modifiers;
+        if self.catalog.machines.contains_key(&id) {
+            self.begin_machine(body, name.span, node)?;
+        }
         Some(Symbol::of_node(node, &self.nodes[node]))
+    }
+
+    /// A state machine whose first state triggers something is called at the start.
+    fn begin_machine(&mut self, body: &Body<'_>, span: Span, node: usize) -> Option<()> {
+        let Some(port) = self.nodes[node].ports.iter().position(|p| p.name == Machine::BEGIN) else { return Some(()) };
+        let start = Ident { text: "start".to_owned(), span };
+        let start = self.own_node(body, &start, NodeKind::Start)?;
+        let from = Place::Port(End { node: start, port: 0 });
+        let to = Place::Port(End { node, port });
+        self.wires.push(Wire { from, to, active: false, differs: false, span });
+        Some(())
     }
 
     fn type_args(&mut self, body: &Body<'_>, count: usize, given: &[TypeExpr], instance: &Instance) -> Vec<TypeArg> {

@@ -6,7 +6,7 @@ mod flatten;
 mod generics;
 mod instance;
 mod names;
-mod value;
+pub mod value;
 mod wrap;
 
 use crate::{
@@ -49,7 +49,7 @@ pub struct Resolved {
 /// Resolves the text `root` with everything that it imports.
 pub fn resolve(
     root: FileId,
-    catalog: &Catalog,
+    catalog: &mut Catalog,
     sources: &mut Sources,
     world: &mut dyn World,
     diagnostics: &mut Diagnostics,

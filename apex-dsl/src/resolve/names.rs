@@ -1,18 +1,21 @@
 //! Which texts belong to a program, and what the names in each of them mean.
 
 use crate::{
-    catalog::{Catalog, DefId, SignatureId, Ty},
+    catalog::{Catalog, DefId, SignatureId, Ty, Type},
+    machine,
     report::{Diagnostic, Diagnostics, nearest},
     source::{FileId, Sources, World},
     syntax::{
         self,
-        tree::{File, GraphItem, Ident, PathExpr, TypeExpr, TypeKind},
+        tree::{File, GraphItem, Ident, PathExpr, PortItem, TypeExpr, TypeKind},
     },
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::PathBuf,
 };
+
+use super::value::Scope;
 
 /// More texts than one program is made of.
 const MAX_FILES: usize = 256;
@@ -31,12 +34,15 @@ pub struct Texts {
     /// The texts; the first is the one that was asked for.
     pub files: Vec<(FileId, File)>,
     names: Vec<BTreeMap<String, Meaning>>,
+    /// The state machines of each text, as nodes of the catalog.
+    machines: Vec<Vec<SignatureId>>,
     unreadable: BTreeSet<PathBuf>,
 }
 
 #[derive(Debug, Clone)]
 enum Meaning {
     Graph(GraphId),
+    Machine(SignatureId),
     Rust(Vec<String>),
 }
 
@@ -53,12 +59,12 @@ impl Texts {
     /// Parses `root` and all texts that it imports from.
     pub fn load(
         root: FileId,
-        catalog: &Catalog,
+        catalog: &mut Catalog,
         sources: &mut Sources,
         world: &mut dyn World,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut texts = Self { files: vec![], names: vec![], unreadable: BTreeSet::new() };
+        let mut texts = Self { files: vec![], names: vec![], machines: vec![], unreadable: BTreeSet::new() };
         let tree = syntax::parse(root, &sources.get(root).text.clone(), diagnostics);
         texts.files.push((root, tree));
         let mut at = 0;
@@ -66,11 +72,36 @@ impl Texts {
             texts.imports(at, catalog, sources, world, diagnostics);
             at += 1;
         }
+        // A machine has a number before anybody can name it, and is known only after its types can be named.
+        for file in 0..texts.files.len() {
+            let count = texts.files[file].1.machines.len();
+            let first = catalog.reserve_machines(count);
+            texts.machines.push((first..first + count).collect());
+        }
         for file in 0..texts.files.len() {
             let names = texts.names_of(file, catalog, sources, diagnostics);
             texts.names.push(names);
         }
+        for file in 0..texts.files.len() {
+            texts.resolve_machines(file, catalog, sources, diagnostics);
+        }
         texts
+    }
+
+    fn resolve_machines(&self, file: usize, catalog: &mut Catalog, sources: &Sources, diagnostics: &mut Diagnostics) {
+        let (file_id, tree) = &self.files[file];
+        for (item, &signature) in tree.machines.iter().zip(&self.machines[file]) {
+            let rust_path = |path: &PathExpr| self.rust_path(file, path);
+            let scope = Scope { params: &BTreeMap::new(), rust_path: &rust_path };
+            let ty = |port: &PortItem| match &port.ty {
+                Some(ty) => catalog.type_in_text(&self.ty(file, ty), &[]),
+                None => Type::unit(),
+            };
+            if let Some(machine) = machine::resolve(item, &ty, &scope, diagnostics) {
+                let place = (sources.get(*file_id).path.clone(), sources.line_column(*file_id, item.name.span.start).0);
+                catalog.add_machine(signature, machine, place);
+            }
+        }
     }
 
     /// Reads the sibling texts that text `at` imports from.
@@ -134,7 +165,9 @@ impl Texts {
         let imports: Vec<(&Ident, Meaning)> = imports.collect();
         let graphs =
             tree.graphs.iter().enumerate().map(|(graph, item)| (&item.name, Meaning::Graph(GraphId { file, graph })));
-        for (name, meaning) in imports.into_iter().chain(graphs) {
+        let machines = tree.machines.iter().zip(&self.machines[file]);
+        let machines = machines.map(|(item, signature)| (&item.name, Meaning::Machine(*signature)));
+        for (name, meaning) in imports.into_iter().chain(graphs).chain(machines) {
             if let Some(first) = places.insert(name.text.clone(), name) {
                 let message = format!("`{}` is already defined here", name.text);
                 diagnostics.push(
@@ -178,6 +211,10 @@ impl Texts {
             diagnostics.push(diagnostic);
             return None;
         };
+        let machines = &self.files[other].1.machines;
+        if let Some(machine) = machines.iter().position(|m| m.name.text == last.text) {
+            return Some(Meaning::Machine(self.machines[other][machine]));
+        }
         let graphs = &self.files[other].1.graphs;
         let graph = graphs.iter().position(|g| g.name.text == last.text);
         if graph.is_none() && !self.files[other].1.broken {
@@ -211,10 +248,12 @@ impl Texts {
 
     /// What stands behind the path of an instance.
     pub fn made(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Result<Made, Box<Diagnostic>> {
-        if let [name] = path.segments.as_slice()
-            && let Some(Meaning::Graph(id)) = self.names[file].get(&name.text)
-        {
-            return Ok(Made::Graph(*id));
+        if let [name] = path.segments.as_slice() {
+            match self.names[file].get(&name.text) {
+                Some(Meaning::Graph(id)) => return Ok(Made::Graph(*id)),
+                Some(Meaning::Machine(id)) => return Ok(Made::Node(*id)),
+                _ => {}
+            }
         }
         let full = self.full_path(file, path);
         match catalog.nodes(&full).as_slice() {

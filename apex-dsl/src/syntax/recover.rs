@@ -22,7 +22,20 @@ pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
     again(rule, file, start, text, "a statement is a port, a `node`, a connection or a `claim`")
 }
 
-const OUTSIDE: &str = "a text holds `use`, `graph` and `robot` items";
+/// Explains a statement of a state machine that could not be read.
+pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
+    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let rule = match first {
+        "in" | "out" | "slot" | "event" => Rule::port_stmt,
+        "state" => Rule::state_item,
+        "entry" | "exit" => Rule::entry_exit,
+        _ => Rule::transition,
+    };
+    let otherwise = "an `fsm` holds `slot`, `event` and `state`, a state `on slot if guard => state -> event;`, `entry -> event;`, `exit -> event;` and states";
+    again(rule, file, start, text, otherwise)
+}
+
+const OUTSIDE: &str = "a text holds `use`, `graph`, `robot` and `fsm` items";
 
 /// Explains an item that could not be read.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
@@ -31,7 +44,8 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
     let first = first.char_indices().nth(40).map_or(first, |(end, _)| &first[..end]);
     let span = Span::new(file, start, start + first.len());
     match first {
-        "fsm" | "test" => Diagnostic::error("not-yet", span, format!("`{first}` items are not supported yet")),
+        "test" => Diagnostic::error("not-yet", span, format!("`{first}` items are not supported yet")),
+        "fsm" => again(Rule::fsm_item, file, start, text, OUTSIDE),
         "use" => again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`"),
         "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ if text.trim_start().starts_with("///") => again(Rule::graph_item, file, start, text, OUTSIDE),

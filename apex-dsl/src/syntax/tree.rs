@@ -20,6 +20,8 @@ pub struct File {
     pub uses: Vec<Use>,
     /// Graphs and robots.
     pub graphs: Vec<GraphItem>,
+    /// State machines.
+    pub machines: Vec<FsmItem>,
     /// Comments that are not documentation, for the formatter.
     pub comments: Vec<Span>,
     /// Whether something in it could not be read.
@@ -242,6 +244,58 @@ pub enum ModifierKind {
     Essential,
     /// `restart`
     Restart,
+}
+
+/// `fsm Name { … }`
+#[derive(Debug)]
+pub struct FsmItem {
+    /// Documentation.
+    pub docs: String,
+    /// Its name.
+    pub name: Ident,
+    /// Its slots and events.
+    pub ports: Vec<PortItem>,
+    /// Its states; it begins in the first.
+    pub states: Vec<StateItem>,
+}
+
+/// `state name { … }`
+#[derive(Debug)]
+pub struct StateItem {
+    /// Documentation.
+    pub docs: String,
+    /// Its name.
+    pub name: Ident,
+    /// What is triggered when it is entered.
+    pub entry: Vec<Action>,
+    /// What is triggered when it is left.
+    pub exit: Vec<Action>,
+    /// What it does about tokens, in order.
+    pub transitions: Vec<Transition>,
+    /// States inside; whoever enters it enters the first of them.
+    pub states: Vec<StateItem>,
+}
+
+/// `on slot if guard => state -> event, event(value);`
+#[derive(Debug)]
+pub struct Transition {
+    /// The slot whose token causes it.
+    pub slot: Ident,
+    /// What must hold.
+    pub guard: Option<Expr>,
+    /// Where it leads; nowhere if the state stays the same.
+    pub target: Option<Ident>,
+    /// What is triggered.
+    pub actions: Vec<Action>,
+}
+
+/// `event`, `event(value)`
+#[derive(Debug)]
+pub struct Action {
+    /// The event.
+    pub event: Ident,
+    /// The token; without it the token that came.
+    pub value: Option<Expr>,
 }
 
 /// `a -> b => c;`

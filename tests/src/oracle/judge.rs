@@ -11,11 +11,16 @@ use apex_dsl::{
     syntax::tree::PortKind,
 };
 use apex_host::{Disk, Seen, Workspace};
-use std::{collections::BTreeMap, path::Path, time::Duration};
+use std::{
+    cell::{Ref, RefCell},
+    collections::BTreeMap,
+    path::Path,
+    time::Duration,
+};
 
 /// The compiler as far as nets need it.
 pub struct Checker {
-    catalog: Catalog,
+    catalog: RefCell<Catalog>,
 }
 
 /// A checked graph with its net.
@@ -72,7 +77,7 @@ impl Checker {
         let mut disk = Disk::new(Some(&workspace.cache_folder()));
         let catalog = Catalog::load(workspace.crates(&Seen::Crate("oracle", false)), &mut disk);
         disk.save();
-        Self { catalog }
+        Self { catalog: RefCell::new(catalog) }
     }
 
     /// The first program of `text` with its net, or what is wrong with the text.
@@ -81,7 +86,7 @@ impl Checker {
         let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
         let mut diagnostics = Diagnostics::default();
         let mut disk = Disk::new(None);
-        let programs = passes::check(root, &self.catalog, &mut sources, &mut disk, &mut diagnostics);
+        let programs = passes::check(root, &mut self.catalog.borrow_mut(), &mut sources, &mut disk, &mut diagnostics);
         let errors: Vec<String> = diagnostics
             .sorted()
             .into_iter()
@@ -92,18 +97,18 @@ impl Checker {
             return Err(errors.join("\n"));
         }
         let graph = programs.into_iter().next().ok_or("there is no program")?.graph;
-        let net = petri::net(&graph, &self.catalog).map_err(|e| e.to_string())?;
+        let net = petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
         Ok(Checked { graph, net })
     }
 
     /// The node types.
-    pub fn catalog(&self) -> &Catalog {
-        &self.catalog
+    pub fn catalog(&self) -> Ref<'_, Catalog> {
+        self.catalog.borrow()
     }
 
-    /// Reads a run that was written as text, one record a line.
+    /// Replays a run on the net.
     pub fn judge(&self, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
-        judge(&self.catalog, checked, records)
+        judge(&self.catalog.borrow(), checked, records)
     }
 }
 

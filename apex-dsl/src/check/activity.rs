@@ -1,0 +1,50 @@
+//! Activity that never arrives, or never leaves (execution semantics, section 5).
+
+use crate::{
+    analyse::active_nodes,
+    graph::{Graph, NodeId},
+    report::{Diagnostic, Diagnostics},
+};
+use std::collections::BTreeSet;
+
+/// Reports nodes whose active connections can never carry activity, and nodes that hold it although it looks as if
+/// they were meant to pass it on.
+pub fn check_activity(graph: &Graph, diagnostics: &mut Diagnostics) {
+    if graph.is_body || graph.is_open {
+        return;
+    }
+    let reached = active_nodes(graph);
+    let mut named = BTreeSet::new();
+    for c in graph.connections.iter().filter(|c| c.active) {
+        let node = c.from.node;
+        if !graph.can_hold_activity(node) || reached.contains(&node) || !named.insert(node) {
+            continue;
+        }
+        let message = format!("`{}` is never activated: this `=>` never carries activity", graph.path(node));
+        let warning = Diagnostic::warning("never-activated", c.span, message).note(match sources(graph, node) {
+            Some(from) => format!("activity would have to come from `{from}`, which is never activated either"),
+            None => format!("activity begins at `start`: write `start => {};`, or `=>` towards it", graph.path(node)),
+        });
+        diagnostics.push(warning);
+    }
+    for &node in &reached {
+        let n = &graph.nodes[node];
+        let out: Vec<_> = graph.connections.iter().filter(|c| c.from.node == node).collect();
+        if out.is_empty() || out.iter().any(|c| c.active) {
+            continue;
+        }
+        let message =
+            format!("activity that enters `{}` can never leave: all its connections are `->`", graph.path(node));
+        diagnostics.push(
+            Diagnostic::warning("never-leaves", n.span, message)
+                .also(out[0].span, "for example this one")
+                .note("write `=>` where activity is to go on"),
+        );
+    }
+}
+
+/// A node from which activity would have to come.
+fn sources(graph: &Graph, node: NodeId) -> Option<String> {
+    let from = graph.connections.iter().find(|c| c.active && c.to.node == node)?;
+    Some(graph.path(from.from.node))
+}

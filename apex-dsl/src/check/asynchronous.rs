@@ -1,0 +1,67 @@
+//! Slots and events where they cannot work.
+
+use crate::{
+    catalog::Catalog,
+    graph::{Flow, Graph, NodeKind, Standard},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::PortKind,
+};
+
+/// Reports connections that would never carry a token, and asynchronous ones inside an `each`.
+pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    for c in &graph.connections {
+        let (from, to) = (&graph.nodes[c.from.node], &graph.nodes[c.to.node]);
+        if graph.is_body && (c.active || graph.flow(c) != Flow::Synchronous) {
+            let what = if c.active { "pass activity on" } else { "have asynchronous connections" };
+            let message = format!("the body of an `each` runs to completion for each element: it cannot {what}");
+            diagnostics.push(
+                Diagnostic::error("each-asynchronous", c.span, message)
+                    .note("connect the `each` itself: its results can go to a slot, and over `=>`"),
+            );
+        }
+        if c.from.node == c.to.node && graph.flow(c) == Flow::ToSlot && graph.port(c.from).kind == PortKind::Event {
+            let message = format!(
+                "`{}` would wait for its own event: a slot is served only while all events of its node are free to be triggered",
+                graph.end_name(c.to)
+            );
+            diagnostics.push(
+                Diagnostic::error("own-event", c.span, message)
+                    .note("send it through another node that passes it on, or call the method in Rust"),
+            );
+        }
+        if matches!((&from.kind, &to.kind), (NodeKind::Start, NodeKind::Reset)) {
+            let message = "`start` cannot lead to `reset`, which triggers `start` again";
+            diagnostics.push(Diagnostic::error("own-event", c.span, message));
+        }
+    }
+    for node in &graph.nodes {
+        check_standard_ports(node, catalog, diagnostics);
+    }
+}
+
+/// Ports that every node has, but that need something else to make sense.
+fn check_standard_ports(node: &crate::graph::Node, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let needs = [
+        (Standard::Timeout, node.modifiers.timeout.is_some(), "timeout"),
+        (Standard::Late, node.modifiers.deadline.is_some(), "deadline"),
+    ];
+    for (port, given, modifier) in needs {
+        if node.standard(port).is_some() && !given {
+            let message = format!("`{}.{}` never comes: `{}` has no `{modifier}`", node.name, port.name(), node.name);
+            diagnostics.push(
+                Diagnostic::error("missing-modifier", node.span, message)
+                    .note(format!("write it behind the instance, for example `{modifier} 5s`")),
+            );
+        }
+    }
+    if node.modifiers.restart
+        && let NodeKind::Library(library) = &node.kind
+    {
+        let function = catalog.signatures[library.signature].is_function;
+        if library.handed_in || function {
+            let why = if function { "has no state" } else { "is made in Rust" };
+            let message = format!("`restart` makes a node anew, but `{}` {why}", node.name);
+            diagnostics.push(Diagnostic::error("wrong-modifier", node.span, message));
+        }
+    }
+}

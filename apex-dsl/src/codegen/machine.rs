@@ -1,0 +1,144 @@
+//! A state machine as Rust: an enum of its states, and a method with one `match` for each slot.
+
+use super::types::{constant, ident, spell};
+use crate::{
+    catalog::{Catalog, Type},
+    machine::{Machine, Sending, Slot, Token},
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::Ident;
+
+/// Rust for all state machines of a program.
+pub fn machines(catalog: &Catalog) -> TokenStream {
+    catalog.machines.values().map(|machine| item(machine, catalog)).collect()
+}
+
+fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
+    let (name, states_name) = (ident(&machine.name), format_ident!("{}State", machine.name));
+    let docs =
+        if machine.docs.is_empty() { format!("The state machine `{}`.", machine.name) } else { machine.docs.clone() };
+    let states = states(machine);
+    let first = &states[0];
+    let texts = &machine.states;
+    let methods = machine.slots.iter().map(|slot| method(machine, slot, &states, catalog));
+    let begin = begin(machine, catalog);
+    let slots = machine.slots.iter().map(|slot| &slot.ty).chain((!machine.begin.is_empty()).then_some(&UNIT));
+    let slots = slots.enumerate().map(|(i, ty)| {
+        let ty = token_type(ty, catalog);
+        quote! { impl ::apex_rt::Slot<#i> for #name { type Token = #ty; } }
+    });
+    let events = machine.events.iter().enumerate().map(|(i, (_, ty))| {
+        let ty = token_type(ty, catalog);
+        quote! { impl ::apex_rt::Trigger<#i> for #name { type Token = #ty; } }
+    });
+    quote! {
+        #[doc = #docs]
+        #[derive(Debug)]
+        pub struct #name { state: #states_name }
+        /// The states of the machine.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum #states_name { #(#[doc = #texts] #states,)* }
+        #[allow(unused, clippy::all, private_interfaces)]
+        impl #name {
+            /// The state that it is in.
+            pub fn state(&self) -> #states_name { self.state }
+            #(#methods)*
+            #begin
+        }
+        impl ::apex_rt::Construct<()> for #name {
+            fn construct((): ()) -> Self { Self { state: #states_name::#first } }
+        }
+        #[allow(private_interfaces)]
+        const _: () = { #(#slots)* #(#events)* };
+    }
+}
+
+static UNIT: Type = Type::Tuple(vec![]);
+
+/// The names of the states in the enum: `fetch.drive` → `FetchDrive`.
+fn states(machine: &Machine) -> Vec<Ident> {
+    let mut names: Vec<Ident> = vec![];
+    for state in &machine.states {
+        let mut name = super::program::camel(&state.replace('.', "_"));
+        while names.iter().any(|other| *other == name) {
+            name.push('_');
+        }
+        names.push(ident(&name));
+    }
+    names
+}
+
+fn token_type(ty: &Type, catalog: &Catalog) -> TokenStream {
+    spell(ty, catalog).unwrap_or_else(|| ty.to_string().parse().unwrap_or_default())
+}
+
+/// The arguments for the events that a method may trigger.
+fn event_args(machine: &Machine, events: &[usize], catalog: &Catalog) -> Vec<TokenStream> {
+    let arg = |event: &usize| {
+        let (name, ty) = &machine.events[*event];
+        let (name, ty) = (event_arg(name), token_type(ty, catalog));
+        quote!(#name: ::apex_rt::Event<#ty>)
+    };
+    events.iter().map(arg).collect()
+}
+
+/// Events and the token are both arguments.
+fn event_arg(name: &str) -> Ident {
+    format_ident!("event_{name}")
+}
+
+fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -> TokenStream {
+    let (name, states_name) = (ident(&slot.name), format_ident!("{}State", machine.name));
+    let token = slot.uses_token().then(|| {
+        let ty = token_type(&slot.ty, catalog);
+        quote!(token: &#ty,)
+    });
+    let events = event_args(machine, &slot.events(), catalog);
+    let arms = slot.arms.iter().map(|arm| {
+        let state = &states[arm.state];
+        let guard = arm.guard.as_ref().map(|guard| {
+            let guard: TokenStream = guard.parse().unwrap_or_default();
+            quote!(if #guard)
+        });
+        let target = arm.target.map(|target| {
+            let target = &states[target];
+            quote! { self.state = #states_name::#target; }
+        });
+        let sends = arm.sends.iter().map(|sending| send(machine, sending));
+        quote! { #states_name::#state #guard => { #target #(#sends)* } }
+    });
+    let docs = format!("What it does about a token at `{}`.", slot.name);
+    quote! {
+        #[doc = #docs]
+        #[inline]
+        pub fn #name(&mut self, #token #(#events),*) {
+            match self.state { #(#arms)* _ => {} }
+        }
+    }
+}
+
+fn begin(machine: &Machine, catalog: &Catalog) -> TokenStream {
+    if machine.begin.is_empty() {
+        return quote!();
+    }
+    let (name, events) = (ident(Machine::BEGIN), machine.begin.iter().map(|s| s.event).collect::<Vec<_>>());
+    let (args, sends) = (event_args(machine, &events, catalog), machine.begin.iter().map(|s| send(machine, s)));
+    quote! {
+        /// Its first state is entered.
+        pub fn #name(&mut self, #(#args),*) { #(#sends)* }
+    }
+}
+
+fn send(machine: &Machine, sending: &Sending) -> TokenStream {
+    let (name, ty) = &machine.events[sending.event];
+    let event = event_arg(name);
+    match &sending.token {
+        Token::Unit => quote! { #event.emit(()); },
+        Token::Same => quote! { #event.emit(::core::clone::Clone::clone(token)); },
+        Token::Value(value) => {
+            let value = constant(value, ty);
+            quote! { #event.emit(#value); }
+        }
+    }
+}

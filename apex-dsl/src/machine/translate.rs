@@ -1,0 +1,37 @@
+//! A state machine as an activity flow graph (thesis 7.2.1), for people to read: each state is a node, each
+//! transition an event connected to a slot by an active connection.
+
+use super::Machine;
+use std::fmt::Write as _;
+
+/// The translation as text.
+pub fn translation(machine: &Machine) -> String {
+    let mut text = format!("fsm {} as an activity flow graph (7.2.1):\n", machine.name);
+    let _ = writeln!(text, "  start => {};", machine.states[0]);
+    for slot in &machine.slots {
+        let mut takers: Vec<&str> = slot.arms.iter().map(|arm| machine.states[arm.state].as_str()).collect();
+        takers.dedup();
+        let takers: Vec<String> = takers.iter().map(|state| format!("{state}.{}", slot.name)).collect();
+        if !takers.is_empty() {
+            let _ = writeln!(text, "  {} -> [{}];", slot.name, takers.join(", "));
+        }
+    }
+    for slot in &machine.slots {
+        for (number, arm) in slot.arms.iter().enumerate() {
+            let state = &machine.states[arm.state];
+            let guard = arm.guard.as_deref().map(|guard| {
+                let guard = guard.replace("(*token)", &slot.name);
+                format!("   // if {}", guard.strip_prefix('(').and_then(|g| g.strip_suffix(')')).unwrap_or(&guard))
+            });
+            let event = format!("{state}.{}_{}", slot.name, number + 1);
+            if let Some(target) = arm.target {
+                let guard = guard.as_deref().unwrap_or_default();
+                let _ = writeln!(text, "  {event} => {}.enter;{guard}", machine.states[target]);
+            }
+            for sending in &arm.sends {
+                let _ = writeln!(text, "  {event} -> {};", machine.events[sending.event].0);
+            }
+        }
+    }
+    text
+}

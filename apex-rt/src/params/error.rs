@@ -1,0 +1,133 @@
+//! What can be wrong with a value for a parameter.
+
+use super::ParamInfo;
+use core::fmt;
+
+/// Why a value was not taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// It is of another kind.
+    Kind {
+        /// What the parameter takes: `a number`.
+        expected: &'static str,
+        /// What was given: `a string`.
+        found: &'static str,
+    },
+    /// It does not fit into this type.
+    Fit(&'static str),
+    /// It is a list of another length.
+    Length {
+        /// How many elements the parameter takes.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// It is a list or a string that is too long.
+    Long {
+        /// How many elements or bytes the parameter takes.
+        most: usize,
+    },
+    /// It is out of the declared range.
+    Range,
+    /// The type of the parameter is no [`ParamValue`](super::ParamValue).
+    Opaque,
+}
+
+/// Why a parameter could not be read or set.
+#[derive(Debug, Clone, Copy)]
+pub enum ParamError {
+    /// There is no parameter of this name.
+    Unknown {
+        /// The name that is most like it, if one is near enough to be meant.
+        nearest: Option<&'static str>,
+    },
+    /// The parameter does not take the value; it keeps the one that it has.
+    Refused {
+        /// The parameter.
+        param: &'static ParamInfo,
+        /// Why.
+        refusal: Refusal,
+    },
+}
+
+impl Refusal {
+    /// The sentence about `param`; `value` is shown if it is known.
+    pub(super) fn say(
+        &self,
+        param: &ParamInfo,
+        value: Option<&dyn fmt::Display>,
+        f: &mut fmt::Formatter<'_>,
+    ) -> fmt::Result {
+        let name = param.name;
+        match self {
+            Self::Kind { expected, found } => write!(f, "`{name}` ({}) takes {expected}, not {found}", param.ty),
+            Self::Fit(ty) => write!(f, "the value of `{name}` does not fit into `{ty}`"),
+            Self::Length { expected, found } => {
+                write!(f, "`{name}` ({}) takes {expected} elements; here are {found}", param.ty)
+            }
+            Self::Long { most } => write!(f, "the value of `{name}` is too long: there is room for {most}"),
+            Self::Range => {
+                match value {
+                    Some(value) => write!(f, "`{name}` cannot be {value}")?,
+                    None => write!(f, "the value of `{name}` is out of range")?,
+                }
+                match (param.range.is_known(), param.unit) {
+                    (true, Some(unit)) => write!(f, ": its range is {} ({unit})", param.range),
+                    (true, None) => write!(f, ": its range is {}", param.range),
+                    (false, _) => f.write_str(": its node type declares a range that it is out of"),
+                }
+            }
+            Self::Opaque => {
+                write!(f, "`{name}` is a `{}`: parameters of this type can only be set in the graph", param.ty)
+            }
+        }
+    }
+}
+
+impl fmt::Display for ParamError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown { nearest: Some(near) } => {
+                write!(f, "there is no parameter of this name; did you mean `{near}`?")
+            }
+            Self::Unknown { nearest: None } => {
+                f.write_str("there is no parameter of this name; `PARAMS` of the program lists all")
+            }
+            Self::Refused { param, refusal } => refusal.say(param, None, f),
+        }
+    }
+}
+
+impl core::error::Error for ParamError {}
+
+/// Longer names are not compared.
+const MAX_NAME: usize = 128;
+
+/// The one of `names` that is most like `name`, if one is near enough to be meant.
+pub(super) fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> Option<&'static str> {
+    let limit = (name.len() / 3).max(1);
+    let near = names.filter(|n| n.len().abs_diff(name.len()) <= limit).filter_map(|n| Some((distance(name, n)?, n)));
+    near.filter(|(distance, _)| *distance <= limit).min_by_key(|(distance, _)| *distance).map(|(_, n)| n)
+}
+
+/// Edit distance of two names in bytes, in which a swap of two neighbours counts one; `None` for very long ones.
+fn distance(a: &str, b: &str) -> Option<usize> {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let width = b.len() + 1;
+    if width > MAX_NAME {
+        return None;
+    }
+    let mut rows = [[0; MAX_NAME]; 2];
+    rows[0].iter_mut().enumerate().for_each(|(j, cell)| *cell = j);
+    for (i, x) in a.iter().enumerate() {
+        let [above, before] = rows;
+        let mut row = [i + 1; MAX_NAME];
+        for (j, y) in b.iter().enumerate() {
+            let best = (above[j] + usize::from(x != y)).min(above[j + 1] + 1).min(row[j] + 1);
+            let swapped = i > 0 && j > 0 && *x == b[j - 1] && a[i - 1] == *y;
+            row[j + 1] = if swapped { best.min(before[j - 1] + 1) } else { best };
+        }
+        rows = [row, above];
+    }
+    rows[0][..width].last().copied()
+}

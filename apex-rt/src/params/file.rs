@@ -1,0 +1,83 @@
+//! Parameters in files.
+
+use super::{LoadError, Parameters, load, save};
+use std::{
+    ffi::OsString,
+    fs,
+    io::{self, Write as _},
+    path::{Path, PathBuf},
+};
+
+/// Most bytes of a file that is loaded.
+const MAX_BYTES: u64 = 4 << 20;
+
+/// Sets the parameters that are named in the file, as [`load`] does.
+///
+/// # Errors
+/// The file cannot be read, or something in it is wrong; then nothing is changed.
+pub fn load_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> Result<(), LoadError> {
+    let path = path.as_ref();
+    let text = read(path).map_err(|reason| LoadError::Read { path: path.to_owned(), reason })?;
+    load(program, &text).map_err(|error| match error {
+        LoadError::Text { problems, .. } => LoadError::Text { path: Some(path.to_owned()), problems },
+        other => other,
+    })
+}
+
+/// Writes all parameters into a file, as [`save`] does. A file that is there already is replaced as a whole: who reads
+/// it meanwhile sees the old one or the new one.
+///
+/// # Errors
+/// The file cannot be written; then the old one is left as it is.
+pub fn save_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> io::Result<()> {
+    let text = save(program);
+    // A link is kept, and what it leads to is replaced.
+    let path = fs::canonicalize(path.as_ref()).unwrap_or_else(|_| path.as_ref().to_owned());
+    let beside = beside(&path)?;
+    let result = write(&path, &beside, &text);
+    if result.is_err() {
+        // What is wrong has been found already.
+        let _ = fs::remove_file(&beside);
+    }
+    result
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    let metadata = fs::metadata(path).map_err(|error| reason(&error))?;
+    if metadata.is_dir() {
+        return Err("it is a folder".to_owned());
+    }
+    if metadata.len() > MAX_BYTES {
+        return Err(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len()));
+    }
+    let bytes = fs::read(path).map_err(|error| reason(&error))?;
+    String::from_utf8(bytes).map_err(|error| format!("byte {} is not UTF-8", error.utf8_error().valid_up_to()))
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// A name in the same folder, so that renaming is one step.
+fn beside(path: &Path) -> io::Result<PathBuf> {
+    let name =
+        path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "this is no name of a file"))?;
+    let mut hidden = OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.new", std::process::id()));
+    Ok(path.with_file_name(hidden))
+}
+
+fn write(path: &Path, beside: &Path, text: &str) -> io::Result<()> {
+    let mut file = fs::File::create(beside)?;
+    file.write_all(text.as_bytes())?;
+    if let Ok(old) = fs::metadata(path) {
+        file.set_permissions(old.permissions())?;
+    }
+    file.sync_all()?;
+    fs::rename(beside, path)
+}

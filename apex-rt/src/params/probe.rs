@@ -1,0 +1,68 @@
+//! How generated code finds out whether the type of a parameter can be read and set: it calls `visit` on a
+//! [`Probe`], which is [`Known::visit`] if the type is a [`ParamValue`], and [`Opaque::visit`] otherwise, because rustc
+//! tries a value before a reference to it.
+
+use super::{Access, Give as _, Given, ParamInfo, ParamValue, ParamVisitor, Refusal};
+use crate::{Param, ParamField};
+
+/// Parameter number `I` of a node.
+pub struct Probe<'a, N, const I: usize>(&'a mut N);
+
+impl<'a, N, const I: usize> Probe<'a, N, I> {
+    /// The parameter of `node`.
+    pub fn new(node: &'a mut N) -> Self {
+        Self(node)
+    }
+}
+
+impl<N, const I: usize> Access for Probe<'_, N, I>
+where
+    N: ParamField<I>,
+    <N as Param<I>>::Value: ParamValue,
+{
+    fn get(&mut self) -> Given<'_> {
+        self.0.field().give()
+    }
+
+    fn check(&self, value: Given<'_>) -> Result<(), Refusal> {
+        let value = ParamValue::take(value)?;
+        if N::accepts(&value) { Ok(()) } else { Err(Refusal::Range) }
+    }
+
+    fn set(&mut self, value: Given<'_>) -> Result<(), Refusal> {
+        let value = ParamValue::take(value)?;
+        if !N::accepts(&value) {
+            return Err(Refusal::Range);
+        }
+        *self.0.field() = value;
+        Ok(())
+    }
+}
+
+/// A parameter whose type is a [`ParamValue`].
+pub trait Known {
+    /// Shows it to `visitor`.
+    fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V);
+}
+
+impl<N, const I: usize> Known for Probe<'_, N, I>
+where
+    N: ParamField<I>,
+    <N as Param<I>>::Value: ParamValue,
+{
+    fn visit<V: ParamVisitor>(mut self, info: &'static ParamInfo, visitor: &mut V) {
+        visitor.param(info, Some(&mut self));
+    }
+}
+
+/// A parameter of any other type.
+pub trait Opaque {
+    /// Shows `visitor` that it is there.
+    fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V);
+}
+
+impl<N, const I: usize> Opaque for &Probe<'_, N, I> {
+    fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V) {
+        visitor.param(info, None);
+    }
+}

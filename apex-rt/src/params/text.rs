@@ -1,0 +1,307 @@
+//! Parameters as a text in TOML: one table per node, values in SI.
+
+use super::{Access, Given, GivenList, ParamError, ParamInfo, ParamVisitor, Parameters, Refusal, error::nearest};
+use std::{
+    collections::BTreeMap,
+    fmt::{self, Write as _},
+    path::PathBuf,
+    string::{String, ToString as _},
+    vec::Vec,
+};
+use toml::{
+    Spanned,
+    de::{DeArray, DeTable, DeValue},
+};
+
+/// Something that is wrong with a text of parameters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// Why parameters were not loaded. Nothing was changed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LoadError {
+    /// The file cannot be read.
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// The text is wrong.
+    Text {
+        /// The file that it stands in, if it is one.
+        path: Option<PathBuf>,
+        /// All problems, in the order of the text.
+        problems: Vec<Problem>,
+    },
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read { path, reason } => write!(f, "cannot read `{}`: {reason}", path.display()),
+            Self::Text { path, problems } => {
+                for (index, problem) in problems.iter().enumerate() {
+                    let Problem { line, column, message } = problem;
+                    let end = if index > 0 { "\n" } else { "" };
+                    match path {
+                        Some(path) => write!(f, "{end}{}:{line}:{column}: {message}", path.display())?,
+                        None => write!(f, "{end}line {line}, column {column}: {message}")?,
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for LoadError {}
+
+/// All parameters of `program` as a text that [`load`] reads: a table per node in the order of the graph, values in SI,
+/// units and ranges in comments. Those whose type is no [`ParamValue`](super::ParamValue) are named in comments.
+pub fn save<P: Parameters>(program: &mut P) -> String {
+    let mut saved = Save::default();
+    program.visit_params(&mut saved);
+    saved.text
+}
+
+/// The names of the parameters that [`save`] leaves out because their type is no [`ParamValue`](super::ParamValue).
+pub fn not_saved<P: Parameters>(program: &mut P) -> Vec<&'static str> {
+    let mut saved = Save::default();
+    program.visit_params(&mut saved);
+    saved.left_out
+}
+
+/// Sets the parameters that are named in `text`, written as [`save`] writes it; all others keep their values.
+///
+/// # Errors
+/// Everything that is wrong with the text; then nothing is changed.
+pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError> {
+    let mut problems = Problems { text, found: vec![] };
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        problems.add(error.span().map_or(0, |span| span.start), format!("this is no TOML: {}", error.message()));
+    }
+    if !problems.found.is_empty() {
+        return problems.result();
+    }
+    let mut file = File { params: P::PARAMS, values: BTreeMap::new(), problems };
+    file.table("", document.get_ref());
+    program.visit_params(&mut Check(&mut file));
+    if !file.problems.found.is_empty() {
+        return file.problems.result();
+    }
+    program.visit_params(&mut Set(&file));
+    Ok(())
+}
+
+/// Sets the parameter `name` to a value that is spelled in TOML: `1.5`, `true`, `"text"`, `[1, 2]`.
+///
+/// # Errors
+/// Those of [`Parameters::set_param`]; what is no value of TOML is refused too.
+pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
+    match DeValue::parse(value) {
+        Ok(value) => program.set_param(name, given(value.get_ref())),
+        Err(_) => program.set_param(name, Given::Other("something that is no value of TOML")),
+    }
+}
+
+#[derive(Default)]
+struct Save {
+    text: String,
+    /// The node whose table was begun last.
+    node: Option<&'static str>,
+    left_out: Vec<&'static str>,
+}
+
+impl ParamVisitor for Save {
+    fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+        let (node, name) = info.name.rsplit_once('.').unwrap_or(("", info.name));
+        if self.node != Some(node) {
+            let path: Vec<String> = node.split('.').map(key).collect();
+            let gap = if self.text.is_empty() { "" } else { "\n" };
+            self.text += &format!("{gap}[{}]\n", path.join("."));
+            self.node = Some(node);
+        }
+        let Some(access) = access else {
+            self.left_out.push(info.name);
+            self.text += &format!("# {name} is a `{}` and not saved\n", info.ty.replace(['\n', '\r'], " "));
+            return;
+        };
+        let comment = comment(info);
+        let gap = if comment.is_empty() { "" } else { " # " };
+        // Writing into a string cannot fail.
+        let _ = writeln!(self.text, "{} = {}{gap}{comment}", key(name), access.get());
+    }
+}
+
+/// The unit and the range.
+fn comment(info: &ParamInfo) -> String {
+    let range = info.range.is_known().then(|| info.range.to_string());
+    let parts: Vec<String> = info.unit.map(str::to_owned).into_iter().chain(range).collect();
+    parts.join(", ")
+}
+
+/// A name as a key.
+fn key(name: &str) -> String {
+    let is_bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+    if is_bare { name.to_owned() } else { Given::Text(name).to_string() }
+}
+
+/// A value of the file, and where it stands.
+struct Entry<'a> {
+    at: usize,
+    value: &'a DeValue<'a>,
+}
+
+/// What a text says about the parameters of a program.
+struct File<'a> {
+    params: &'static [ParamInfo],
+    values: BTreeMap<&'static str, Entry<'a>>,
+    problems: Problems<'a>,
+}
+
+impl<'a> File<'a> {
+    /// Reads a table; `prefix` is its name with a dot behind it.
+    fn table(&mut self, prefix: &str, table: &'a DeTable<'a>) {
+        for (key, value) in table {
+            let name = format!("{prefix}{}", key.get_ref());
+            self.entry(&name, key.span().start, value);
+        }
+    }
+
+    fn entry(&mut self, name: &str, at: usize, value: &'a Spanned<DeValue<'a>>) {
+        if let Some(param) = self.params.iter().find(|p| p.name == name) {
+            self.values.insert(param.name, Entry { at: value.span().start, value: value.get_ref() });
+            return;
+        }
+        let inner = format!("{name}.");
+        let first = self.params.iter().find(|p| p.name.starts_with(&inner));
+        match (value.get_ref(), first) {
+            (DeValue::Table(table), Some(_)) => self.table(&inner, table),
+            (_, Some(param)) => {
+                let message = format!("`{name}` is a node: its parameters stand in a table, such as `{}`", param.name);
+                self.problems.add(at, message);
+            }
+            (DeValue::Table(_), None) => {
+                let hint = self.hint(nearest(name, self.params.iter().filter_map(|p| node_of(p.name, name))));
+                self.problems.add(at, format!("there is no node `{name}` with parameters; {hint}"));
+            }
+            (_, None) => {
+                let hint = self.hint(nearest(name, self.params.iter().map(|p| p.name)));
+                self.problems.add(at, format!("there is no parameter `{name}`; {hint}"));
+            }
+        }
+    }
+
+    fn hint(&self, near: Option<&str>) -> String {
+        match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if self.params.is_empty() => "the program has none: remove it".to_owned(),
+            None => "remove it, or save the parameters to see what there are".to_owned(),
+        }
+    }
+}
+
+/// So many names from the front of `param` as `like` has.
+fn node_of(param: &'static str, like: &str) -> Option<&'static str> {
+    let dots = like.matches('.').count();
+    param.match_indices('.').nth(dots).map(|(end, _)| &param[..end])
+}
+
+/// Looks for values that are not taken.
+struct Check<'a, 'b>(&'a mut File<'b>);
+
+impl ParamVisitor for Check<'_, '_> {
+    fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+        let Some(entry) = self.0.values.get(info.name) else { return };
+        let value = given(entry.value);
+        if let Err(refusal) = access.map_or(Err(Refusal::Opaque), |access| access.check(value)) {
+            self.0.problems.add(entry.at, Refused { info, refusal, value }.to_string());
+        }
+    }
+}
+
+struct Refused<'a> {
+    info: &'static ParamInfo,
+    refusal: Refusal,
+    value: Given<'a>,
+}
+
+impl fmt::Display for Refused<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.refusal.say(self.info, Some(&self.value), f)
+    }
+}
+
+/// Sets all values, which were checked.
+struct Set<'a, 'b>(&'a File<'b>);
+
+impl ParamVisitor for Set<'_, '_> {
+    fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+        if let (Some(entry), Some(access)) = (self.0.values.get(info.name), access) {
+            let set = access.set(given(entry.value));
+            debug_assert_eq!(set, Ok(()), "`{}` was checked", info.name);
+        }
+    }
+}
+
+/// A value of TOML as a program takes it.
+fn given<'a>(value: &'a DeValue<'_>) -> Given<'a> {
+    match value {
+        DeValue::String(text) => Given::Text(text),
+        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
+            .map_or(Given::Other("an integer with very many digits"), Given::Integer),
+        DeValue::Float(float) => {
+            let value = float.as_str().parse::<f64>().ok();
+            let value =
+                value.filter(|value| value.is_finite() || !float.as_str().contains(|c: char| c.is_ascii_digit()));
+            value.map_or(Given::Other("a number that is too large"), Given::Float)
+        }
+        DeValue::Boolean(value) => Given::Bool(*value),
+        DeValue::Datetime(_) => Given::Other("a date"),
+        DeValue::Array(array) => Given::List(array),
+        DeValue::Table(_) => Given::Other("a table"),
+    }
+}
+
+impl GivenList for DeArray<'_> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn element(&self, index: usize) -> Given<'_> {
+        self.get(index).map_or(Given::Other("nothing"), |value| given(value.get_ref()))
+    }
+}
+
+/// What is wrong with a text.
+struct Problems<'a> {
+    text: &'a str,
+    found: Vec<(usize, String)>,
+}
+
+impl Problems<'_> {
+    /// Something at byte `at` of the text.
+    fn add(&mut self, at: usize, message: String) {
+        self.found.push((at, message));
+    }
+
+    fn result(mut self) -> Result<(), LoadError> {
+        self.found.sort();
+        let text = self.text;
+        let problem = |(at, message): (usize, String)| {
+            let before = text.get(..at).unwrap_or(text);
+            let (line, start) = (before.matches('\n').count() + 1, before.rfind('\n').map_or(0, |end| end + 1));
+            Problem { line, column: before[start..].chars().count() + 1, message }
+        };
+        Err(LoadError::Text { path: None, problems: self.found.into_iter().map(problem).collect() })
+    }
+}

@@ -1,0 +1,306 @@
+//! Values of parameters, independent of their types: what a program gives, and what it is given.
+
+use super::Refusal;
+use core::{fmt, time::Duration};
+
+/// A value of a parameter, in SI. Displayed as TOML spells it.
+#[derive(Clone, Copy)]
+pub enum Given<'a> {
+    /// A switch.
+    Bool(bool),
+    /// A whole number.
+    Integer(i128),
+    /// A number.
+    Float(f64),
+    /// A number of single precision; the same as a [`Given::Float`] but for its spelling.
+    Single(f32),
+    /// A text.
+    Text(&'a str),
+    /// A list.
+    List(&'a dyn GivenList),
+    /// Something that no parameter takes, with what it is: `a table`.
+    Other(&'static str),
+}
+
+/// The elements of a list.
+pub trait GivenList {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// Element number `index`, which is below [`GivenList::count`].
+    fn element(&self, index: usize) -> Given<'_>;
+}
+
+/// A value that a parameter can be set to.
+pub trait Give {
+    /// The value, without its type.
+    fn give(&self) -> Given<'_>;
+}
+
+/// A type of parameters that can be read, set, saved and loaded. Implement it for types of your own by those that
+/// they consist of.
+pub trait ParamValue: Give + Sized {
+    /// The value that was given, if it is one of this type.
+    ///
+    /// # Errors
+    /// Says what it should have been.
+    fn take(given: Given<'_>) -> Result<Self, Refusal>;
+}
+
+impl Given<'_> {
+    /// What it is, for messages: `a string`.
+    pub const fn what(&self) -> &'static str {
+        match self {
+            Self::Bool(_) => "`true` or `false`",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) | Self::Single(_) => "a number with a point",
+            Self::Text(_) => "a string",
+            Self::List(_) => "a list",
+            Self::Other(what) => what,
+        }
+    }
+
+    /// The refusal where something else was expected.
+    pub const fn refuse(&self, expected: &'static str) -> Refusal {
+        Refusal::Kind { expected, found: self.what() }
+    }
+}
+
+impl fmt::Debug for Given<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl fmt::Display for Given<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Bool(value) => write!(f, "{value}"),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Float(value) if value.is_nan() => f.write_str("nan"),
+            Self::Single(value) if value.is_nan() => f.write_str("nan"),
+            Self::Float(value) => write!(f, "{value:?}"),
+            Self::Single(value) => write!(f, "{value:?}"),
+            Self::Text(text) => quoted(text, f),
+            Self::List(list) => {
+                f.write_str("[")?;
+                for index in 0..list.count() {
+                    write!(f, "{}{}", if index > 0 { ", " } else { "" }, list.element(index))?;
+                }
+                f.write_str("]")
+            }
+            Self::Other(what) => f.write_str(what),
+        }
+    }
+}
+
+/// A string as TOML spells it.
+fn quoted(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    use fmt::Write as _;
+    f.write_char('"')?;
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => write!(f, "\\{c}")?,
+            '\n' => f.write_str("\\n")?,
+            '\t' => f.write_str("\\t")?,
+            c if c.is_control() => write!(f, "\\u{:04X}", u32::from(c))?,
+            c => f.write_char(c)?,
+        }
+    }
+    f.write_char('"')
+}
+
+impl<T: Give + ?Sized> Give for &T {
+    fn give(&self) -> Given<'_> {
+        (**self).give()
+    }
+}
+
+impl Give for Given<'_> {
+    fn give(&self) -> Given<'_> {
+        *self
+    }
+}
+
+impl Give for bool {
+    fn give(&self) -> Given<'_> {
+        Given::Bool(*self)
+    }
+}
+
+impl ParamValue for bool {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        match given {
+            Given::Bool(value) => Ok(value),
+            other => Err(other.refuse("`true` or `false`")),
+        }
+    }
+}
+
+macro_rules! integers {
+    ($($ty:ident)*) => { $(
+        impl Give for $ty {
+            fn give(&self) -> Given<'_> {
+                // All of these types fit.
+                Given::Integer(*self as i128)
+            }
+        }
+
+        impl ParamValue for $ty {
+            fn take(given: Given<'_>) -> Result<Self, Refusal> {
+                match given {
+                    Given::Integer(value) => Self::try_from(value).map_err(|_| Refusal::Fit(stringify!($ty))),
+                    other => Err(other.refuse("an integer")),
+                }
+            }
+        }
+    )* };
+}
+
+integers!(i8 i16 i32 i64 isize u8 u16 u32 u64 usize);
+
+impl Give for f64 {
+    fn give(&self) -> Given<'_> {
+        Given::Float(*self)
+    }
+}
+
+impl ParamValue for f64 {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        match given {
+            Given::Integer(value) => Ok(value as Self),
+            Given::Float(value) => Ok(value),
+            Given::Single(value) => Ok(Self::from(value)),
+            other => Err(other.refuse("a number")),
+        }
+    }
+}
+
+impl Give for f32 {
+    fn give(&self) -> Given<'_> {
+        Given::Single(*self)
+    }
+}
+
+impl ParamValue for f32 {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        if let Given::Single(value) = given {
+            return Ok(value);
+        }
+        let exact = f64::take(given)?;
+        let value = exact as Self;
+        if value.is_infinite() && exact.is_finite() { Err(Refusal::Fit("f32")) } else { Ok(value) }
+    }
+}
+
+impl Give for Duration {
+    /// In seconds.
+    fn give(&self) -> Given<'_> {
+        Given::Float(self.as_secs_f64())
+    }
+}
+
+impl ParamValue for Duration {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        let seconds = f64::take(given).map_err(|_| given.refuse("a number of seconds"))?;
+        Self::try_from_secs_f64(seconds).map_err(|_| Refusal::Fit("Duration"))
+    }
+}
+
+impl Give for str {
+    fn give(&self) -> Given<'_> {
+        Given::Text(self)
+    }
+}
+
+impl<const N: usize> Give for heapless::String<N> {
+    fn give(&self) -> Given<'_> {
+        Given::Text(self)
+    }
+}
+
+impl<const N: usize> ParamValue for heapless::String<N> {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        match given {
+            Given::Text(text) => Self::try_from(text).map_err(|_| Refusal::Long { most: N }),
+            other => Err(other.refuse("a string")),
+        }
+    }
+}
+
+macro_rules! lists {
+    ($($(#[$cfg:meta])? [$($generics:tt)*] $ty:ty;)*) => { $(
+        $(#[$cfg])?
+        impl<T: Give, $($generics)*> GivenList for $ty {
+            fn count(&self) -> usize {
+                self.len()
+            }
+            fn element(&self, index: usize) -> Given<'_> {
+                self.get(index).map_or(Given::Other("nothing"), T::give)
+            }
+        }
+
+        $(#[$cfg])?
+        impl<T: Give, $($generics)*> Give for $ty {
+            fn give(&self) -> Given<'_> {
+                Given::List(self)
+            }
+        }
+    )* };
+}
+
+lists! {
+    [const N: usize] [T; N];
+    [const N: usize] heapless::Vec<T, N>;
+    #[cfg(feature = "alloc")]
+    [] alloc::vec::Vec<T>;
+}
+
+/// The elements of a list, one after the other.
+fn elements<T: ParamValue>(given: Given<'_>) -> Result<impl ExactSizeIterator<Item = Result<T, Refusal>>, Refusal> {
+    match given {
+        Given::List(list) => Ok((0..list.count()).map(|index| T::take(list.element(index)))),
+        other => Err(other.refuse("a list")),
+    }
+}
+
+impl<T: ParamValue, const N: usize> ParamValue for heapless::Vec<T, N> {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        let mut list = Self::new();
+        for element in elements(given)? {
+            list.push(element?).map_err(|_| Refusal::Long { most: N })?;
+        }
+        Ok(list)
+    }
+}
+
+impl<T: ParamValue, const N: usize> ParamValue for [T; N] {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        let found = elements::<T>(given)?.len();
+        let list = if found == N { heapless::Vec::<T, N>::take(given)?.into_array().ok() } else { None };
+        list.ok_or(Refusal::Length { expected: N, found })
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: ParamValue> ParamValue for alloc::vec::Vec<T> {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        elements(given)?.collect()
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl Give for alloc::string::String {
+    fn give(&self) -> Given<'_> {
+        Given::Text(self)
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl ParamValue for alloc::string::String {
+    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+        match given {
+            Given::Text(text) => Ok(text.into()),
+            other => Err(other.refuse("a string")),
+        }
+    }
+}
