@@ -40,10 +40,10 @@ impl Early {
     pub fn new(graph: &Graph, net: &Net) -> Self {
         let legs = route::legs(graph);
         let mut gives: Vec<Vec<PlaceId>> = (0..legs.len()).map(|leg| vec![2 * leg]).collect();
-        let mut next = 2 * legs.len();
-        for entry in route::loops(graph, &legs).into_values().flatten() {
-            gives[entry].push(next);
-            next += 1;
+        // The places for legs into loops follow those of the legs.
+        let entries = route::loops(graph, &legs).into_values().flatten();
+        for (echo, entry) in (2 * legs.len()..).zip(entries) {
+            gives[entry].push(echo);
         }
         let (mut sides, mut begins) = (BTreeMap::new(), BTreeMap::new());
         for (pass, transition) in net.transitions.iter().enumerate() {

@@ -180,8 +180,8 @@ fn connect_slots(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
                     continue;
                 }
                 let port = *dice.of(ports);
-                // The port "in place" of a delay is the delay's: any number of connections may start there.
-                if case.links.iter().any(|l| l.from == (from, port) && l.to == (n, slot)) {
+                // A node that waits for its own event is refused by the compiler.
+                if from == n || case.links.iter().any(|l| l.from == (from, port) && l.to == (n, slot)) {
                     continue;
                 }
                 link(dice, case, (from, port), (n, slot), flavour);
