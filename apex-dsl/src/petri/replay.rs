@@ -60,6 +60,8 @@ pub struct Replay<'a> {
     early: Vec<(NodeId, bool)>,
     /// What the call that was recorded last has taken.
     last: Vec<Token>,
+    /// Nodes that wait with ⊥ until something else needs it.
+    hesitant: BTreeSet<NodeId>,
 }
 
 impl<'a> Replay<'a> {
@@ -84,9 +86,22 @@ impl<'a> Replay<'a> {
             expected: BTreeMap::new(),
             early: vec![],
             last: vec![],
+            hesitant: BTreeSet::new(),
         };
         replay.expect_changes(true);
         Ok(replay)
+    }
+
+    /// The same replay with another order of what is not recorded: a node with slots takes ⊥ as late as possible, not as
+    /// early. Its events may have to wait in one order and not in the other, so that a run is legal if one of the two is.
+    #[must_use]
+    pub fn hesitating(mut self) -> Self {
+        let slots = self.net.transitions.iter().filter_map(|t| match t.meaning {
+            Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
+            _ => None,
+        });
+        self.hesitant = slots.collect();
+        self
     }
 
     /// A reaction begins.
@@ -266,7 +281,7 @@ impl<'a> Replay<'a> {
         nodes
             .filter(|n| self.by_meaning.get(&Meaning::Take(*n)).is_some_and(|t| self.state.is_enabled(*t)))
             .map(|n| (n, self.state.preview(n)))
-            .filter(|(_, p)| !p.reported && p.modifies)
+            .filter(|(n, p)| !p.reported && (p.modifies || self.hesitant.contains(n)))
             .collect()
     }
 
@@ -327,7 +342,9 @@ impl<'a> Replay<'a> {
             Meaning::Take(node) => {
                 let preview = self.state.preview(node);
                 let agnostic = matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_));
-                !preview.reported && (agnostic || !preview.modifies) && self.is_due(node)
+                !preview.reported
+                    && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
+                    && self.is_due(node)
             }
             Meaning::Release(node) => self.is_due(node),
             Meaning::Handle(_) => false,
