@@ -46,6 +46,9 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+        /// Print the Petri net of each program instead, as PNML.
+        #[arg(long, conflicts_with = "format")]
+        pnml: bool,
     },
     /// Run the tests of a text on simulated time.
     #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
@@ -91,7 +94,8 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check { files, format } => check::run(&files, format),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { file, format } => explain::run(&file, format),
+        Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
+        Command::Explain { file, format, .. } => explain::run(&file, format),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
         Command::Run { file, robot, params, save_params, args } => {
             run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)

@@ -262,7 +262,7 @@ pub enum Flow {
 }
 
 /// A side of a nested graph.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Crossing {
     /// Tokens come in.
     Enter(ScopeId),

@@ -13,6 +13,7 @@ pub mod codegen;
 pub mod graph;
 pub mod machine;
 pub mod passes;
+pub mod petri;
 pub mod report;
 pub mod resolve;
 pub mod script;

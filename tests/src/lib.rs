@@ -4,6 +4,7 @@
 
 mod compile;
 mod log;
+pub mod oracle;
 mod random;
 
 pub mod nodes {
@@ -17,6 +18,7 @@ pub mod nodes {
     mod ops;
     mod params;
     mod rates;
+    mod scripted;
     mod sinks;
     mod sources;
     mod tapes;
@@ -30,6 +32,7 @@ pub mod nodes {
     pub use ops::*;
     pub use params::*;
     pub use rates::*;
+    pub use scripted::*;
     pub use sinks::*;
     pub use sources::*;
     pub use tapes::*;

@@ -1,0 +1,314 @@
+//! Graph → net: one component for each node, connection and side of a nested graph.
+
+use super::{
+    Meaning, Net, NoNet, Place, PlaceId, Transition, connection_name,
+    route::{self, Leg, Stop},
+    side_name,
+};
+use crate::{
+    catalog::Catalog,
+    graph::{Crossing, End, Flow, Graph, NodeId, NodeKind},
+    syntax::tree::PortKind,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The net of a checked graph. The body of an `each` belongs to its node.
+///
+/// # Errors
+/// If a port of the graph takes or sends several tokens per firing.
+pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
+    for (node, n) in graph.nodes.iter().enumerate() {
+        if let Some(port) = n.ports.iter().find(|p| p.rate != 1) {
+            let port = format!("{}.{}", graph.path(node), port.name);
+            return Err(NoNet(format!("`{port}` has several tokens per firing, for which there is no net yet")));
+        }
+    }
+    let mut builder = Builder::new(graph);
+    for node in 0..graph.nodes.len() {
+        builder.node(node, catalog);
+    }
+    let sides = builder.legs.iter().filter_map(|l| if let Stop::Side(side) = l.to { Some(side) } else { None });
+    let sides: BTreeSet<Crossing> = sides.collect();
+    sides.into_iter().for_each(|side| builder.side(side));
+    Ok(builder.net)
+}
+
+/// The places of a leg of a connection.
+struct LegPlaces {
+    token: PlaceId,
+    free: PlaceId,
+    /// Tell the delays of the loop that it leads into.
+    echoes: Vec<PlaceId>,
+}
+
+struct Builder<'a> {
+    graph: &'a Graph,
+    net: Net,
+    legs: Vec<Leg>,
+    places: Vec<LegPlaces>,
+    /// The places that a delay on a loop waits for.
+    loops: BTreeMap<NodeId, Vec<PlaceId>>,
+    /// Where each `start` waits to begin.
+    starts: BTreeMap<NodeId, PlaceId>,
+    from: BTreeMap<Stop, Vec<usize>>,
+    to: BTreeMap<Stop, Vec<usize>>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(graph: &'a Graph) -> Self {
+        let legs = route::legs(graph);
+        let mut net = Net { name: graph.name.clone(), ..Net::default() };
+        let mut place = |name: String, initial| {
+            net.places.push(Place { name, initial });
+            net.places.len() - 1
+        };
+        let mut places = vec![];
+        for (i, leg) in legs.iter().enumerate() {
+            let mut name = connection_name(graph, leg.connection);
+            let first = legs.iter().position(|l| l.connection == leg.connection).unwrap_or(i);
+            if i > first || matches!(leg.to, Stop::Side(..)) {
+                name = format!("{name} (part {})", i - first + 1);
+            }
+            places.push(LegPlaces {
+                token: place(format!("token on {name}"), 0),
+                free: place(format!("{name} is free"), 1),
+                echoes: vec![],
+            });
+        }
+        let mut loops: BTreeMap<NodeId, Vec<PlaceId>> = BTreeMap::new();
+        for (delay, entries) in route::loops(graph, &legs) {
+            loops.entry(delay).or_default();
+            for entry in entries {
+                let leg = connection_name(graph, legs[entry].connection);
+                let echo = place(format!("{} has seen {leg}", graph.path(delay)), 0);
+                places[entry].echoes.push(echo);
+                loops.entry(delay).or_default().push(echo);
+            }
+        }
+        let mut starts = BTreeMap::new();
+        for (node, n) in graph.nodes.iter().enumerate() {
+            if matches!(n.kind, NodeKind::Start) {
+                starts.insert(node, place(format!("{} is due", graph.path(node)), 1));
+            }
+        }
+        let (mut from, mut to) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
+        for (i, leg) in legs.iter().enumerate() {
+            from.entry(leg.from).or_default().push(i);
+            to.entry(leg.to).or_default().push(i);
+        }
+        Self { graph, net, legs, places, loops, starts, from, to }
+    }
+
+    fn place(&mut self, name: String, initial: usize) -> PlaceId {
+        self.net.places.push(Place { name, initial });
+        self.net.places.len() - 1
+    }
+
+    fn transition(&mut self, name: String, meaning: Meaning, takes: Vec<PlaceId>, gives: Vec<PlaceId>) {
+        self.net.transitions.push(Transition { name, meaning, takes, gives });
+    }
+
+    fn legs_from(&self, stop: Stop) -> Vec<usize> {
+        self.from.get(&stop).cloned().unwrap_or_default()
+    }
+
+    /// Legs to the inputs of a node, or to a side.
+    fn legs_into(&self, stop: Stop) -> Vec<usize> {
+        let legs = self.to.get(&stop).into_iter().flatten().copied();
+        legs.filter(|l| self.flow(*l) != Flow::ToSlot).collect()
+    }
+
+    fn flow(&self, leg: usize) -> Flow {
+        self.graph.flow(&self.graph.connections[self.legs[leg].connection])
+    }
+
+    fn tokens(&self, legs: &[usize]) -> Vec<PlaceId> {
+        legs.iter().map(|l| self.places[*l].token).collect()
+    }
+
+    /// What gets a token when tokens are sent on `legs`.
+    fn sent(&self, legs: &[usize]) -> Vec<PlaceId> {
+        legs.iter().flat_map(|l| [self.places[*l].token].into_iter().chain(self.places[*l].echoes.clone())).collect()
+    }
+
+    fn free(&self, legs: &[usize]) -> Vec<PlaceId> {
+        legs.iter().map(|l| self.places[*l].free).collect()
+    }
+
+    /// Legs that a node waits for before it counts as finished: not those of its events.
+    fn awaited(&self, legs: &[usize]) -> Vec<PlaceId> {
+        let own = legs.iter().copied().filter(|l| !route::from_event(self.graph, self.legs[*l].connection));
+        self.free(&own.collect::<Vec<_>>())
+    }
+
+    fn node(&mut self, node: NodeId, catalog: &Catalog) {
+        let name = self.graph.path(node);
+        match &self.graph.nodes[node].kind {
+            NodeKind::Start => return self.start(node, name),
+            NodeKind::Delay(initial) if self.loops.contains_key(&node) => {
+                return self.delay_in_loop(node, &name, initial.len());
+            }
+            _ => {}
+        }
+        let lock = self.place(format!("{name} is unlocked"), 1);
+        let ports = self.undecided(node, &name);
+        if has_process(self.graph, catalog, node) {
+            self.process(node, &name, lock, &ports);
+        }
+        self.slots(node, &name, lock, &ports);
+    }
+
+    /// A place for each port that sends only values: whether it sends one is still open. With the transitions that
+    /// decide it.
+    fn undecided(&mut self, node: NodeId, name: &str) -> Vec<(usize, PlaceId)> {
+        let mut ports = vec![];
+        for port in 0..self.graph.nodes[node].ports.len() {
+            let end = End { node, port };
+            let connections: BTreeSet<usize> = route::value_connections(self.graph, end).collect();
+            if connections.is_empty() {
+                continue;
+            }
+            let legs = self.legs_from(Stop::Node(node));
+            let legs: Vec<usize> =
+                legs.into_iter().filter(|l| connections.contains(&self.legs[*l].connection)).collect();
+            let port_name = format!("{name}.{}", self.graph.port(end).name);
+            let place = self.place(format!("{port_name} is undecided"), 0);
+            self.transition(format!("{port_name} sends"), Meaning::Trigger(end), vec![place], self.sent(&legs));
+            self.transition(format!("{port_name} is silent"), Meaning::Hush(end), vec![place], self.free(&legs));
+            ports.push((port, place));
+        }
+        ports
+    }
+
+    fn process(&mut self, node: NodeId, name: &str, lock: PlaceId, ports: &[(usize, PlaceId)]) {
+        let (inputs, out) = (self.legs_into(Stop::Node(node)), self.legs_from(Stop::Node(node)));
+        let enabled = self.place(format!("{name} is enabled"), 1);
+        let running = self.place(format!("{name} is running"), 0);
+        let waiting = self.place(format!("{name} waits for notifications"), 0);
+        let mut takes = self.tokens(&inputs);
+        takes.extend([enabled, lock]);
+        takes.extend(self.free(&out));
+        let mut given = vec![running];
+        let mut sends = vec![running];
+        if let NodeKind::Delay(initial) = &self.graph.nodes[node].kind {
+            let held = self.place(format!("{name} holds"), initial.len());
+            given.push(held);
+            sends.push(held);
+        }
+        self.transition(format!("{name} takes"), Meaning::Take(node), takes, given);
+        let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
+        let mut gives = vec![lock, waiting];
+        gives.extend(self.sent(&synchronous));
+        gives.extend(ports.iter().map(|(_, place)| *place));
+        self.transition(format!("{name} sends"), Meaning::Send(node), sends, gives);
+        let awaited = if self.graph.nodes[node].modifiers.pipelined { vec![] } else { self.awaited(&out) };
+        let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
+        takes.extend(&awaited);
+        gives.extend(&awaited);
+        gives.extend(self.free(&inputs));
+        self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
+    }
+
+    /// A slot takes the token of each connection to it as soon as the node is unlocked and all of its events are enabled. The
+    /// connection is free at once.
+    fn slots(&mut self, node: NodeId, name: &str, lock: PlaceId, ports: &[(usize, PlaceId)]) {
+        let incoming = self.to.get(&Stop::Node(node)).cloned().unwrap_or_default();
+        let incoming: Vec<usize> = incoming.into_iter().filter(|l| self.flow(*l) == Flow::ToSlot).collect();
+        if incoming.is_empty() {
+            return;
+        }
+        let events = self.legs_from(Stop::Node(node));
+        let events: Vec<usize> =
+            events.into_iter().filter(|l| route::from_event(self.graph, self.legs[*l].connection)).collect();
+        let called = self.place(format!("{name} is in a slot"), 0);
+        for leg in incoming {
+            let connection = self.legs[leg].connection;
+            let other: Vec<usize> = events.iter().copied().filter(|e| *e != leg).collect();
+            let mut takes = vec![self.places[leg].token, lock];
+            takes.extend(self.free(&other));
+            let mut gives = vec![called];
+            if !events.contains(&leg) {
+                gives.push(self.places[leg].free);
+            }
+            if matches!(self.graph.nodes[node].kind, NodeKind::Reset) {
+                gives.extend(self.starts.values());
+            }
+            let slot = self.graph.end_name(self.graph.connections[connection].to);
+            let from = self.graph.end_name(self.graph.connections[connection].from);
+            self.transition(format!("{slot} handles {from}"), Meaning::Handle(connection), takes, gives);
+        }
+        let mut gives = vec![lock];
+        let is_event = |port: usize| self.graph.port(End { node, port }).kind == PortKind::Event;
+        gives.extend(ports.iter().filter(|(port, _)| is_event(*port)).map(|(_, place)| *place));
+        self.transition(format!("{name} has handled"), Meaning::Handled(node), vec![called], gives);
+    }
+
+    fn start(&mut self, node: NodeId, name: String) {
+        let legs = self.legs_from(Stop::Node(node));
+        let mut takes = vec![self.starts[&node]];
+        takes.extend(self.free(&legs));
+        self.transition(name, Meaning::Start(node), takes, self.sent(&legs));
+    }
+
+    /// A delay on a loop cannot wait for what it leads to: it takes like a sink and sends like a source, once for
+    /// each iteration of what feeds the loop.
+    fn delay_in_loop(&mut self, node: NodeId, name: &str, initial: usize) {
+        let (inputs, out) = (self.legs_into(Stop::Node(node)), self.legs_from(Stop::Node(node)));
+        let ports = self.undecided(node, name);
+        let held = self.place(format!("{name} holds"), initial);
+        let room = self.place(format!("{name} has room"), 1);
+        let enabled = self.place(format!("{name} is enabled"), 1);
+        let waiting = self.place(format!("{name} waits for notifications"), 0);
+        let mut takes = self.tokens(&inputs);
+        takes.push(room);
+        let mut gives = self.free(&inputs);
+        gives.push(held);
+        self.transition(format!("{name} takes"), Meaning::Hold(node), takes, gives);
+        let mut takes = vec![held, enabled];
+        takes.extend(self.loops.get(&node).into_iter().flatten());
+        takes.extend(self.free(&out));
+        let mut gives = vec![room, waiting];
+        let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
+        gives.extend(self.sent(&synchronous));
+        gives.extend(ports.iter().map(|(_, place)| *place));
+        self.transition(format!("{name} sends"), Meaning::Release(node), takes, gives);
+        let awaited = self.awaited(&out);
+        let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
+        takes.extend(&awaited);
+        gives.extend(&awaited);
+        self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
+    }
+
+    /// A side of a nested graph: takes a token from each leg that ends here, sends one to each that begins here.
+    fn side(&mut self, side: Crossing) {
+        let name = side_name(self.graph, side);
+        let (incoming, outgoing) = (self.legs_into(Stop::Side(side)), self.legs_from(Stop::Side(side)));
+        let enabled = self.place(format!("{name} is enabled"), 1);
+        let waiting = self.place(format!("{name} waits for notifications"), 0);
+        let mut takes = self.tokens(&incoming);
+        takes.push(enabled);
+        takes.extend(self.free(&outgoing));
+        let mut gives = self.sent(&outgoing);
+        gives.push(waiting);
+        self.transition(format!("{name} passes"), Meaning::Pass(side), takes, gives);
+        let awaited = self.free(&outgoing);
+        let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
+        takes.extend(&awaited);
+        gives.extend(&awaited);
+        gives.extend(self.free(&incoming));
+        self.transition(format!("{name} is notified"), Meaning::NotifySide(side), takes, gives);
+    }
+}
+
+/// Whether a node takes its inputs and sends to its outputs.
+pub fn has_process(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
+    match &graph.nodes[node].kind {
+        NodeKind::Library(library) => {
+            let signature = &catalog.signatures[library.signature];
+            signature.is_function || signature.process.is_some()
+        }
+        NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
+        NodeKind::Boundary(kind) => *kind != PortKind::Event,
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
+    }
+}

@@ -1,0 +1,105 @@
+//! Tokens that pass a side of a nested graph before the others are there.
+//!
+//! A compiler need not hold a token back at a side while the others are about to come in the same firing, because
+//! nobody can see a difference. Such a token is a debt: the others have to follow before anything else happens.
+
+use super::{Meaning, Net, PlaceId, TransitionId, route, route::Stop, state::Token};
+use crate::graph::{Crossing, Graph};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// Which tokens went ahead.
+#[derive(Clone)]
+pub struct Early {
+    sides: BTreeMap<Crossing, Side>,
+    /// Where each leg that begins at a side leads to: its side, and its number there.
+    begins: BTreeMap<PlaceId, (Crossing, usize)>,
+}
+
+#[derive(Clone)]
+struct Side {
+    pass: TransitionId,
+    enabled: PlaceId,
+    waiting: PlaceId,
+    ways: Vec<Way>,
+    /// Ways on which a token went ahead.
+    ahead: BTreeSet<usize>,
+}
+
+/// The way of a connection through a side.
+#[derive(Clone)]
+struct Way {
+    before: PlaceId,
+    free: PlaceId,
+    gives: Vec<PlaceId>,
+}
+
+type Marking = [VecDeque<Token>];
+
+impl Early {
+    /// No token went ahead.
+    pub fn new(graph: &Graph, net: &Net) -> Self {
+        let legs = route::legs(graph);
+        let mut gives: Vec<Vec<PlaceId>> = (0..legs.len()).map(|leg| vec![2 * leg]).collect();
+        // The places for legs into loops follow those of the legs.
+        let entries = route::loops(graph, &legs).into_values().flatten();
+        for (echo, entry) in (2 * legs.len()..).zip(entries) {
+            gives[entry].push(echo);
+        }
+        let (mut sides, mut begins) = (BTreeMap::new(), BTreeMap::new());
+        for (pass, transition) in net.transitions.iter().enumerate() {
+            let Meaning::Pass(side) = transition.meaning else { continue };
+            let mut ways = vec![];
+            for leg in (0..legs.len()).filter(|l| legs[*l].from == Stop::Side(side)) {
+                begins.insert(2 * leg, (side, ways.len()));
+                // The leg before it belongs to the same connection.
+                ways.push(Way { before: 2 * (leg - 1), free: 2 * leg + 1, gives: gives[leg].clone() });
+            }
+            let (enabled, waiting) = (transition.takes[ways.len()], transition.gives[transition.gives.len() - 1]);
+            sides.insert(side, Side { pass, enabled, waiting, ways, ahead: BTreeSet::new() });
+        }
+        Self { sides, begins }
+    }
+
+    /// Brings a token to `place`, if only other tokens hold it back. Returns whether it did.
+    pub fn advance(&mut self, place: PlaceId, marking: &mut Marking) -> bool {
+        let Some((crossing, index)) = self.begins.get(&place).copied() else { return false };
+        let Some(side) = self.sides.get(&crossing) else { return false };
+        let way = side.ways[index].clone();
+        if marking[side.enabled].is_empty() || side.ahead.contains(&index) || marking[way.free].is_empty() {
+            return false;
+        }
+        if marking[way.before].is_empty() && !self.advance(way.before, marking) {
+            return false;
+        }
+        go(&way, marking);
+        self.sides.get_mut(&crossing).is_some_and(|s| s.ahead.insert(index))
+    }
+
+    /// Lets the others follow where all of them are there; the transitions that this is in place of.
+    pub fn follow(&mut self, marking: &mut Marking) -> Vec<TransitionId> {
+        let mut passed = vec![];
+        for side in self.sides.values_mut().filter(|s| !s.ahead.is_empty()) {
+            let rest: Vec<&Way> =
+                side.ways.iter().enumerate().filter(|(i, _)| !side.ahead.contains(i)).map(|(_, w)| w).collect();
+            if rest.iter().all(|w| !marking[w.before].is_empty() && !marking[w.free].is_empty()) {
+                rest.into_iter().for_each(|w| go(w, marking));
+                marking[side.enabled].pop_front();
+                marking[side.waiting].push_back(Token::default());
+                side.ahead.clear();
+                passed.push(side.pass);
+            }
+        }
+        passed
+    }
+
+    /// A side at which some token went ahead and others have not followed.
+    pub fn owes(&self) -> Option<Crossing> {
+        self.sides.iter().find(|(_, s)| !s.ahead.is_empty()).map(|(side, _)| *side)
+    }
+}
+
+fn go(way: &Way, marking: &mut Marking) {
+    marking[way.free].pop_front();
+    let token = marking[way.before].pop_front().unwrap_or_default();
+    way.gives.iter().for_each(|p| marking[*p].push_back(token));
+}

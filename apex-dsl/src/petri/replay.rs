@@ -1,0 +1,398 @@
+//! Replays what a program did on the net of its graph.
+//!
+//! Only firings and slot calls are recorded. Everything else that the net does (notifications, ⊥ that nobody sees, tokens at
+//! the sides of nested graphs) happens here as soon as it can: the order of these transitions makes no
+//! difference. Only a node that does not run because of ⊥ and takes activity at the same time waits for the record of it.
+
+use super::{
+    Meaning, Net, Origin, Script, State, Token, TransitionId, connection_name, side_name,
+    state::{Preview, unsupported},
+};
+use crate::{
+    catalog::Catalog,
+    graph::{Graph, NodeId, NodeKind},
+};
+use std::{
+    collections::{BTreeMap, BTreeSet, VecDeque},
+    fmt,
+    time::Duration,
+};
+
+/// Where a record is not a firing sequence of the net.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Wrong {
+    /// Number of the record, from 1.
+    pub step: usize,
+    /// What was recorded.
+    pub what: String,
+    /// Why that cannot be.
+    pub why: String,
+}
+
+impl fmt::Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "step {}: {}: {}", self.step, self.what, self.why)
+    }
+}
+
+/// A change of activity that should be recorded.
+struct Change {
+    active: bool,
+    step: usize,
+    /// What is so in the beginning need not be recorded.
+    optional: bool,
+}
+
+/// A replay.
+pub struct Replay<'a> {
+    graph: &'a Graph,
+    net: &'a Net,
+    state: State<'a>,
+    step: usize,
+    now: Duration,
+    /// Transitions that may have become enabled.
+    agenda: BTreeSet<TransitionId>,
+    by_meaning: BTreeMap<Meaning, TransitionId>,
+    /// How often each source fired, in all and in this reaction.
+    sources: BTreeMap<NodeId, (u32, bool)>,
+    expected: BTreeMap<NodeId, VecDeque<Change>>,
+    /// Changes of activity that were recorded before what causes them.
+    early: Vec<(NodeId, bool)>,
+    /// What the call that was recorded last has taken.
+    last: Vec<Token>,
+    /// Nodes that wait with ⊥ until something else needs it.
+    hesitant: BTreeSet<NodeId>,
+}
+
+impl<'a> Replay<'a> {
+    /// A replay from the beginning of the program.
+    ///
+    /// # Errors
+    /// If the graph has something that cannot be replayed.
+    pub fn new(graph: &'a Graph, catalog: &Catalog, net: &'a Net, script: &'a Script<'a>) -> Result<Self, String> {
+        if let Some(what) = unsupported(graph) {
+            return Err(format!("{what}, which cannot be replayed"));
+        }
+        let state = State::new(graph, catalog, net, script);
+        let mut replay = Self {
+            graph,
+            net,
+            sources: state.sources().iter().map(|n| (*n, (0, false))).collect(),
+            state,
+            step: 0,
+            now: Duration::ZERO,
+            agenda: (0..net.transitions.len()).collect(),
+            by_meaning: net.transitions.iter().enumerate().map(|(i, t)| (t.meaning, i)).collect(),
+            expected: BTreeMap::new(),
+            early: vec![],
+            last: vec![],
+            hesitant: BTreeSet::new(),
+        };
+        replay.expect_changes(true);
+        Ok(replay)
+    }
+
+    /// The same replay with another order of what is not recorded: a node with slots takes ⊥ as late as possible, not as
+    /// early. Its events may have to wait in one order and not in the other, so that a run is legal if one of the two is.
+    #[must_use]
+    pub fn hesitating(mut self) -> Self {
+        let slots = self.net.transitions.iter().filter_map(|t| match t.meaning {
+            Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
+            _ => None,
+        });
+        self.hesitant = slots.collect();
+        self
+    }
+
+    /// A reaction begins.
+    pub fn begin(&mut self, now: Duration) {
+        self.step += 1;
+        self.now = now;
+        self.sources.values_mut().for_each(|(_, fired)| *fired = false);
+        self.agenda = (0..self.net.transitions.len()).collect();
+        self.settle();
+    }
+
+    /// `process` of `node` runs.
+    ///
+    /// # Errors
+    /// If it may not.
+    pub fn fired(&mut self, node: NodeId) -> Result<(), Wrong> {
+        self.step += 1;
+        let what = format!("fired {}", self.name(node));
+        let Some(take) = self.by_meaning.get(&Meaning::Take(node)).copied() else {
+            return Err(self.wrong(&what, "it has nothing that could fire".to_owned()));
+        };
+        self.prepare(take, &what)?;
+        if !self.state.preview(node).reported {
+            return Err(self.wrong(&what, "a mandatory input holds ⊥".to_owned()));
+        }
+        if !self.is_due(node) {
+            return Err(self.wrong(&what, "a source fires once per reaction, or at its times".to_owned()));
+        }
+        self.check_early(&what, |early| early == node)?;
+        self.forget_optional();
+        self.run(take);
+        self.last = self.state.tokens_of(node);
+        self.settle();
+        self.match_early(&what)
+    }
+
+    /// The slot at the end of `connection` takes the token on it.
+    ///
+    /// # Errors
+    /// If it may not.
+    pub fn handled(&mut self, connection: usize) -> Result<(), Wrong> {
+        self.step += 1;
+        let Some(handle) = self.by_meaning.get(&Meaning::Handle(connection)).copied() else {
+            return Err(self.wrong(&format!("handled {connection}"), "no slot is at the end of it".to_owned()));
+        };
+        let what = format!("handled {}", connection_name(self.graph, connection));
+        self.check_debts(&what)?;
+        self.prepare(handle, &what)?;
+        let node = self.graph.connections[connection].to.node;
+        let resets = matches!(self.graph.nodes[node].kind, NodeKind::Reset);
+        self.check_early(&what, |early| resets || early == node)?;
+        self.forget_optional();
+        self.run(handle);
+        self.last = self.state.tokens_of(node);
+        self.settle();
+        self.match_early(&what)
+    }
+
+    /// What the call that was recorded last found at its connected inputs (its slot), in the order of the ports; `None` is ⊥.
+    ///
+    /// # Errors
+    /// If it should have found something else.
+    pub fn took(&mut self, found: &[Option<Origin>]) -> Result<(), Wrong> {
+        let what = format!("took {found:?}");
+        if found.len() != self.last.len() {
+            return Err(self.wrong(&what, format!("it has {} tokens to take", self.last.len())));
+        }
+        for (token, found) in self.last.iter().zip(found) {
+            let same = match (token.value, token.origin) {
+                (true, Some(origin)) => *found == Some(origin),
+                (value, _) => value == found.is_some(),
+            };
+            if !same {
+                let there = if token.value { format!("{:?}", token.origin) } else { "⊥".to_owned() };
+                return Err(self.wrong(&what, format!("{there} was there instead of {found:?}")));
+            }
+        }
+        Ok(())
+    }
+
+    /// `node` became active, or is no longer.
+    ///
+    /// # Errors
+    /// If that is neither so nor about to be so.
+    pub fn activity(&mut self, node: NodeId, active: bool) -> Result<(), Wrong> {
+        self.step += 1;
+        if self.matches_expected(node, active) {
+            return Ok(());
+        }
+        // A node that does not run because of ⊥ may have taken activity.
+        if self.lazy().into_iter().any(|(n, p)| n == node && p.active == active && self.state.is_active(n) != active) {
+            self.run(self.by_meaning[&Meaning::Take(node)]);
+            self.settle();
+            if self.matches_expected(node, active) {
+                return Ok(());
+            }
+        }
+        self.early.push((node, active));
+        Ok(())
+    }
+
+    /// The reaction ends: nothing is left to do.
+    ///
+    /// # Errors
+    /// If something is.
+    pub fn end(&mut self) -> Result<(), Wrong> {
+        self.step += 1;
+        let what = "the reaction ends";
+        self.hurry();
+        self.check_debts(what)?;
+        self.check_early(what, |_| false)?;
+        for (transition, t) in self.net.transitions.iter().enumerate() {
+            if !self.state.is_enabled(transition) {
+                continue;
+            }
+            let open = match t.meaning {
+                Meaning::Take(node) | Meaning::Release(node) => self.is_due(node),
+                _ => true,
+            };
+            if open {
+                return Err(self.wrong(what, format!("`{}` could still occur", t.name)));
+            }
+        }
+        let open = self.expected.iter().find_map(|(node, c)| c.iter().find(|c| !c.optional).map(|c| (*node, c)));
+        if let Some((node, change)) = open {
+            let word = if change.active { "active" } else { "inactive" };
+            let why = format!("`{}` became {word} in step {}, which is not recorded", self.name(node), change.step);
+            return Err(self.wrong(what, why));
+        }
+        self.expected.clear();
+        Ok(())
+    }
+
+    /// Whether `node` is active now.
+    pub fn is_active(&self, node: NodeId) -> bool {
+        self.state.is_active(node)
+    }
+
+    fn name(&self, node: NodeId) -> String {
+        self.graph.path(node)
+    }
+
+    fn wrong(&self, what: &str, why: String) -> Wrong {
+        Wrong { step: self.step, what: what.to_owned(), why }
+    }
+
+    /// A source without a pace fires once per reaction; one with a pace at its times.
+    fn is_due(&self, node: NodeId) -> bool {
+        let Some((count, fired)) = self.sources.get(&node) else { return true };
+        let modifiers = &self.graph.nodes[node].modifiers;
+        let Some(passed) = self.now.checked_sub(modifiers.after.unwrap_or_default()) else { return false };
+        match modifiers.every {
+            Some(period) => period.saturating_mul(*count) <= passed,
+            None => !fired,
+        }
+    }
+
+    /// Makes sure that `transition` is enabled, if it can be with what is silent.
+    fn prepare(&mut self, transition: TransitionId, what: &str) -> Result<(), Wrong> {
+        if !self.state.is_enabled(transition) {
+            self.hurry();
+        }
+        if !self.state.is_enabled(transition) {
+            self.state.advance(transition);
+        }
+        if self.state.is_enabled(transition) {
+            return Ok(());
+        }
+        let missing = self.state.missing(transition);
+        let places: Vec<&str> = missing.iter().map(|p| self.net.places[*p].name.as_str()).collect();
+        Err(self.wrong(what, format!("no token at: {}", places.join("; "))))
+    }
+
+    /// Nodes that would take activity without running.
+    fn lazy(&self) -> Vec<(NodeId, Preview)> {
+        let nodes = 0..self.graph.nodes.len();
+        nodes
+            .filter(|n| self.by_meaning.get(&Meaning::Take(*n)).is_some_and(|t| self.state.is_enabled(*t)))
+            .map(|n| (n, self.state.preview(n)))
+            .filter(|(n, p)| !p.reported && (p.modifies || self.hesitant.contains(n)))
+            .collect()
+    }
+
+    /// Lets them do so, those first whose activity stays as it is.
+    fn hurry(&mut self) {
+        loop {
+            let lazy = self.lazy();
+            let keeps = lazy.iter().find(|(n, p)| p.active == self.state.is_active(*n)).or(lazy.first());
+            let Some((node, _)) = keeps else { return };
+            self.run(self.by_meaning[&Meaning::Take(*node)]);
+            self.settle();
+        }
+    }
+
+    /// Lets a transition occur, with what belongs to the same call.
+    fn run(&mut self, transition: TransitionId) {
+        if let Meaning::Take(node) | Meaning::Release(node) = self.net.transitions[transition].meaning
+            && let Some((count, fired)) = self.sources.get_mut(&node)
+        {
+            *count += 1;
+            *fired = true;
+        }
+        self.state.occur(transition);
+        self.agenda.extend(self.state.behind(transition));
+        self.expect_changes(false);
+    }
+
+    /// All that is silent, until nothing of it is enabled.
+    fn settle(&mut self) {
+        loop {
+            while let Some(transition) = self.agenda.pop_first() {
+                while self.is_silent(transition) && self.state.is_enabled(transition) {
+                    self.run(transition);
+                }
+            }
+            for passed in self.state.follow() {
+                self.agenda.extend(self.state.behind(passed));
+            }
+            if self.agenda.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// Tokens that went ahead at a side of a nested graph belong to the same firing as those that follow.
+    fn check_debts(&self, what: &str) -> Result<(), Wrong> {
+        match self.state.owes() {
+            Some(side) => {
+                let side = side_name(self.graph, side);
+                Err(self.wrong(what, format!("some tokens passed `{side}` before, but not all of them")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn is_silent(&self, transition: TransitionId) -> bool {
+        match self.net.transitions[transition].meaning {
+            Meaning::Take(node) => {
+                let preview = self.state.preview(node);
+                let agnostic = matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_));
+                !preview.reported
+                    && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
+                    && self.is_due(node)
+            }
+            Meaning::Release(node) => self.is_due(node),
+            Meaning::Handle(_) => false,
+            _ => true,
+        }
+    }
+
+    fn expect_changes(&mut self, optional: bool) {
+        for (node, active) in self.state.take_changes() {
+            self.expected.entry(node).or_default().push_back(Change { active, step: self.step, optional });
+        }
+    }
+
+    /// What is active from the beginning is recorded before anything else, or not at all.
+    fn forget_optional(&mut self) {
+        self.expected.values_mut().for_each(|changes| changes.retain(|c| !c.optional));
+    }
+
+    fn matches_expected(&mut self, node: NodeId, active: bool) -> bool {
+        let Some(changes) = self.expected.get_mut(&node) else { return false };
+        while changes.front().is_some_and(|c| c.optional && c.active != active) {
+            changes.pop_front();
+        }
+        let same = changes.front().is_some_and(|c| c.active == active);
+        if same {
+            changes.pop_front();
+        }
+        same
+    }
+
+    /// Activity may be recorded just before the call that causes it, not earlier.
+    fn check_early(&self, what: &str, belongs: impl Fn(NodeId) -> bool) -> Result<(), Wrong> {
+        match self.early.iter().find(|(n, _)| !belongs(*n)) {
+            Some((node, active)) => {
+                let word = if *active { "active" } else { "inactive" };
+                Err(self.wrong(what, format!("`{}` was recorded to become {word}, but did not", self.name(*node))))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn match_early(&mut self, what: &str) -> Result<(), Wrong> {
+        for (node, active) in std::mem::take(&mut self.early) {
+            if !self.matches_expected(node, active) {
+                self.early = vec![(node, active)];
+                return self.check_early(what, |_| false);
+            }
+        }
+        Ok(())
+    }
+}

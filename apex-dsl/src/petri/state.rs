@@ -1,0 +1,474 @@
+//! A net with coloured tokens: where each comes from, whether it is a value or ⊥, and what it does to activity.
+
+use super::{
+    Meaning, Net, PlaceId, TransitionId,
+    build::has_process,
+    early::Early,
+    route::{self, Stop},
+};
+use crate::{
+    catalog::Catalog,
+    graph::{Crossing, End, Flow, Graph, NodeId, NodeKind, Standard},
+    syntax::tree::PortKind,
+};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// Where a token was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Origin {
+    /// The port that sent it.
+    pub end: End,
+    /// How often `process` or a slot of that node had been called before.
+    pub call: usize,
+}
+
+/// A token. Places that carry no messages hold the default.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Token {
+    /// Where it was made; `None` if it was there in the beginning.
+    pub origin: Option<Origin>,
+    /// A value, not ⊥.
+    pub value: bool,
+    /// What it does to the activity of the node that takes it: 0, +1 or −1.
+    pub modifier: i8,
+}
+
+/// A call of a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Call {
+    /// The node.
+    pub node: NodeId,
+    /// How often `process` or a slot of it had been called before.
+    pub nth: usize,
+    /// The port of the slot; `None` is `process`.
+    pub slot: Option<usize>,
+}
+
+/// What nodes do: whether a call sends a value (triggers the event) at a port.
+pub type Script<'a> = dyn Fn(Call, usize) -> bool + 'a;
+
+/// What a call has taken.
+#[derive(Debug, Clone, Default)]
+struct Taken {
+    slot: Option<usize>,
+    runs: bool,
+    /// By port.
+    tokens: BTreeMap<usize, Token>,
+}
+
+/// What can be asked about a transition before it occurs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preview {
+    /// `process` runs: no mandatory input holds ⊥.
+    pub runs: bool,
+    /// A program reports it: `process` runs, or the node is told of ⊥.
+    pub reported: bool,
+    /// Activity of the node afterwards.
+    pub active: bool,
+    /// Some token carries a modifier.
+    pub modifies: bool,
+}
+
+/// A coloured marking of a net.
+#[derive(Clone)]
+pub struct State<'a> {
+    graph: &'a Graph,
+    net: &'a Net,
+    script: &'a Script<'a>,
+    marking: Vec<VecDeque<Token>>,
+    active: Vec<bool>,
+    calls: Vec<usize>,
+    taken: BTreeMap<NodeId, Taken>,
+    /// What undecided ports will do: `None` is nothing; else a token for each connection.
+    decided: BTreeMap<End, Option<BTreeMap<usize, Token>>>,
+    changes: Vec<(NodeId, bool)>,
+    told: Vec<bool>,
+    deactivates: Vec<bool>,
+    into: BTreeMap<Stop, Vec<Link>>,
+    from: BTreeMap<Stop, Vec<Link>>,
+    consumers: Vec<Vec<TransitionId>>,
+    /// Nodes that nothing leads to, and delays on loops that nothing feeds.
+    sources: BTreeSet<NodeId>,
+    early: Early,
+}
+
+/// A leg with its token place.
+#[derive(Debug, Clone, Copy)]
+struct Link {
+    connection: usize,
+    token: PlaceId,
+    synchronous: bool,
+}
+
+/// What of a graph the coloured net cannot follow; `None` if nothing.
+pub fn unsupported(graph: &Graph) -> Option<String> {
+    for (id, node) in graph.nodes.iter().enumerate() {
+        if let NodeKind::Boundary(_) = node.kind {
+            return Some(format!("`{}` is a port of the program", node.name));
+        }
+        for port in &node.ports {
+            if port.standard.is_some_and(|s| s != Standard::Processed) {
+                return Some(format!("`{}.{}` is used", graph.path(id), port.name));
+            }
+        }
+    }
+    None
+}
+
+impl<'a> State<'a> {
+    /// The beginning of `graph`, whose nodes do what `script` says. `net` is its net.
+    pub fn new(graph: &'a Graph, catalog: &Catalog, net: &'a Net, script: &'a Script<'a>) -> Self {
+        let library = |node: NodeId| match &graph.nodes[node].kind {
+            NodeKind::Library(library) => Some(&catalog.signatures[library.signature]),
+            _ => None,
+        };
+        let nodes = 0..graph.nodes.len();
+        let (mut into, mut from) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
+        for (i, leg) in route::legs(graph).into_iter().enumerate() {
+            let flow = graph.flow(&graph.connections[leg.connection]);
+            // The net begins with the two places of each leg.
+            let link = Link { connection: leg.connection, token: 2 * i, synchronous: flow == Flow::Synchronous };
+            from.entry(leg.from).or_default().push(link);
+            if flow != Flow::ToSlot {
+                into.entry(leg.to).or_default().push(link);
+            }
+        }
+        let mut consumers = vec![vec![]; net.places.len()];
+        for (id, transition) in net.transitions.iter().enumerate() {
+            transition.takes.iter().for_each(|p| consumers[*p].push(id));
+        }
+        let initial = Token { value: true, ..Token::default() };
+        let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
+        let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
+        let loops = route::loops(graph, &route::legs(graph));
+        sources.extend(loops.into_iter().filter(|(_, entries)| entries.is_empty()).map(|(delay, _)| delay));
+        Self {
+            graph,
+            net,
+            script,
+            marking: net.places.iter().map(|p| std::iter::repeat_n(initial, p.initial).collect()).collect(),
+            active: graph.nodes.iter().map(|n| n.starts_active).collect(),
+            calls: vec![0; graph.nodes.len()],
+            taken: BTreeMap::new(),
+            decided: BTreeMap::new(),
+            changes: nodes.clone().filter(|n| graph.nodes[*n].starts_active).map(|n| (n, true)).collect(),
+            told: nodes.clone().map(|n| library(n).is_some_and(|s| s.no_message.is_some())).collect(),
+            deactivates: nodes.clone().map(|n| library(n).is_some_and(|s| s.deactivates)).collect(),
+            into,
+            from,
+            consumers,
+            sources,
+            early: Early::new(graph, net),
+        }
+    }
+
+    /// Nodes that set their own pace: nothing leads to their inputs. So do delays on loops that nothing feeds.
+    pub fn sources(&self) -> &BTreeSet<NodeId> {
+        &self.sources
+    }
+
+    /// Whether a node is active.
+    pub fn is_active(&self, node: NodeId) -> bool {
+        self.active[node]
+    }
+
+    /// Changes of activity since this was asked last.
+    pub fn take_changes(&mut self) -> Vec<(NodeId, bool)> {
+        std::mem::take(&mut self.changes)
+    }
+
+    /// Transitions that wait for a token at the places that `transition` gives to.
+    pub fn behind(&self, transition: TransitionId) -> impl Iterator<Item = TransitionId> + '_ {
+        self.net.transitions[transition].gives.iter().flat_map(|p| self.consumers[*p].iter().copied())
+    }
+
+    /// The places that lack a token for `transition`.
+    pub fn missing(&self, transition: TransitionId) -> Vec<PlaceId> {
+        let takes = &self.net.transitions[transition].takes;
+        takes.iter().copied().filter(|p| self.marking[*p].is_empty()).collect()
+    }
+
+    /// Lets tokens that `transition` lacks pass sides of nested graphs before the others are there, if they can.
+    pub fn advance(&mut self, transition: TransitionId) {
+        for place in self.missing(transition) {
+            self.early.advance(place, &mut self.marking);
+        }
+    }
+
+    /// Lets the others follow where all of them are there; the transitions that this is in place of.
+    pub fn follow(&mut self) -> Vec<TransitionId> {
+        self.early.follow(&mut self.marking)
+    }
+
+    /// A side at which some token went ahead and others have not followed.
+    pub fn owes(&self) -> Option<Crossing> {
+        self.early.owes()
+    }
+
+    /// Whether `transition` may occur.
+    pub fn is_enabled(&self, transition: TransitionId) -> bool {
+        let t = &self.net.transitions[transition];
+        let decided = |end: End| self.decided.get(&end).is_some_and(Option::is_some);
+        t.takes.iter().all(|p| !self.marking[*p].is_empty())
+            && match t.meaning {
+                Meaning::Trigger(end) => decided(end),
+                Meaning::Hush(end) => !decided(end),
+                _ => true,
+            }
+    }
+
+    /// What happens if `node` takes the tokens that lie at its inputs.
+    pub fn preview(&self, node: NodeId) -> Preview {
+        let mut runs = true;
+        let mut modifiers = vec![];
+        for link in self.into.get(&Stop::Node(node)).into_iter().flatten() {
+            let Some(token) = self.marking[link.token].front() else { continue };
+            modifiers.push(token.modifier);
+            runs &= token.value || !self.is_mandatory(node, self.graph.connections[link.connection].to.port);
+        }
+        let is_visible = matches!(self.graph.nodes[node].kind, NodeKind::Library(_) | NodeKind::Each(_));
+        Preview {
+            runs,
+            reported: is_visible && (runs || self.told[node]),
+            active: after(self.active[node], &modifiers),
+            modifies: modifiers.iter().any(|m| *m != 0),
+        }
+    }
+
+    fn is_mandatory(&self, node: NodeId, port: usize) -> bool {
+        match self.graph.nodes[node].kind {
+            NodeKind::Library(_) => !self.graph.nodes[node].ports[port].optional,
+            NodeKind::Each(_) => true,
+            _ => false,
+        }
+    }
+
+    /// The tokens that the running call of `node` has taken, in the order of its ports.
+    pub fn tokens_of(&self, node: NodeId) -> Vec<Token> {
+        self.taken.get(&node).map(|t| t.tokens.values().copied().collect()).unwrap_or_default()
+    }
+
+    /// Lets an enabled transition occur.
+    pub fn occur(&mut self, transition: TransitionId) {
+        let t = &self.net.transitions[transition];
+        let mut tokens: BTreeMap<PlaceId, Token> = BTreeMap::new();
+        for place in &t.takes {
+            if let Some(token) = self.marking[*place].pop_front() {
+                tokens.insert(*place, token);
+            }
+        }
+        let colours = match t.meaning {
+            Meaning::Take(node) => self.take(node, &tokens),
+            Meaning::Send(node) => self.send(node, &tokens),
+            Meaning::Trigger(end) => self.decide(end),
+            Meaning::Hush(end) => {
+                self.decided.remove(&end);
+                BTreeMap::new()
+            }
+            Meaning::Handle(connection) => self.handle(connection, &tokens),
+            Meaning::Handled(node) => self.handled(node),
+            Meaning::Pass(side) => self.pass(side, &tokens),
+            Meaning::Release(node) => {
+                let oldest = t.takes.first().and_then(|p| tokens.get(p)).copied().unwrap_or_default();
+                self.forward(node, oldest)
+            }
+            Meaning::Hold(_) => {
+                // The place where it holds tokens is the last that it gives to.
+                let token = t.takes.first().and_then(|p| tokens.get(p)).copied().unwrap_or_default();
+                t.gives.last().map(|p| (*p, token)).into_iter().collect()
+            }
+            Meaning::Start(node) => self.start(node),
+            Meaning::Notify(_) | Meaning::NotifySide(_) => BTreeMap::new(),
+        };
+        for place in &t.gives {
+            self.marking[*place].push_back(colours.get(place).copied().unwrap_or_default());
+        }
+    }
+
+    fn set_active(&mut self, node: NodeId, active: bool) {
+        if self.active[node] != active {
+            self.active[node] = active;
+            self.changes.push((node, active));
+        }
+    }
+
+    /// A1: +1 wins over −1.
+    fn activate(&mut self, node: NodeId, tokens: &BTreeMap<usize, Token>) {
+        let modifiers: Vec<i8> = tokens.values().map(|t| t.modifier).collect();
+        self.set_active(node, after(self.active[node], &modifiers));
+    }
+
+    fn is_agnostic(&self, node: NodeId) -> bool {
+        matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_))
+    }
+
+    fn take(&mut self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+        let runs = self.preview_taken(node, tokens);
+        let mut by_port = BTreeMap::new();
+        for link in self.into.get(&Stop::Node(node)).into_iter().flatten() {
+            let token = tokens.get(&link.token).copied().unwrap_or_default();
+            by_port.insert(self.graph.connections[link.connection].to.port, token);
+        }
+        if !self.is_agnostic(node) {
+            self.activate(node, &by_port);
+        }
+        let first = by_port.values().next().copied().unwrap_or_default();
+        self.taken.insert(node, Taken { slot: None, runs, tokens: by_port });
+        // What a delay takes goes to the place where it holds tokens, the last that it gives to.
+        let holds = matches!(self.graph.nodes[node].kind, NodeKind::Delay(_));
+        let transition = self.net.find(Meaning::Take(node)).filter(|_| holds);
+        transition.and_then(|t| self.net.transitions[t].gives.last().copied()).map(|p| (p, first)).into_iter().collect()
+    }
+
+    fn preview_taken(&self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> bool {
+        let links = self.into.get(&Stop::Node(node)).into_iter().flatten();
+        links
+            .filter(|l| self.is_mandatory(node, self.graph.connections[l.connection].to.port))
+            .all(|l| tokens.get(&l.token).is_some_and(|t| t.value))
+    }
+
+    fn send(&mut self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+        let taken = self.taken.remove(&node).unwrap_or_default();
+        match &self.graph.nodes[node].kind {
+            NodeKind::Relay => {
+                let token = taken.tokens.values().next().copied().unwrap_or_default();
+                self.forward(node, token)
+            }
+            NodeKind::Delay(_) => {
+                let transition = self.net.find(Meaning::Send(node));
+                let held = transition.and_then(|t| self.net.transitions[t].takes.last());
+                let token = held.and_then(|p| tokens.get(p)).copied().unwrap_or_default();
+                self.forward(node, token)
+            }
+            _ => self.emit(node, &taken),
+        }
+    }
+
+    /// Sends `token` on, with what it does to activity where the connection is active.
+    fn forward(&mut self, node: NodeId, token: Token) -> BTreeMap<PlaceId, Token> {
+        let mut colours = BTreeMap::new();
+        for link in self.from.get(&Stop::Node(node)).cloned().unwrap_or_default() {
+            let c = &self.graph.connections[link.connection];
+            let sent = Token { modifier: if c.active { token.modifier } else { 0 }, ..token };
+            if link.synchronous {
+                colours.insert(link.token, sent);
+            } else {
+                let decided = self.decided.entry(c.from).or_insert_with(|| token.value.then(BTreeMap::new));
+                if let Some(tokens) = decided {
+                    tokens.insert(link.token, sent);
+                }
+            }
+        }
+        colours
+    }
+
+    /// What a call sends, port by port. The first value on a port with an active connection takes the activity along.
+    fn emit(&mut self, node: NodeId, taken: &Taken) -> BTreeMap<PlaceId, Token> {
+        let call = Call { node, nth: self.calls[node], slot: taken.slot };
+        if taken.runs {
+            self.calls[node] += 1;
+        }
+        let links = self.from.get(&Stop::Node(node)).cloned().unwrap_or_default();
+        let mut colours = BTreeMap::new();
+        for (port, p) in self.graph.nodes[node].ports.iter().enumerate() {
+            if !p.kind.sends() || (taken.slot.is_some() && p.kind != PortKind::Event) {
+                continue;
+            }
+            let end = End { node, port };
+            let links: Vec<Link> =
+                links.iter().copied().filter(|l| self.graph.connections[l.connection].from == end).collect();
+            let value = taken.runs && self.sends(call, port);
+            let has_active = links.iter().any(|l| self.graph.connections[l.connection].active);
+            let modifier = match value && has_active {
+                true if self.deactivates[node] && p.kind == PortKind::Event => -1,
+                true if self.active[node] => {
+                    self.set_active(node, false);
+                    1
+                }
+                _ => 0,
+            };
+            let origin = value.then(|| self.origin(call, end, taken));
+            for link in links {
+                let active = self.graph.connections[link.connection].active;
+                let token = Token { origin: origin.flatten(), value, modifier: if active { modifier } else { 0 } };
+                if link.synchronous {
+                    colours.insert(link.token, token);
+                } else {
+                    let decided = self.decided.entry(end).or_insert_with(|| value.then(BTreeMap::new));
+                    if let Some(tokens) = decided {
+                        tokens.insert(link.token, token);
+                    }
+                }
+            }
+        }
+        colours
+    }
+
+    /// An `each` passes its list on, element by element.
+    fn origin(&self, call: Call, end: End, taken: &Taken) -> Option<Origin> {
+        match &self.graph.nodes[end.node].kind {
+            NodeKind::Each(each) => taken.tokens.get(&each.list).and_then(|t| t.origin),
+            _ => Some(Origin { end, call: call.nth }),
+        }
+    }
+
+    fn sends(&self, call: Call, port: usize) -> bool {
+        match self.graph.nodes[call.node].kind {
+            NodeKind::Each(_) => true,
+            _ if self.graph.nodes[call.node].ports[port].standard == Some(Standard::Processed) => call.slot.is_none(),
+            _ => (self.script)(call, port),
+        }
+    }
+
+    fn decide(&mut self, end: End) -> BTreeMap<PlaceId, Token> {
+        self.decided.remove(&end).flatten().unwrap_or_default()
+    }
+
+    fn handle(&mut self, connection: usize, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+        let to = self.graph.connections[connection].to;
+        let link = self.from.values().flatten().find(|l| l.connection == connection);
+        let token = link.and_then(|l| tokens.get(&l.token)).copied().unwrap_or_default();
+        let tokens = BTreeMap::from([(to.port, token)]);
+        match self.graph.nodes[to.node].kind {
+            NodeKind::Reset => {
+                for node in 0..self.graph.nodes.len() {
+                    self.set_active(node, self.graph.nodes[node].starts_active);
+                }
+            }
+            NodeKind::Exit(_) => {}
+            _ => self.activate(to.node, &tokens),
+        }
+        self.taken.insert(to.node, Taken { slot: Some(to.port), runs: true, tokens });
+        BTreeMap::new()
+    }
+
+    fn handled(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {
+        let taken = self.taken.remove(&node).unwrap_or_default();
+        self.emit(node, &taken)
+    }
+
+    fn pass(&mut self, side: Crossing, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+        let stop = Stop::Side(side);
+        let into = self.into.get(&stop).into_iter().flatten();
+        let by_connection: BTreeMap<usize, Token> =
+            into.filter_map(|l| Some((l.connection, *tokens.get(&l.token)?))).collect();
+        let from = self.from.get(&stop).into_iter().flatten();
+        from.filter_map(|l| Some((l.token, *by_connection.get(&l.connection)?))).collect()
+    }
+
+    fn start(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {
+        let links = self.from.get(&Stop::Node(node)).into_iter().flatten();
+        links
+            .map(|l| {
+                let c = &self.graph.connections[l.connection];
+                let origin = Some(Origin { end: c.from, call: 0 });
+                (l.token, Token { origin, value: true, modifier: i8::from(c.active) })
+            })
+            .collect()
+    }
+}
+
+/// The activity of a node that has taken tokens with these modifiers.
+fn after(active: bool, modifiers: &[i8]) -> bool {
+    if modifiers.contains(&1) { true } else { active && !modifiers.contains(&-1) }
+}

@@ -1,0 +1,110 @@
+//! Nets by themselves: their own runs are legal, spoiled ones are not.
+
+use apex_tests::oracle::{Case, Checked, Checker, Dice, Record, generate, walk};
+
+/// A checked random graph for each seed, if it is a legal one.
+fn checked(checker: &Checker, seed: u64) -> Option<(Case, Checked)> {
+    let case = generate(seed, true);
+    let checked = checker.check(&case.text("Random")).ok()?;
+    Some((case, checked))
+}
+
+#[test]
+fn most_random_graphs_are_legal() {
+    let checker = Checker::new();
+    let mut reasons = std::collections::BTreeMap::<String, usize>::new();
+    for seed in 0..100 {
+        if let Err(reason) = checker.check(&generate(seed, true).text("Random")) {
+            let code = reason.split(':').next().unwrap_or_default().to_owned();
+            *reasons.entry(code).or_default() += 1;
+            if std::env::var_os("APEX_ORACLE_SHOW").is_some() {
+                println!("{seed}: {reason}");
+            }
+        }
+    }
+    println!("{reasons:?}");
+    assert!(reasons.values().sum::<usize>() < 20, "{reasons:?}");
+}
+
+#[test]
+fn runs_of_a_net_are_legal() {
+    let checker = Checker::new();
+    let (mut count, mut records) = (0, 0);
+    for seed in 0..100 {
+        let Some((case, checked)) = checked(&checker, seed) else { continue };
+        let run = walk(&checker.catalog(), &checked, &mut Dice(seed | 1), 8);
+        if let Err((step, why)) = checker.judge(&checked, &run) {
+            panic!("seed {seed}: {why}\n{}\n{:?}", case.text("Random"), &run[..=step]);
+        }
+        count += 1;
+        records += run.iter().filter(|r| matches!(r, Record::Fired(_) | Record::Handled(_))).count();
+    }
+    println!("{count} graphs, {records} calls");
+}
+
+/// A run with one record changed, in one of several ways; `None` if this run has no place for it.
+fn spoiled(run: &[Record], way: usize, dice: &mut Dice) -> Option<Vec<Record>> {
+    let mut run = run.to_vec();
+    let is_call = |r: &Record| matches!(r, Record::Fired(_) | Record::Handled(_));
+    let calls: Vec<usize> = (0..run.len()).filter(|i| is_call(&run[*i])).collect();
+    let values: Vec<usize> =
+        (0..run.len()).filter(|i| matches!(&run[*i], Record::Took(t) if t.iter().any(Option::is_some))).collect();
+    let changes: Vec<usize> = (0..run.len()).filter(|i| matches!(run[*i], Record::Activity(..))).collect();
+    let pick = |list: &[usize], dice: &mut Dice| (!list.is_empty()).then(|| *dice.of(list));
+    match way {
+        // A call that happened twice.
+        0 => {
+            let at = pick(&calls, dice)?;
+            run.insert(at, run[at].clone());
+        }
+        // A call that is missing, with what it found.
+        1 => {
+            let at = pick(&calls, dice)?;
+            run.remove(at);
+            if matches!(run.get(at), Some(Record::Took(_))) {
+                run.remove(at);
+            }
+        }
+        // A value lost, and one that nobody sent.
+        2 | 3 => {
+            let at = pick(&values, dice)?;
+            let Record::Took(tokens) = &mut run[at] else { return None };
+            let token = tokens.iter_mut().find(|t| t.is_some())?;
+            *token = if way == 2 { None } else { token.map(|value| value + 1) };
+        }
+        // Activity that comes or goes without being told, and that comes from nowhere.
+        4 => drop(run.remove(pick(&changes, dice)?)),
+        5 => {
+            let at = pick(&changes, dice)?;
+            let Record::Activity(node, active) = run[at] else { return None };
+            run.insert(at, Record::Activity(node, !active));
+        }
+        // A reaction that ends too early.
+        _ => {
+            let at = pick(&calls, dice)?;
+            run.insert(at, Record::End);
+        }
+    }
+    Some(run)
+}
+
+#[test]
+fn spoiled_runs_are_refused() {
+    let checker = Checker::new();
+    let (mut tried, mut passed) = ([0; 7], [0; 7]);
+    for seed in 0..100 {
+        let Some((_, checked)) = checked(&checker, seed) else { continue };
+        let mut dice = Dice(seed | 1);
+        let run = walk(&checker.catalog(), &checked, &mut dice, 4);
+        for way in 0..7 {
+            let Some(run) = spoiled(&run, way, &mut dice) else { continue };
+            tried[way] += 1;
+            passed[way] += usize::from(checker.judge(&checked, &run).is_ok());
+        }
+    }
+    println!("tried {tried:?}, passed {passed:?}");
+    for way in 0..7 {
+        assert!(tried[way] > 5, "way {way} is not tried: {tried:?}");
+        assert!(passed[way] * 20 <= tried[way], "way {way} is not seen: {passed:?} of {tried:?}");
+    }
+}

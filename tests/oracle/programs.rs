@@ -1,0 +1,126 @@
+//! Random graphs, compiled and run, against their nets.
+//!
+//! `APEX_ORACLE_GRAPHS` says how many (40; in CI 2000), `APEX_ORACLE_SEED` where to begin.
+
+use crate::cargo::{Program, run};
+use apex_tests::oracle::{Case, Checker, Failure, generate, read};
+use std::{collections::BTreeMap, env};
+
+/// Programs that are compiled together.
+const BATCH: usize = 40;
+/// Most failures that are made small and shown.
+const SHOWN: usize = 3;
+
+fn number(name: &str) -> Option<u64> {
+    env::var(name).ok().and_then(|text| text.parse().ok())
+}
+
+/// What is wrong with each of `cases`, which are legal; nothing where all is right.
+fn judge(checker: &Checker, folder: &str, cases: &[&Case]) -> Vec<Option<String>> {
+    if cases.is_empty() {
+        return vec![];
+    }
+    let programs: Vec<Program> = cases
+        .iter()
+        .enumerate()
+        .map(|(i, case)| Program { name: format!("Random{i}"), text: case.text(&format!("Random{i}")) })
+        .collect();
+    match run(folder, &programs) {
+        Ok(traces) => cases.iter().zip(&programs).zip(traces).map(|((_, p), t)| wrong(checker, p, &t)).collect(),
+        Err(message) => {
+            let blamed = |i: usize| message.contains(&format!("Random{i}.afg"));
+            if cases.len() == 1 || !(0..cases.len()).any(blamed) {
+                return cases.iter().map(|_| Some(message.clone())).collect();
+            }
+            let rest: Vec<&Case> = cases.iter().enumerate().filter(|(i, _)| !blamed(*i)).map(|(_, c)| *c).collect();
+            let mut judged = judge(checker, folder, &rest).into_iter();
+            (0..cases.len()).map(|i| if blamed(i) { Some(message.clone()) } else { judged.next().flatten() }).collect()
+        }
+    }
+}
+
+/// What kind of failure it is.
+fn kind(why: &str) -> &str {
+    why.lines().next().and_then(|line| line.split_whitespace().nth(2)).unwrap_or_default()
+}
+
+fn wrong(checker: &Checker, program: &Program, trace: &str) -> Option<String> {
+    let records = read(trace);
+    if !trace.ends_with("E\n") {
+        return Some(format!("the program stopped early:\n{}", last_lines(trace, 20)));
+    }
+    let checked = checker.check(&program.text).expect("only legal texts are compiled");
+    let (step, why): Failure = checker.judge(&checked, &records).err()?;
+    let names =
+        |node: usize| if node < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() };
+    let shown: Vec<String> =
+        records[step.saturating_sub(25)..=step].iter().map(|r| r.named(&names, &checked)).collect();
+    Some(format!("{why}\n  {}", shown.join("\n  ")))
+}
+
+fn last_lines(text: &str, count: usize) -> String {
+    let lines: Vec<&str> = text.lines().collect();
+    lines[lines.len().saturating_sub(count)..].join("\n")
+}
+
+/// The smallest graph that is still wrong, and what is wrong with it.
+fn smallest(checker: &Checker, case: Case, why: String) -> (Case, String) {
+    let (mut case, mut why) = (case, why);
+    loop {
+        let legal: Vec<Case> =
+            case.smaller().into_iter().filter(|c| checker.check(&c.text("Random")).is_ok()).collect();
+        let mut found = None;
+        for batch in legal.chunks(BATCH) {
+            let cases: Vec<&Case> = batch.iter().collect();
+            let judged = judge(checker, "oracle-smaller", &cases);
+            let same = batch.iter().zip(judged).filter_map(|(c, w)| Some((c.clone(), w?)));
+            found = same.filter(|(_, w)| kind(w) == kind(&why)).min_by_key(|(c, _)| c.nodes.len() + c.links.len());
+            if found.is_some() {
+                break;
+            }
+        }
+        match found {
+            Some(smaller) => (case, why) = smaller,
+            None => return (case, why),
+        }
+    }
+}
+
+#[test]
+fn compiled_programs_run_as_their_nets_may() {
+    let is_ci = env::var("CI").is_ok_and(|v| v == "true");
+    let count = number("APEX_ORACLE_GRAPHS").unwrap_or(if is_ci { 2000 } else { 40 });
+    let first = number("APEX_ORACLE_SEED").unwrap_or(1);
+    println!("{count} graphs, APEX_ORACLE_SEED={first}");
+    let checker = Checker::new();
+    let cases: Vec<Case> = (first..first + count)
+        .map(|seed| generate(seed, true))
+        .filter(|case| checker.check(&case.text("Random")).is_ok())
+        .collect();
+    let mut failures: Vec<(&Case, String)> = vec![];
+    for batch in cases.chunks(BATCH) {
+        let batch: Vec<&Case> = batch.iter().collect();
+        let judged = judge(&checker, "oracle", &batch);
+        failures.extend(batch.iter().zip(judged).filter_map(|(case, why)| Some((*case, why?))));
+    }
+    println!("{} legal graphs, {} of them wrong", cases.len(), failures.len());
+    let mut kinds: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+    for (case, why) in &failures {
+        kinds.entry(kind(why).to_owned()).or_default().push(case.seed);
+    }
+    println!("{kinds:?}");
+    if env::var_os("APEX_ORACLE_RAW").is_some() {
+        failures.iter().for_each(|(case, why)| println!("seed {}: {}", case.seed, why.lines().next().unwrap_or("")));
+    }
+    // The first of each kind: the others are mostly the same.
+    let mut shown: Vec<&str> = vec![];
+    for (case, why) in &failures {
+        if shown.contains(&kind(why)) || shown.len() == SHOWN {
+            continue;
+        }
+        shown.push(kind(why));
+        let (small, why) = smallest(&checker, (*case).clone(), why.clone());
+        println!("seed {}: {why}\n{}", case.seed, small.text("Random"));
+    }
+    assert!(failures.is_empty(), "{} of {} programs do what their nets may not", failures.len(), cases.len());
+}

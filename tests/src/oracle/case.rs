@@ -1,0 +1,195 @@
+//! A random graph before it is written.
+
+/// A small generator of numbers (xorshift64*).
+pub struct Dice(pub u64);
+
+impl Dice {
+    /// A number below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % n.max(1) as u64) as usize
+    }
+
+    /// True once in `n` times.
+    pub fn one_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    /// One of a list.
+    pub fn of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
+        &list[self.below(list.len())]
+    }
+}
+
+/// A type of scripted node, by its ports. An input with `?` is optional.
+#[derive(Debug, PartialEq, Eq)]
+pub struct NodeType {
+    /// Its name in Rust.
+    pub name: &'static str,
+    /// Inputs.
+    pub inputs: &'static [&'static str],
+    /// Outputs.
+    pub outputs: &'static [&'static str],
+    /// Slots.
+    pub slots: &'static [&'static str],
+    /// Events.
+    pub events: &'static [&'static str],
+}
+
+const fn ty(
+    name: &'static str,
+    inputs: &'static [&'static str],
+    outputs: &'static [&'static str],
+    slots: &'static [&'static str],
+    events: &'static [&'static str],
+) -> NodeType {
+    NodeType { name, inputs, outputs, slots, events }
+}
+
+/// All types of scripted nodes, sources first, and a node that runs once per element of a list.
+pub const NODE_TYPES: &[NodeType] = &[
+    ty("ScSource", &[], &["out"], &[], &[]),
+    ty("ScSourceE", &[], &["out"], &["s"], &["e"]),
+    ty("ScTicker", &[], &[], &[], &["e"]),
+    ty("ScPass", &["x"], &["out"], &[], &[]),
+    ty("ScSplit", &["x"], &["a", "b"], &[], &[]),
+    ty("ScJoin", &["x", "y"], &["out"], &[], &[]),
+    ty("ScMaybe", &["x", "y?"], &["out"], &[], &[]),
+    ty("ScEvent", &["x"], &["out"], &[], &["e"]),
+    ty("ScFull", &["x", "y"], &["out"], &["s", "t"], &["e", "f"]),
+    ty("ScSink", &["x"], &[], &[], &[]),
+    ty("ScSinkS", &["x"], &[], &["s"], &["e"]),
+    ty("ScKeen", &["x"], &[], &[], &[]),
+    ty("ScHandler", &[], &[], &["s", "t"], &["e", "f"]),
+    ty("ScStop", &[], &[], &["s"], &["e"]),
+    ty("ScKick", &[], &[], &["s"], &["e"]),
+    ty("ScList", &["x"], &["out"], &[], &[]),
+    ty("pass", &["x"], &["out"], &[], &[]),
+    ty("ScListSink", &["x"], &[], &[], &[]),
+];
+
+/// The type with this name.
+pub fn node_type(name: &str) -> &'static NodeType {
+    NODE_TYPES.iter().find(|t| t.name == name).unwrap_or(&NODE_TYPES[0])
+}
+
+/// A node of a random graph.
+#[derive(Debug, Clone)]
+pub struct Instance {
+    /// Its number; it keeps it when others are taken out.
+    pub id: usize,
+    /// Its type.
+    pub ty: &'static NodeType,
+    /// See [`super::sends`].
+    pub mode: i64,
+    /// The group that it stands in; 0 is the graph itself.
+    pub group: usize,
+    /// Tokens by which its outputs are held back.
+    pub delay: usize,
+    /// `every` so many milliseconds, and `after`; for sources.
+    pub every: Option<(usize, usize)>,
+    /// `start => …`
+    pub starts: bool,
+}
+
+/// A connection between two nodes, by their numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Link {
+    /// The sender.
+    pub from: (usize, &'static str),
+    /// The taker.
+    pub to: (usize, &'static str),
+    /// `=>`
+    pub active: bool,
+    /// It passes slots and events of nested graphs, not inputs and outputs.
+    pub relayed: bool,
+}
+
+/// A random graph.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Decides what its nodes send.
+    pub seed: u64,
+    /// Calls in which a node triggers events.
+    pub limit: usize,
+    /// The nodes.
+    pub nodes: Vec<Instance>,
+    /// The connections.
+    pub links: Vec<Link>,
+    /// For each group the one around it; the first is the graph itself.
+    pub groups: Vec<usize>,
+}
+
+impl Case {
+    /// The node with this number.
+    pub fn node(&self, id: usize) -> Option<&Instance> {
+        self.nodes.iter().find(|n| n.id == id)
+    }
+
+    /// All that is a little smaller, the smallest first: without some nodes, a node, a connection, a group, activity, or a delay.
+    pub fn smaller(&self) -> Vec<Self> {
+        let mut found = vec![];
+        let mut add = |change: &dyn Fn(&mut Self)| {
+            let mut case = self.clone();
+            change(&mut case);
+            case.clean();
+            found.push(case);
+        };
+        let mut size = self.nodes.len() / 2;
+        while size > 1 {
+            for start in (0..self.nodes.len()).step_by(size) {
+                let end = (start + size).min(self.nodes.len());
+                add(&|c| drop(c.nodes.drain(start..end)));
+            }
+            size /= 2;
+        }
+        for n in (0..self.nodes.len()).rev() {
+            add(&|c| drop(c.nodes.remove(n)));
+        }
+        for l in 0..self.links.len() {
+            add(&|c| drop(c.links.remove(l)));
+            if self.links[l].active {
+                add(&|c| c.links[l].active = false);
+            }
+            if self.links[l].relayed {
+                add(&|c| c.links[l].relayed = false);
+            }
+        }
+        for g in 1..self.groups.len() {
+            if self.nodes.iter().any(|n| n.group == g) {
+                add(&|c| c.nodes.iter_mut().filter(|n| n.group == g).for_each(|n| n.group = self.groups[g]));
+            }
+        }
+        for n in 0..self.nodes.len() {
+            if self.nodes[n].starts {
+                add(&|c| c.nodes[n].starts = false);
+            }
+            if self.nodes[n].every.is_some() {
+                add(&|c| c.nodes[n].every = None);
+            }
+            if self.nodes[n].mode != super::ALWAYS {
+                add(&|c| c.nodes[n].mode = super::ALWAYS);
+            }
+        }
+        found
+    }
+
+    /// Takes out connections without an end, then nodes whose mandatory inputs are open.
+    pub fn clean(&mut self) {
+        loop {
+            let ids: Vec<usize> = self.nodes.iter().map(|n| n.id).collect();
+            self.links.retain(|l| ids.contains(&l.from.0) && ids.contains(&l.to.0));
+            let count = self.nodes.len();
+            let links = &self.links;
+            self.nodes.retain(|n| {
+                let fed = |input: &str| links.iter().any(|l| l.to.0 == n.id && l.to.1 == input);
+                n.ty.inputs.iter().filter(|i| !i.ends_with('?')).all(|i| fed(i))
+            });
+            if self.nodes.len() == count {
+                return;
+            }
+        }
+    }
+}

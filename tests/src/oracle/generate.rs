@@ -1,0 +1,207 @@
+//! Makes random graphs.
+
+use super::{
+    ALWAYS,
+    case::{Case, Dice, Instance, Link, NODE_TYPES, NodeType, node_type},
+};
+
+/// Types that stand in the middle of data flow.
+const MIDDLE: [&str; 7] = ["ScPass", "ScSplit", "ScJoin", "ScMaybe", "ScEvent", "ScFull", "ScFull"];
+const SINKS: [&str; 3] = ["ScSink", "ScSinkS", "ScKeen"];
+const SOURCES: [&str; 4] = ["ScSource", "ScSource", "ScSourceE", "ScTicker"];
+const HANDLERS: [&str; 3] = ["ScHandler", "ScHandler", "ScStop"];
+
+/// What a graph has, besides data flow.
+struct Flavour {
+    events: bool,
+    hybrid: bool,
+    activity: bool,
+    nested: bool,
+    relayed: bool,
+    paced: bool,
+    delays: bool,
+}
+
+/// The graph that comes out of `seed`. `asynchronous` allows events, slots and activity.
+pub fn generate(seed: u64, asynchronous: bool) -> Case {
+    let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let size = match dice.below(4) {
+        0 => 2 + dice.below(6),
+        1 | 2 => 4 + dice.below(16),
+        _ => 2 + dice.below(58),
+    };
+    let flavour = Flavour {
+        events: asynchronous && !dice.one_in(6),
+        hybrid: asynchronous && dice.one_in(2),
+        activity: asynchronous && dice.one_in(2),
+        nested: dice.one_in(2),
+        relayed: asynchronous && dice.one_in(3),
+        paced: dice.one_in(4),
+        delays: dice.one_in(3),
+    };
+    let limit = if dice.one_in(3) { 3 } else { 1 + dice.below(25) };
+    let mut case = Case { seed, limit, nodes: vec![], links: vec![], groups: vec![0] };
+    nodes(&mut dice, &mut case, size, &flavour);
+    if flavour.nested {
+        nest(&mut dice, &mut case);
+    }
+    connect_inputs(&mut dice, &mut case, &flavour);
+    if flavour.events || flavour.hybrid {
+        connect_slots(&mut dice, &mut case, &flavour);
+    }
+    if flavour.activity {
+        activate(&mut dice, &mut case);
+    }
+    case.clean();
+    case
+}
+
+fn nodes(dice: &mut Dice, case: &mut Case, size: usize, flavour: &Flavour) {
+    let sources = 1 + dice.below(1 + size / 6);
+    while case.nodes.len() < size {
+        let at = case.nodes.len();
+        let kinds: &[&str] = match () {
+            () if at < sources => &SOURCES,
+            () if flavour.events && dice.one_in(5) => &HANDLERS,
+            () if at + 1 + size / 5 >= size => &SINKS,
+            () => &MIDDLE,
+        };
+        let mut name = *dice.of(kinds);
+        if !flavour.events && !flavour.hybrid {
+            name = match name {
+                "ScTicker" | "ScSourceE" => "ScSource",
+                "ScEvent" => "ScPass",
+                "ScFull" => "ScJoin",
+                "ScSinkS" => "ScSink",
+                other => other,
+            };
+        }
+        if at >= sources && dice.one_in(12) {
+            for name in ["ScList", "pass", "ScListSink"] {
+                push(dice, case, node_type(name), flavour);
+            }
+            continue;
+        }
+        push(dice, case, node_type(name), flavour);
+    }
+}
+
+fn push(dice: &mut Dice, case: &mut Case, ty: &'static NodeType, flavour: &Flavour) {
+    let is_source = ty.inputs.is_empty() && !(ty.outputs.is_empty() && ty.name != "ScTicker");
+    let is_list = matches!(ty.name, "ScList" | "pass" | "ScListSink");
+    let delayed = flavour.delays && !ty.outputs.is_empty() && !is_list && dice.one_in(4);
+    case.nodes.push(Instance {
+        id: case.nodes.len(),
+        ty,
+        mode: if dice.one_in(2) { ALWAYS } else { 0 },
+        group: 0,
+        delay: if delayed { 1 + dice.below(2) } else { 0 },
+        every: (is_source && flavour.paced && dice.one_in(2)).then(|| (1 + dice.below(4), dice.below(3))),
+        starts: false,
+    });
+}
+
+/// Puts neighbouring nodes in nested graphs, two deep at most.
+fn nest(dice: &mut Dice, case: &mut Case) {
+    let count = case.nodes.len();
+    for _ in 0..1 + dice.below(3) {
+        let start = dice.below(count);
+        let end = (start + 1 + dice.below(12)).min(count);
+        if case.nodes[start..end].iter().any(|n| n.group != 0) {
+            continue;
+        }
+        case.groups.push(0);
+        let group = case.groups.len() - 1;
+        case.nodes[start..end].iter_mut().for_each(|n| n.group = group);
+        if end - start > 3 && dice.one_in(2) {
+            case.groups.push(group);
+            let inner = case.groups.len() - 1;
+            case.nodes[start + 1..end - 1].iter_mut().for_each(|n| n.group = inner);
+        }
+    }
+}
+
+fn link(dice: &mut Dice, case: &mut Case, from: (usize, &'static str), to: (usize, &'static str), flavour: &Flavour) {
+    let is_synchronous =
+        NODE_TYPES.iter().any(|t| t.outputs.contains(&from.1)) && !to.1.starts_with('s') && !to.1.starts_with('t');
+    let relayed = flavour.relayed && dice.one_in(if is_synchronous { 8 } else { 2 });
+    let active = flavour.activity && dice.one_in(3);
+    case.links.push(Link { from, to, active, relayed });
+}
+
+/// Each input gets an output that stands before it, or a later one whose tokens are held back, or an event.
+fn connect_inputs(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
+    for n in 0..case.nodes.len() {
+        let ty = case.nodes[n].ty;
+        for input in ty.inputs {
+            if input.ends_with('?') && dice.one_in(5) {
+                continue;
+            }
+            if matches!(ty.name, "pass" | "ScListSink") {
+                link(dice, case, (n - 1, "out"), (n, input), flavour);
+                continue;
+            }
+            let event = flavour.hybrid && dice.one_in(5);
+            let Some(from) = sender(dice, case, n, event) else { continue };
+            if event && dice.one_in(2) {
+                case.nodes[from.0].mode = ALWAYS;
+            }
+            link(dice, case, from, (n, input), flavour);
+        }
+    }
+}
+
+/// A port that an input of node `n` may be connected to.
+fn sender(dice: &mut Dice, case: &Case, n: usize, event: bool) -> Option<(usize, &'static str)> {
+    let is_list = |i: usize| matches!(case.nodes[i].ty.name, "ScList" | "pass");
+    for _ in 0..60 {
+        let everywhere = dice.one_in(4);
+        let from =
+            if everywhere { dice.below(case.nodes.len()) } else { n.saturating_sub(1 + dice.below(n.clamp(1, 6))) };
+        let ty = case.nodes[from].ty;
+        let ports = if event { ty.events } else { ty.outputs };
+        let later = from >= n && !event && case.nodes[from].delay == 0;
+        if !ports.is_empty() && !later && !is_list(from) && (event || from != n || case.nodes[from].delay > 0) {
+            return Some((from, *dice.of(ports)));
+        }
+    }
+    None
+}
+
+/// Events and outputs to slots, several to some, in any direction.
+fn connect_slots(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
+    for n in 0..case.nodes.len() {
+        for slot in case.nodes[n].ty.slots {
+            for _ in 0..1 + dice.below(3) {
+                let from = dice.below(case.nodes.len());
+                let ty = case.nodes[from].ty;
+                let ports = if dice.one_in(4) { ty.outputs } else { ty.events };
+                if ports.is_empty() || matches!(ty.name, "ScList" | "pass") {
+                    continue;
+                }
+                let port = *dice.of(ports);
+                // A node that waits for its own event is refused by the compiler.
+                if from == n || case.links.iter().any(|l| l.from == (from, port) && l.to == (n, slot)) {
+                    continue;
+                }
+                link(dice, case, (from, port), (n, slot), flavour);
+            }
+        }
+    }
+}
+
+/// Some nodes are active from the beginning.
+fn activate(dice: &mut Dice, case: &mut Case) {
+    for _ in 0..1 + dice.below(3) {
+        let n = dice.below(case.nodes.len());
+        if case.nodes[n].ty.name != "pass" && case.nodes[n].ty.name != "ScKick" {
+            case.nodes[n].starts = true;
+        }
+    }
+    // The body of an `each` has no activity of its own.
+    let lists: Vec<usize> = case.nodes.iter().filter(|n| n.ty.name == "pass").map(|n| n.id).collect();
+    case.links
+        .iter_mut()
+        .filter(|l| lists.contains(&l.to.0) || lists.contains(&l.from.0))
+        .for_each(|l| l.active = false);
+}

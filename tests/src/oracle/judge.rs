@@ -1,0 +1,227 @@
+//! Compares a recorded run with the Petri net of its graph.
+
+use super::script;
+use apex_dsl::{
+    catalog::Catalog,
+    graph::{End, Graph, NodeId, NodeKind, Value},
+    passes,
+    petri::{self, Call, Net, Origin, Replay},
+    report::{Diagnostics, Severity},
+    source::Sources,
+    syntax::tree::PortKind,
+};
+use apex_host::{Disk, Seen, Workspace};
+use std::{
+    cell::{Ref, RefCell},
+    collections::BTreeMap,
+    path::Path,
+    time::Duration,
+};
+
+/// The compiler as far as nets need it.
+pub struct Checker {
+    catalog: RefCell<Catalog>,
+}
+
+/// A checked graph with its net.
+pub struct Checked {
+    /// The graph.
+    pub graph: Graph,
+    /// Its net.
+    pub net: Net,
+}
+
+/// One entry of a recorded run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Record {
+    /// `R`: a reaction begins, at so many nanoseconds.
+    Begin(u64),
+    /// `F`: a node fires.
+    Fired(NodeId),
+    /// `H`: a slot takes the token on a connection.
+    Handled(usize),
+    /// `A`: a node becomes active, or no longer is.
+    Activity(NodeId, bool),
+    /// `T`: what the call that came last found; `None` is ⊥.
+    Took(Vec<Option<i64>>),
+    /// `E`: the reaction ends.
+    End,
+}
+
+/// What is wrong with a run: the number of the record, from 0, and why.
+pub type Failure = (usize, String);
+
+impl Record {
+    /// The record in words; `name` names nodes.
+    pub fn named(&self, name: &dyn Fn(NodeId) -> String, checked: &Checked) -> String {
+        match self {
+            Self::Begin(now) => format!("reaction at {now} ns"),
+            Self::Fired(node) => format!("fired {}", name(*node)),
+            Self::Handled(connection) => {
+                let c = &checked.graph.connections[*connection];
+                format!("handled {} -> {}", checked.graph.end_name(c.from), checked.graph.end_name(c.to))
+            }
+            Self::Activity(node, active) => format!("{} {}active", name(*node), if *active { "" } else { "in" }),
+            Self::Took(tokens) => format!("  took {tokens:?}"),
+            Self::End => "reaction ends".to_owned(),
+        }
+    }
+}
+
+impl Checker {
+    /// Sees the nodes of this package.
+    #[allow(clippy::new_without_default)]
+    pub fn new() -> Self {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let workspace = Workspace::load(folder).expect("this package has a workspace");
+        let mut disk = Disk::new(Some(&workspace.cache_folder()));
+        let catalog = Catalog::load(workspace.crates(&Seen::Crate("oracle", false)), &mut disk);
+        disk.save();
+        Self { catalog: RefCell::new(catalog) }
+    }
+
+    /// The first program of `text` with its net, or what is wrong with the text.
+    pub fn check(&self, text: &str) -> Result<Checked, String> {
+        let mut sources = Sources::default();
+        let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
+        let mut diagnostics = Diagnostics::default();
+        let mut disk = Disk::new(None);
+        let programs = passes::check(root, &mut self.catalog.borrow_mut(), &mut sources, &mut disk, &mut diagnostics);
+        let errors: Vec<String> = diagnostics
+            .sorted()
+            .into_iter()
+            .filter(|d| d.severity == Severity::Error)
+            .map(|d| format!("{}: {}", d.code, d.message))
+            .collect();
+        if !errors.is_empty() {
+            return Err(errors.join("\n"));
+        }
+        let graph = programs.into_iter().next().ok_or("there is no program")?.graph;
+        let net = petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
+        Ok(Checked { graph, net })
+    }
+
+    /// The node types.
+    pub fn catalog(&self) -> Ref<'_, Catalog> {
+        self.catalog.borrow()
+    }
+
+    /// Replays a run on the net.
+    pub fn judge(&self, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
+        judge(&self.catalog.borrow(), checked, records)
+    }
+}
+
+/// Reads a run, one record a line.
+pub fn read(text: &str) -> Vec<Record> {
+    text.lines().filter_map(record).collect()
+}
+
+fn record(line: &str) -> Option<Record> {
+    let mut words = line.split_whitespace();
+    let kind = words.next()?;
+    let numbers: Vec<Option<i64>> = words.map(|w| w.parse().ok()).collect();
+    let first = numbers.first().copied().flatten().unwrap_or_default();
+    Some(match kind {
+        "R" => Record::Begin(first as u64),
+        "F" => Record::Fired(first as usize),
+        "H" => Record::Handled(first as usize),
+        "A" => Record::Activity(first as usize, numbers.get(1) == Some(&Some(1))),
+        "T" => Record::Took(numbers),
+        "E" => Record::End,
+        _ => return None,
+    })
+}
+
+/// The numbers and parameters of the scripted nodes of a graph.
+pub fn script_of(graph: &Graph, catalog: &Catalog) -> BTreeMap<NodeId, (i64, script::Parameters)> {
+    let mut scripts = BTreeMap::new();
+    for (node, n) in graph.nodes.iter().enumerate() {
+        let NodeKind::Library(library) = &n.kind else { continue };
+        let signature = &catalog.signatures[library.signature];
+        let value =
+            |name: &str| signature.params.iter().position(|p| p.name == name).and_then(|i| library.params.get(i));
+        if let (Some(id), Some(Value::List(list))) = (value("id").and_then(integer), value("script")) {
+            let list: Vec<i64> = list.iter().filter_map(integer).collect();
+            if let [seed, mode, limit] = list[..] {
+                scripts.insert(node, (id, [seed, mode, limit]));
+            }
+        }
+    }
+    scripts
+}
+
+fn integer(value: &Value) -> Option<i64> {
+    match value {
+        Value::Number(number) => number.integer.and_then(|i| i64::try_from(i).ok()).or(Some(number.value as i64)),
+        _ => None,
+    }
+}
+
+/// Replays a run on the net. What is not recorded may have come early or late.
+pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
+    let early = replay(catalog, checked, records, false);
+    if early.is_ok() || replay(catalog, checked, records, true).is_err() { early } else { Ok(()) }
+}
+
+fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: bool) -> Result<(), Failure> {
+    let Checked { graph, net } = checked;
+    let scripts = script_of(graph, catalog);
+    let by_id: BTreeMap<i64, NodeId> = scripts.iter().map(|(node, (id, _))| (*id, *node)).collect();
+    let sends = |call: Call, port: usize| match scripts.get(&call.node) {
+        Some((id, parameters)) => {
+            script::sends(*id, *parameters, &graph.nodes[call.node].ports[port].name, call.nth as i64)
+        }
+        None => true,
+    };
+    let is_connected = |node: NodeId, port: usize| graph.incoming(End { node, port }).is_some();
+    // For each input of the node that fired last whether it is connected.
+    let mut inputs: Vec<bool> = vec![];
+    let mut replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
+    if hesitates {
+        replay = replay.hesitating();
+    }
+    for (step, record) in records.iter().enumerate() {
+        let result = match record {
+            Record::Begin(now) => {
+                replay.begin(Duration::from_nanos(*now));
+                Ok(())
+            }
+            // Nodes in the body of an `each` come after all others.
+            Record::Fired(node) if *node >= graph.nodes.len() => Ok(()),
+            Record::Fired(node) => {
+                let ports = graph.nodes[*node].ports.iter().enumerate();
+                let own = ports.filter(|(_, p)| p.kind == PortKind::Input && p.parameter.is_none());
+                inputs = own.map(|(port, _)| is_connected(*node, port)).collect();
+                replay.fired(*node)
+            }
+            Record::Handled(connection) => {
+                inputs.clear();
+                replay.handled(*connection)
+            }
+            Record::Activity(node, active) => replay.activity(*node, *active),
+            Record::Took(tokens) => {
+                let found: Vec<Option<Origin>> =
+                    tokens.iter().map(|t| t.map(|value| origin(graph, &by_id, value))).collect();
+                let is_open = |i: usize| found.len() == inputs.len() && !inputs[i];
+                let found: Vec<Option<Origin>> =
+                    found.iter().enumerate().filter(|(i, f)| f.is_some() || !is_open(*i)).map(|(_, f)| *f).collect();
+                replay.took(&found)
+            }
+            Record::End => replay.end(),
+        };
+        result.map_err(|wrong| (step, wrong.to_string()))?;
+    }
+    Ok(())
+}
+
+/// Where a value was made. What no scripted node has made comes from a port that there is not.
+fn origin(graph: &Graph, by_id: &BTreeMap<i64, NodeId>, value: i64) -> Origin {
+    let nowhere = Origin { end: End { node: usize::MAX, port: 0 }, call: 0 };
+    let Some((id, port, call)) = script::origin(value) else { return nowhere };
+    let Some(node) = by_id.get(&id).copied() else { return nowhere };
+    let Some(port) = graph.nodes[node].ports.iter().position(|p| p.name == port && p.kind.sends()) else {
+        return nowhere;
+    };
+    Origin { end: End { node, port }, call }
+}

@@ -1,0 +1,14 @@
+//! Random graphs of all kinds of connections, whose compiled programs are compared with their Petri nets.
+
+mod case;
+mod generate;
+mod judge;
+mod script;
+mod text;
+mod walk;
+
+pub use case::{Case, Dice, NODE_TYPES};
+pub use generate::generate;
+pub use judge::{Checked, Checker, Failure, Record, judge, read, script_of};
+pub use script::{ALWAYS, Now, Parameters, call, note, origin, sends, take_notes, value};
+pub use walk::walk;

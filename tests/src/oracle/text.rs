@@ -1,0 +1,130 @@
+//! A random graph as a text.
+
+use super::case::{Case, Instance, Link};
+use std::{collections::BTreeMap, fmt::Write as _};
+
+impl Case {
+    /// The text of this graph, by the name `name`.
+    pub fn text(&self, name: &str) -> String {
+        let mut bodies = Bodies { case: self, lines: vec![vec![]; self.groups.len()], pins: BTreeMap::new() };
+        for node in &self.nodes {
+            bodies.lines[node.group].push(format!("node n{} = {};", node.id, self.instance(node)));
+            if node.starts {
+                bodies.lines[node.group].push(format!("start => n{};", node.id));
+            }
+        }
+        for group in (1..self.groups.len()).filter(|g| self.is_used(*g)) {
+            bodies.lines[self.groups[group]].push(format!("node g{group} = {name}Group{group}();"));
+        }
+        for link in &self.links {
+            bodies.link(link);
+        }
+        let mut names: Vec<&str> = self.nodes.iter().map(|n| n.ty.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        let mut text = format!("use apex_tests::nodes::{{{}}};\n", names.join(", "));
+        for group in (0..self.groups.len()).rev().filter(|g| *g == 0 || self.is_used(*g)) {
+            let graph = if group == 0 { name.to_owned() } else { format!("{name}Group{group}") };
+            let _ = writeln!(text, "graph {graph} {{");
+            for line in bodies.pins.get(&group).into_iter().flat_map(BTreeMap::values) {
+                let _ = writeln!(text, "    {line}");
+            }
+            for line in &bodies.lines[group] {
+                let _ = writeln!(text, "    {line}");
+            }
+            text.push_str("}\n");
+        }
+        text
+    }
+
+    fn instance(&self, node: &Instance) -> String {
+        if node.ty.name == "pass" {
+            return "pass() each".to_owned();
+        }
+        let mut text = format!(
+            "{}(id = {}, script = [{}, {}, {}])",
+            node.ty.name,
+            node.id,
+            self.seed % 1_000_000,
+            node.mode,
+            self.limit
+        );
+        if let Some((every, after)) = node.every {
+            let _ = write!(text, " every {every}ms");
+            if after > 0 {
+                let _ = write!(text, " after {after}ms");
+            }
+        }
+        if node.delay > 0 {
+            let _ = write!(text, " delay {:?}", vec![7; node.delay]);
+        }
+        text
+    }
+
+    /// Whether a group has anything in it.
+    fn is_used(&self, group: usize) -> bool {
+        self.nodes.iter().any(|n| self.around(n.group).contains(&group))
+    }
+
+    /// A group and those around it, innermost first, without the graph itself.
+    fn around(&self, mut group: usize) -> Vec<usize> {
+        let mut groups = vec![];
+        while group != 0 {
+            groups.push(group);
+            group = self.groups[group];
+        }
+        groups
+    }
+}
+
+struct Bodies<'a> {
+    case: &'a Case,
+    lines: Vec<Vec<String>>,
+    /// The ports of each group.
+    pins: BTreeMap<usize, BTreeMap<String, String>>,
+}
+
+impl Bodies<'_> {
+    fn link(&mut self, link: &Link) {
+        let (Some(from), Some(to)) = (self.case.node(link.from.0), self.case.node(link.to.0)) else { return };
+        let (leaves, enters) = (self.case.around(from.group), self.case.around(to.group));
+        let arrow = if link.active { "=>" } else { "->" };
+        let port = format!(
+            "{}_{}{}{}",
+            link.from.0,
+            link.from.1,
+            if link.relayed { "_r" } else { "" },
+            if link.active { "_a" } else { "" }
+        );
+        let ty = if from.ty.name == "ScList" || from.ty.name == "pass" { "Vec<i64>" } else { "i64" };
+        let (words_in, words_out) = if link.relayed { ("slot", "event") } else { ("in", "out") };
+        let mut at = format!("n{}.{}", link.from.0, link.from.1);
+        let mut body = from.group;
+        for group in leaves.iter().take_while(|g| !enters.contains(g)) {
+            let pin = format!("o_{port}");
+            self.pin(*group, &pin, format!("{words_out} {pin}: {ty};"));
+            self.line(body, format!("{at} {arrow} {pin};"));
+            at = format!("g{group}.{pin}");
+            body = self.case.groups[*group];
+        }
+        let inner: Vec<usize> = enters.iter().copied().take_while(|g| !leaves.contains(g)).collect();
+        for group in inner.into_iter().rev() {
+            let pin = format!("i_{port}");
+            self.pin(group, &pin, format!("{words_in} {pin}: {ty};"));
+            self.line(body, format!("{at} {arrow} g{group}.{pin};"));
+            at = pin;
+            body = group;
+        }
+        self.line(body, format!("{at} {arrow} n{}.{};", link.to.0, link.to.1.trim_end_matches('?')));
+    }
+
+    fn pin(&mut self, group: usize, name: &str, line: String) {
+        self.pins.entry(group).or_default().insert(name.to_owned(), line);
+    }
+
+    fn line(&mut self, body: usize, line: String) {
+        if !self.lines[body].contains(&line) {
+            self.lines[body].push(line);
+        }
+    }
+}

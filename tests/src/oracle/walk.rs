@@ -1,0 +1,120 @@
+//! Runs a net by itself: a random legal run, written down as a program would write it.
+
+use super::{
+    case::Dice,
+    judge::{Checked, Record, script_of},
+    script,
+};
+use apex_dsl::{
+    catalog::Catalog,
+    graph::{End, Graph, NodeId, NodeKind},
+    petri::{Call, Meaning, State, Token, TransitionId},
+};
+use std::{collections::BTreeMap, time::Duration};
+
+/// A random run of so many reactions, one each millisecond. Silent transitions occur at random times, too.
+pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u64) -> Vec<Record> {
+    let Checked { graph, net } = checked;
+    let scripts = script_of(graph, catalog);
+    let sends = |call: Call, port: usize| match scripts.get(&call.node) {
+        Some((id, parameters)) => {
+            script::sends(*id, *parameters, &graph.nodes[call.node].ports[port].name, call.nth as i64)
+        }
+        None => true,
+    };
+    let mut state = State::new(graph, catalog, net, &sends);
+    state.take_changes();
+    let mut fired: BTreeMap<NodeId, u32> = BTreeMap::new();
+    let mut records = vec![];
+    for reaction in 0..reactions {
+        let now = Duration::from_millis(reaction);
+        records.push(Record::Begin(now.as_nanos() as u64));
+        let mut plain: Vec<NodeId> = vec![];
+        loop {
+            let sources = state.sources().clone();
+            let is_due = |node: NodeId| {
+                let modifiers = &graph.nodes[node].modifiers;
+                let count = fired.get(&node).copied().unwrap_or_default();
+                !sources.contains(&node)
+                    || now.checked_sub(modifiers.after.unwrap_or_default()).is_some_and(|passed| {
+                        modifiers.every.map_or(!plain.contains(&node), |every| every * count <= passed)
+                    })
+            };
+            let ready: Vec<TransitionId> = (0..net.transitions.len())
+                .filter(|t| state.is_enabled(*t))
+                .filter(|t| match net.transitions[*t].meaning {
+                    Meaning::Take(node) | Meaning::Release(node) => is_due(node),
+                    _ => true,
+                })
+                .collect();
+            if ready.is_empty() {
+                break;
+            }
+            let transition = *dice.of(&ready);
+            let meaning = net.transitions[transition].meaning;
+            if let Meaning::Take(node) | Meaning::Release(node) = meaning {
+                *fired.entry(node).or_default() += 1;
+                plain.push(node);
+            }
+            occur(graph, &mut state, transition, meaning, net, &mut records);
+        }
+        records.push(Record::End);
+    }
+    records
+}
+
+/// Lets a transition occur. A call is one thing: what it takes, what it sends, what it triggers.
+fn occur(
+    graph: &Graph,
+    state: &mut State<'_>,
+    transition: TransitionId,
+    meaning: Meaning,
+    net: &apex_dsl::petri::Net,
+    records: &mut Vec<Record>,
+) {
+    let (node, record, after) = match meaning {
+        Meaning::Take(node) => (node, state.preview(node).reported.then_some(Record::Fired(node)), Meaning::Send(node)),
+        Meaning::Handle(connection) => {
+            let node = graph.connections[connection].to.node;
+            (node, Some(Record::Handled(connection)), Meaning::Handled(node))
+        }
+        _ => {
+            state.occur(transition);
+            return changes(state, records);
+        }
+    };
+    let is_reported = record.is_some();
+    records.extend(record);
+    state.occur(transition);
+    let tokens = state.tokens_of(node);
+    changes(state, records);
+    if is_reported && matches!(graph.nodes[node].kind, NodeKind::Library(_)) {
+        records.push(Record::Took(tokens.iter().map(|t| value(graph, *t)).collect()));
+    }
+    let ports = 0..graph.nodes[node].ports.len();
+    let decisions = ports.flat_map(|port| [Meaning::Trigger(End { node, port }), Meaning::Hush(End { node, port })]);
+    for next in [after].into_iter().chain(decisions) {
+        if let Some(transition) = net.find(next).filter(|t| state.is_enabled(*t)) {
+            state.occur(transition);
+            changes(state, records);
+        }
+    }
+}
+
+fn changes(state: &mut State<'_>, records: &mut Vec<Record>) {
+    records.extend(state.take_changes().into_iter().map(|(node, active)| Record::Activity(node, active)));
+}
+
+/// The value that a scripted node sends; 7 is what delays begin with.
+fn value(graph: &Graph, token: Token) -> Option<i64> {
+    let made = |end: End, call: usize| {
+        let NodeKind::Library(library) = &graph.nodes[end.node].kind else { return 7 };
+        let id = library.params.first();
+        let id = match id {
+            Some(apex_dsl::graph::Value::Number(number)) => number.value as i64,
+            _ => 0,
+        };
+        script::value(id, &graph.port(end).name, call as i64)
+    };
+    token.value.then(|| token.origin.map_or(7, |o| made(o.end, o.call)))
+}
