@@ -1,6 +1,7 @@
 //! Trees and signatures → one flat graph: names, imports, arguments, default ports, nested graphs.
 
 mod args;
+mod claims;
 mod connect;
 mod flatten;
 mod generics;
@@ -24,6 +25,8 @@ pub use names::{GraphId, Texts};
 pub const MAX_NODES: usize = 50_000;
 /// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
 const MAX_LOOKS: usize = 1_000_000;
+/// Most claims of one program.
+const MAX_CLAIMS: usize = 256;
 /// How deep graphs nest in each other.
 pub const MAX_NESTING: usize = 64;
 
