@@ -26,6 +26,17 @@ pub enum Verdict {
     Undecided,
 }
 
+impl Verdict {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "fails",
+            Self::Undecided => "undecided, checked while the program runs",
+        }
+    }
+}
+
 /// What is known about the claims of a graph.
 #[derive(Debug, Clone, Default)]
 pub struct Decided {
@@ -36,6 +47,11 @@ pub struct Decided {
 }
 
 impl Decided {
+    /// Whether the program has to check claims while it runs.
+    pub fn has_undecided(&self) -> bool {
+        self.verdicts.contains(&Verdict::Undecided)
+    }
+
     /// The claims that the program has to check while it runs.
     pub fn undecided(&self) -> Vec<usize> {
         (0..self.verdicts.len()).filter(|c| self.verdicts[*c] == Verdict::Undecided).collect()

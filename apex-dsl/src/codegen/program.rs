@@ -23,7 +23,7 @@ use std::{collections::BTreeMap, time::Duration};
 use syn::Ident;
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
-enum Field {
+pub enum Field {
     Node { ty: TokenStream, make: TokenStream },
     Nested(BTreeMap<String, Field>),
 }
@@ -72,7 +72,7 @@ impl Generator<'_> {
         };
         let react = self.react(whole, &bits);
         let clusters = self.clusters(whole, &bits);
-        let dispatcher = self.dispatcher(whole, &bits);
+        let (dispatcher, claims) = (self.dispatcher(whole, &bits), self.claim_function(whole));
         let is_active = self.is_active(whole);
         let info = self.info(graph, analysis);
         let links = self.links(graph);
@@ -124,6 +124,7 @@ impl Generator<'_> {
                 pub fn events(&mut self) -> &mut #events_name { &mut self.events }
                 #clusters
                 #dispatcher
+                #claims
             }
             #default
             #[allow(unused, clippy::all)]
@@ -219,7 +220,8 @@ impl Generator<'_> {
                 makes.extend(quote! { #name: ::apex_rt::Timer::new(#first, #period), });
             }
         }
-        for (name, ty, make) in self.flags(whole).into_iter().chain(self.dispatcher_state(whole, bits)) {
+        let flags = self.flags(whole).into_iter().chain(self.claim_state(whole));
+        for (name, ty, make) in flags.chain(self.dispatcher_state(whole, bits)) {
             fields.extend(quote! { #name: #ty, });
             makes.extend(quote! { #name: #make, });
         }
@@ -242,7 +244,8 @@ impl Generator<'_> {
         }
     }
 
-    fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
+    /// Tokens that are kept in the state of the program, or of a parallel body.
+    pub fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
         for (node, n) in graph.nodes.iter().enumerate() {
             for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
                 let end = End { node, port };
@@ -278,7 +281,9 @@ impl Generator<'_> {
                 fields.extend(quote! { #held: ::apex_rt::Delay<#ty, #count>, });
                 makes.extend(quote! { #held: ::apex_rt::Delay::new([#(Some(#values)),*]), });
             }
-            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
+            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node))
+                && !each.parallel
+            {
                 self.inside(graph, node).token_state(&each.body, body, fields, makes);
             }
         }
@@ -313,12 +318,13 @@ impl Generator<'_> {
         let name = &graph.name;
         let (mut nodes, mut connections) = (vec![], vec![]);
         self.rows(graph, analysis, "", &mut nodes, &mut connections);
+        let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
         let clusters = analysis.clusters.iter().map(|c| {
             let nodes = c.schedule().into_iter().map(Literal::usize_unsuffixed);
             quote!(&[#(#nodes),*])
         });
         quote! {
-            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*] }
+            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], claims: &[#(#claims),*] }
         }
     }
 
@@ -407,7 +413,8 @@ fn boundaries(graph: &Graph, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId>
     (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
 }
 
-fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
+/// Puts a field where its path leads.
+pub fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
     match path {
         [name] => {
             fields.insert(name.clone(), field);
@@ -423,7 +430,7 @@ fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
 }
 
 /// The struct of a level of nodes with all below it, and the expression that makes it.
-fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, TokenStream) {
+pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, TokenStream) {
     let struct_name = ident(name);
     let (mut items, mut declared, mut made) = (quote!(), quote!(), quote!());
     for (field, content) in fields {
