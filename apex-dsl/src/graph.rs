@@ -92,6 +92,8 @@ pub enum NodeKind {
     Relay,
     /// Where activity begins: an event that is triggered once, before anything else, and always carries activity.
     Start,
+    /// Where a test looks: takes tokens at an input or slot, and never holds anybody back.
+    Probe,
     /// A slot of the program that ends it with this code.
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
@@ -345,6 +347,8 @@ pub enum Value {
     Text(String),
     /// A list
     List(Vec<Value>),
+    /// `()`
+    Unit,
     /// A duration
     Duration(Duration),
     /// A constant of Rust, by path.
@@ -364,6 +368,13 @@ pub struct Number {
     pub dimension: Dimension,
 }
 
+impl NodeKind {
+    /// Whether it is a place where a test looks.
+    pub fn is_probe(&self) -> bool {
+        matches!(self, Self::Probe)
+    }
+}
+
 impl Modifiers {
     /// Whether a source with these fires by a timer.
     pub fn has_pace(&self) -> bool {
@@ -380,6 +391,11 @@ impl Node {
     /// Whether it can be disabled.
     pub fn can_be_disabled(&self) -> bool {
         self.standard(Standard::Disable).is_some()
+    }
+
+    /// Whether it holds tokens back for some iterations.
+    pub fn is_delay(&self) -> bool {
+        matches!(self.kind, NodeKind::Delay(_))
     }
 
     /// Whether its failures are contained: somebody wants to know of them, or it is to be made anew.
@@ -406,6 +422,11 @@ impl Port {
             standard: None,
             docs: String::new(),
         }
+    }
+
+    /// Whether it is the event that activity came, or went.
+    pub fn tells_of_activity(&self) -> bool {
+        matches!(self.standard, Some(Standard::Activated | Standard::Deactivated))
     }
 }
 

@@ -69,7 +69,8 @@ fn graph(number: usize, signature: &Signature, catalog: &Catalog) -> String {
         let _ = match port.kind {
             PortKind::Input => writeln!(text, "    in {id}: {ty};\n    {id} -> it.{name};"),
             PortKind::Output => writeln!(text, "    out {id}: {ty};\n    it.{name} -> {id};"),
-            PortKind::Slot | PortKind::Event => Ok(()),
+            PortKind::Slot => writeln!(text, "    slot {id}: {ty};\n    {id} -> it.{name};"),
+            PortKind::Event => writeln!(text, "    event {id}: {ty};\n    it.{name} -> {id};"),
         };
     }
     text.push_str("}\n");

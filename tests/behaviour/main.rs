@@ -1,10 +1,14 @@
 //! What graphs do: texts are compiled into this program and run, and their firings and records are compared.
 //! Tests whose names begin with a case (`df_01`) check that case of the conformance list.
 
+mod active;
 mod activity;
+mod borders;
 mod dataflow;
 mod each;
 mod events;
+mod failures;
+mod figures;
 mod forms;
 mod handed;
 mod lifecycle;
@@ -18,4 +22,5 @@ mod random;
 mod rates;
 mod reported;
 mod scale;
+mod scripts;
 mod timing;

@@ -9,6 +9,7 @@ use apex_dsl::{
 use apex_host::{Disk, Seen, Workspace};
 use std::{fs, path::Path};
 
+mod language;
 #[allow(dead_code)]
 mod nodes;
 mod readme;
@@ -55,7 +56,9 @@ fn every_graph_in_the_documentation_is_right() {
 fn the_rust_in_the_documentation_is_compiled_here() {
     assert_eq!(blocks(&page("README.md"), "rust"), [include_str!("readme.rs")]);
     assert_eq!(blocks(&page("docs/nodes.md"), "rust"), [include_str!("nodes.rs")]);
+    assert_eq!(blocks(&page("docs/language.md"), "rust"), [include_str!("language.rs")]);
     readme::main();
+    language::main();
 }
 
 #[test]

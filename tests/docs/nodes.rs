@@ -24,3 +24,34 @@ impl Steady {
 pub fn larger<T: PartialOrd + Copy>(a: &T, b: &T) -> T {
     if a < b { *b } else { *a }
 }
+
+/// Counts down while it is active, one a firing, and says when it is done.
+#[node]
+pub struct Countdown {
+    /// Where it begins when it becomes active.
+    #[param(default = 3)]
+    from: u32,
+    left: u32,
+}
+
+#[node]
+impl Countdown {
+    fn process(&mut self, ctx: &Ctx, done: Event<Time>) {
+        if !ctx.active() || self.left == 0 {
+            return;
+        }
+        self.left -= 1;
+        if self.left == 0 {
+            done.emit(ctx.now());
+        }
+    }
+    /// Goes on with another number.
+    #[slot]
+    fn set(&mut self, left: &u32) {
+        self.left = *left;
+    }
+    #[on_activate]
+    fn begin(&mut self) {
+        self.left = self.from;
+    }
+}

@@ -9,7 +9,9 @@ mod random;
 pub mod nodes {
     //! Nodes for the texts of the tests.
     mod active;
+    mod control;
     mod events;
+    mod figures;
     mod generic;
     mod lists;
     mod ops;
@@ -20,7 +22,9 @@ pub mod nodes {
     mod tapes;
 
     pub use active::*;
+    pub use control::*;
     pub use events::*;
+    pub use figures::*;
     pub use generic::*;
     pub use lists::*;
     pub use ops::*;

@@ -5,6 +5,7 @@ use super::{
     activity::{Carries, Whole, carries},
     dispatch::Bits,
     plan::is_buffer,
+    test::probe,
     types::ident,
 };
 use crate::{
@@ -19,16 +20,25 @@ impl Generator<'_> {
     /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
     /// are queued, those for inputs lie there. A slot sends on events only.
     pub fn emit(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, by_process: bool) -> TokenStream {
+        self.emit_from(whole, bits, node, &|end| by_process || whole.graph.port(end).kind == PortKind::Event)
+    }
+
+    /// The same for the events that activity came, or went.
+    fn tell(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
+        self.emit_from(whole, bits, node, &|end| whole.graph.port(end).tells_of_activity())
+    }
+
+    fn emit_from(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, wanted: &dyn Fn(End) -> bool) -> TokenStream {
         let from = |c: usize| whole.graph.connections[c].from;
-        let sends: Vec<usize> = whole.links.sends[node]
-            .iter()
-            .copied()
-            .filter(|c| by_process || whole.graph.port(from(*c)).kind == PortKind::Event)
-            .collect();
+        let sends: Vec<usize> = whole.links.sends[node].iter().copied().filter(|c| wanted(from(*c))).collect();
         let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
-            let sent = connections.iter().map(|c| self.sent(whole, bits, *c));
+            let sent: TokenStream = connections.iter().map(|c| self.sent(whole, bits, *c)).collect();
             let present = self.waits(whole.graph, from(connections[0]));
-            quote! { if #present { #(#sent)* } }
+            if sent.is_empty() {
+                quote!()
+            } else {
+                quote! { if #present { #sent } }
+            }
         });
         ports.collect()
     }
@@ -37,6 +47,8 @@ impl Generator<'_> {
         let occupied = bits.free(connection).map(|bit| quote! { state.dispatcher.clear(#bit); });
         match bits.token(connection) {
             Some(token) => quote! { state.dispatcher.raise(#token); #occupied },
+            // The token itself tells that it waits.
+            None if whole.analysis.asynchronous.single => quote!(),
             None => {
                 let slot = whole.analysis.asynchronous.slot(connection) as u16;
                 quote! { state.queue.push(#slot); #occupied }
@@ -45,12 +57,11 @@ impl Generator<'_> {
     }
 
     /// Whether a token lies in the program's state.
-    fn waits(&self, graph: &Graph, end: End) -> TokenStream {
+    pub fn waits(&self, graph: &Graph, end: End) -> TokenStream {
         let name = self.name(end);
-        if is_buffer(graph, self.catalog, end) {
-            quote!(state.#name.get().is_some())
-        } else {
-            quote!(state.#name.is_some())
+        match is_buffer(graph, self.catalog, end) {
+            true => quote!(state.#name.get().is_some()),
+            false => quote!(state.#name.is_some()),
         }
     }
 
@@ -118,6 +129,7 @@ impl Generator<'_> {
         };
         let check = if activity.is_empty() { quote!() } else { self.check_claims(whole) };
         let call = self.call_slot(whole, connection);
+        let call = if analysis.asynchronous.single { self.taken(graph, c.from, call) } else { call };
         let clear = self.clear_events(whole, node);
         let pass =
             self.pass_activity(whole, node, &|end| self.is_sent_event(whole, end).then(|| self.waits(graph, end)));
@@ -125,18 +137,32 @@ impl Generator<'_> {
         quote! { observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
     }
 
+    /// Where no queue says which tokens wait, a slot takes its token away.
+    fn taken(&self, graph: &Graph, from: End, call: TokenStream) -> TokenStream {
+        let name = self.name(from);
+        if is_buffer(graph, self.catalog, from) {
+            quote! { #call state.#name.clear(); }
+        } else {
+            quote! { let #name = state.#name.take(); #call }
+        }
+    }
+
     fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
         let graph = whole.graph;
         let c = &graph.connections[connection];
         let node = c.to.node;
         match (&graph.nodes[node].kind, graph.port(c.to).standard) {
-            (_, Some(Standard::Enable)) => self.set_enabled(node, true),
             (_, Some(Standard::Disable)) => self.set_enabled(node, false),
+            (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => self.set_enabled(node, true),
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
+            (NodeKind::Probe, _) => {
+                let (probe, token) = (probe(node), self.token(whole, c.from));
+                quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
+            }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
-                let (port, token) = (ident(&graph.nodes[node].name), self.token(graph, c.from));
+                let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, c.from));
                 let room = Bits::room_name(node);
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(::core::clone::Clone::clone(token)); }
@@ -153,9 +179,13 @@ impl Generator<'_> {
     }
 
     /// The token of a connection, where it lies: `Option<&T>`.
-    fn token(&self, graph: &Graph, from: End) -> TokenStream {
+    fn token(&self, whole: Whole<'_>, from: End) -> TokenStream {
         let name = self.name(from);
-        if is_buffer(graph, self.catalog, from) { quote!(state.#name.get()) } else { quote!(state.#name.as_ref()) }
+        match is_buffer(whole.graph, self.catalog, from) {
+            true => quote!(state.#name.get()),
+            false if whole.analysis.asynchronous.single => quote!(#name.as_ref()),
+            false => quote!(state.#name.as_ref()),
+        }
     }
 
     fn call_method(&self, whole: Whole<'_>, connection: usize, library: &Library) -> TokenStream {
@@ -180,7 +210,7 @@ impl Generator<'_> {
         let call = quote!(#place.#method(#(#args),*));
         let call = self.contained(graph, node, library, call, slot.fallible);
         let call = if takes {
-            let token = self.token(graph, c.from);
+            let token = self.token(whole, c.from);
             quote! { if let Some(token) = #token { #call; } }
         } else {
             quote! { #call; }
@@ -253,11 +283,13 @@ impl Generator<'_> {
             quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*])))
         };
         let emit = self.emit(whole, bits, node, false);
+        let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());
         quote! {
             if self.inputs.#port.is_full() #test {
                 let Self { state, inputs, .. } = self;
                 state.#name = inputs.#port.take();
                 #emit
+                #serve
                 quiet = false;
             }
         }
@@ -269,9 +301,8 @@ impl Generator<'_> {
         let mut code = quote!();
         for (node, n) in graph.nodes.iter().enumerate() {
             if n.starts_active && whole.analysis.active.contains(&node) {
-                let (clear, activate) = (self.clear_events(whole, node), self.activate(whole, node));
-                let emit = if clear.is_empty() { quote!() } else { self.emit(whole, bits, node, false) };
-                code.extend(quote! { #clear #activate #emit });
+                let (activate, tell) = (self.activate(whole, node), self.tell(whole, bits, node));
+                code.extend(quote! { #activate #tell });
             }
             if matches!(n.kind, NodeKind::Start) {
                 let end = End { node, port: 0 };
@@ -297,7 +328,15 @@ impl Generator<'_> {
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
     pub fn reset(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let deactivates = whole.analysis.active.iter().map(|node| self.deactivate(whole, *node));
+        // Those that `start` makes active again say both at once.
+        let deactivates = whole.analysis.active.iter().map(|&node| {
+            let ports = 0..whole.graph.nodes[node].ports.len();
+            let told = ports.map(|port| End { node, port }).filter(|end| whole.graph.port(*end).tells_of_activity());
+            let names = told.filter(|end| self.is_sent_event(whole, *end)).map(|end| self.name(end));
+            let deactivate = self.deactivate(whole, node);
+            let tell = (!whole.graph.nodes[node].starts_active).then(|| self.tell(whole, bits, node));
+            quote! { #(state.#names = None;)* #deactivate #tell }
+        });
         let modifiers = self.flags(whole).into_iter().filter(|(name, ..)| {
             let name = name.to_string();
             ["gains_", "loses_", "carries_"].iter().any(|prefix| name.starts_with(prefix))

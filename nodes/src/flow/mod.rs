@@ -1,13 +1,17 @@
-//! Where tokens go and when: branching, filtering, counting and buffering (thesis 3.6).
+//! Where tokens go and when: branching, filtering, counting and buffering (thesis 3.6); signals and activity (7.1).
 //!
 //! Nodes without memory are functions, the others are structs.
 
+mod activity;
 mod batch;
 mod buffer;
+mod event;
 mod pace;
 mod route;
 
+pub use activity::{ActivityGate, Deactivate, Wait};
 pub use batch::{Collect, Delay, MAX_BATCH};
 pub use buffer::{Hold, Latch, Latest};
+pub use event::{Counter, Relay, Signal, Toggle, emit, equals, tick};
 pub use pace::{Changed, Count, Edge, Throttle};
 pub use route::{Branches, gate, merge, select, switch};

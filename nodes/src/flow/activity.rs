@@ -1,0 +1,76 @@
+//! The few nodes that have to know of activity (thesis 7.1.2); all others just pass it on.
+
+use apex_rt::{Ctx, Event, node};
+use core::marker::PhantomData;
+
+/// Forwards a value while it is active, else ⊥. If an active connection leads on, that is exactly one value: with it
+/// the activity leaves (thesis fig. 8.1b).
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct ActivityGate<T> {
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T: Clone> ActivityGate<T> {
+    fn process(&mut self, ctx: &Ctx, value: &T) -> Option<T> {
+        ctx.active().then(|| value.clone())
+    }
+
+    /// Does nothing but take the activity that the token may carry.
+    #[slot]
+    fn activate(&mut self) {}
+}
+
+/// Passes every token on, and whoever gets it over `=>` is no longer active (thesis eq. 7.3 with the modifier −1).
+#[node]
+#[deactivates]
+#[derive(Debug, Clone, Default)]
+pub struct Deactivate<T> {
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T: Clone> Deactivate<T> {
+    /// Triggers the event with this token.
+    #[slot]
+    fn put(&mut self, value: &T, signal: Event<T>) {
+        signal.emit(value.clone());
+    }
+}
+
+/// Takes activity and keeps it: a state in which nothing is done. With `timeout 3s` it is a pause, and `timeout` leads on.
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Wait<T> {
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T> Wait<T> {
+    /// Does nothing but take the activity that the token may carry.
+    #[slot]
+    fn activate(&mut self, _value: &T) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Time;
+
+    #[test]
+    fn the_gate_is_open_while_it_is_active() {
+        let ctx = Ctx::new(Time::ZERO);
+        let mut node = ActivityGate::default();
+        node.activate();
+        assert_eq!(node.process(&ctx, &1), None, "that is for the graph to say");
+        assert_eq!(node.process(&ctx.of_node(true), &2), Some(2));
+    }
+
+    #[test]
+    fn deactivate_passes_tokens_on() {
+        let mut token = None;
+        Deactivate::default().put(&3, Event::into_slot(&mut token));
+        assert_eq!(token, Some(3));
+    }
+}

@@ -1,0 +1,152 @@
+//! Signals: from flow to events (emitters, thesis 3.6.3), and from events to events.
+
+use apex_rt::{Event, node};
+use core::marker::PhantomData;
+
+/// Triggers an event with every value that comes in: an emitter (thesis 3.6.3).
+#[node]
+pub fn emit<T: Clone>(value: &T, signal: Event<T>) {
+    signal.emit(value.clone());
+}
+
+/// Triggers `equal` or `unequal`, as its two inputs are (thesis fig. 8.1a, *streq*).
+#[node]
+pub fn equals<T: PartialEq>(a: &T, b: &T, equal: Event<()>, unequal: Event<()>) {
+    if a == b { equal.emit(()) } else { unequal.emit(()) }
+}
+
+/// Triggers its event in every firing: with `every` a clock, with `after` an alarm.
+#[node]
+pub fn tick(signal: Event<()>) {
+    signal.emit(());
+}
+
+/// Passes every token on. While its event is on its way, the slot takes no other (thesis fig. 7.4, *v_b*).
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Relay<T> {
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T: Clone> Relay<T> {
+    /// Triggers the event with this token.
+    #[slot]
+    fn put(&mut self, value: &T, signal: Event<T>) {
+        signal.emit(value.clone());
+    }
+}
+
+/// Passes on that there was a token, without its value.
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Signal<T> {
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T> Signal<T> {
+    /// Triggers the event.
+    #[slot]
+    fn put(&mut self, _value: &T, signal: Event<()>) {
+        signal.emit(());
+    }
+}
+
+/// Counts tokens, and says with each how many there were. Saturates.
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Counter<T> {
+    count: u64,
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T> Counter<T> {
+    /// One more.
+    #[slot]
+    fn put(&mut self, _value: &T, count: Event<u64>) {
+        self.count = self.count.saturating_add(1);
+        count.emit(self.count);
+    }
+
+    /// Starts again at zero.
+    #[slot]
+    fn reset(&mut self) {
+        self.count = 0;
+    }
+}
+
+/// Triggers `on` and `off` in turn, `on` first: for example to `enable` and `disable` a node with one button.
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Toggle {
+    is_on: bool,
+}
+
+#[node]
+impl Toggle {
+    /// Changes over.
+    #[slot]
+    fn flip(&mut self, on: Event<()>, off: Event<()>) {
+        self.is_on = !self.is_on;
+        if self.is_on { on.emit(()) } else { off.emit(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What `call` triggers its event with.
+    fn triggered<T>(call: impl FnOnce(Event<'_, T>)) -> Option<T> {
+        let mut token = None;
+        call(Event::into_slot(&mut token));
+        token
+    }
+
+    #[test]
+    fn emit_triggers_with_each_value() {
+        assert_eq!(triggered(|signal| emit(&"now", signal)), Some("now"));
+    }
+
+    #[test]
+    fn equals_triggers_one_of_two() {
+        let both = |a, b| {
+            let (mut equal, mut unequal) = (None, None);
+            equals(&a, &b, Event::into_slot(&mut equal), Event::into_slot(&mut unequal));
+            (equal.is_some(), unequal.is_some())
+        };
+        assert_eq!((both("start", "start"), both("start", "stop")), ((true, false), (false, true)));
+    }
+
+    #[test]
+    fn tick_always_triggers() {
+        assert_eq!(triggered(tick), Some(()));
+    }
+
+    #[test]
+    fn relay_keeps_the_value_and_signal_does_not() {
+        assert_eq!(triggered(|signal| Relay::default().put(&4, signal)), Some(4));
+        assert_eq!(triggered(|signal| Signal::default().put(&4, signal)), Some(()));
+    }
+
+    #[test]
+    fn counter_counts_until_it_is_reset() {
+        let mut node = Counter::default();
+        assert_eq!([(); 2].map(|()| triggered(|count| node.put(&'x', count))), [Some(1), Some(2)]);
+        node.reset();
+        assert_eq!(triggered(|count| node.put(&'x', count)), Some(1));
+    }
+
+    #[test]
+    fn toggle_alternates() {
+        let mut node = Toggle::default();
+        let turns = [(); 3].map(|()| {
+            let (mut on, mut off) = (None, None);
+            node.flip(Event::into_slot(&mut on), Event::into_slot(&mut off));
+            (on.is_some(), off.is_some())
+        });
+        assert_eq!(turns, [(true, false), (false, true), (true, false)]);
+    }
+}

@@ -1,0 +1,165 @@
+use apex_rt::{Failure, prelude::*};
+
+/// Triggers one of its events a firing, as its script says: 1 is `a`, 2 is `b`, 3 is `c`, all else is nothing.
+#[node]
+pub struct Buttons {
+    /// The script.
+    #[param]
+    script: &'static [i64],
+    at: usize,
+}
+
+#[node]
+impl Buttons {
+    fn process(&mut self, a: Event<()>, b: Event<()>, c: Event<()>) {
+        self.at += 1;
+        match self.script.get(self.at - 1) {
+            Some(1) => a.emit(()),
+            Some(2) => b.emit(()),
+            Some(3) => c.emit(()),
+            _ => {}
+        }
+    }
+}
+
+/// Records what is said of failures.
+#[node]
+#[derive(Default)]
+pub struct Notes {
+    /// What was said.
+    pub seen: Vec<String>,
+}
+
+#[node]
+impl Notes {
+    #[slot]
+    fn s(&mut self, failure: &Failure) {
+        self.seen.push(failure.to_string());
+    }
+}
+
+/// Counts its values, and panics at `at`.
+#[node]
+pub struct Shaky {
+    /// Where it panics.
+    #[param]
+    at: i64,
+    count: i64,
+}
+
+#[node]
+impl Shaky {
+    fn process(&mut self, x: &i64) -> i64 {
+        self.count += 1;
+        assert_ne!(*x, self.at, "not this one");
+        self.count
+    }
+    #[slot]
+    fn s(&mut self, token: &i64) {
+        self.count += 10;
+        assert_ne!(*token, self.at, "nor here");
+    }
+}
+
+/// Fails at odd tokens.
+#[node]
+#[derive(Default)]
+pub struct OddSlot {
+    /// What came and was even.
+    pub seen: Vec<i64>,
+}
+
+#[node]
+impl OddSlot {
+    #[slot]
+    fn s(&mut self, token: &i64) -> Result<(), String> {
+        if token % 2 != 0 {
+            return Err(format!("{token} is odd"));
+        }
+        self.seen.push(*token);
+        Ok(())
+    }
+}
+
+/// Records what came which way.
+#[node]
+#[derive(Default)]
+pub struct Both {
+    /// `p` for `process`, `s` for the slot.
+    pub seen: Vec<(char, i64)>,
+}
+
+#[node]
+impl Both {
+    fn process(&mut self, x: &i64) {
+        self.seen.push(('p', *x));
+    }
+    #[slot]
+    fn s(&mut self, token: &i64) {
+        self.seen.push(('s', *token));
+    }
+}
+
+/// Two events of one firing, with a number and its negative.
+#[node]
+#[derive(Default)]
+pub struct Twins {
+    last: i64,
+}
+
+#[node]
+impl Twins {
+    fn process(&mut self, a: Event<i64>, b: Event<i64>) {
+        self.last += 1;
+        a.emit(self.last);
+        b.emit(-self.last);
+    }
+}
+
+/// An event by `process` and by a slot.
+#[node]
+#[derive(Default)]
+pub struct Echo;
+
+#[node]
+impl Echo {
+    fn process(&mut self, x: &i64, e: Event<i64>) {
+        e.emit(*x);
+    }
+    #[slot]
+    fn s(&mut self, token: &i64, e: Event<i64>) {
+        e.emit(100 + token);
+    }
+}
+
+/// A slot that takes some time on the clock on the wall.
+#[node]
+#[derive(Default)]
+pub struct Slow {
+    /// What came.
+    pub seen: Vec<i64>,
+}
+
+#[node]
+impl Slow {
+    #[slot]
+    fn s(&mut self, token: &i64) {
+        std::thread::sleep(std::time::Duration::from_millis(4));
+        self.seen.push(*token);
+    }
+}
+
+/// Records when it fired.
+#[node]
+#[derive(Default)]
+pub struct Stamps {
+    /// The times.
+    pub seen: Vec<Time>,
+}
+
+#[node]
+impl Stamps {
+    fn process(&mut self, ctx: &Ctx) {
+        self.seen.push(ctx.now());
+    }
+}
