@@ -46,7 +46,7 @@ pub fn check(
     }
     // In a text with errors connections may be missing, so that claims would fail for no reason.
     if !diagnostics.has_errors() {
-        for Program { graph, analysis } in &mut programs {
+        for Program { graph, analysis, .. } in &mut programs {
             analysis.claims = claims::decide(graph, catalog, claims::MAX_STATES, diagnostics);
         }
     }

@@ -58,7 +58,8 @@ impl Decided {
     }
 }
 
-/// Decides the claims of `graph`, looking at no more than `bound` states, and reports those that fail or stay open.
+/// Decides the claims of `graph`, looking at no more than `bound` states, and reports those that fail or stay
+/// open; once for each place in the text, however often its graph is used.
 pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut Diagnostics) -> Decided {
     if graph.claims.is_empty() {
         return Decided::default();
@@ -70,12 +71,12 @@ pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut 
     for (number, (claim, run)) in graph.claims.iter().zip(&outcome.runs).enumerate() {
         decided.verdicts.push(match run {
             Some(run) => {
-                diagnostics.push(failure(graph, &model, claim, run));
+                diagnostics.push_once(failure(graph, &model, claim, run));
                 Verdict::Fails
             }
             None if outcome.complete || checks.is_certain(number, claim.of.len() as u32) => Verdict::Holds,
             None => {
-                diagnostics.push(open(graph, claim, outcome.states));
+                diagnostics.push_once(open(graph, claim, outcome.states));
                 Verdict::Undecided
             }
         });
