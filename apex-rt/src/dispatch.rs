@@ -39,6 +39,17 @@ impl<const W: usize> Bits<W> {
     }
 }
 
+/// A token from an event that a cluster needs besides others (static data).
+#[derive(Debug)]
+pub struct Missing<const W: usize> {
+    /// The bits of the cluster's other tokens.
+    pub others: Bits<W>,
+    /// The bit of the token.
+    pub token: usize,
+    /// The connection that it comes on.
+    pub connection: usize,
+}
+
 /// A cluster's place among the others (static data).
 ///
 /// Conditions: each timer and each graph-level input has a bit; each connection between clusters, and each
@@ -92,6 +103,12 @@ impl<const W: usize> Dispatcher<W> {
     #[inline(always)]
     pub fn holds(&self, bits: &Bits<W>) -> bool {
         self.holds.contains(bits)
+    }
+
+    /// Whether others of a cluster's tokens are there, and this one is not.
+    pub fn misses(&self, missing: &Missing<W>) -> bool {
+        let others = self.holds.0.iter().zip(&missing.others.0).any(|(a, b)| a & b != 0);
+        others && !self.holds.contains(&Bits::of(&[missing.token]))
     }
 
     /// If `cluster` is ready, takes its tokens and guards and returns `true`: it is to be fired now.

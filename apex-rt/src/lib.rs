@@ -37,7 +37,7 @@ pub use apex_macros::{Outputs, graph, node};
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
-pub use dispatch::{Bits, Cluster, Dispatcher};
+pub use dispatch::{Bits, Cluster, Dispatcher, Missing};
 pub use event::Event;
 pub use failure::{Failure, contain, contain_fallible};
 pub use info::{ConnectionInfo, Info, NodeInfo};

@@ -30,6 +30,11 @@ pub trait Observer {
         let _ = (nodes, counts);
     }
 
+    /// The program can do nothing more, and the end of connection `connection` waits for its event.
+    fn waits(&mut self, connection: usize) {
+        let _ = connection;
+    }
+
     /// Node `node` returned an error, or panicked where that is contained; its outputs carry ⊥.
     #[inline(always)]
     fn failed(&mut self, node: usize, error: &impl Display) {
@@ -66,6 +71,9 @@ impl<O: Observer> Observer for &mut O {
     fn claim_failed(&mut self, claim: usize) {
         (**self).claim_failed(claim);
     }
+    fn waits(&mut self, connection: usize) {
+        (**self).waits(connection);
+    }
     #[inline(always)]
     fn fired(&mut self, node: usize) {
         (**self).fired(node);
@@ -93,6 +101,11 @@ impl Observer for StdErr {
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.0.nodes[node].name;
         eprintln!("{}: `{name}` keeps its `{parameter}`: {value:?} is out of range", self.0.name);
+    }
+    fn waits(&mut self, connection: usize) {
+        let (info, c) = (self.0, &self.0.connections[connection]);
+        let (from, to) = (info.nodes[c.from].name, info.nodes[c.to].name);
+        eprintln!("{}: `{to}` waits for the event `{from}.{}`, which never came", info.name, c.output);
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let total: u32 = counts.iter().sum();

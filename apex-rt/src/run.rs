@@ -35,6 +35,12 @@ pub trait Program {
     /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next;
 
+    /// The connections (by index) whose events a node waits for although other tokens for it have come. Where nothing
+    /// else is to happen, that is a deadlock.
+    fn waiting(&self, found: impl FnMut(usize)) {
+        let _ = found;
+    }
+
     /// Whether node `node` is active (thesis eq. 7.1).
     fn is_active(&self, node: usize) -> bool {
         let _ = node;
@@ -66,7 +72,10 @@ pub fn drive<P: Program, C: Clock>(mut program: P, mut clock: C) -> u8 {
         let wake = match program.react_with(now, &mut observer) {
             Next::Now => now,
             Next::At(time) => time,
-            Next::Input => return 0,
+            Next::Input => {
+                program.waiting(|connection| observer.waits(connection));
+                return 0;
+            }
             Next::Exit(code) => return code,
         };
         if !clock.wait_until(wake) {

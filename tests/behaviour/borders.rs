@@ -71,6 +71,11 @@ fn ev_13_without_the_event_the_region_waits() {
     let log = react(&mut program, 10);
     assert_eq!(program.nodes().k.seen, [(0, 0)]);
     assert_eq!(log.count("s"), 2, "its second token still waits");
+    let mut missing = vec![];
+    program.waiting(|connection| missing.push(&HybridWithout::INFO.connections[connection]));
+    let names = |node: usize| HybridWithout::INFO.nodes[node].name;
+    let missing: Vec<_> = missing.iter().map(|c| (names(c.from), c.output, names(c.to))).collect();
+    assert_eq!(missing, [("m", "e", "k")]);
 }
 
 #[test]

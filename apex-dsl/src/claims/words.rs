@@ -28,7 +28,7 @@ pub fn run(graph: &Graph, model: &Model, moves: &[Move]) -> Vec<String> {
     }
     if notes.len() > MAX_STEPS {
         let left_out = notes.len() - MAX_STEPS;
-        notes.splice(MAX_STEPS / 2..notes.len() - MAX_STEPS / 2, [format!("… {left_out} more steps …")]);
+        notes.splice(MAX_STEPS / 2..notes.len() - MAX_STEPS / 2, [format!("and {left_out} more steps here")]);
     }
     // A note has a largest length.
     notes.extend(short.chunks(STEPS_IN_LINE).map(|steps| format!("run: {}", steps.join("; "))));

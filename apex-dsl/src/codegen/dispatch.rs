@@ -159,6 +159,35 @@ impl Bits {
         rows.collect()
     }
 
+    /// For each token from an event that a cluster needs: the other tokens that it needs.
+    fn missing(&self, analysis: &Analysis) -> Vec<TokenStream> {
+        let mut missing = vec![];
+        for &index in &self.dispatched {
+            let c = &analysis.clusters[index];
+            let events: Vec<usize> = c
+                .own_guards
+                .iter()
+                .filter_map(|g| if let Guard::Token(c) = analysis.guards[*g] { Some(c) } else { None })
+                .collect();
+            let edges: Vec<usize> = c.upstream.iter().map(|up| self.edges[&(*up, index)]).collect();
+            for &connection in &events {
+                let others = events.iter().filter(|c| **c != connection).map(|c| self.tokens[c]);
+                let others: Vec<usize> = others.chain(edges.iter().copied()).collect();
+                let token = self.tokens[&connection];
+                if !others.is_empty() {
+                    missing.push(quote! {
+                        ::apex_rt::Missing {
+                            others: ::apex_rt::Bits::of(&[#(#others),*]),
+                            token: #token,
+                            connection: #connection,
+                        }
+                    });
+                }
+            }
+        }
+        missing
+    }
+
     /// What must hold for each slot to be served: its node can trigger its events (R5).
     fn needs(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<Vec<usize>> {
         let needs = |connection: &usize| {
@@ -237,6 +266,11 @@ impl Generator<'_> {
         if words > 0 {
             let count = rows.len();
             code.extend(quote! { const CLUSTERS: [::apex_rt::Cluster<#words>; #count] = [#(#rows),*]; });
+        }
+        let missing = bits.missing(analysis);
+        if !missing.is_empty() {
+            let count = missing.len();
+            code.extend(quote! { const MISSING: [::apex_rt::Missing<#words>; #count] = [#(#missing),*]; });
         }
         for (node, bit) in &bits.room {
             let name = Bits::room_name(*node);
@@ -473,6 +507,20 @@ impl Generator<'_> {
                 let mut next = #next;
                 #wishes
                 next
+            }
+        }
+    }
+
+    /// What clusters wait for, to tell a deadlock.
+    pub fn waiting(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        if bits.missing(whole.analysis).is_empty() {
+            return quote!();
+        }
+        quote! {
+            fn waiting(&self, mut found: impl FnMut(usize)) {
+                for missing in &Self::MISSING {
+                    if self.state.dispatcher.misses(missing) { found(missing.connection); }
+                }
             }
         }
     }

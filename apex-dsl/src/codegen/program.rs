@@ -77,7 +77,7 @@ impl Generator<'_> {
         let react = self.react(whole, &bits);
         let clusters = self.clusters(whole, &bits);
         let (dispatcher, claims) = (self.dispatcher(whole, &bits), self.claim_function(whole));
-        let is_active = self.is_active(whole);
+        let (is_active, waiting) = (self.is_active(whole), self.waiting(whole, &bits));
         let info = self.info(graph, analysis);
         let links = self.links(graph);
         let parameters = self.parameters(graph, analysis);
@@ -139,6 +139,7 @@ impl Generator<'_> {
                 const INFO: ::apex_rt::Info = #info;
                 #react
                 #is_active
+                #waiting
             }
             #parameters
         }

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     analyse::{Analysis, Links, is_told},
     catalog::{ArgSig, Signature},
-    graph::{Connection, End, Graph, Library, NodeId, NodeKind},
+    graph::{End, Graph, Library, NodeId, NodeKind},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -66,24 +66,11 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
                 {
                     format!("parameters of `{}` cannot be connected in a region with several rates", n.name)
                 }
-                _ if is_asynchronous(graph, node) => {
-                    format!(
-                        "in a region with several rates a node has neither events nor activity; connections of `{}` have",
-                        n.name
-                    )
-                }
                 _ => continue,
             };
             diagnostics.push(Diagnostic::error("rates", n.span, message));
         }
     }
-}
-
-/// Whether a node sends asynchronously, takes part in the flow of activity, or uses a port that every node has.
-fn is_asynchronous(graph: &Graph, node: NodeId) -> bool {
-    let standard = graph.nodes[node].ports.iter().any(|p| p.standard.is_some());
-    let leaves = |c: &Connection| c.from.node == node && !graph.is_synchronous(c);
-    standard || graph.connections.iter().any(|c| leaves(c) || c.active && (c.from.node == node || c.to.node == node))
 }
 
 fn is_connected(graph: &Graph, node: NodeId, parameter: Option<usize>) -> bool {

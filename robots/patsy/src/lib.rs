@@ -4,6 +4,7 @@
 //! The scanner stands at the origin and looks along x; a cart moves before it.
 
 mod cart;
+mod drive;
 mod evaluate;
 mod motion;
 mod progress;
@@ -11,7 +12,17 @@ mod report;
 mod room;
 mod sim_laser;
 
+/// A container two metres ahead, for tests.
+pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Container {
+    pose: apex_nodes::scan::Pose2 { x: 2.0, y: 0.0, theta: 0.0 },
+    error: 0.0,
+    inliers: 8,
+    outliers: 0,
+    wheels: 4,
+};
+
 pub use cart::{Cart, LENGTH, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
+pub use drive::Drive;
 pub use evaluate::{Evaluate, Score, Statistics};
 pub use motion::Scenario;
 pub use progress::Progress;
@@ -21,4 +32,10 @@ pub use sim_laser::{SimLaser, Truth};
 /// The compiled robots of `patsy.afg`.
 pub mod programs {
     apex_rt::graph!("patsy.afg");
+}
+
+/// The mission on its own, with the tests of `mission.afg`.
+#[cfg(test)]
+mod mission {
+    apex_rt::graph!("mission.afg");
 }

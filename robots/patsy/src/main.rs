@@ -85,6 +85,7 @@ fn simulate() -> ExitCode {
         watch.advance(&mut clock, next);
     }
     println!("{}", robot.nodes().evaluate);
+    println!("{}", robot.nodes().drive);
     println!("seed 1; pictures: out/patsy/*.svg");
     watch.code()
 }

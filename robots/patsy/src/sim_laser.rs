@@ -16,7 +16,7 @@ pub struct Truth {
 /// A simulated laser scanner in rooms with and without a container cart: a source.
 ///
 /// Plays all scenarios one after the other, `runs` runs of each; every run has a room and a motion of its own.
-/// Triggers `done` when all is played, and sends ⊥ from then on.
+/// Triggers `command`, the operator's word to begin, with each run, and `done` when all is played; sends ⊥ from then on.
 #[node]
 #[derive(Debug)]
 pub struct SimLaser {
@@ -54,6 +54,7 @@ impl SimLaser {
         scan: &mut Out<Scan>,
         truth: &mut Out<Truth>,
         pose: &mut Out<Pose2>,
+        command: Event<()>,
         done: Event<()>,
     ) {
         if self.finished {
@@ -61,6 +62,9 @@ impl SimLaser {
         }
         if self.run.as_ref().is_none_or(|run| run.frame >= self.frames) {
             self.run = self.next_run();
+            if self.run.is_some() {
+                command.emit(());
+            }
         }
         let laser = self.laser();
         let Some(run) = &mut self.run else {
@@ -159,7 +163,7 @@ mod tests {
     fn fire(node: &mut SimLaser, ms: i64) -> Firing {
         let (mut scan, mut truth, mut pose, mut done) = (Out::new(), Out::new(), Out::new(), None);
         let ctx = Ctx::new(Time::from_millis(ms));
-        node.process(&ctx, &mut scan, &mut truth, &mut pose, Event::into_slot(&mut done));
+        node.process(&ctx, &mut scan, &mut truth, &mut pose, Event::unconnected(), Event::into_slot(&mut done));
         (scan.get().cloned(), truth.get().copied(), pose.get().copied(), done.is_some())
     }
 
