@@ -295,11 +295,45 @@ pub struct Modifiers {
 #[derive(Debug, Clone)]
 pub struct Claim {
     /// What is claimed.
-    pub kind: String,
-    /// Of which nodes or graphs.
-    pub of: Vec<String>,
+    pub kind: ClaimKind,
+    /// Of which nodes or nested graphs.
+    pub of: Vec<Subject>,
     /// Its place in the text.
     pub span: Span,
+}
+
+/// What a claim says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClaimKind {
+    /// No two of them are ever active at the same time.
+    Exclusive,
+    /// Whenever the first is active, there is a way on which activity can come to the second.
+    Reaches,
+    /// There is always as much activity in the program as `start` gave.
+    Conserved,
+}
+
+impl ClaimKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Exclusive, Self::Reaches, Self::Conserved];
+
+    /// The word for it in a text.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Exclusive => "exclusive",
+            Self::Reaches => "reaches",
+            Self::Conserved => "conserved",
+        }
+    }
+}
+
+/// What a claim is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Subject {
+    /// A node.
+    Node(NodeId),
+    /// A nested graph: active while a node inside is, or while activity is under way between two of them.
+    Scope(ScopeId),
 }
 
 /// A constant.
@@ -412,6 +446,34 @@ impl Graph {
         }
         names.reverse();
         names.join(".")
+    }
+
+    /// The names of a nested graph and of those around it, with dots.
+    pub fn scope_path(&self, mut scope: ScopeId) -> String {
+        let mut names = vec![];
+        while scope != 0 {
+            names.push(self.scopes[scope].name.as_str());
+            scope = self.scopes[scope].parent;
+        }
+        names.reverse();
+        names.join(".")
+    }
+
+    /// The full name of what a claim is about.
+    pub fn subject_name(&self, subject: Subject) -> String {
+        match subject {
+            Subject::Node(node) => self.path(node),
+            Subject::Scope(scope) => self.scope_path(scope),
+        }
+    }
+
+    /// A claim as a person would write it.
+    pub fn claim_text(&self, claim: &Claim) -> String {
+        let names: Vec<String> = claim.of.iter().map(|s| self.subject_name(*s)).collect();
+        match names.as_slice() {
+            [] => claim.kind.word().to_owned(),
+            names => format!("{}({})", claim.kind.word(), names.join(", ")),
+        }
     }
 
     /// `node.port` as a person would write it.

@@ -3,7 +3,7 @@
 use crate::{
     analyse::{self, Analysis},
     catalog::Catalog,
-    check, codegen,
+    check, claims, codegen,
     graph::Graph,
     report::Diagnostics,
     resolve,
@@ -42,6 +42,12 @@ pub fn check(
             if !graph.is_open {
                 programs.push(Program { graph, analysis, script });
             }
+        }
+    }
+    // In a text with errors connections may be missing, so that claims would fail for no reason.
+    if !diagnostics.has_errors() {
+        for Program { graph, analysis, .. } in &mut programs {
+            analysis.claims = claims::decide(graph, catalog, claims::MAX_STATES, diagnostics);
         }
     }
     programs

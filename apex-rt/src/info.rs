@@ -9,6 +9,8 @@ pub struct Info {
     pub connections: &'static [ConnectionInfo],
     /// The nodes of each cluster in the order in which they fire.
     pub clusters: &'static [&'static [usize]],
+    /// All claims, as they stand in the text with full names: `exclusive(fast, slow)`.
+    pub claims: &'static [&'static str],
 }
 
 /// A node of a compiled graph.

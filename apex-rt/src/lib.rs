@@ -18,6 +18,7 @@ mod mailbox;
 mod node;
 mod observer;
 mod out;
+mod parallel;
 pub mod params;
 mod queue;
 mod run;
@@ -47,6 +48,7 @@ pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::StdErr;
 pub use out::Out;
+pub use parallel::par_map;
 pub use params::Parameters;
 pub use queue::{Queue, Steps};
 pub use run::{Next, Program, drive, run};

@@ -46,6 +46,12 @@ pub trait Observer {
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let _ = (node, parameter, value);
     }
+
+    /// Claim `claim` (by its index in [`Info::claims`](crate::Info::claims)) was broken. It is reported again only
+    /// after it held in between. Claims that the compiler decided are not looked at.
+    fn claim_failed(&mut self, claim: usize) {
+        let _ = claim;
+    }
 }
 
 impl Observer for () {}
@@ -61,6 +67,9 @@ impl<O: Observer> Observer for &mut O {
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         (**self).endless(nodes, counts);
+    }
+    fn claim_failed(&mut self, claim: usize) {
+        (**self).claim_failed(claim);
     }
     fn waits(&mut self, connection: usize) {
         (**self).waits(connection);
@@ -79,7 +88,7 @@ impl<O: Observer> Observer for &mut O {
     }
 }
 
-/// Writes failures, refused parameter values and endless loops to standard error, with the names of the nodes.
+/// Writes failures, refused parameter values, endless loops and broken claims to standard error, with the names of the nodes.
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct StdErr(pub &'static crate::Info);
@@ -104,5 +113,8 @@ impl Observer for StdErr {
         for (node, count) in nodes.iter().zip(counts).filter(|(_, count)| **count > 0) {
             eprintln!("{count:>8}  `{}`", self.0.nodes[*node].name);
         }
+    }
+    fn claim_failed(&mut self, claim: usize) {
+        eprintln!("{}: the claim `{}` does not hold", self.0.name, self.0.claims[claim]);
     }
 }

@@ -65,3 +65,54 @@ fn a_source_in_the_body_fires_for_each_element() {
     react(&mut program, 2);
     assert_eq!(program.nodes().k.seen, [vec![42, 44], vec![56]]);
 }
+
+/// Runs `check` on so many threads.
+fn on_threads(count: usize, check: impl FnOnce() + Send) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads can be started");
+    pool.install(check);
+}
+
+#[test]
+fn in_parallel_is_as_one_after_the_other() {
+    for threads in [1, 2, 7] {
+        on_threads(threads, || {
+            let mut program = Parallel::new();
+            react(&mut program, 6);
+            assert_eq!(program.nodes().alls.seen, [vec![], vec![212], vec![306, 312, 318], vec![], vec![506, 506]]);
+            assert_eq!(program.nodes().alls.seen, program.nodes().ones.seen);
+            assert_eq!(program.nodes().all_rows.seen[2][5], [0, 30]);
+            assert_eq!(program.nodes().all_rows.seen, program.nodes().one_rows.seen);
+        });
+    }
+}
+
+#[test]
+fn long_lists_keep_their_order() {
+    for threads in [1, 2, 7] {
+        on_threads(threads, || {
+            let mut program = ParallelLong::new();
+            react(&mut program, 3);
+            assert_eq!(program.nodes().alls.seen.last().map(Vec::len), Some(1000));
+            assert_eq!(program.nodes().alls.seen, program.nodes().ones.seen);
+            let evens = program.nodes().evens.seen.last().expect("three lists came");
+            assert!(evens.iter().all(|x| x % 2 == 0) && evens.is_sorted());
+        });
+    }
+}
+
+#[test]
+fn parameters_reach_all_threads() {
+    let mut program = ParallelLong::new();
+    react(&mut program, 2);
+    program.set_param("all.k", 70i64).expect("it is a parameter");
+    react(&mut program, 1);
+    let (ones, alls) = (&program.nodes().ones.seen[2], &program.nodes().alls.seen[2]);
+    assert!(ones.iter().zip(alls).all(|(one, all)| one * 10 == *all));
+}
+
+#[test]
+fn each_par_in_each_par() {
+    let mut program = ParallelNested::new();
+    react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [vec![2, 6], vec![6]]);
+}

@@ -4,6 +4,7 @@
 mod active;
 mod activity;
 mod borders;
+mod claims;
 mod dataflow;
 mod each;
 mod events;

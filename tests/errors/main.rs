@@ -1,6 +1,7 @@
 //! What the compiler says about wrong texts. The expectations stand in `texts/*.afg` under the code they are about
 //! (see `expect.rs`); `APEX_UPDATE_EXPECTATIONS=1` writes them anew.
 
+mod claims;
 mod compile;
 mod expect;
 #[allow(dead_code, reason = "the compiler reads them; nothing runs them")]

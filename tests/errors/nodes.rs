@@ -193,3 +193,60 @@ impl Pass {
         sent.emit(*value);
     }
 }
+
+/// Passes what comes to its slot on over one of two events.
+#[node]
+#[derive(Default)]
+pub struct Turn;
+
+#[node]
+impl Turn {
+    #[slot]
+    fn s(&mut self, x: &u64, l: Event<u64>, r: Event<u64>) {
+        if *x > 1 { l.emit(*x) } else { r.emit(*x) }
+    }
+}
+
+/// Takes activity away.
+#[node]
+#[deactivates]
+#[derive(Default)]
+pub struct Calm;
+
+#[node]
+impl Calm {
+    #[slot]
+    fn s(&mut self, x: &u64, e: Event<u64>) {
+        e.emit(*x);
+    }
+}
+
+/// Has nothing but a parameter.
+#[node]
+pub struct Gain {
+    #[param(default = 2)]
+    k: u64,
+}
+
+#[node]
+impl Gain {
+    fn process(&mut self, x: &u64) -> u64 {
+        x * self.k
+    }
+}
+
+/// Counts what is missing.
+#[node]
+pub struct Patient {
+    #[param(default = 2)]
+    k: u64,
+}
+
+#[node]
+impl Patient {
+    fn process(&mut self, x: &u64) -> u64 {
+        x * self.k
+    }
+    #[no_message]
+    fn missing(&mut self) {}
+}

@@ -6,6 +6,7 @@ use std::fmt::{Debug, Display};
 pub struct Log {
     names: Vec<&'static str>,
     takers: Vec<usize>,
+    claims: &'static [&'static str],
     /// The names of the nodes that fired, in order.
     pub fired: Vec<&'static str>,
     /// The names of the nodes whose slots were called, in order.
@@ -16,6 +17,8 @@ pub struct Log {
     pub endless: Vec<(&'static str, u32)>,
     /// Nodes that failed, with what they said.
     pub failed: Vec<(&'static str, String)>,
+    /// Claims that did not hold, in order.
+    pub broken: Vec<&'static str>,
     /// Nodes that refused a value: node, parameter, value.
     pub refused: Vec<(&'static str, &'static str, String)>,
 }
@@ -24,7 +27,12 @@ impl Log {
     /// An empty log for `P`.
     pub fn of<P: Program>(_: &P) -> Self {
         let names = P::INFO.nodes.iter().map(|n| n.name).collect();
-        Self { names, takers: P::INFO.connections.iter().map(|c| c.to).collect(), ..Self::default() }
+        Self {
+            names,
+            takers: P::INFO.connections.iter().map(|c| c.to).collect(),
+            claims: P::INFO.claims,
+            ..Self::default()
+        }
     }
 
     /// How often `node` fired.
@@ -51,6 +59,9 @@ impl Observer for Log {
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let took_part = nodes.iter().zip(counts).filter(|(_, count)| **count > 0);
         self.endless.extend(took_part.map(|(node, count)| (self.names[*node], *count)));
+    }
+    fn claim_failed(&mut self, claim: usize) {
+        self.broken.push(self.claims[claim]);
     }
     fn failed(&mut self, node: usize, error: &impl Display) {
         self.failed.push((self.names[node], error.to_string()));

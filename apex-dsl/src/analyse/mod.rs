@@ -11,6 +11,7 @@ mod schedule;
 
 use crate::{
     catalog::Catalog,
+    claims::Decided,
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
     report::Diagnostics,
     syntax::tree::PortKind,
@@ -49,6 +50,8 @@ pub struct Analysis {
     pub active: BTreeSet<NodeId>,
     /// The bodies of `each` nodes.
     pub bodies: BTreeMap<NodeId, Analysis>,
+    /// What is known about the claims.
+    pub claims: Decided,
 }
 
 /// How nodes hang together: who sends to whom, by node.
@@ -124,6 +127,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         asynchronous,
         active,
         bodies,
+        claims: Decided::default(),
     };
     for cluster in 0..analysis.clusters.len() {
         let block = schedule::schedule(graph, &links, &analysis, cluster);

@@ -2,14 +2,15 @@
 
 use crate::{
     analyse::active_nodes,
-    graph::{Graph, NodeId},
+    catalog::Catalog,
+    graph::{Graph, NodeId, NodeKind},
     report::{Diagnostic, Diagnostics},
 };
 use std::collections::BTreeSet;
 
 /// Reports nodes whose active connections can never carry activity, and nodes that hold it although it looks as if
 /// they were meant to pass it on.
-pub fn check_activity(graph: &Graph, diagnostics: &mut Diagnostics) {
+pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     if graph.is_body || graph.is_open {
         return;
     }
@@ -17,7 +18,10 @@ pub fn check_activity(graph: &Graph, diagnostics: &mut Diagnostics) {
     let mut named = BTreeSet::new();
     for c in graph.connections.iter().filter(|c| c.active) {
         let node = c.from.node;
-        if !graph.can_hold_activity(node) || reached.contains(&node) || !named.insert(node) {
+        // A node that takes activity away does so without any of its own.
+        let takes_away =
+            matches!(&graph.nodes[node].kind, NodeKind::Library(l) if catalog.signatures[l.signature].deactivates);
+        if takes_away || !graph.can_hold_activity(node) || reached.contains(&node) || !named.insert(node) {
             continue;
         }
         let message = format!("`{}` is never activated: this `=>` never carries activity", graph.path(node));

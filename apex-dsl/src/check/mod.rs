@@ -5,6 +5,7 @@ mod asynchronous;
 mod inputs;
 mod lists;
 mod modifiers;
+mod parallel;
 mod types;
 
 use crate::{
@@ -23,7 +24,8 @@ pub fn check(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
     types::check_types(graph, catalog, diagnostics);
     modifiers::check_modifiers(graph, catalog, diagnostics);
     asynchronous::check_asynchronous(graph, catalog, diagnostics);
-    activity::check_activity(graph, diagnostics);
+    activity::check_activity(graph, catalog, diagnostics);
+    parallel::check_parallel(graph, catalog, diagnostics);
     for node in &mut graph.nodes {
         if let NodeKind::Each(each) = &mut node.kind {
             check(&mut each.body, catalog, diagnostics);

@@ -24,7 +24,7 @@ pub enum Carries {
     Nothing,
     /// It activates: it is from `start`.
     Always,
-    /// It activates if its sender was active.
+    /// It activates if its sender was active: there is a flag for it.
     Sometimes,
     /// It takes activity away.
     Away,
@@ -34,10 +34,14 @@ impl Generator<'_> {
     /// What the tokens on `connection` may carry.
     pub fn carries(&self, whole: Whole<'_>, connection: usize) -> Carries {
         let c = &whole.graph.connections[connection];
-        if !c.active || !whole.analysis.active.contains(&c.to.node) {
+        let checked = self.checks_claims(whole);
+        // Claims have to know of activity on its way to the end of the program.
+        let ends = checked && matches!(whole.graph.nodes[c.to.node].kind, NodeKind::Exit(_));
+        if !c.active || !(ends || whole.analysis.active.contains(&c.to.node)) {
             return Carries::Nothing;
         }
         match &whole.graph.nodes[c.from.node].kind {
+            NodeKind::Start if checked => Carries::Sometimes,
             NodeKind::Start => Carries::Always,
             NodeKind::Library(library) if self.catalog.signatures[library.signature].deactivates => Carries::Away,
             _ if whole.analysis.active.contains(&c.from.node) => Carries::Sometimes,
@@ -150,7 +154,9 @@ impl Generator<'_> {
         let gains = self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
         let loses = self.inputs_carry(whole, node, &[Carries::Away]);
         let (gains_flag, loses_flag) = (self.flag(Flag::Gains, node), self.flag(Flag::Loses, node));
+        let check = self.check_claims(whole);
         let (activate, deactivate) = (self.activate(whole, node), self.deactivate(whole, node));
+        let (activate, deactivate) = (quote!(#activate #check), quote!(#deactivate #check));
         match (gains, loses) {
             (false, false) => quote!(),
             (true, false) => quote! { if ::core::mem::take(&mut state.#gains_flag) { #activate } },
@@ -203,7 +209,8 @@ impl Generator<'_> {
             let deactivates = matches!(&whole.graph.nodes[node].kind, NodeKind::Library(l) if self.catalog.signatures[l.signature].deactivates);
             if whole.analysis.active.contains(&node) && !deactivates {
                 let (active, deactivate) = (self.flag(Flag::Active, node), self.deactivate(whole, node));
-                code.extend(quote! { if state.#active && #present { #deactivate #carry } });
+                let check = self.check_claims(whole);
+                code.extend(quote! { if state.#active && #present { #deactivate #carry #check } });
             }
         }
         code

@@ -3,6 +3,7 @@
 use super::{
     activity::Whole,
     fire::Emitter,
+    parallel::Local,
     plan::{BlockId, Storage},
 };
 use crate::{
@@ -48,6 +49,29 @@ impl Emitter<'_> {
             })
             .collect();
         let iteration = match results.as_slice() {
+            several if each.parallel => {
+                let Local { items, make } = generator.local(body, analysis);
+                let begins =
+                    several.iter().map(|(name, ..)| quote! { ::apex_rt::List::clear(state.#name.begin().get_mut()); });
+                let values = several
+                    .iter()
+                    .map(|(_, value, optional)| if *optional { quote!(#value) } else { quote!(Some(#value)) });
+                let names: Vec<syn::Ident> = (0..several.len()).map(|i| format_ident!("result_{i}")).collect();
+                let appends = several.iter().zip(&names).map(|((name, ..), result)| {
+                    quote! { ::apex_rt::List::append(state.#name.get_mut(), #result.into_iter()); }
+                });
+                // What happens on other threads cannot be watched.
+                quote! {
+                    #items
+                    #(#begins)*
+                    let results = ::apex_rt::par_map(::apex_rt::List::items(#list), || #make, |(state, nodes), #item| {
+                        let observer = &mut ();
+                        #code
+                        Some((#(#values,)*))
+                    });
+                    for (#(#names,)*) in results { #(#appends)* }
+                }
+            }
             [(name, value, optional)] => {
                 let adapter = if *optional { quote!(filter_map) } else { quote!(map) };
                 quote! {

@@ -1,10 +1,12 @@
 //! Graph + analysis → Rust. The text that comes out is meant to be read (`apex expand`).
 
 mod activity;
+mod claims;
 mod dispatch;
 mod each;
 mod fire;
 mod machine;
+mod parallel;
 mod params;
 mod plan;
 mod program;
@@ -110,7 +112,7 @@ impl Names {
     }
 }
 
-/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, and `token_` with the name of a
+/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, `claim_0` …, and `token_` with the name of a
 /// port.
 const OWN: [&str; 19] = [
     "state",
@@ -136,7 +138,9 @@ const OWN: [&str; 19] = [
 
 /// `name`, or something like it that is not used yet.
 fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
-    if OWN.contains(&name.as_str()) || ["param_", "token_", "carries_"].iter().any(|own| name.starts_with(own)) {
+    if OWN.contains(&name.as_str())
+        || ["param_", "token_", "carries_", "claim_"].iter().any(|own| name.starts_with(own))
+    {
         name.push('_');
     }
     while !used.insert(name.clone()) {

@@ -24,7 +24,7 @@ use std::{collections::BTreeMap, time::Duration};
 use syn::Ident;
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
-enum Field {
+pub enum Field {
     Node { ty: TokenStream, make: TokenStream },
     Nested(BTreeMap<String, Field>),
 }
@@ -76,7 +76,7 @@ impl Generator<'_> {
         };
         let react = self.react(whole, &bits);
         let clusters = self.clusters(whole, &bits);
-        let dispatcher = self.dispatcher(whole, &bits);
+        let (dispatcher, claims) = (self.dispatcher(whole, &bits), self.claim_function(whole));
         let (is_active, waiting) = (self.is_active(whole), self.waiting(whole, &bits));
         let info = self.info(graph, analysis);
         let links = self.links(graph);
@@ -131,6 +131,7 @@ impl Generator<'_> {
                 pub fn events(&mut self) -> &mut #events_name { &mut self.events }
                 #clusters
                 #dispatcher
+                #claims
             }
             #default
             #[allow(unused, clippy::all)]
@@ -227,7 +228,8 @@ impl Generator<'_> {
                 makes.extend(quote! { #name: ::apex_rt::Timer::new(#first, #period), });
             }
         }
-        for (name, ty, make) in self.flags(whole).into_iter().chain(self.dispatcher_state(whole, bits)) {
+        let flags = self.flags(whole).into_iter().chain(self.claim_state(whole));
+        for (name, ty, make) in flags.chain(self.dispatcher_state(whole, bits)) {
             fields.extend(quote! { #name: #ty, });
             makes.extend(quote! { #name: #make, });
         }
@@ -250,7 +252,8 @@ impl Generator<'_> {
         }
     }
 
-    fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
+    /// Tokens that are kept in the state of the program, or of a parallel body.
+    pub fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
         for (node, n) in graph.nodes.iter().enumerate() {
             for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
                 let end = End { node, port };
@@ -286,7 +289,9 @@ impl Generator<'_> {
                 fields.extend(quote! { #held: ::apex_rt::Delay<#ty, #count>, });
                 makes.extend(quote! { #held: ::apex_rt::Delay::new([#(Some(#values)),*]), });
             }
-            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
+            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node))
+                && !each.parallel
+            {
                 self.inside(graph, node).token_state(&each.body, body, fields, makes);
             }
         }
@@ -321,12 +326,13 @@ impl Generator<'_> {
         let name = &graph.name;
         let (mut nodes, mut connections) = (vec![], vec![]);
         self.rows(graph, analysis, "", &mut nodes, &mut connections);
+        let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
         let clusters = analysis.clusters.iter().map(|c| {
             let nodes = c.schedule().into_iter().map(Literal::usize_unsuffixed);
             quote!(&[#(#nodes),*])
         });
         quote! {
-            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*] }
+            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], claims: &[#(#claims),*] }
         }
     }
 
@@ -417,7 +423,8 @@ fn boundaries(graph: &Graph, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId>
     (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
 }
 
-fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
+/// Puts a field where its path leads.
+pub fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
     match path {
         [name] => {
             fields.insert(name.clone(), field);
@@ -433,7 +440,7 @@ fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Field) {
 }
 
 /// The struct of a level of nodes with all below it, and the expression that makes it.
-fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, TokenStream) {
+pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, TokenStream) {
     let struct_name = ident(name);
     let (mut items, mut declared, mut made) = (quote!(), quote!(), quote!());
     for (field, content) in fields {

@@ -120,18 +120,21 @@ impl Generator<'_> {
             Carries::Nothing => quote!(),
             Carries::Always => self.activate(whole, node),
             Carries::Away => self.deactivate(whole, node),
+            // The program ends: what it carries stays on its way.
+            Carries::Sometimes if matches!(graph.nodes[node].kind, NodeKind::Exit(_)) => quote!(),
             Carries::Sometimes => {
                 let (flag, activate) = (carries(slot), self.activate(whole, node));
                 quote! { if ::core::mem::take(&mut state.#flag) { #activate } }
             }
         };
+        let check = if activity.is_empty() { quote!() } else { self.check_claims(whole) };
         let call = self.call_slot(whole, connection);
         let call = if analysis.asynchronous.single { self.taken(graph, c.from, call) } else { call };
         let clear = self.clear_events(whole, node);
         let pass =
             self.pass_activity(whole, node, &|end| self.is_sent_event(whole, end).then(|| self.waits(graph, end)));
         let emit = self.emit(whole, bits, node, false);
-        quote! { observer.handled(#connection); #free #clear #activity #call #pass #emit #settle }
+        quote! { observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
     }
 
     /// Where no queue says which tokens wait, a slot takes its token away.
@@ -303,20 +306,19 @@ impl Generator<'_> {
                     continue;
                 }
                 let (name, emit) = (self.name(end), self.emit(whole, bits, node, false));
-                let gains = graph
-                    .connections
-                    .iter()
-                    .enumerate()
-                    .filter(|(i, c)| {
-                        c.from == end && graph.flow(c) != Flow::ToSlot && self.carries(whole, *i) == Carries::Always
-                    })
-                    .map(|(_, c)| {
-                        let flag = self.flag(Flag::Gains, c.to.node);
-                        quote! { state.#flag = true; }
-                    });
+                let sent = graph.connections.iter().enumerate().filter(|(_, c)| c.from == end);
+                let gains = sent.filter_map(|(i, c)| {
+                    let flag = match (graph.flow(c) == Flow::ToSlot, self.carries(whole, i)) {
+                        (true, Carries::Sometimes) => carries(whole.analysis.asynchronous.slot(i)),
+                        (false, Carries::Always | Carries::Sometimes) => self.flag(Flag::Gains, c.to.node),
+                        _ => return None,
+                    };
+                    Some(quote! { state.#flag = true; })
+                });
                 code.extend(quote! { state.#name = Some(()); #(#gains)* #emit });
             }
         }
+        code.extend(self.check_claims(whole));
         code
     }
 

@@ -89,11 +89,23 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Cata
     if kept.is_empty() {
         let _ = writeln!(text, "{pad}  none: all tokens are locals");
     }
+    claims(text, graph, analysis, &pad);
     for (node, body) in &analysis.bodies {
         if let NodeKind::Each(each) = &graph.nodes[*node].kind {
             let _ = writeln!(text, "{pad}each {} ({})", graph.path(*node), each.body.name);
             section(text, &each.body, body, catalog, indent + 1);
         }
+    }
+}
+
+/// Which claims hold, and how many states were looked at for that.
+fn claims(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
+    if analysis.claims.verdicts.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "{pad}claims ({} states of activity looked at)", analysis.claims.states);
+    for (claim, verdict) in graph.claims.iter().zip(&analysis.claims.verdicts) {
+        let _ = writeln!(text, "{pad}  {}: {}", graph.claim_text(claim), verdict.words());
     }
 }
 
@@ -228,7 +240,16 @@ fn object(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Value {
             _ => None,
         })
         .collect();
-    json!({ "name": graph.name, "nodes": nodes, "clusters": clusters, "memory": memory, "each": bodies })
+    let claims: Vec<Value> = graph
+        .claims
+        .iter()
+        .zip(&analysis.claims.verdicts)
+        .map(|(claim, verdict)| json!({ "claim": graph.claim_text(claim), "verdict": verdict.words() }))
+        .collect();
+    json!({
+        "name": graph.name, "nodes": nodes, "clusters": clusters, "memory": memory, "each": bodies,
+        "claims": claims, "claim_states": analysis.claims.states,
+    })
 }
 
 fn step_list(graph: &Graph, block: &Block) -> Value {

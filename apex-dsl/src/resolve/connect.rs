@@ -90,6 +90,16 @@ impl Table {
         Self { symbols: BTreeMap::new() }
     }
 
+    /// What a name stands for, and where it is declared.
+    pub fn get(&self, name: &str) -> Option<(&Symbol, Span)> {
+        self.symbols.get(name).map(|(symbol, span)| (symbol, *span))
+    }
+
+    /// All names.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.symbols.keys().map(String::as_str)
+    }
+
     /// Adds a name.
     pub fn insert(&mut self, name: &Ident, symbol: Symbol, diagnostics: &mut Diagnostics) {
         if let Some((_, first)) = self.symbols.get(&name.text) {
@@ -116,7 +126,7 @@ pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str
 }
 
 /// What a name means that every graph knows, unless a node has it.
-fn own_node(name: &str) -> Option<NodeKind> {
+pub fn own_node(name: &str) -> Option<NodeKind> {
     match name {
         "start" => Some(NodeKind::Start),
         "reset" => Some(NodeKind::Reset),

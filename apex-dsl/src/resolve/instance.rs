@@ -269,6 +269,7 @@ impl<'a> Builder<'a> {
     /// Opens a graph body: its nodes, then its connections.
     fn body(&mut self, body: &Body<'_>, mut table: Table) {
         self.open.push(body.id);
+        let first = (self.nodes.len(), self.scopes.len());
         for node in &body.item.nodes {
             let made = match &node.body {
                 _ if self.replaced.contains_key(&self.path(body.scope, &node.name.text)) => self.replace(body, node),
@@ -284,13 +285,8 @@ impl<'a> Builder<'a> {
         if !self.is_exhausted() {
             self.chains(body, &table);
         }
-        for claim in &body.item.claims {
-            let of = claim
-                .of
-                .iter()
-                .map(|r| r.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join("."))
-                .collect();
-            self.claims.push(Claim { kind: claim.kind.text.clone(), of, span: claim.kind.span });
+        if !self.is_exhausted() {
+            self.resolve_claims(body, &table, first);
         }
         self.open.pop();
     }

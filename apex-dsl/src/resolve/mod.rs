@@ -1,6 +1,7 @@
 //! Trees and signatures → one flat graph: names, imports, arguments, default ports, nested graphs.
 
 mod args;
+mod claims;
 mod connect;
 mod flatten;
 mod generics;
@@ -38,6 +39,8 @@ const UNCERTAIN: [&str; 9] = [
     "unknown-state",
     "never-entered",
 ];
+/// Most claims of one program.
+const MAX_CLAIMS: usize = 256;
 /// How deep graphs nest in each other.
 pub const MAX_NESTING: usize = 64;
 

@@ -76,14 +76,6 @@ impl Builder<'_> {
         (parallel, port, span): (bool, Option<&Ident>, Span),
         docs: &str,
     ) -> Option<Symbol> {
-        if parallel {
-            let message = "`each par` is not supported yet";
-            self.diagnostics.push(Diagnostic::error("not-yet", span, message).fix(
-                "run the elements one after the other",
-                span,
-                "each",
-            ));
-        }
         let mut ports: Vec<Port> = vec![];
         for node in &inner.nodes {
             let NodeKind::Boundary(kind) = node.kind else { continue };

@@ -344,10 +344,18 @@ impl<'a> Builder<'a> {
             Rule::port_stmt => graph.ports.extend(self.port(pair)),
             Rule::node_stmt => graph.nodes.extend(self.node(pair)),
             Rule::claim_stmt => {
-                let mut parts = pair.into_inner().skip(1);
-                if let Some(kind) = parts.next().map(|p| self.ident(&p)) {
-                    let of = parts.filter(|p| p.as_rule() == Rule::port_ref).map(|p| self.port_ref(p)).collect();
-                    graph.claims.push(Claim { kind, of });
+                let mut parts = pair.into_inner();
+                let word = parts.next().map(|p| self.span(&p));
+                if let (Some(word), Some(kind)) = (word, parts.next().map(|p| self.ident(&p))) {
+                    let (mut of, mut span) = (vec![], word.to(kind.span));
+                    for part in parts {
+                        match part.as_rule() {
+                            Rule::port_ref => of.push(self.port_ref(part)),
+                            Rule::rparen => span = span.to(self.span(&part)),
+                            _ => {}
+                        }
+                    }
+                    graph.claims.push(Claim { kind, of, span });
                 }
             }
             Rule::chain_stmt => {

@@ -406,6 +406,8 @@ pub struct Claim {
     pub kind: Ident,
     /// Of what.
     pub of: Vec<PortRef>,
+    /// All of it, without the `;`.
+    pub span: Span,
 }
 
 /// A type as written.

@@ -112,3 +112,26 @@ impl PairSink {
         self.seen.push(x.clone());
     }
 }
+
+/// `k` times a value: a struct without state, which writes in place.
+#[node]
+pub struct Times {
+    /// The factor.
+    #[param]
+    k: i64,
+}
+
+#[node]
+impl Times {
+    fn process(&mut self, x: &i64, y: &mut Out<i64>) {
+        y.set(x * self.k);
+    }
+}
+
+/// `[0·x, … (n−1)·x]`, written in place by a function.
+#[node]
+pub fn multiples(x: &i64, list: &mut Out<Vec<i64>>, #[param] n: i64) {
+    let list = list.get_mut();
+    list.clear();
+    list.extend((0..n).map(|j| j * x));
+}

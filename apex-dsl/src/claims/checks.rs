@@ -1,0 +1,123 @@
+//! What claims say about one state: each is a property that every state must have.
+
+use super::model::{Model, Place, PlaceId, State};
+use crate::graph::{ClaimKind, Graph, NodeId, ScopeId, Subject};
+use std::collections::BTreeMap;
+
+/// For `reaches`: places in the first that is named.
+pub const FROM: u32 = 0;
+/// For `reaches`: places from which there is a way to the second.
+pub const NEARER: u32 = 1;
+
+/// The claims of a graph, by place.
+#[derive(Debug)]
+pub struct Checks {
+    kinds: Vec<ClaimKind>,
+    /// For each place the claims that look at it: the claim, and for which of its names.
+    groups: Vec<Vec<(u32, u32)>>,
+}
+
+impl Checks {
+    /// The claims of `graph`.
+    pub fn new(graph: &Graph, model: &Model) -> Self {
+        let mut checks =
+            Self { kinds: graph.claims.iter().map(|c| c.kind).collect(), groups: vec![vec![]; model.places.len()] };
+        let mut nodes: BTreeMap<NodeId, Vec<(u32, u32)>> = BTreeMap::new();
+        let mut scopes: BTreeMap<ScopeId, Vec<(u32, u32)>> = BTreeMap::new();
+        for (claim, c) in (0..).zip(&graph.claims) {
+            for (group, subject) in (0..).zip(&c.of) {
+                match subject {
+                    Subject::Node(node) => nodes.entry(*node).or_default().push((claim, group)),
+                    Subject::Scope(scope) => scopes.entry(*scope).or_default().push((claim, group)),
+                }
+            }
+        }
+        for (place, groups) in model.places.iter().zip(&mut checks.groups) {
+            if let Place::Node(node) = place {
+                groups.extend(nodes.get(node).into_iter().flatten());
+            }
+            groups.extend(scopes_of(graph, *place).iter().filter_map(|s| scopes.get(s)).flatten());
+            groups.sort_unstable();
+        }
+        for claim in 0..checks.kinds.len() as u32 {
+            checks.add_reaching(model, claim);
+        }
+        checks
+    }
+
+    /// The second name of `reaches` stands for all places from which it can be reached.
+    fn add_reaching(&mut self, model: &Model, claim: u32) {
+        if self.kinds[claim as usize] != ClaimKind::Reaches {
+            return;
+        }
+        let goals = self.places(claim as usize, NEARER);
+        for (groups, nearer) in self.groups.iter_mut().zip(model.reaching(&goals)) {
+            if nearer && !groups.contains(&(claim, NEARER)) {
+                groups.push((claim, NEARER));
+            }
+        }
+    }
+
+    /// How many claims there are.
+    pub fn count(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// The places that count for one of the names of a claim.
+    pub fn places(&self, claim: usize, group: u32) -> Vec<PlaceId> {
+        let meant = (claim as u32, group);
+        let places = (0..).zip(&self.groups).filter(|(_, groups)| groups.contains(&meant));
+        places.map(|(place, _)| place).collect()
+    }
+
+    /// How much there is to look at in a state.
+    pub fn cost(&self, state: &State) -> usize {
+        state.iter().map(|place| 1 + self.groups[*place as usize].len()).sum::<usize>() + self.kinds.len()
+    }
+
+    /// The claims that do not hold in a state.
+    pub fn broken(&self, model: &Model, state: &State) -> Vec<usize> {
+        // For each claim the first name that is active, and whether that breaks it so far.
+        let mut found: Vec<(Option<u32>, bool)> = vec![(None, false); self.kinds.len()];
+        for (claim, group) in state.iter().flat_map(|place| &self.groups[*place as usize]) {
+            let (first, broken) = &mut found[*claim as usize];
+            match (self.kinds[*claim as usize], *first) {
+                (ClaimKind::Exclusive, Some(other)) if other != *group => *broken = true,
+                (ClaimKind::Reaches, _) if *group == NEARER => *first = Some(NEARER),
+                (ClaimKind::Reaches, _) => *broken = true,
+                (_, None) => *first = Some(*group),
+                _ => {}
+            }
+        }
+        let is_broken = |claim: &usize| match (self.kinds[*claim], found[*claim]) {
+            (ClaimKind::Conserved, _) => state.len() != model.given,
+            (ClaimKind::Reaches, (nearer, from)) => from && nearer.is_none(),
+            (ClaimKind::Exclusive, (_, both)) => both,
+        };
+        (0..self.kinds.len()).filter(is_broken).collect()
+    }
+
+    /// Whether a claim holds in every state there could be, so that nothing has to be searched.
+    pub fn is_certain(&self, claim: usize, names: u32) -> bool {
+        match self.kinds[claim] {
+            ClaimKind::Exclusive => (0..names).filter(|group| !self.places(claim, *group).is_empty()).count() < 2,
+            ClaimKind::Reaches => {
+                let nearer = (claim as u32, NEARER);
+                self.places(claim, FROM).iter().all(|place| self.groups[*place as usize].contains(&nearer))
+            }
+            ClaimKind::Conserved => false,
+        }
+    }
+}
+
+/// The nested graphs around a place. A connection is inside where both its ends are.
+pub fn scopes_of(graph: &Graph, place: Place) -> Vec<ScopeId> {
+    match place {
+        Place::Node(node) => graph.scopes_of(node),
+        Place::Connection(c) => {
+            let c = &graph.connections[c];
+            let from = graph.scopes_of(c.from.node);
+            graph.scopes_of(c.to.node).into_iter().filter(|s| from.contains(s)).collect()
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Claims about activity, decided before a program runs: a search through all states that activity can be in.
+
+mod checks;
+mod model;
+mod search;
+mod words;
+
+use crate::{
+    catalog::Catalog,
+    graph::{Claim, ClaimKind, Graph, Subject},
+    report::{Diagnostic, Diagnostics},
+};
+
+pub use checks::{Checks, FROM, NEARER, scopes_of};
+pub use model::{Arrival, Emission, Model, Move, Place, PlaceId, State};
+pub use search::{MAX_STATES, Outcome, search};
+
+/// What is known about a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It holds in every run.
+    Holds,
+    /// There is a run in which it does not hold.
+    Fails,
+    /// There are too many states: the program checks it while it runs.
+    Undecided,
+}
+
+impl Verdict {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "fails",
+            Self::Undecided => "undecided, checked while the program runs",
+        }
+    }
+}
+
+/// What is known about the claims of a graph.
+#[derive(Debug, Clone, Default)]
+pub struct Decided {
+    /// How many states were looked at.
+    pub states: usize,
+    /// For each claim, in the order of [`Graph::claims`].
+    pub verdicts: Vec<Verdict>,
+}
+
+impl Decided {
+    /// Whether the program has to check claims while it runs.
+    pub fn has_undecided(&self) -> bool {
+        self.verdicts.contains(&Verdict::Undecided)
+    }
+
+    /// The claims that the program has to check while it runs.
+    pub fn undecided(&self) -> Vec<usize> {
+        (0..self.verdicts.len()).filter(|c| self.verdicts[*c] == Verdict::Undecided).collect()
+    }
+}
+
+/// Decides the claims of `graph`, looking at no more than `bound` states, and reports those that fail or stay
+/// open; once for each place in the text, however often its graph is used.
+pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut Diagnostics) -> Decided {
+    if graph.claims.is_empty() {
+        return Decided::default();
+    }
+    let model = Model::new(graph, catalog);
+    let checks = Checks::new(graph, &model);
+    let outcome = search(&model, &checks, bound);
+    let mut decided = Decided { states: outcome.states, verdicts: vec![] };
+    for (number, (claim, run)) in graph.claims.iter().zip(&outcome.runs).enumerate() {
+        decided.verdicts.push(match run {
+            Some(run) => {
+                diagnostics.push_once(failure(graph, &model, claim, run));
+                Verdict::Fails
+            }
+            None if outcome.complete || checks.is_certain(number, claim.of.len() as u32) => Verdict::Holds,
+            None => {
+                diagnostics.push_once(open(graph, claim, outcome.states));
+                Verdict::Undecided
+            }
+        });
+    }
+    decided
+}
+
+fn failure(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Diagnostic {
+    let names: Vec<String> = claim.of.iter().map(|s| format!("`{}`", graph.subject_name(*s))).collect();
+    let (message, advice) = match claim.kind {
+        ClaimKind::Exclusive => (
+            format!("{} can be active at the same time", active_at_end(graph, model, claim, run).join(" and ")),
+            "let activity leave the one on every way on which it comes to the other",
+        ),
+        ClaimKind::Reaches => (
+            format!("{} can be active where no activity can come to {}", names[0], names[1]),
+            "connect what the run ends at with `=>`, so that activity can go on from there",
+        ),
+        ClaimKind::Conserved => {
+            let (left, given) = (end(model, run).len(), model.given);
+            let what = if left < given { "lost" } else { "multiplied" };
+            (
+                format!("activity can be {what}: `start` gave {given}, and here it is {left}"),
+                "activity is multiplied where one port has several `=>`, and lost where it comes to a node that is active, leaves the program or is taken away",
+            )
+        }
+    };
+    let mut error = Diagnostic::error("claim-fails", claim.span, message);
+    for (subject, name) in claim.of.iter().zip(&names) {
+        let span = match subject {
+            Subject::Node(node) => graph.nodes[*node].span,
+            Subject::Scope(scope) => graph.scopes[*scope].span,
+        };
+        error = error.also(span, format!("{name} is declared here"));
+    }
+    let error = words::run(graph, model, run).into_iter().fold(error, Diagnostic::note);
+    error.note(advice)
+}
+
+/// The state at the end of a run.
+fn end(model: &Model, run: &[Move]) -> State {
+    let mut state = model.initial.clone();
+    for by in run.iter().filter(|by| **by != Move::Start) {
+        let mut next = vec![];
+        model.moves(&state, &mut |found, to| {
+            if found == *by {
+                next = to;
+            }
+        });
+        state = next;
+    }
+    state
+}
+
+/// The names of a claim that are active at the end of a run.
+fn active_at_end(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Vec<String> {
+    let state = end(model, run);
+    let is_in = |subject: &&Subject| {
+        state.iter().map(|p| model.places[*p as usize]).any(|place| match **subject {
+            Subject::Node(node) => place == Place::Node(node),
+            Subject::Scope(scope) => scopes_of(graph, place).contains(&scope),
+        })
+    };
+    claim.of.iter().filter(is_in).map(|s| format!("`{}`", graph.subject_name(*s))).collect()
+}
+
+fn open(graph: &Graph, claim: &Claim, states: usize) -> Diagnostic {
+    let message = format!(
+        "whether `{}` holds is not decided: activity can be in more states than the {states} that were looked at",
+        graph.claim_text(claim)
+    );
+    Diagnostic::warning("claim-undecided", claim.span, message)
+        .note("the program checks it while it runs and reports a violation to `Observer::claim_failed`")
+        .note("fewer states: let less activity be under way at the same time, or claim it of a smaller graph")
+}

@@ -1,0 +1,78 @@
+//! Breadth-first search over the states of a [`Model`].
+
+use super::{
+    checks::Checks,
+    model::{Model, Move, State},
+};
+use std::{collections::BTreeSet, sync::Arc};
+
+/// Most states that are looked at.
+pub const MAX_STATES: usize = 100_000;
+/// Most places that are looked at, in all states and moves together.
+const MAX_WORK: usize = 40_000_000;
+
+/// What the search found.
+#[derive(Debug)]
+pub struct Outcome {
+    /// How many states it looked at.
+    pub states: usize,
+    /// Whether these are all.
+    pub complete: bool,
+    /// For each claim a shortest run to a state where it does not hold, if there is one.
+    pub runs: Vec<Option<Vec<Move>>>,
+}
+
+struct Visited {
+    state: Arc<State>,
+    before: usize,
+    by: Move,
+}
+
+/// Looks for states where claims do not hold, in at most `bound` states.
+pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
+    let initial = Arc::new(model.initial.clone());
+    let mut known = BTreeSet::from([initial.clone()]);
+    let mut visited = vec![Visited { state: initial, before: 0, by: Move::Start }];
+    let mut runs: Vec<Option<Vec<Move>>> = vec![None; checks.count()];
+    let (mut at, mut work, mut complete) = (0, 0, true);
+    while at < visited.len() {
+        let state = visited[at].state.clone();
+        for claim in checks.broken(model, &state) {
+            if runs[claim].is_none() {
+                runs[claim] = Some(run(&visited, at));
+            }
+        }
+        if work > MAX_WORK || runs.iter().all(Option::is_some) {
+            complete = false;
+            at += 1;
+            break;
+        }
+        work += checks.cost(&state);
+        model.moves(&state, &mut |by, next| {
+            work += 1 + next.len();
+            if known.contains(&next) {
+                return;
+            }
+            if visited.len() >= bound {
+                complete = false;
+                return;
+            }
+            let next = Arc::new(next);
+            known.insert(next.clone());
+            visited.push(Visited { state: next, before: at, by });
+        });
+        at += 1;
+    }
+    Outcome { states: at, complete, runs }
+}
+
+/// The moves that led to a state.
+fn run(visited: &[Visited], mut at: usize) -> Vec<Move> {
+    let mut moves = vec![visited[at].by];
+    while at != 0 {
+        at = visited[at].before;
+        moves.push(visited[at].by);
+    }
+    moves.reverse();
+    moves
+}

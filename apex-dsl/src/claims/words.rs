@@ -1,0 +1,103 @@
+//! A run of a [`Model`] in words, and in a form for programs.
+
+use super::model::{Arrival, Model, Move, Place, PlaceId, State};
+use crate::graph::{Connection, Graph};
+
+/// Most steps of a run that are written down.
+const MAX_STEPS: usize = 40;
+
+/// Steps in one line of the form for programs.
+const STEPS_IN_LINE: usize = 10;
+
+/// A sentence for each move, then all of them in lines of ten: `run: start; emit a.e; take a.e => b.s`.
+pub fn run(graph: &Graph, model: &Model, moves: &[Move]) -> Vec<String> {
+    let mut state = model.initial.clone();
+    let (mut notes, mut short) = (vec![], vec![]);
+    for (number, by) in (1..).zip(moves) {
+        let mut next = state.clone();
+        if *by != Move::Start {
+            model.moves(&state, &mut |found, to| {
+                if found == *by {
+                    next = to;
+                }
+            });
+        }
+        notes.push(format!("{number}. {}", sentence(graph, model, &state, *by)));
+        short.push(word(graph, model, *by));
+        state = next;
+    }
+    if notes.len() > MAX_STEPS {
+        let left_out = notes.len() - MAX_STEPS;
+        notes.splice(MAX_STEPS / 2..notes.len() - MAX_STEPS / 2, [format!("and {left_out} more steps here")]);
+    }
+    // A note has a largest length.
+    notes.extend(short.chunks(STEPS_IN_LINE).map(|steps| format!("run: {}", steps.join("; "))));
+    notes
+}
+
+fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
+    match by {
+        Move::Start => {
+            let given: Vec<String> = before.iter().map(|place| given(graph, model, *place)).collect();
+            if given.is_empty() {
+                "`start` gives no activity".to_owned()
+            } else {
+                format!("`start`: {}", given.join(", "))
+            }
+        }
+        Move::Emit(place, number) => {
+            let over: Vec<String> = model.emissions[place as usize][number]
+                .to
+                .iter()
+                .map(|to| format!("`{}`", connection(graph, model, *to)))
+                .collect();
+            format!("`{}` gives its activity away over {}", name(graph, model, place), over.join(" and "))
+        }
+        Move::Take(place) => match model.arrivals[place as usize] {
+            Some(Arrival::Node(node)) if before.binary_search(&node).is_ok() => {
+                format!("`{}` takes it and is active already: two become one", name(graph, model, node))
+            }
+            Some(Arrival::Node(node)) => format!("`{}` takes it and becomes active", name(graph, model, node)),
+            Some(Arrival::Restarts) => "`reset`: everything is as after `start`".to_owned(),
+            _ => format!("it leaves the program over `{}`", connection(graph, model, place)),
+        },
+        Move::Away(remover, place) => {
+            let c = &graph.connections[remover];
+            format!("`{}` takes the activity of `{}` away", graph.path(c.from.node), name(graph, model, place))
+        }
+    }
+}
+
+fn given(graph: &Graph, model: &Model, place: PlaceId) -> String {
+    match model.places[place as usize] {
+        Place::Node(node) => format!("`{}` becomes active", graph.path(node)),
+        Place::Connection(c) => {
+            format!("activity is on its way to `{}`", graph.end_name(graph.connections[c].to))
+        }
+    }
+}
+
+fn word(graph: &Graph, model: &Model, by: Move) -> String {
+    match by {
+        Move::Start => "start".to_owned(),
+        Move::Emit(place, number) => format!("emit {}", graph.end_name(model.emissions[place as usize][number].from)),
+        Move::Take(place) => format!("take {}", connection(graph, model, place)),
+        Move::Away(remover, _) => format!("away {}", arrow(graph, &graph.connections[remover])),
+    }
+}
+
+/// The node at a place.
+fn name(graph: &Graph, model: &Model, place: PlaceId) -> String {
+    match model.places[place as usize] {
+        Place::Node(node) => graph.path(node),
+        Place::Connection(c) => arrow(graph, &graph.connections[c]),
+    }
+}
+
+fn connection(graph: &Graph, model: &Model, place: PlaceId) -> String {
+    name(graph, model, place)
+}
+
+fn arrow(graph: &Graph, c: &Connection) -> String {
+    format!("{} => {}", graph.end_name(c.from), graph.end_name(c.to))
+}

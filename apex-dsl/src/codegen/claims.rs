@@ -1,0 +1,107 @@
+//! Claims that could not be decided: the program looks at them whenever activity has moved. Where all are decided,
+//! nothing is generated.
+
+use super::{
+    Flag, Generator,
+    activity::{Carries, Whole, carries},
+};
+use crate::{
+    claims::{Checks, FROM, Model, NEARER, Place, PlaceId},
+    graph::{ClaimKind, Flow},
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::{BTreeMap, BTreeSet};
+use syn::Ident;
+
+impl Generator<'_> {
+    /// Whether the program has claims to look at.
+    pub fn checks_claims(&self, whole: Whole<'_>) -> bool {
+        whole.analysis.claims.has_undecided()
+    }
+
+    /// Activity has moved: the claims are looked at, if there are any.
+    pub fn check_claims(&self, whole: Whole<'_>) -> TokenStream {
+        if self.checks_claims(whole) {
+            quote! { Self::check_claims(state, observer); }
+        } else {
+            quote!()
+        }
+    }
+
+    /// For each claim that the program looks at, whether it is broken now.
+    pub fn claim_state(&self, whole: Whole<'_>) -> Vec<(Ident, TokenStream, TokenStream)> {
+        let undecided = whole.analysis.claims.undecided().into_iter();
+        undecided.map(|claim| (broken(claim), quote!(bool), quote!(false))).collect()
+    }
+
+    /// The function that looks at them.
+    pub fn claim_function(&self, whole: Whole<'_>) -> TokenStream {
+        if !self.checks_claims(whole) {
+            return quote!();
+        }
+        let model = Model::new(whole.graph, self.catalog);
+        let checks = Checks::new(whole.graph, &model);
+        let flags = self.place_flags(whole, &model);
+        let looks = whole.analysis.claims.undecided().into_iter().map(|claim| {
+            let names = |group| any(&flags, &checks.places(claim, group));
+            let is_broken = match whole.graph.claims[claim].kind {
+                ClaimKind::Exclusive => {
+                    let all = (0..whole.graph.claims[claim].of.len() as u32).map(names);
+                    quote!([#(#all),*].into_iter().filter(|active| *active).count() > 1)
+                }
+                ClaimKind::Reaches => {
+                    let (from, nearer) = (names(FROM), names(NEARER));
+                    quote!((#from) && !(#nearer))
+                }
+                ClaimKind::Conserved => {
+                    let (all, given) = (flags.keys(), model.given);
+                    quote!([#(state.#all),*].into_iter().filter(|active| *active).count() != #given)
+                }
+            };
+            let name = broken(claim);
+            quote! {
+                let broken = #is_broken;
+                if broken && !state.#name {
+                    observer.claim_failed(#claim);
+                }
+                state.#name = broken;
+            }
+        });
+        let state = format_ident!("{}State", whole.graph.name);
+        quote! {
+            fn check_claims<O: ::apex_rt::Observer>(state: &mut #state, observer: &mut O) { #(#looks)* }
+        }
+    }
+
+    /// The flags that say where activity is, with the places that each of them stands for.
+    fn place_flags(&self, whole: Whole<'_>, model: &Model) -> BTreeMap<Ident, BTreeSet<PlaceId>> {
+        let mut flags: BTreeMap<Ident, BTreeSet<PlaceId>> = BTreeMap::new();
+        for (place, what) in (0..).zip(&model.places) {
+            let flag = match *what {
+                Place::Node(node) => self.flag(Flag::Active, node),
+                Place::Connection(c) if self.carries(whole, c) != Carries::Sometimes => continue,
+                Place::Connection(c) => {
+                    let connection = &whole.graph.connections[c];
+                    match whole.graph.flow(connection) {
+                        Flow::ToSlot => carries(whole.analysis.asynchronous.slot(c)),
+                        Flow::Synchronous | Flow::ToInput => self.flag(Flag::Gains, connection.to.node),
+                    }
+                }
+            };
+            flags.entry(flag).or_default().insert(place);
+        }
+        flags
+    }
+}
+
+/// The flag that says that a claim is broken.
+fn broken(claim: usize) -> Ident {
+    format_ident!("claim_{claim}")
+}
+
+/// Whether there is activity in one of `places`. A flag that also stands for other places says nothing.
+fn any(flags: &BTreeMap<Ident, BTreeSet<PlaceId>>, places: &[PlaceId]) -> TokenStream {
+    let meant = flags.iter().filter(|(_, of)| of.iter().all(|place| places.contains(place))).map(|(flag, _)| flag);
+    quote!(false #(|| state.#meant)*)
+}

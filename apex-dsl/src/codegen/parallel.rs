@@ -1,0 +1,82 @@
+//! `each par`: what its body keeps during a firing is made anew for each thread, so that elements share nothing.
+
+use super::{
+    Generator,
+    program::{Field, insert, node_structs},
+};
+use crate::{
+    analyse::Analysis,
+    graph::{Graph, Library, NodeKind},
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::BTreeMap;
+
+/// What a thread needs to run the body of an `each par`.
+pub struct Local {
+    /// The types of it, and the parameters that it is made from.
+    pub items: TokenStream,
+    /// It: the buffers and the nodes.
+    pub make: TokenStream,
+}
+
+impl Generator<'_> {
+    /// What a thread needs to run `body`, for which this is the generator.
+    pub fn local(&self, body: &Graph, analysis: &Analysis) -> Local {
+        let (mut fields, mut makes) = (quote!(), quote!());
+        self.token_state(body, analysis, &mut fields, &mut makes);
+        let (mut nodes, mut params) = (BTreeMap::new(), vec![]);
+        self.local_nodes(body, analysis, &mut nodes, &mut params);
+        let (node_items, nodes_make) = node_structs("LocalNodes", &nodes);
+        Local {
+            items: quote! { struct LocalState { #fields } #node_items #(#params)* },
+            make: quote!((LocalState { #makes }, #nodes_make)),
+        }
+    }
+
+    /// Nodes with the parameters that they have at this moment.
+    fn local_nodes(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        fields: &mut BTreeMap<String, Field>,
+        params: &mut Vec<TokenStream>,
+    ) {
+        for (id, node) in graph.nodes.iter().enumerate() {
+            match &node.kind {
+                NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
+                    let place = self.node_place(graph, id);
+                    let first = params.len();
+                    for param in 0..library.params.len() {
+                        let name = format_ident!("param_of_{}", params.len());
+                        params.push(quote! {
+                            let #name = ::core::clone::Clone::clone(::apex_rt::ParamField::<#param>::field(&mut #place));
+                        });
+                    }
+                    let (ty, make) = self.local_node(graph, library, first..params.len());
+                    insert(fields, &self.node_path(graph, id), Field::Node { ty, make });
+                }
+                NodeKind::Each(each) => {
+                    if let Some(body) = analysis.bodies.get(&id) {
+                        self.inside(graph, id).local_nodes(&each.body, body, fields, params);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn local_node(
+        &self,
+        graph: &Graph,
+        library: &Library,
+        params: std::ops::Range<usize>,
+    ) -> (TokenStream, TokenStream) {
+        let ty = self.node_type(graph, library);
+        let params = params.map(|param| format_ident!("param_of_{param}"));
+        let make = quote! {
+            <#ty as ::apex_rt::Construct<_>>::construct((#(::core::clone::Clone::clone(&#params),)*))
+        };
+        (ty, make)
+    }
+}

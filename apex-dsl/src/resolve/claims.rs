@@ -1,0 +1,122 @@
+//! Claims: which nodes and nested graphs their names stand for.
+
+use super::{
+    MAX_CLAIMS,
+    connect::{Symbol, Table, own_node},
+    instance::{Body, Builder},
+    names::suggest,
+};
+use crate::{
+    graph::{Claim, ClaimKind, Subject},
+    report::Diagnostic,
+    syntax::tree::{self, PortRef},
+};
+use std::collections::BTreeMap;
+
+impl Builder<'_> {
+    /// Resolves the claims of a graph body. Its nodes and nested graphs have these numbers and higher ones.
+    pub fn resolve_claims(&mut self, body: &Body<'_>, table: &Table, (node, scope): (usize, usize)) {
+        if body.item.claims.is_empty() {
+            return;
+        }
+        let nodes = self.nodes.iter().enumerate().skip(node).filter(|(_, n)| n.scope == body.scope);
+        let mut subjects: BTreeMap<String, Subject> =
+            nodes.map(|(id, n)| (n.name.clone(), Subject::Node(id))).collect();
+        let scopes = self.scopes.iter().enumerate().skip(scope).filter(|(_, s)| s.parent == body.scope);
+        subjects.extend(scopes.map(|(id, s)| (s.name.clone(), Subject::Scope(id))));
+        for claim in &body.item.claims {
+            if self.is_exhausted() || self.look(claim.of.len(), claim.span).is_none() {
+                return;
+            }
+            let Some(made) = self.claim(claim, table, &subjects) else { continue };
+            if self.claims.len() == MAX_CLAIMS {
+                let message = format!("this program has more than {MAX_CLAIMS} claims");
+                self.diagnostics.push(
+                    Diagnostic::error("too-large", claim.span, message)
+                        .note("a claim of a nested graph counts as often as the graph is used"),
+                );
+                return;
+            }
+            self.claims.push(made);
+        }
+    }
+
+    fn claim(&mut self, claim: &tree::Claim, table: &Table, subjects: &BTreeMap<String, Subject>) -> Option<Claim> {
+        let Some(kind) = ClaimKind::ALL.into_iter().find(|k| k.word() == claim.kind.text) else {
+            let message = format!("there is no claim `{}`", claim.kind.text);
+            let error = Diagnostic::error("unknown-claim", claim.kind.span, message);
+            let error = suggest(error, &claim.kind, ClaimKind::ALL.into_iter().map(ClaimKind::word));
+            self.diagnostics.push(error.note("claims are `exclusive(a, b, …)`, `reaches(a, b)` and `conserved`"));
+            return None;
+        };
+        self.check_count(kind, claim)?;
+        let found: Vec<Option<Subject>> = claim.of.iter().map(|name| self.subject(name, table, subjects)).collect();
+        let of: Vec<Subject> = found.into_iter().collect::<Option<_>>()?;
+        let mut seen = BTreeMap::new();
+        for (subject, name) in of.iter().zip(&claim.of) {
+            if let Some(first) = seen.insert(*subject, name.span) {
+                let message = format!("`{}` is named twice: a claim is about different nodes", name.parts[0].text);
+                self.diagnostics.push(
+                    Diagnostic::error("wrong-claim", name.span, message)
+                        .also(first, "first named here")
+                        .note("leave one of the two out"),
+                );
+                return None;
+            }
+        }
+        Some(Claim { kind, of, span: claim.span })
+    }
+
+    fn check_count(&mut self, kind: ClaimKind, claim: &tree::Claim) -> Option<()> {
+        let (fits, wanted, form) = match (kind, claim.of.len()) {
+            (ClaimKind::Exclusive, n) => (n >= 2, "two names or more", "exclusive(a, b)"),
+            (ClaimKind::Reaches, n) => (n == 2, "two names", "reaches(a, b)"),
+            (ClaimKind::Conserved, n) => (n == 0, "no names: it is about the whole program", "conserved"),
+        };
+        if fits {
+            return Some(());
+        }
+        let message = match claim.of.len() {
+            0 => format!("`{}` takes {wanted}; here is none", kind.word()),
+            1 => format!("`{}` takes {wanted}; here is one", kind.word()),
+            n => format!("`{}` takes {wanted}; here are {n}", kind.word()),
+        };
+        self.diagnostics
+            .push(Diagnostic::error("wrong-claim", claim.span, message).note(format!("write it as `claim {form};`")));
+        None
+    }
+
+    fn subject(&mut self, name: &PortRef, table: &Table, subjects: &BTreeMap<String, Subject>) -> Option<Subject> {
+        let first = name.parts.first()?;
+        let text = &first.text;
+        let error = match (table.get(text), &name.parts[1..]) {
+            (Some((Symbol::Broken, _)), _) => return None,
+            (Some((Symbol::Ports(_), _)), []) => match subjects.get(text) {
+                Some(subject) => return Some(*subject),
+                None => return None,
+            },
+            (Some((Symbol::Ports(_), _)), [rest, ..]) => {
+                let message = format!("a claim names nodes of its own graph, not what is in them: `{}`", rest.text);
+                Diagnostic::error("wrong-claim", name.span, message).note(format!(
+                    "name `{text}`, which is active while anything in it is, or write the claim in its graph"
+                ))
+            }
+            (Some((Symbol::Own(_), declared)), _) => {
+                let message = format!("`{text}` is a port, which is never active: a claim names nodes");
+                Diagnostic::error("wrong-claim", name.span, message).also(declared, "declared here")
+            }
+            (None, _) if own_node(text).is_some() => {
+                let message = format!("`{text}` is a moment, not a node that can be active: a claim names nodes");
+                Diagnostic::error("wrong-claim", name.span, message)
+                    .note("name the node that activity comes from, or goes to")
+            }
+            (None, _) => {
+                let message = format!("there is no node `{text}` in this graph");
+                let error = Diagnostic::error("unknown-node", first.span, message);
+                suggest(error, first, table.names())
+            }
+        };
+        self.diagnostics.push(error);
+        None
+    }
+}
