@@ -30,8 +30,8 @@ pub struct Measurement {
     pub hand_ns: f64,
     /// Median of the ratios of the rounds.
     pub ratio: f64,
-    /// The largest ratio wanted.
-    pub goal: f64,
+    /// The largest ratio wanted, if any.
+    pub goal: Option<f64>,
     /// Whether the checksums agree.
     pub equal: bool,
     /// Allocations per tick of the compiled program, after warm-up.
@@ -41,7 +41,7 @@ pub struct Measurement {
 impl Measurement {
     /// Whether it is as fast as wanted and allocates nothing.
     pub fn meets_goal(&self) -> bool {
-        let fast = self.ratio <= self.goal || self.apex_ns - self.hand_ns < RESOLUTION_NS;
+        let fast = self.goal.is_none_or(|goal| self.ratio <= goal) || self.apex_ns - self.hand_ns < RESOLUTION_NS;
         fast && self.allocations == 0.0
     }
 }

@@ -13,6 +13,16 @@ fn checksums_are_equal() {
     }
 }
 
+/// The same that programs in other languages and frameworks compute.
+#[test]
+fn mixed1000_computes_what_everybody_computes() {
+    const CHECKSUM: u64 = 16_515_020_817_037_896_410;
+    let names = ["mixed1000", "mixed1000-clock"];
+    for case in CASES.iter().filter(|case| names.contains(&case.name)) {
+        assert_eq!(((case.apex)(100_000), (case.hand)(100_000)), (CHECKSUM, CHECKSUM), "{}", case.name);
+    }
+}
+
 #[test]
 fn checksums_depend_on_every_tick() {
     for case in CASES.iter().filter(|case| !case.name.starts_with("silent") && case.name != "image") {
