@@ -457,6 +457,12 @@ pub fn gate(x: &u64) -> Option<u64> {
     ((x >> 7) & 3 != 0).then_some(*x)
 }
 
+/// The same.
+#[node]
+pub fn pass(x: &u64) -> u64 {
+    *x
+}
+
 /// `op`, with an event of the same value.
 #[node]
 pub fn tell(x: &u64, #[param] k: u64, e: Event<u64>) -> u64 {
