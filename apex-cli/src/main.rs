@@ -5,6 +5,7 @@ mod expand;
 mod explain;
 mod project;
 mod run;
+mod test;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use std::{path::PathBuf, process::ExitCode};
@@ -46,6 +47,14 @@ enum Command {
         #[arg(long, value_enum, default_value_t)]
         format: Format,
     },
+    /// Run the tests of a text on simulated time.
+    #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
+    Test {
+        /// The text.
+        file: PathBuf,
+        /// Only the tests whose names contain this.
+        filter: Option<String>,
+    },
     /// Build and run a robot.
     #[command(
         after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock. Only that one takes --params and --save-params: a program of your\nown calls `apex_rt::params::load_file` and `save_file`."
@@ -83,6 +92,7 @@ fn main() -> ExitCode {
         Command::Check { files, format } => check::run(&files, format),
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, format } => explain::run(&file, format),
+        Command::Test { file, filter } => test::run(&file, filter.as_deref()),
         Command::Run { file, robot, params, save_params, args } => {
             run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)
         }

@@ -44,9 +44,7 @@ pub fn run(file: &Path, robot: Option<&str>, params: &Params, args: &[String]) -
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let folder = project::package_of(file).ok_or_else(|| {
-        format!("`{}` is in no cargo package, so that its nodes cannot be found; put it beside a Cargo.toml that depends on `apex-rt`", file.display())
-    })?;
+    let folder = package(file)?;
     let workspace = Workspace::load(&folder)?;
     let (package, binary) = workspace.binary();
     let mut command = cargo();
@@ -79,23 +77,33 @@ pub fn run(file: &Path, robot: Option<&str>, params: &Params, args: &[String]) -
     Ok(status.code().and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from))
 }
 
-fn cargo() -> Command {
+/// The package that a text belongs to.
+pub fn package(file: &Path) -> Result<PathBuf, String> {
+    project::package_of(file).ok_or_else(|| {
+        format!("`{}` is in no cargo package, so that its nodes cannot be found; put it beside a Cargo.toml that depends on `apex-rt`", file.display())
+    })
+}
+
+/// The cargo that started this, or the one that is found.
+pub fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// The program that is meant: the named one, the only robot, or the only graph.
 fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program, String> {
+    let programs: Vec<&Program> = programs.iter().filter(|p| p.script.is_none()).collect();
     let names = || programs.iter().map(|p| format!("`{}`", p.graph.name)).collect::<Vec<_>>().join(", ");
     if let Some(name) = name {
         return programs
             .iter()
+            .copied()
             .find(|p| p.graph.name == name)
             .ok_or_else(|| format!("there is no robot `{name}`; there are {}", names()));
     }
-    let robots: Vec<&Program> = programs.iter().filter(|p| p.graph.robot).collect();
-    match (robots.as_slice(), programs) {
+    let robots: Vec<&Program> = programs.iter().copied().filter(|p| p.graph.robot).collect();
+    match (robots.as_slice(), programs.as_slice()) {
         ([only], _) => Ok(*only),
-        ([], [only]) => Ok(only),
+        ([], [only]) => Ok(*only),
         _ => Err(format!("which one is to run? choose with `--robot`: {}", names())),
     }
 }
@@ -107,7 +115,23 @@ fn driver(file: &Path, program: &Program, workspace: &Workspace, params: bool) -
         return Err(format!("`{}` of `{}` is made in Rust: run it from a program of your own", node.name, graph.name));
     }
     let folder = workspace.cache_folder().join("run").join(&graph.name);
-    let file = fs::canonicalize(file).map_err(|e| format!("cannot find `{}`: {e}", file.display()))?;
+    let main = main_file(&absolute(file)?, &graph.name, params);
+    make_package(&folder, workspace, params, "src/main.rs", &main)
+}
+
+/// The whole path of a text, as a made package names it.
+pub fn absolute(file: &Path) -> Result<PathBuf, String> {
+    fs::canonicalize(file).map_err(|e| format!("cannot find `{}`: {e}", file.display()))
+}
+
+/// Makes a package in `folder` that depends on everything a text can name, with one file; returns its manifest.
+pub fn make_package(
+    folder: &Path,
+    workspace: &Workspace,
+    params: bool,
+    name: &str,
+    code: &str,
+) -> Result<PathBuf, String> {
     let dependencies: String = workspace
         .libraries()
         .iter()
@@ -119,7 +143,6 @@ fn driver(file: &Path, program: &Program, workspace: &Workspace, params: bool) -
     let manifest = format!(
         "[package]\nname = \"apex-run\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
     );
-    let main = main_file(&file, &graph.name, params);
     let write = |path: PathBuf, text: &str| {
         let same = fs::read_to_string(&path).is_ok_and(|old| old == text);
         let result = if same {
@@ -130,7 +153,7 @@ fn driver(file: &Path, program: &Program, workspace: &Workspace, params: bool) -
         result.map_err(|e| format!("cannot write `{}`: {e}", path.display()))
     };
     write(folder.join("Cargo.toml"), &manifest)?;
-    write(folder.join("src/main.rs"), &main)?;
+    write(folder.join(name), code)?;
     Ok(folder.join("Cargo.toml"))
 }
 

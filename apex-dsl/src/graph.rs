@@ -92,6 +92,8 @@ pub enum NodeKind {
     Relay,
     /// Where activity begins: an event that is triggered once, before anything else, and always carries activity.
     Start,
+    /// Where a test looks: takes tokens at an input or slot, and never holds anybody back.
+    Probe,
     /// A slot of the program that ends it with this code.
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
@@ -311,6 +313,8 @@ pub enum Value {
     Text(String),
     /// A list
     List(Vec<Value>),
+    /// `()`
+    Unit,
     /// A duration
     Duration(Duration),
     /// A constant of Rust, by path.
@@ -328,6 +332,13 @@ pub struct Number {
     pub integer: Option<i128>,
     /// What it measures.
     pub dimension: Dimension,
+}
+
+impl NodeKind {
+    /// Whether it is a place where a test looks.
+    pub fn is_probe(&self) -> bool {
+        matches!(self, Self::Probe)
+    }
 }
 
 impl Modifiers {

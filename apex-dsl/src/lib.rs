@@ -15,6 +15,7 @@ pub mod machine;
 pub mod passes;
 pub mod report;
 pub mod resolve;
+pub mod script;
 pub mod source;
 pub mod syntax;
 pub mod units;

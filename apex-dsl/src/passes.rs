@@ -7,6 +7,7 @@ use crate::{
     graph::Graph,
     report::Diagnostics,
     resolve,
+    script::Script,
     source::{FileId, Sources, Span, World},
 };
 use proc_macro2::TokenStream;
@@ -17,6 +18,8 @@ pub struct Program {
     pub graph: Graph,
     /// What is known about it before it runs.
     pub analysis: Analysis,
+    /// If it is made for a test: what the test does with it.
+    pub script: Option<Script>,
 }
 
 /// Checks the text `root` and everything it imports. Programs are given as far as they are whole.
@@ -30,12 +33,14 @@ pub fn check(
     catalog.forget_machines();
     let resolved = resolve::resolve(root, catalog, sources, world, diagnostics);
     let mut programs = vec![];
-    for mut graph in resolved.graphs {
+    let graphs = resolved.graphs.into_iter().map(|graph| (graph, None));
+    let tests = resolved.tests.into_iter().map(|(graph, script)| (graph, Some(script)));
+    for (mut graph, script) in graphs.chain(tests) {
         check::check(&mut graph, catalog, diagnostics);
         if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
             codegen::check_rates(&graph, &analysis, diagnostics);
             if !graph.is_open {
-                programs.push(Program { graph, analysis });
+                programs.push(Program { graph, analysis, script });
             }
         }
     }
@@ -58,6 +63,6 @@ pub fn generate(
         return TokenStream::new();
     }
     let machines = codegen::machines(catalog);
-    let programs = programs.iter().map(|p| codegen::generate(&p.graph, &p.analysis, catalog, sources, place));
+    let programs = programs.iter().map(|p| codegen::generate(p, catalog, sources, place));
     std::iter::once(machines).chain(programs).collect()
 }

@@ -23,6 +23,9 @@ mod queue;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
+#[cfg(feature = "std")]
+#[doc(hidden)]
+pub mod testing;
 mod time;
 mod timer;
 mod token;

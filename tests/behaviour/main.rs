@@ -18,4 +18,5 @@ mod random;
 mod rates;
 mod reported;
 mod scale;
+mod scripts;
 mod timing;

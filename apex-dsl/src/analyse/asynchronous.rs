@@ -3,8 +3,8 @@
 
 use super::Links;
 use crate::{
-    catalog::{ArgSig, Catalog},
-    graph::{Flow, Graph, NodeId, NodeKind, Standard},
+    catalog::{ArgSig, Catalog, Signature},
+    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::BTreeMap;
@@ -19,15 +19,46 @@ pub struct Asynchronous {
     pub stays: Vec<bool>,
     /// Whether tokens may go round for ever while the time stands still.
     pub endless: bool,
+    /// Whether never more than one token is under way to a slot: then the order of slots needs no queue.
+    pub single: bool,
+    /// For each connection those on which a token may be sent because of one on it.
+    causes: Vec<Vec<usize>>,
 }
 
 impl Asynchronous {
     /// Looks at all asynchronous connections of `graph`.
-    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links) -> Self {
+    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, regions: &[usize]) -> Self {
         let flows: Vec<Flow> = graph.connections.iter().map(|c| graph.flow(c)).collect();
-        let slots = (0..flows.len()).filter(|c| flows[*c] == Flow::ToSlot).collect();
-        let stays = stays(graph, links, &flows);
-        Self { slots, stays, endless: is_endless(graph, catalog, links) }
+        let slots: Vec<usize> = (0..flows.len()).filter(|c| flows[*c] == Flow::ToSlot).collect();
+        // A vertex is what a token on a connection causes: a firing of its node, or a call of its slot.
+        let causes: Vec<Vec<usize>> =
+            (0..graph.connections.len()).map(|index| caused(graph, catalog, links, index)).collect();
+        let single = is_single(graph, catalog, links, &flows, &causes, regions);
+        let mut stays = stays(graph, links, &flows);
+        if single {
+            slots.iter().for_each(|c| stays[*c] = false);
+        }
+        Self { slots, stays, endless: is_endless(&causes), single, causes }
+    }
+
+    /// The slot tokens that may follow, one after the other, from tokens on `connections`; and whether they can go
+    /// round in a circle.
+    pub fn following(&self, connections: impl Iterator<Item = usize>) -> (Vec<usize>, bool) {
+        let is_slot = |c: &usize| self.slots.binary_search(c).is_ok();
+        let mut found: Vec<usize> = connections.filter(is_slot).collect();
+        let mut circle = false;
+        let mut at = 0;
+        while at < found.len() {
+            for next in self.causes[found[at]].iter().copied().filter(is_slot) {
+                // With one token under way, every connection has one follower: who was seen before comes again.
+                match found.contains(&next) {
+                    true => circle = true,
+                    false => found.push(next),
+                }
+            }
+            at += 1;
+        }
+        (found, circle)
     }
 
     /// The number of the slot token on `connection`.
@@ -78,11 +109,49 @@ fn stays(graph: &Graph, links: &Links, flows: &[Flow]) -> Vec<bool> {
     stays
 }
 
+/// Whether each step sends at most one token to a slot, and every slot is ready when its token comes. A step is a
+/// firing of a region (which is more than a cluster), a slot, a timeout, a token from outside, or the start.
+fn is_single(
+    graph: &Graph,
+    catalog: &Catalog,
+    links: &Links,
+    flows: &[Flow],
+    causes: &[Vec<usize>],
+    regions: &[usize],
+) -> bool {
+    let to_slot = |c: &usize| flows[*c] == Flow::ToSlot;
+    let alone = |c: &usize| {
+        let from = graph.connections[*c].from;
+        links.sends[from.node].iter().filter(|other| graph.connections[**other].from == from).count() == 1
+    };
+    let mut by_region: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut at_start = 0;
+    for (index, c) in graph.connections.iter().enumerate().filter(|(i, _)| to_slot(i)) {
+        match &graph.nodes[c.from.node].kind {
+            NodeKind::Start => at_start += 1,
+            NodeKind::Boundary(PortKind::Slot) => {}
+            NodeKind::Library(library) if !by_process(&catalog.signatures[library.signature], graph, c.from) => {}
+            _ => *by_region.entry(regions[c.from.node]).or_default() += 1,
+        }
+        let held_back = events(graph, links, c.to.node).any(|c| flows[c] == Flow::ToInput);
+        let leaves = matches!(graph.nodes[c.to.node].kind, NodeKind::Boundary(_) | NodeKind::Reset);
+        let standard = graph.port(c.from).standard.is_some();
+        if !alone(&index) || held_back || leaves || standard || causes[index].iter().filter(|c| to_slot(c)).count() > 1
+        {
+            return false;
+        }
+    }
+    at_start <= 1 && by_region.values().all(|count| *count <= 1)
+}
+
+/// Whether `process` may send on a port.
+fn by_process(signature: &Signature, graph: &Graph, from: End) -> bool {
+    let args = signature.process.as_deref().unwrap_or_default();
+    graph.port(from).kind == PortKind::Output || args.contains(&ArgSig::Port(from.port))
+}
+
 /// Whether a token can cause another one on the connection that it came on, in the same instant.
-fn is_endless(graph: &Graph, catalog: &Catalog, links: &Links) -> bool {
-    // A vertex is what a token on a connection causes: a firing of its node, or a call of its slot.
-    let causes: Vec<Vec<usize>> =
-        (0..graph.connections.len()).map(|index| caused(graph, catalog, links, index)).collect();
+fn is_endless(causes: &[Vec<usize>]) -> bool {
     let mut waits = vec![0usize; causes.len()];
     causes.iter().flatten().for_each(|c| waits[*c] += 1);
     let mut free: Vec<usize> = (0..causes.len()).filter(|c| waits[*c] == 0).collect();

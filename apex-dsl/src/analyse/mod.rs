@@ -107,7 +107,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         }
     }
     let regions = clusters::regions(graph);
-    let asynchronous = Asynchronous::new(graph, catalog, &links);
+    let asynchronous = Asynchronous::new(graph, catalog, &links, &regions);
     let (guards, clusters, cluster_of) = clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
     let characteristics = pruning::characteristics(graph, catalog, &links, &order);
     let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);
@@ -154,7 +154,7 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
         // What waits in the program itself is looked up where it lies.
         NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
         NodeKind::Boundary(_) => !graph.is_body,
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Probe => false,
     }
 }
 
@@ -177,6 +177,7 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         }
         NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
         NodeKind::Boundary(kind) => kind.is_synchronous(),
+        NodeKind::Probe => !links.inputs[node].is_empty(),
         NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
     }
 }

@@ -204,7 +204,7 @@ impl Generator<'_> {
             let make = quote!(::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])));
             field("dispatcher", quote!(::apex_rt::Dispatcher<#words>), make);
         }
-        if slots > 0 {
+        if slots > 0 && !whole.analysis.asynchronous.single {
             field("queue", quote!(::apex_rt::Queue<#slots>), quote!(::apex_rt::Queue::new()));
         }
         if whole.analysis.asynchronous.endless {
@@ -244,7 +244,9 @@ impl Generator<'_> {
         }
         if !analysis.asynchronous.slots.is_empty() {
             code.extend(self.slot_functions(whole, bits));
-            code.extend(self.serve(whole, bits));
+            if !analysis.asynchronous.single {
+                code.extend(self.serve(whole, bits));
+            }
         }
         if self.has_start(whole) {
             let begin = self.begin(whole, bits);
@@ -316,10 +318,45 @@ impl Generator<'_> {
         }
     }
 
+    /// Where one token at most is under way, the slots that it can come to stand in order, and there is no queue.
+    pub fn serve_single(&self, whole: Whole<'_>, sends: impl Iterator<Item = usize>) -> TokenStream {
+        let asynchronous = &whole.analysis.asynchronous;
+        if !asynchronous.single {
+            return quote!();
+        }
+        let (connections, circle) = asynchronous.following(sends);
+        let step = |slot: usize| asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
+        let waits: Vec<TokenStream> = connections
+            .iter()
+            .map(|c| {
+                let waits = self.waits(whole.graph, whole.graph.connections[*c].from);
+                quote!(self.#waits)
+            })
+            .collect();
+        let serves = connections.iter().zip(&waits).map(|(c, waits)| {
+            let slot = asynchronous.slot(*c);
+            let (name, step) = (format_ident!("slot_{slot}"), step(slot));
+            let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
+            quote! { if #waits #budget { #step self.#name(ctx, observer); } }
+        });
+        let serves: TokenStream = serves.collect();
+        if !circle {
+            return serves;
+        }
+        let exit = self.has_exit(whole.graph).then(|| quote!(|| self.state.exit.is_some()));
+        quote! {
+            while (#(#waits)||*) {
+                #serves
+                if self.state.steps.is_used_up() #exit { break; }
+            }
+        }
+    }
+
     /// `react_with`.
     pub fn react(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
-        let serves = !analysis.asynchronous.slots.is_empty();
+        let single = analysis.asynchronous.single;
+        let serves = !analysis.asynchronous.slots.is_empty() && !single;
         let endless = analysis.asynchronous.endless;
         let (raises, wishes) = self.raises(whole, bits);
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
@@ -336,10 +373,16 @@ impl Generator<'_> {
         };
         let loops = !bits.dispatched.is_empty() || !raises.is_empty();
         let any_stays = !bits.free.is_empty();
+        // Slots see in which order clusters fire: that of the text.
+        let ordered = any_stays || !analysis.asynchronous.slots.is_empty();
         let fires = (0..analysis.clusters.len()).map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
             let c = &analysis.clusters[cluster];
-            let served = if c.sends.is_empty() && !any_stays { quote!() } else { serve(false) };
+            let served = match single {
+                true => self.serve_single(whole, c.sends.iter().copied()),
+                false if c.sends.is_empty() && !any_stays => quote!(),
+                false => serve(false),
+            };
             let Some(row) = bits.row(cluster) else {
                 let fire = quote! { self.#name(ctx, observer); #served };
                 return if loops && (serves || any_stays) {
@@ -371,16 +414,23 @@ impl Generator<'_> {
         let is_dispatched = |c: &usize| bits.row(*c).is_some();
         let fires: Vec<TokenStream> = fires.collect();
         let (inside, before): (Vec<usize>, Vec<usize>) =
-            (0..analysis.clusters.len()).partition(|c| loops && (is_dispatched(c) || serves || any_stays));
+            (0..analysis.clusters.len()).partition(|c| loops && (is_dispatched(c) || ordered));
         let (before, inside) = (before.iter().map(|c| &fires[*c]), inside.iter().map(|c| &fires[*c]));
         let has_exit = self.has_exit(graph);
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
         let start = self.has_start(whole).then(|| {
-            let serve = serve(false);
+            let starts = |c: &usize| matches!(graph.nodes[graph.connections[*c].from.node].kind, NodeKind::Start);
+            let single = self.serve_single(whole, analysis.asynchronous.slots.iter().copied().filter(starts));
+            let queued = serve(false);
+            let serve = quote! { #single #queued };
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
         });
-        let begin_steps = endless.then(|| quote! { self.state.steps.begin(); });
+        let begin_steps = endless.then(|| {
+            // What the reaction before left when its steps were used up.
+            let serve = self.serve_single(whole, analysis.asynchronous.slots.iter().copied());
+            quote! { self.state.steps.begin(); #serve }
+        });
         let used_up = endless.then(|| self.used_up(whole, bits));
         let leave = if has_exit {
             quote!(if quiet || self.state.exit.is_some() {
@@ -500,11 +550,12 @@ impl Generator<'_> {
             })
         });
         let emit = self.emit(whole, bits, node, false);
+        let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());
         quote! {
             if self.state.#timeout.is_due(now) #test {
                 let Self { nodes, state, .. } = self;
                 state.#timeout.stop();
-                #clear #trigger #pass #emit
+                #clear #trigger #pass #emit #serve
                 quiet = false;
             }
         }

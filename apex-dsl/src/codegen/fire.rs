@@ -5,6 +5,7 @@ use super::{
     activity::Whole,
     dispatch::Bits,
     plan::{BlockId, Plan, Storage},
+    test::probe,
     types::{ident, path, spell},
 };
 use crate::{
@@ -200,6 +201,13 @@ impl<'a> Emitter<'a> {
                 let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
                 let token = token.unwrap_or_else(|| quote!(None));
                 self.bind(End { node, port: 1 }, quote!(#token.cloned()), true)
+            }
+            NodeKind::Probe => {
+                let probe = probe(node);
+                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
+                token
+                    .map(|token| quote! { if let Some(token) = #token { outputs.#probe.saw(token); } })
+                    .unwrap_or_default()
             }
             NodeKind::Boundary(_) | NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => quote!(),
         }

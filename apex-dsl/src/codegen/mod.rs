@@ -10,15 +10,18 @@ mod plan;
 mod program;
 mod rates;
 mod slots;
+mod test;
 mod types;
 
 pub use machine::machines;
 pub use plan::{Storage, storage};
+pub use program::camel;
 
 use crate::{
     analyse::Analysis,
     catalog::Catalog,
     graph::{End, Graph, NodeId, NodeKind, Standard},
+    passes::Program,
     report::{Diagnostic, Diagnostics},
     source::{Sources, Span},
 };
@@ -142,17 +145,21 @@ fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
     name
 }
 
-/// The program of a graph.
+/// The program of a graph, with the test that it is made for, if there is one.
 pub fn generate(
-    graph: &Graph,
-    analysis: &Analysis,
+    program: &Program,
     catalog: &Catalog,
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
 ) -> TokenStream {
+    let graph = &program.graph;
     let names = Names::new(graph, &graph.name, "", &mut 0, &mut BTreeSet::new());
     let generator = Generator { catalog, sources, names: &names, place, outer: None };
-    generator.program(graph, analysis)
+    let code = generator.program(graph, &program.analysis);
+    match &program.script {
+        Some(script) => generator.test(graph, script, &code),
+        None => code,
+    }
 }
 
 /// Reports what cannot be generated for regions with several rates.

@@ -7,6 +7,7 @@ use super::{
     fire::Emitter,
     plan::{Storage, is_buffer, storage},
     rates,
+    test::probe,
     types::{constant, ident},
 };
 use crate::{
@@ -55,6 +56,9 @@ impl Generator<'_> {
             |ports: &[NodeId]| -> Vec<Ident> { ports.iter().map(|n| ident(&graph.nodes[*n].name)).collect() };
         let (input_names, input_types) = (port_names(&inputs), port_types(&inputs));
         let (output_names, output_types) = (port_names(&outputs), port_types(&outputs));
+        let probes: Vec<NodeId> = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).collect();
+        let (probe_names, probe_types): (Vec<Ident>, Vec<TokenStream>) =
+            (probes.iter().map(|n| probe(*n)).collect(), port_types(&probes));
         let (event_names, event_types) = (port_names(&events), port_types(&events));
         let (part_names, part_types): (Vec<Ident>, Vec<TokenStream>) = handed_in.into_iter().unzip();
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
@@ -93,7 +97,10 @@ impl Generator<'_> {
             pub struct #inputs_name { #(pub #input_names: ::apex_rt::Mailbox<#input_types>,)* }
             #[allow(private_interfaces, missing_docs)]
             #[doc = "The tokens that came out last; `None` is ⊥."]
-            pub struct #outputs_name { #(pub #output_names: ::core::option::Option<#output_types>,)* }
+            pub struct #outputs_name {
+                #(pub #output_names: ::core::option::Option<#output_types>,)*
+                #(#probe_names: ::apex_rt::testing::Probe<#probe_types>,)*
+            }
             #[allow(private_interfaces, missing_docs)]
             #[doc = "Events that wait to be taken. As long as one waits, what triggers it is held back."]
             pub struct #events_name { #(pub #event_names: ::apex_rt::Mailbox<#event_types>,)* }
@@ -107,7 +114,7 @@ impl Generator<'_> {
                         nodes: #nodes_make,
                         state: #state_name { #state_make },
                         inputs: #inputs_name { #(#input_names: ::apex_rt::Mailbox::new(),)* },
-                        outputs: #outputs_name { #(#output_names: None,)* },
+                        outputs: #outputs_name { #(#output_names: None,)* #(#probe_names: ::apex_rt::testing::Probe::new(),)* },
                         events: #events_name { #(#event_names: ::apex_rt::Mailbox::new(),)* },
                     }
                 }
@@ -384,7 +391,8 @@ impl Generator<'_> {
         items
     }
 
-    fn position(&self, span: Span) -> String {
+    /// Where a piece of the text stands, as `file:line:column`.
+    pub fn position(&self, span: Span) -> String {
         let (line, column) = self.sources.line_column(span.file, span.start);
         format!("{}:{line}:{column}", self.sources.get(span.file).path.display())
     }
@@ -397,6 +405,7 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
         NodeKind::Boundary(kind) => kind.word().to_owned(),
         NodeKind::Delay(_) => "delay".to_owned(),
         NodeKind::Relay => "relay".to_owned(),
+        NodeKind::Probe => "probe".to_owned(),
         NodeKind::Start => "start".to_owned(),
         NodeKind::Exit(_) => "exit".to_owned(),
         NodeKind::Reset => "reset".to_owned(),
@@ -451,6 +460,7 @@ fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, T
     (item, quote!(#struct_name { #made }))
 }
 
+/// `fetch_cube` → `FetchCube`
 pub fn camel(word: &str) -> String {
     word.split('_')
         .map(|part| {

@@ -5,6 +5,7 @@ use super::{
     activity::{Carries, Whole, carries},
     dispatch::Bits,
     plan::is_buffer,
+    test::probe,
     types::ident,
 };
 use crate::{
@@ -26,9 +27,13 @@ impl Generator<'_> {
             .filter(|c| by_process || whole.graph.port(from(*c)).kind == PortKind::Event)
             .collect();
         let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
-            let sent = connections.iter().map(|c| self.sent(whole, bits, *c));
+            let sent: TokenStream = connections.iter().map(|c| self.sent(whole, bits, *c)).collect();
             let present = self.waits(whole.graph, from(connections[0]));
-            quote! { if #present { #(#sent)* } }
+            if sent.is_empty() {
+                quote!()
+            } else {
+                quote! { if #present { #sent } }
+            }
         });
         ports.collect()
     }
@@ -37,6 +42,8 @@ impl Generator<'_> {
         let occupied = bits.free(connection).map(|bit| quote! { state.dispatcher.clear(#bit); });
         match bits.token(connection) {
             Some(token) => quote! { state.dispatcher.raise(#token); #occupied },
+            // The token itself tells that it waits.
+            None if whole.analysis.asynchronous.single => quote!(),
             None => {
                 let slot = whole.analysis.asynchronous.slot(connection) as u16;
                 quote! { state.queue.push(#slot); #occupied }
@@ -45,12 +52,11 @@ impl Generator<'_> {
     }
 
     /// Whether a token lies in the program's state.
-    fn waits(&self, graph: &Graph, end: End) -> TokenStream {
+    pub fn waits(&self, graph: &Graph, end: End) -> TokenStream {
         let name = self.name(end);
-        if is_buffer(graph, self.catalog, end) {
-            quote!(state.#name.get().is_some())
-        } else {
-            quote!(state.#name.is_some())
+        match is_buffer(graph, self.catalog, end) {
+            true => quote!(state.#name.get().is_some()),
+            false => quote!(state.#name.is_some()),
         }
     }
 
@@ -115,11 +121,22 @@ impl Generator<'_> {
             }
         };
         let call = self.call_slot(whole, connection);
+        let call = if analysis.asynchronous.single { self.taken(graph, c.from, call) } else { call };
         let clear = self.clear_events(whole, node);
         let pass =
             self.pass_activity(whole, node, &|end| self.is_sent_event(whole, end).then(|| self.waits(graph, end)));
         let emit = self.emit(whole, bits, node, false);
         quote! { observer.handled(#connection); #free #clear #activity #call #pass #emit #settle }
+    }
+
+    /// Where no queue says which tokens wait, a slot takes its token away.
+    fn taken(&self, graph: &Graph, from: End, call: TokenStream) -> TokenStream {
+        let name = self.name(from);
+        if is_buffer(graph, self.catalog, from) {
+            quote! { #call state.#name.clear(); }
+        } else {
+            quote! { let #name = state.#name.take(); #call }
+        }
     }
 
     fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
@@ -130,10 +147,14 @@ impl Generator<'_> {
             (_, Some(Standard::Enable)) => self.set_enabled(node, true),
             (_, Some(Standard::Disable)) => self.set_enabled(node, false),
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
+            (NodeKind::Probe, _) => {
+                let (probe, token) = (probe(node), self.token(whole, c.from));
+                quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
+            }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
-                let (port, token) = (ident(&graph.nodes[node].name), self.token(graph, c.from));
+                let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, c.from));
                 let room = Bits::room_name(node);
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(::core::clone::Clone::clone(token)); }
@@ -150,9 +171,13 @@ impl Generator<'_> {
     }
 
     /// The token of a connection, where it lies: `Option<&T>`.
-    fn token(&self, graph: &Graph, from: End) -> TokenStream {
+    fn token(&self, whole: Whole<'_>, from: End) -> TokenStream {
         let name = self.name(from);
-        if is_buffer(graph, self.catalog, from) { quote!(state.#name.get()) } else { quote!(state.#name.as_ref()) }
+        match is_buffer(whole.graph, self.catalog, from) {
+            true => quote!(state.#name.get()),
+            false if whole.analysis.asynchronous.single => quote!(#name.as_ref()),
+            false => quote!(state.#name.as_ref()),
+        }
     }
 
     fn call_method(&self, whole: Whole<'_>, connection: usize, library: &Library) -> TokenStream {
@@ -177,7 +202,7 @@ impl Generator<'_> {
         let call = quote!(#place.#method(#(#args),*));
         let call = self.contained(graph, node, library, call, slot.fallible);
         let call = if takes {
-            let token = self.token(graph, c.from);
+            let token = self.token(whole, c.from);
             quote! { if let Some(token) = #token { #call; } }
         } else {
             quote! { #call; }
@@ -250,11 +275,13 @@ impl Generator<'_> {
             quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*])))
         };
         let emit = self.emit(whole, bits, node, false);
+        let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());
         quote! {
             if self.inputs.#port.is_full() #test {
                 let Self { state, inputs, .. } = self;
                 state.#name = inputs.#port.take();
                 #emit
+                #serve
                 quiet = false;
             }
         }

@@ -79,6 +79,10 @@ impl Generator<'_> {
                 Some(connection) => self.token_type(graph, connection.from),
                 None => quote!(()),
             },
+            NodeKind::Probe => match graph.connections.iter().find(|c| c.to.node == end.node) {
+                Some(connection) => self.token_type(graph, connection.from),
+                None => quote!(()),
+            },
             NodeKind::Boundary(_) if graph.is_body => self.body_input_type(graph, end.node),
             NodeKind::Library(library) => match spell(&port.ty, self.catalog) {
                 Some(ty) => ty,
@@ -181,6 +185,7 @@ pub fn constant(value: &Value, ty: &Type) -> TokenStream {
     match value {
         Value::Number(n) => number(n, ty),
         Value::Bool(b) => quote!(#b),
+        Value::Unit => quote!(()),
         Value::Text(text) if matches!(ty, Type::Named(name, _) if name == "String") => {
             quote!(::std::string::String::from(#text))
         }

@@ -4,9 +4,8 @@
 use super::{Arm, Machine, Sending, Slot, Token};
 use crate::{
     catalog::Type,
-    graph::Value,
     report::{Diagnostic, Diagnostics, nearest},
-    resolve::value::{Evaluated, Scope, evaluate},
+    resolve::value::{Evaluated, Scope, as_rust, evaluate},
     source::Span,
     syntax::tree::{Action, Expr, ExprKind, FsmItem, Ident, PortItem, PortKind, StateItem, Transition},
 };
@@ -282,7 +281,7 @@ impl<'a> Opener<'a> {
     /// A condition on the token of `slot`, as Rust.
     fn condition(&self, expr: &Expr, slot: &str, ty: Option<&Type>) -> Evaluated<String> {
         if !mentions(expr, slot) {
-            return constant(evaluate(expr, self.scope)?, ty, expr.span);
+            return as_rust(evaluate(expr, self.scope)?, ty, expr.span);
         }
         Ok(match &expr.kind {
             ExprKind::Path(_) => "(*token)".to_owned(),
@@ -305,26 +304,6 @@ fn mentions(expr: &Expr, name: &str) -> bool {
         ExprKind::Binary(_, a, b) => mentions(a, name) || mentions(b, name),
         ExprKind::List(items) => items.iter().any(|item| mentions(item, name)),
         _ => false,
-    }
-}
-
-fn constant(value: Value, ty: Option<&Type>, span: Span) -> Evaluated<String> {
-    let is_float = ty.is_some_and(|ty| matches!(ty.name(), "f32" | "f64"));
-    match value {
-        Value::Number(n) => Ok(match n.integer {
-            Some(integer) if !is_float => integer.to_string(),
-            _ => format!("{:?}", n.value),
-        }),
-        Value::Bool(value) => Ok(value.to_string()),
-        Value::Path(segments) => Ok(segments.join("::")),
-        other => {
-            let what = crate::resolve::value::describe(&other);
-            Err(Box::new(Diagnostic::error(
-                "wrong-value",
-                span,
-                format!("a guard compares with numbers and `true`, `false`, but this is {what}"),
-            )))
-        }
     }
 }
 

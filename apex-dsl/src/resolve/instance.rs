@@ -59,8 +59,20 @@ pub struct Builder<'a> {
     pub claims: Vec<Claim>,
     /// The graphs that are being opened, outermost first.
     pub open: Vec<GraphId>,
+    /// Instances that a test puts in the place of nodes, by path.
+    pub replaced: BTreeMap<String, &'a Instance>,
     /// What may still be added.
     pub budget: &'a mut Budget,
+}
+
+/// What a graph is opened for; with the arguments for its parameters.
+pub enum Purpose {
+    /// To be a program. Its parameters have their defaults.
+    Program,
+    /// To be the body of an `each`.
+    Body(BTreeMap<String, Value>),
+    /// To be tested.
+    Test(BTreeMap<String, Value>),
 }
 
 /// What a graph body is opened with.
@@ -90,12 +102,12 @@ pub fn graph(
     diagnostics: &mut Diagnostics,
 ) -> Option<Graph> {
     let builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
-    builder.top(id, None)
+    builder.top(id, Purpose::Program)
 }
 
 impl<'a> Builder<'a> {
     /// A builder that has nothing yet, while the graphs `open` are being opened.
-    fn new(
+    pub fn new(
         texts: &'a Texts,
         catalog: &'a Catalog,
         diagnostics: &'a mut Diagnostics,
@@ -113,15 +125,20 @@ impl<'a> Builder<'a> {
             excused: BTreeSet::new(),
             claims: vec![],
             open,
+            replaced: BTreeMap::new(),
             budget,
         }
     }
 
-    /// The whole graph, with boundary nodes for its ports. `given` holds the arguments if it is the body of an `each`.
-    fn top(mut self, id: GraphId, given: Option<BTreeMap<String, Value>>) -> Option<Graph> {
+    /// The whole graph, with boundary nodes for its ports.
+    pub fn top(mut self, id: GraphId, purpose: Purpose) -> Option<Graph> {
         let item = self.texts.graph(id);
-        let is_body = given.is_some();
-        let is_open = !is_body && item.params.iter().any(|p| p.default.is_none());
+        let (given, is_body) = match purpose {
+            Purpose::Program => (None, false),
+            Purpose::Body(values) => (Some(values), true),
+            Purpose::Test(values) => (Some(values), false),
+        };
+        let is_open = given.is_none() && item.params.iter().any(|p| p.default.is_none());
         if item.robot {
             for param in item.params.iter().filter(|p| p.default.is_none()) {
                 let message = format!(
@@ -244,7 +261,8 @@ impl<'a> Builder<'a> {
 
     /// A type as written in the text of graph `id`.
     pub fn ty(&self, id: GraphId, ty: &TypeExpr) -> Type {
-        let generics: Vec<String> = self.texts.graph(id).generics.iter().map(|g| g.text.clone()).collect();
+        let graph = self.texts.files[id.file].1.graphs.get(id.graph);
+        let generics: Vec<String> = graph.iter().flat_map(|graph| &graph.generics).map(|g| g.text.clone()).collect();
         self.catalog.type_in_text(&self.texts.ty(id.file, ty), &generics)
     }
 
@@ -253,6 +271,7 @@ impl<'a> Builder<'a> {
         self.open.push(body.id);
         for node in &body.item.nodes {
             let made = match &node.body {
+                _ if self.replaced.contains_key(&self.path(body.scope, &node.name.text)) => self.replace(body, node),
                 NodeBody::Instance(instance) => self.instance(body, &node.name, instance, &node.docs),
                 NodeBody::HandedIn(ty, modifiers) => self.handed_in(body, &node.name, ty, modifiers, &node.docs),
             };
@@ -274,6 +293,27 @@ impl<'a> Builder<'a> {
             self.claims.push(Claim { kind: claim.kind.text.clone(), of, span: claim.kind.span });
         }
         self.open.pop();
+    }
+
+    /// The path of a node in a scope.
+    fn path(&self, scope: ScopeId, name: &str) -> String {
+        let mut names = vec![name];
+        let mut scope = scope;
+        while scope != 0 {
+            names.push(&self.scopes[scope].name);
+            scope = self.scopes[scope].parent;
+        }
+        names.reverse();
+        names.join(".")
+    }
+
+    /// What a test puts in the place of a node; the names in it are those of the first text.
+    fn replace(&mut self, body: &Body<'_>, node: &crate::syntax::tree::NodeItem) -> Option<Symbol> {
+        let path = self.path(body.scope, &node.name.text);
+        let instance = *self.replaced.get(&path)?;
+        let id = GraphId { file: 0, ..body.id };
+        let inside = Body { id, values: BTreeMap::new(), fed: body.fed.clone(), ..*body };
+        self.instance(&inside, &node.name, instance, &node.docs)
     }
 
     /// An instance of a node or graph.
@@ -298,7 +338,7 @@ impl<'a> Builder<'a> {
             }
             (Made::Graph(id), Some(each)) => {
                 let values = self.graph_args(body, id, instance);
-                let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Some(values)))?;
+                let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Purpose::Body(values)))?;
                 self.each(body, name, inner, each, docs)?
             }
         };

@@ -6,6 +6,7 @@ mod flatten;
 mod generics;
 mod instance;
 mod names;
+mod testing;
 pub mod value;
 mod wrap;
 
@@ -13,6 +14,7 @@ use crate::{
     catalog::Catalog,
     graph::Graph,
     report::{Diagnostic, Diagnostics},
+    script::Script,
     source::{FileId, Sources, World},
     syntax::tree::{Endpoint, File, Instance, NodeBody},
 };
@@ -44,6 +46,8 @@ pub struct Resolved {
     /// The graphs that are not used inside another one of the first text: the programs in it, and those that would
     /// be programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
+    /// The tests of the first text: the graph that is tested, and what is done with it.
+    pub tests: Vec<(Graph, Script)>,
 }
 
 /// Resolves the text `root` with everything that it imports.
@@ -70,20 +74,27 @@ pub fn resolve(
             graphs.extend(resolved);
         }
     }
+    let mut tests = vec![];
+    for test in &texts.files[0].1.tests {
+        if budget.exceeded || broken {
+            break;
+        }
+        tests.extend(testing::test(&texts, catalog, test, sources, &mut budget, diagnostics));
+    }
     if broken {
         // What a broken statement declares is not known, so that these would be false alarms.
         diagnostics.retain(|d| {
             !["unknown-node", "unknown-port", "open-input", "open-output", "unknown-import", "unknown-name"]
                 .contains(&d.code)
         });
-    } else if texts.files[0].1.graphs.is_empty() && !diagnostics.has_errors() {
+    } else if texts.files[0].1.is_empty() && !diagnostics.has_errors() {
         let span = crate::source::Span::new(root, 0, 0);
         diagnostics.push(
             Diagnostic::error("no-graph", span, "this text has no `graph`")
                 .note("a smallest graph is `graph Name { }`"),
         );
     }
-    Resolved { texts, graphs }
+    Resolved { texts, graphs, tests }
 }
 
 /// The names of all graphs and nodes that the graphs of a text have instances of.

@@ -190,6 +190,7 @@ pub fn describe(value: &Value) -> String {
         Value::Text(_) => "a string".to_owned(),
         Value::List(_) => "a list".to_owned(),
         Value::Duration(_) => "a time".to_owned(),
+        Value::Unit => "`()`".to_owned(),
         Value::Path(path) => format!("`{}`", path.join("::")),
         Value::RustDefault => "a default".to_owned(),
     }
@@ -375,5 +376,28 @@ fn limits(name: &str) -> (i128, i128) {
         "i64" | "isize" => (i64::MIN.into(), i64::MAX.into()),
         "u128" => (0, i128::MAX),
         _ => (i128::MIN, i128::MAX),
+    }
+}
+
+/// A constant that a token of type `ty` is compared with, as Rust.
+pub fn as_rust(value: Value, ty: Option<&Type>, span: Span) -> Evaluated<String> {
+    let is_float = ty.is_some_and(|ty| matches!(ty.name(), "f32" | "f64"));
+    match value {
+        Value::Number(n) => Ok(match n.integer {
+            Some(integer) if !is_float => integer.to_string(),
+            _ => format!("{:?}", n.value),
+        }),
+        Value::Duration(time) => Ok(format!("::core::time::Duration::from_nanos({})", time.as_nanos())),
+        Value::Text(text) => Ok(format!("{text:?}")),
+        Value::Bool(value) => Ok(value.to_string()),
+        Value::Path(segments) => Ok(segments.join("::")),
+        other => {
+            let what = describe(&other);
+            Err(Box::new(Diagnostic::error(
+                "wrong-value",
+                span,
+                format!("a token is compared with numbers, texts and `true`, `false`, but this is {what}"),
+            )))
+        }
     }
 }

@@ -60,6 +60,7 @@ impl<'a> Builder<'a> {
                 let graph = self.graph(pair);
                 file.graphs.push(graph);
             }
+            Rule::test_item => file.tests.extend(self.test(pair)),
             Rule::fsm_item => file.machines.extend(self.machine(pair)),
             _ => {
                 self.broken = true;
@@ -137,6 +138,84 @@ impl<'a> Builder<'a> {
         graph
     }
 
+    fn test(&mut self, pair: Pair<'_, Rule>) -> Option<TestItem> {
+        let (mut docs, mut name, mut graph) = (String::new(), None, None);
+        let (mut args, mut replaced, mut steps) = (vec![], vec![], vec![]);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::doc => push_doc(&mut docs, &part),
+                Rule::ident => name = Some(self.ident(&part)),
+                Rule::path => graph = Some(self.path(part)),
+                Rule::args => {
+                    args = part.into_inner().filter(|p| p.as_rule() == Rule::arg).filter_map(|p| self.arg(p)).collect();
+                }
+                Rule::test_stmt => {
+                    let Some(stmt) = part.into_inner().next() else { continue };
+                    match stmt.as_rule() {
+                        Rule::replace_stmt => replaced.extend(self.replaced(stmt)),
+                        Rule::bad_test => self.bad_in(recover::in_test, &stmt),
+                        _ => steps.extend(self.test_step(stmt)),
+                    }
+                }
+                _ => {}
+            }
+        }
+        let (name, graph) = (name?, graph?);
+        let span = name.span.to(graph.span);
+        Some(TestItem { docs, name, graph, args, replaced, steps, span })
+    }
+
+    fn replaced(&mut self, pair: Pair<'_, Rule>) -> Option<(PortRef, Instance)> {
+        let (mut of, mut instance) = (None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::port_ref => of = Some(self.port_ref(part)),
+                Rule::instance => instance = Some(self.instance(part)),
+                _ => {}
+            }
+        }
+        Some((of?, instance?))
+    }
+
+    fn test_step(&mut self, pair: Pair<'_, Rule>) -> Option<TestStep> {
+        let rule = pair.as_rule();
+        let (mut port, mut values, mut every, mut condition, mut limit) = (None, vec![], None, None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::ident => port = Some(self.ident(&part)),
+                Rule::expr => values.push(self.expr(part)),
+                Rule::every => every = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)),
+                Rule::condition => condition = self.condition(part),
+                Rule::limit => {
+                    let kind = if part.as_str().starts_with("by") { Limit::By } else { Limit::Within };
+                    limit = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| (kind, self.expr(p)));
+                }
+                _ => {}
+            }
+        }
+        Some(match rule {
+            Rule::feed_stmt => TestStep::Feed(port?, values.pop(), every),
+            Rule::wait_stmt => TestStep::Wait(values.pop()?),
+            Rule::never_stmt => TestStep::Never(condition?),
+            _ => TestStep::Expect(condition?, limit),
+        })
+    }
+
+    fn condition(&mut self, pair: Pair<'_, Rule>) -> Option<Condition> {
+        let span = self.span(&pair);
+        let (mut of, mut active, mut operator, mut value) = (None, false, None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::port_ref => of = Some(self.port_ref(part)),
+                Rule::active_kw => active = true,
+                Rule::compare => operator = Some(part.as_str().to_owned()),
+                Rule::expr => value = Some(self.expr(part)),
+                _ => {}
+            }
+        }
+        Some(Condition { of: of?, active, compare: operator.zip(value), span })
+    }
+
     fn machine(&mut self, pair: Pair<'_, Rule>) -> Option<FsmItem> {
         let (mut docs, mut name) = (String::new(), None);
         let (mut ports, mut states) = (vec![], vec![]);
@@ -147,7 +226,7 @@ impl<'a> Builder<'a> {
                 Rule::fsm_stmt => match part.into_inner().next() {
                     Some(stmt) if stmt.as_rule() == Rule::port_stmt => ports.extend(self.port(stmt)),
                     Some(stmt) if stmt.as_rule() == Rule::state_item => states.extend(self.state(stmt)),
-                    Some(stmt) => self.bad_in_machine(&stmt),
+                    Some(stmt) => self.bad_in(recover::in_machine, &stmt),
                     None => {}
                 },
                 _ => {}
@@ -175,7 +254,7 @@ impl<'a> Builder<'a> {
                                 hook.extend(self.actions(actions));
                             }
                         }
-                        _ => self.bad_in_machine(&stmt),
+                        _ => self.bad_in(recover::in_machine, &stmt),
                     }
                 }
                 _ => {}
@@ -215,13 +294,14 @@ impl<'a> Builder<'a> {
         actions.collect()
     }
 
-    fn bad_in_machine(&mut self, pair: &Pair<'_, Rule>) {
+    /// Explains a statement that could not be read, by the words of `explain`.
+    fn bad_in(&mut self, explain: fn(FileId, usize, &str) -> Diagnostic, pair: &Pair<'_, Rule>) {
         self.broken = true;
         if self.diagnostics.is_full() {
             return self.diagnostics.leave_out();
         }
         let start = pair.as_span().start();
-        self.diagnostics.push(recover::in_machine(self.file, start, &self.text[start..pair.as_span().end()]));
+        self.diagnostics.push(explain(self.file, start, &self.text[start..pair.as_span().end()]));
     }
 
     fn param(&mut self, pair: Pair<'_, Rule>) -> ParamItem {

@@ -35,7 +35,21 @@ pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
     again(rule, file, start, text, otherwise)
 }
 
-const OUTSIDE: &str = "a text holds `use`, `graph`, `robot` and `fsm` items";
+/// Explains a statement of a test that could not be read.
+pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
+    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let rule = match first {
+        "replace" => Rule::replace_stmt,
+        "feed" => Rule::feed_stmt,
+        "wait" => Rule::wait_stmt,
+        "never" => Rule::never_stmt,
+        _ => Rule::expect_stmt,
+    };
+    let otherwise = "a test holds `replace node = Node();`, `feed port = value;`, `wait 1s;`, `expect port == value within 1s;` and `never port;`";
+    again(rule, file, start, text, otherwise)
+}
+
+const OUTSIDE: &str = "a text holds `use`, `graph`, `robot`, `fsm` and `test` items";
 
 /// Explains an item that could not be read.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
@@ -44,7 +58,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
     let first = first.char_indices().nth(40).map_or(first, |(end, _)| &first[..end]);
     let span = Span::new(file, start, start + first.len());
     match first {
-        "test" => Diagnostic::error("not-yet", span, format!("`{first}` items are not supported yet")),
+        "test" => again(Rule::test_item, file, start, text, OUTSIDE),
         "fsm" => again(Rule::fsm_item, file, start, text, OUTSIDE),
         "use" => again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`"),
         "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
@@ -129,6 +143,21 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::node_kw => "`node`",
         Rule::claim_kw => "`claim`",
         Rule::graph_kw => "`graph` or `robot`",
+        Rule::actions => "`->`",
+        Rule::target => "`=>`",
+        Rule::hook_kw => "`entry` or `exit`",
+        Rule::if_kw => "`if`",
+        Rule::on_kw => "`on`",
+        Rule::state_kw => "`state`",
+        Rule::test_kw => "`test`",
+        Rule::fsm_kw => "`fsm`",
+        Rule::compare => "a comparison",
+        Rule::limit_kw => "`by` or `within`",
+        Rule::never_kw => "`never`",
+        Rule::expect_kw => "`expect`",
+        Rule::wait_kw => "`wait`",
+        Rule::feed_kw => "`feed`",
+        Rule::replace_kw => "`replace`",
         Rule::use_kw => "`use`",
         Rule::arg => "an argument `name = value`",
         Rule::param => "a parameter `name: type`",

@@ -22,6 +22,8 @@ pub struct File {
     pub graphs: Vec<GraphItem>,
     /// State machines.
     pub machines: Vec<FsmItem>,
+    /// Tests.
+    pub tests: Vec<TestItem>,
     /// Comments that are not documentation, for the formatter.
     pub comments: Vec<Span>,
     /// Whether something in it could not be read.
@@ -246,6 +248,13 @@ pub enum ModifierKind {
     Restart,
 }
 
+impl File {
+    /// Whether it declares nothing.
+    pub fn is_empty(&self) -> bool {
+        self.graphs.is_empty() && self.machines.is_empty() && self.tests.is_empty()
+    }
+}
+
 /// `fsm Name { … }`
 #[derive(Debug)]
 pub struct FsmItem {
@@ -296,6 +305,60 @@ pub struct Action {
     pub event: Ident,
     /// The token; without it the token that came.
     pub value: Option<Expr>,
+}
+
+/// `test name: Graph(argument = value) { … }`
+#[derive(Debug)]
+pub struct TestItem {
+    /// Documentation.
+    pub docs: String,
+    /// Its name.
+    pub name: Ident,
+    /// The graph that is tested.
+    pub graph: PathExpr,
+    /// Values for its parameters.
+    pub args: Vec<Arg>,
+    /// Nodes that others stand for.
+    pub replaced: Vec<(PortRef, Instance)>,
+    /// What is done and expected, in order.
+    pub steps: Vec<TestStep>,
+    /// From its name to its graph.
+    pub span: Span,
+}
+
+/// A statement of a test.
+#[derive(Debug)]
+pub enum TestStep {
+    /// `feed port = value every 10ms;`
+    Feed(Ident, Option<Expr>, Option<Expr>),
+    /// `wait 50ms;`
+    Wait(Expr),
+    /// `expect condition within 50ms;`, `expect condition by 2s;`
+    Expect(Condition, Option<(Limit, Expr)>),
+    /// `never condition;`
+    Never(Condition),
+}
+
+/// Until when something is expected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// Counted from the start.
+    By,
+    /// Counted from the expectation before.
+    Within,
+}
+
+/// What a test looks at.
+#[derive(Debug)]
+pub struct Condition {
+    /// A port, or what is to be active.
+    pub of: PortRef,
+    /// `active(…)`
+    pub active: bool,
+    /// How the token is compared with what.
+    pub compare: Option<(String, Expr)>,
+    /// All of it.
+    pub span: Span,
 }
 
 /// `a -> b => c;`

@@ -103,3 +103,16 @@ impl Dampen {
         e.emit(*token);
     }
 }
+
+/// Forgets the value: an event without one.
+#[node]
+#[derive(Default)]
+pub struct Signal;
+
+#[node]
+impl Signal {
+    #[slot]
+    fn s(&mut self, _token: &i64, e: Event<()>) {
+        e.emit(());
+    }
+}

@@ -1,0 +1,118 @@
+//! A `test` item as a Rust test: the program that is made for it, and its script.
+
+use super::{
+    Generator,
+    types::{constant, ident},
+};
+use crate::{
+    graph::{End, Graph, NodeId},
+    script::{Script, Seen, Step, Until, What},
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::time::Duration;
+use syn::Ident;
+
+/// The field of a probe.
+pub fn probe(node: NodeId) -> Ident {
+    format_ident!("probe_{node}")
+}
+
+impl Generator<'_> {
+    /// The test around `program`.
+    pub fn test(&self, graph: &Graph, script: &Script, program: &TokenStream) -> TokenStream {
+        let (module, name, program_name) = (ident(&script.name), &script.name, ident(&graph.name));
+        let docs = (!script.docs.is_empty()).then(|| {
+            let docs = &script.docs;
+            quote!(#[doc = #docs])
+        });
+        let drains = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
+            let (field, name) = (probe(node), graph.nodes[node].name.trim_start_matches("probe "));
+            quote! {
+                for token in program.outputs.#field.take() {
+                    timeline.token(#name, &(&::apex_rt::testing::Shown(&token)).shown());
+                }
+            }
+        });
+        let steps = script.steps.iter().map(|step| self.step(graph, step));
+        quote! {
+            #docs
+            #[cfg(test)]
+            #[allow(unused, clippy::all)]
+            mod #module {
+                use super::*;
+                #program
+
+                #[test]
+                fn passes() {
+                    use ::apex_rt::testing::{ByDebug as _, ByType as _};
+                    let mut test = ::apex_rt::testing::Test::new(#name, #program_name::new(), |program, timeline| { #(#drains)* });
+                    #(#steps)*
+                }
+            }
+        }
+    }
+
+    fn step(&self, graph: &Graph, step: &Step) -> TokenStream {
+        match step {
+            Step::Feed { port, values, every } => {
+                let (name, ty) = (ident(&graph.nodes[*port].name), &graph.nodes[*port].ports[0].ty);
+                let values = values.iter().map(|value| constant(value, ty));
+                let token = self.token_type(graph, End { node: *port, port: 0 });
+                let every = match every {
+                    Some(period) => {
+                        let period = duration(*period);
+                        quote!(Some(#period))
+                    }
+                    None => quote!(None),
+                };
+                quote! { test.feed::<#token>(vec![#(#values),*], #every, |program, token| program.inputs.#name.put(token)); }
+            }
+            Step::Wait(time) => {
+                let time = duration(*time);
+                quote! { test.wait(#time); }
+            }
+            Step::Expect(seen, until) => {
+                let (test, text, place) = self.seen(seen);
+                let until = match until {
+                    Some(Until::By(time)) => {
+                        let time = duration(*time);
+                        quote!(Some(::apex_rt::testing::Until::By(#time)))
+                    }
+                    Some(Until::Within(time)) => {
+                        let time = duration(*time);
+                        quote!(Some(::apex_rt::testing::Until::Within(#time)))
+                    }
+                    None => quote!(None),
+                };
+                quote! { test.expect(|program| #test, #until, #text, #place); }
+            }
+            Step::Never(seen) => {
+                let (test, text, place) = self.seen(seen);
+                quote! { test.never(|program| #test, #text, #place); }
+            }
+        }
+    }
+
+    fn seen<'s>(&self, seen: &'s Seen) -> (TokenStream, &'s str, String) {
+        let test = match &seen.what {
+            What::Active(nodes) => {
+                quote!([#(#nodes),*].iter().any(|node| ::apex_rt::Program::is_active(program, *node)))
+            }
+            What::Token(node, None) => {
+                let field = probe(*node);
+                quote!(program.outputs.#field.any(|_| true))
+            }
+            What::Token(node, Some(condition)) => {
+                let (field, condition) = (probe(*node), condition.parse::<TokenStream>().unwrap_or_default());
+                quote!(program.outputs.#field.any(|token| #condition))
+            }
+        };
+        (test, &seen.text, self.position(seen.span))
+    }
+}
+
+fn duration(time: Duration) -> TokenStream {
+    let nanos = super::activity::nanos(time);
+    quote!(::core::time::Duration::from_nanos(#nanos))
+}

@@ -1,0 +1,281 @@
+//! `test` items: the graph under test, with other nodes in place of some and probes where the test looks, and the
+//! script.
+
+use super::{
+    args,
+    instance::{Builder, Purpose},
+    names::{GraphId, Made, Texts, suggest},
+    value::{Scope, as_rust, duration, evaluate},
+};
+use crate::{
+    catalog::{Catalog, Type},
+    graph::{Connection, End, Graph, NodeId, NodeKind, Port, Value},
+    report::{Diagnostic, Diagnostics},
+    script::{Script, Seen, Step, Until, What},
+    source::{Sources, Span},
+    syntax::tree::{Condition, Expr, Ident, Limit, PathExpr, PortKind, PortRef, TestItem, TestStep},
+};
+use std::{collections::BTreeMap, time::Duration};
+
+/// Resolves test `item` of the first text.
+pub fn test(
+    texts: &Texts,
+    catalog: &Catalog,
+    item: &TestItem,
+    sources: &Sources,
+    budget: &mut super::Budget,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Graph, Script)> {
+    let id = match texts.made(0, &item.graph, catalog) {
+        Ok(Made::Graph(id)) => id,
+        Ok(Made::Node(_)) => {
+            let message = format!("`{}` is a node: a test runs a graph", item.graph.text());
+            let note = "write a graph around it, with ports for what the test feeds and expects";
+            diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
+            return None;
+        }
+        Err(error) => {
+            diagnostics.push(*error);
+            return None;
+        }
+    };
+    let rust_path = |path: &PathExpr| texts.rust_path(0, path);
+    let scope = Scope { params: &BTreeMap::new(), rust_path: &rust_path };
+    let values = arguments(texts, catalog, item, id, &scope, diagnostics);
+    let mut builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
+    builder.replaced = item.replaced.iter().map(|(of, instance)| (dotted(of), instance)).collect();
+    let mut graph = builder.top(id, Purpose::Test(values))?;
+    graph.name = format!("{}Test", crate::codegen::camel(&item.name.text));
+    graph.robot = false;
+    let mut writer = Writer { graph: &mut graph, scope: &scope, sources, diagnostics };
+    writer.check_replaced(item);
+    writer.probe_ports();
+    let steps = item.steps.iter().filter_map(|step| writer.step(step)).collect();
+    let script = Script { name: item.name.text.clone(), docs: item.docs.clone(), span: item.name.span, steps };
+    Some((graph, script))
+}
+
+fn arguments(
+    texts: &Texts,
+    catalog: &Catalog,
+    item: &TestItem,
+    id: GraphId,
+    scope: &Scope<'_>,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<String, Value> {
+    let graph = texts.graph(id);
+    let params: Vec<_> =
+        graph.params.iter().map(|p| (p, catalog.type_in_text(&texts.ty(id.file, &p.ty), &[]))).collect();
+    args::of_graph(&graph.name, &params, Some((&item.args, scope)), item.span, diagnostics)
+}
+
+fn dotted(reference: &PortRef) -> String {
+    reference.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".")
+}
+
+struct Writer<'a> {
+    graph: &'a mut Graph,
+    scope: &'a Scope<'a>,
+    sources: &'a Sources,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Writer<'_> {
+    /// Nodes that are to be replaced exist; those that only Rust can make are replaced.
+    fn check_replaced(&mut self, item: &TestItem) {
+        let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
+        for (of, _) in &item.replaced {
+            let (path, inside) = (dotted(of), format!("{}.", dotted(of)));
+            if !paths.iter().any(|p| *p == path || p.starts_with(&inside)) {
+                let message = format!("there is no node `{path}` to be replaced");
+                let word = Ident { text: path, span: of.span };
+                let error = Diagnostic::error("unknown-node", of.span, message);
+                self.diagnostics.push(suggest(error, &word, paths.iter().map(String::as_str)));
+            }
+        }
+        for node in &self.graph.nodes {
+            if matches!(&node.kind, NodeKind::Library(library) if library.handed_in) {
+                let message = format!("`{}` is made in Rust, which a test cannot do", node.name);
+                let error = Diagnostic::error("not-replaced", item.name.span, message).also(node.span, "this node");
+                self.diagnostics.push(error.note(format!("put another in its place: `replace {} = …();`", node.name)));
+            }
+        }
+    }
+
+    /// What the program sends out is seen by the test, and held back by nobody.
+    fn probe_ports(&mut self) {
+        for node in &mut self.graph.nodes {
+            if matches!(node.kind, NodeKind::Boundary(PortKind::Output | PortKind::Event)) {
+                node.kind = NodeKind::Probe;
+            }
+        }
+    }
+
+    fn step(&mut self, step: &TestStep) -> Option<Step> {
+        match step {
+            TestStep::Wait(time) => self.time(time).map(Step::Wait),
+            TestStep::Never(condition) => self.seen(condition).map(Step::Never),
+            TestStep::Expect(condition, limit) => {
+                let seen = self.seen(condition)?;
+                let until = match limit {
+                    Some((Limit::By, time)) => Some(Until::By(self.time(time)?)),
+                    Some((Limit::Within, time)) => Some(Until::Within(self.time(time)?)),
+                    None => None,
+                };
+                Some(Step::Expect(seen, until))
+            }
+            TestStep::Feed(port, value, every) => self.feed(port, value.as_ref(), every.as_ref()),
+        }
+    }
+
+    fn feed(&mut self, port: &Ident, value: Option<&Expr>, every: Option<&Expr>) -> Option<Step> {
+        let is_way_in = |n: &crate::graph::Node| matches!(n.kind, NodeKind::Boundary(_));
+        let ports: Vec<(NodeId, &str)> = self
+            .graph
+            .nodes
+            .iter()
+            .enumerate()
+            .filter(|(_, n)| is_way_in(n))
+            .map(|(i, n)| (i, n.name.as_str()))
+            .collect();
+        let Some((node, _)) = ports.iter().find(|(_, name)| *name == port.text) else {
+            let message = format!("the graph has no input or slot `{}`", port.text);
+            let error = Diagnostic::error("unknown-port", port.span, message)
+                .note("to feed a source inside the graph, replace it: `replace source = …();`");
+            self.diagnostics.push(suggest(error, port, ports.iter().map(|(_, name)| *name)));
+            return None;
+        };
+        let (node, ty) = (*node, self.graph.nodes[*node].ports[0].ty.clone());
+        let every = match every {
+            Some(time) => Some(self.time(time)?),
+            None => None,
+        };
+        let values = match value {
+            None if ty.is_unit() => vec![Value::Unit],
+            None => {
+                let message = format!("`{}` takes `{ty}`: give it a value", port.text);
+                self.diagnostics.push(Diagnostic::error("missing-argument", port.span, message));
+                return None;
+            }
+            Some(value) => match self.value(value)? {
+                Value::List(values) if every.is_some() => values,
+                value => vec![value],
+            },
+        };
+        Some(Step::Feed { port: node, values, every })
+    }
+
+    fn value(&mut self, expr: &Expr) -> Option<Value> {
+        evaluate(expr, self.scope).map_err(|error| self.diagnostics.push(*error)).ok()
+    }
+
+    fn time(&mut self, expr: &Expr) -> Option<Duration> {
+        let time = match self.value(expr)? {
+            Value::Duration(time) => Ok(time),
+            Value::Number(n) => duration(n, expr.span),
+            _ => {
+                Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a time is wanted here, for example `50ms`")))
+            }
+        };
+        time.map_err(|error| self.diagnostics.push(*error)).ok()
+    }
+
+    fn seen(&mut self, condition: &Condition) -> Option<Seen> {
+        let what = if condition.active {
+            What::Active(self.scope_or_node(&condition.of)?)
+        } else {
+            let (probe, ty) = self.probe(&condition.of)?;
+            let test = match &condition.compare {
+                None => None,
+                Some((operator, value)) => {
+                    let span = value.span;
+                    let value = self.value(value)?;
+                    match as_rust(value, Some(&ty), span) {
+                        Ok(value) => Some(format!("*token {operator} {value}")),
+                        Err(error) => {
+                            self.diagnostics.push(*error);
+                            return None;
+                        }
+                    }
+                }
+            };
+            What::Token(probe, test)
+        };
+        Some(Seen { what, text: self.sources.text(condition.span).to_owned(), span: condition.span })
+    }
+
+    /// The nodes that a name stands for: a node, or all nodes of a nested graph.
+    fn scope_or_node(&mut self, of: &PortRef) -> Option<Vec<NodeId>> {
+        let (path, inside) = (dotted(of), format!("{}.", dotted(of)));
+        let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
+        let meant = |p: &String| *p == path || p.starts_with(&inside);
+        let found: Vec<NodeId> = (0..paths.len()).filter(|n| meant(&paths[*n])).collect();
+        if found.is_empty() {
+            self.unknown(of.span, &path, paths.iter().map(String::as_str));
+            return None;
+        }
+        Some(found)
+    }
+
+    fn unknown<'n>(&mut self, span: Span, path: &str, known: impl Iterator<Item = &'n str>) {
+        let word = Ident { text: path.to_owned(), span };
+        let error = Diagnostic::error("unknown-node", span, format!("the graph has no node or port `{path}`"));
+        self.diagnostics.push(suggest(error, &word, known));
+    }
+
+    /// The probe at a port, which is made when a test looks at it for the first time.
+    fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
+        let path = dotted(of);
+        let name = format!("probe {path}");
+        let known = |n: &crate::graph::Node| n.kind.is_probe() && (n.name == name || n.scope == 0 && n.name == path);
+        if let Some(node) = self.graph.nodes.iter().position(known) {
+            return Some((node, self.graph.nodes[node].ports[0].ty.clone()));
+        }
+        let Some(from) = self.sending_port(&path) else {
+            let ends = (0..self.graph.nodes.len()).flat_map(|node| {
+                let graph = &*self.graph;
+                (0..graph.nodes[node].ports.len()).map(move |port| graph.end_name(End { node, port }))
+            });
+            let known: Vec<String> = ends.collect();
+            self.unknown(of.span, &path, known.iter().map(String::as_str));
+            return None;
+        };
+        let ty = self.graph.port(from).ty.clone();
+        let node = crate::graph::Node {
+            name,
+            scope: 0,
+            kind: NodeKind::Probe,
+            ports: vec![Port::new("probe", PortKind::Slot, ty.clone())],
+            modifiers: Default::default(),
+            span: of.span,
+            docs: String::new(),
+            starts_active: false,
+        };
+        self.graph.nodes.push(node);
+        let to = End { node: self.graph.nodes.len() - 1, port: 0 };
+        let (crossings, span) = (vec![], of.span);
+        self.graph.connections.push(Connection {
+            from,
+            to,
+            active: false,
+            differs: false,
+            crossings,
+            relayed: false,
+            span,
+        });
+        Some((to.node, ty))
+    }
+
+    /// `node.port`, or `node` if only one port sends; also a graph-level input.
+    fn sending_port(&self, path: &str) -> Option<End> {
+        let graph = &*self.graph;
+        let ends: Vec<End> = (0..graph.nodes.len())
+            .flat_map(|node| (0..graph.nodes[node].ports.len()).map(move |port| End { node, port }))
+            .filter(|end| graph.port(*end).kind.sends())
+            .collect();
+        let exact = ends.iter().find(|end| format!("{}.{}", graph.path(end.node), graph.port(**end).name) == path);
+        let of_node: Vec<&End> =
+            ends.iter().filter(|end| graph.path(end.node) == path && graph.port(**end).parameter.is_none()).collect();
+        exact.copied().or(if let [only] = of_node.as_slice() { Some(**only) } else { None })
+    }
+}

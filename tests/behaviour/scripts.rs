@@ -1,0 +1,5 @@
+//! `test` items: each is a Rust test of its own.
+
+use apex_rt::prelude::*;
+
+graph!("scripts.afg");
