@@ -8,7 +8,9 @@ pub(crate) mod mixed1000;
 use crate::{
     graphs::milliseconds,
     image::{Camera, Gray, Labels, blur, components, gray, threshold},
-    nodes::{Count, Entered, OneOf, Pairs, Ping, Rows, Silent, Sink, Symbols, add, mix, numbered, op, sum, sum8, sum64},
+    nodes::{
+        Count, Entered, OneOf, Pairs, Ping, Rows, Silent, Sink, Symbols, add, mix, numbered, op, sum, sum8, sum64,
+    },
 };
 use apex_rt::{Out, Timer};
 use seq_macro::seq;

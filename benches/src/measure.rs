@@ -15,7 +15,7 @@ pub const RESOLUTION_NS: f64 = 0.5;
 pub struct Effort {
     /// Rounds; both sides run in each.
     pub rounds: usize,
-    /// About how long one side runs in a round. Short, so that a disturbance spoils few rounds.
+    /// About how long the slower side runs in a round. Short, so that a disturbance spoils few rounds.
     pub round: Duration,
 }
 
@@ -48,7 +48,7 @@ impl Measurement {
 
 /// Compares both sides of `case`, round by round, each side first in turn.
 pub fn compare(case: &Case, effort: Effort) -> Measurement {
-    let ticks = ticks_in(case.hand, effort.round);
+    let ticks = ticks_in(case.hand, effort.round).min(ticks_in(case.apex, effort.round));
     let mut equal = true;
     let (mut apex, mut hand, mut ratios) = (vec![], vec![], vec![]);
     for round in 0..effort.rounds {

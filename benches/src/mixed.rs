@@ -117,9 +117,10 @@ pub fn graph() -> String {
         let _ = match &inputs[..] {
             [] => Ok(()),
             [a] => writeln!(connections, "    {} -> n{k};", port(*a)),
-            more => more.iter().zip(["a", "b"]).try_for_each(|(from, to)| {
-                writeln!(connections, "    {} -> n{k}.{to};", port(*from))
-            }),
+            more => more
+                .iter()
+                .zip(["a", "b"])
+                .try_for_each(|(from, to)| writeln!(connections, "    {} -> n{k}.{to};", port(*from))),
         };
         if let Kind::Emitter(_, region) = kind {
             let _ = writeln!(connections, "    n{k}.e -> r{}.s;", SIZE * region);
@@ -145,7 +146,9 @@ pub fn rust() -> String {
     for &region in &reached {
         clocked(&mut text, &nodes, region);
     }
-    text.push_str("\n/// What all sinks got.\npub fn checksum(graph: &Mixed1000) -> u64 {\n    let n = graph.nodes();\n    [\n");
+    text.push_str(
+        "\n/// What all sinks got.\npub fn checksum(graph: &Mixed1000) -> u64 {\n    let n = graph.nodes();\n    [\n",
+    );
     for k in sinks(&nodes) {
         let _ = writeln!(text, "        n.s{k}.sum(),");
     }
@@ -201,7 +204,11 @@ fn clocked(text: &mut String, nodes: &[Kind], region: usize) {
     for (k, clock) in (first..).zip(&clocks) {
         if !clock.is_empty() {
             let filter = matches!(nodes[k], Kind::Filter(_));
-            let _ = writeln!(text, "    let mut n{k} = 0;{}", if filter { format!(" let mut c{k} = false;") } else { String::new() });
+            let _ = writeln!(
+                text,
+                "    let mut n{k} = 0;{}",
+                if filter { format!(" let mut c{k} = false;") } else { String::new() }
+            );
         }
     }
     let sinks = sinks(nodes).into_iter().filter(|k| k / SIZE == region).collect();
@@ -235,7 +242,8 @@ impl Clocked<'_> {
     }
 
     fn ready(&self) -> Vec<usize> {
-        let is_ready = |k: &usize| !self.done.contains(k) && self.nodes[*k].inputs().iter().all(|i| self.done.contains(i));
+        let is_ready =
+            |k: &usize| !self.done.contains(k) && self.nodes[*k].inputs().iter().all(|i| self.done.contains(i));
         (self.first..self.first + SIZE).filter(is_ready).collect()
     }
 
@@ -249,7 +257,8 @@ impl Clocked<'_> {
             }
             let inner = ready.iter().map(|k| self.needed(*k)).filter(|c| c.is_superset(clock)).min_by_key(Clock::len);
             let Some(inner) = inner else { break };
-            let flags: Vec<String> = inner.difference(clock).filter(|f| !self.implied(**f, &inner)).map(|f| format!("c{f}")).collect();
+            let flags: Vec<String> =
+                inner.difference(clock).filter(|f| !self.implied(**f, &inner)).map(|f| format!("c{f}")).collect();
             let _ = writeln!(self.text, "{}if {} {{", "    ".repeat(depth), flags.join(" && "));
             self.block(&inner, depth + 1);
             let _ = writeln!(self.text, "{}}}", "    ".repeat(depth));

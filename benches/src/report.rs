@@ -41,7 +41,12 @@ impl Report {
             let _ = writeln!(
                 text,
                 "{:<16}{:>14.2}{:>14.2}{:>8.2}{:>7}{:>12.2}  {equal:<10}{met}",
-                m.name, m.apex_ns, m.hand_ns, m.ratio, goal(m), m.allocations
+                m.name,
+                m.apex_ns,
+                m.hand_ns,
+                m.ratio,
+                goal(m),
+                m.allocations
             );
         }
         text + &self.skipped_lines("")
@@ -58,7 +63,12 @@ impl Report {
             let _ = writeln!(
                 text,
                 "| {} | {:.2} | {:.2} | {:.2} | {} | {:.2} | {equal} | {met} |",
-                m.name, m.apex_ns, m.hand_ns, m.ratio, goal(m), m.allocations
+                m.name,
+                m.apex_ns,
+                m.hand_ns,
+                m.ratio,
+                goal(m),
+                m.allocations
             );
         }
         text + "\n" + &self.skipped_lines("- ")
@@ -75,7 +85,10 @@ impl Report {
             let [_, met] = verdicts(m);
             format!(
                 "{bullet}skipped tick of {}: {:.2} ns, {:.2} times {shortest} (goal {}): {met}\n",
-                m.name, m.apex_ns, m.ratio, goal(m)
+                m.name,
+                m.apex_ns,
+                m.ratio,
+                goal(m)
             )
         };
         let lines: String = self.skipped_ticks.iter().map(line).collect();
@@ -88,9 +101,12 @@ fn goal(m: &Measurement) -> String {
 }
 
 fn verdicts(m: &Measurement) -> [&'static str; 2] {
-    [if m.equal { "equal" } else { "DIFFERENT" }, match m.goal {
-        None => "",
-        Some(_) if m.meets_goal() => "met",
-        Some(_) => "missed",
-    }]
+    [
+        if m.equal { "equal" } else { "DIFFERENT" },
+        match m.goal {
+            None => "",
+            Some(_) if m.meets_goal() => "met",
+            Some(_) => "missed",
+        },
+    ]
 }

@@ -62,7 +62,8 @@ fn diamond(w: u32) -> String {
 const STATES: u32 = 16;
 
 fn machine() -> String {
-    let mut text = "/// A ring of 16 states.\nfsm Ring {\n    slot next;\n    slot reset;\n    event entered: u64;\n\n".to_owned();
+    let mut text =
+        "/// A ring of 16 states.\nfsm Ring {\n    slot next;\n    slot reset;\n    event entered: u64;\n\n".to_owned();
     for s in 0..STATES {
         let _ = writeln!(
             text,
@@ -80,9 +81,10 @@ fn machine() -> String {
 }
 
 fn state_nodes() -> String {
-    let mut text = "/// A ring of 16 nodes, of which one is active.\ngraph StateRing {\n    node symbols = Symbols();\n    \
+    let mut text =
+        "/// A ring of 16 nodes, of which one is active.\ngraph StateRing {\n    node symbols = Symbols();\n    \
                     node sink = Entered();\n"
-        .to_owned();
+            .to_owned();
     for s in 0..STATES {
         let kind = if s == 0 { "First" } else { "State" };
         let _ = writeln!(text, "    node s{s} = {kind}(number = {});", s + 1);
