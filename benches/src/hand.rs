@@ -240,7 +240,8 @@ pub fn mpse8(ticks: u64) -> u64 {
     let (mut source, mut acc) = (Count::default(), 0u64);
     for _ in 0..ticks {
         let i = source.process();
-        seq!(P in 0..8 { acc = acc.wrapping_add(op(&numbered(&i, P), P + 1)); });
+        let mut take = |p| acc = acc.wrapping_add(op(&numbered(&i, p), p + 1));
+        seq!(P in 0..8 { take(P); });
         acc = black_box(acc);
     }
     acc
