@@ -19,6 +19,12 @@ graph!("graphs/image.afg");
 graph!("graphs/timer10.afg");
 graph!("graphs/timers2.afg");
 graph!("graphs/timers3.afg");
+graph!("graphs/pingpong.afg");
+graph!("graphs/pingpong1.afg");
+graph!("graphs/mpse8.afg");
+graph!("graphs/fsm16.afg");
+graph!("graphs/fsm16nodes.afg");
+graph!("graphs/mixed1000.afg");
 
 /// The times of `ticks` ticks.
 pub(crate) fn milliseconds(ticks: u64) -> impl Iterator<Item = Time> {
@@ -26,7 +32,7 @@ pub(crate) fn milliseconds(ticks: u64) -> impl Iterator<Item = Time> {
 }
 
 macro_rules! runs {
-    ($($name:ident: $graph:ident),*) => {
+    ($sink:ident => $($name:ident: $graph:ident),*) => {
         $(
             #[doc = concat!("Ticks of `", stringify!($graph), "`.")]
             #[inline(never)]
@@ -35,16 +41,40 @@ macro_rules! runs {
                 for now in milliseconds(ticks) {
                     graph.react(now);
                 }
-                graph.nodes().sink.checksum()
+                graph.nodes().$sink.checksum()
             }
         )*
     };
 }
 
-runs!(
+runs! { sink =>
     chain3: Chain3, chain10: Chain10, chain100: Chain100, chain1000: Chain1000,
     silent10: Silent10, silent100: Silent100, silent1000: Silent1000,
     diamond8: Diamond8, diamond64: Diamond64,
     bot100: Bot100, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image,
-    timer10: Timer10, timers2: Timers2, timers3: Timers3
-);
+    timer10: Timer10, timers2: Timers2, timers3: Timers3,
+    mpse8: Mpse8, fsm16: Fsm16, fsm16_nodes: StateRing
+}
+
+runs! { a => pingpong1: PingPong1 }
+
+/// Round trips of `PingPong`: it would go on for ever in one reaction, so that the budget of the reaction ends it.
+/// A round trip is two steps; one more is the start.
+#[inline(never)]
+pub fn pingpong(ticks: u64) -> u64 {
+    let mut graph = PingPong::new();
+    graph.set_budget(u32::try_from(2 * ticks + 1).unwrap_or(u32::MAX));
+    graph.react(Time::ZERO);
+    graph.nodes().a.checksum()
+}
+
+/// Ticks of `Mixed1000`. Its sums are what a tick gives.
+#[inline(never)]
+pub fn mixed1000(ticks: u64) -> u64 {
+    let mut graph = Mixed1000::new();
+    for now in milliseconds(ticks) {
+        graph.react(now);
+        std::hint::black_box(&mut graph);
+    }
+    crate::hand::mixed1000::checksum(&graph)
+}

@@ -1,14 +1,20 @@
 //! The same work as straight-line Rust, as somebody who knows the whole graph would write it: values in
 //! locals, ⊥ as control flow.
 
+#[rustfmt::skip]
+#[allow(clippy::all, clippy::pedantic, unused_assignments, unused_variables)]
+pub(crate) mod mixed1000;
+
 use crate::{
     graphs::milliseconds,
     image::{Camera, Gray, Labels, blur, components, gray, threshold},
-    nodes::{Count, OneOf, Pairs, Rows, Silent, Sink, add, mix, op, sum, sum8, sum64},
+    nodes::{
+        Count, Entered, OneOf, Pairs, Ping, Rows, Silent, Sink, Symbols, add, mix, numbered, op, sum, sum8, sum64,
+    },
 };
 use apex_rt::{Out, Timer};
 use seq_macro::seq;
-use std::time::Duration;
+use std::{hint::black_box, time::Duration};
 
 macro_rules! chain {
     ($($name:ident: $source:ty, $n:literal;)*) => {
@@ -216,4 +222,94 @@ pub fn timers3(ticks: u64) -> u64 {
         }
     }
     sink.checksum()
+}
+
+/// A token that goes to and fro.
+#[inline(never)]
+pub fn pingpong(ticks: u64) -> u64 {
+    let (mut a, mut x) = (Ping::default(), 0);
+    for _ in 0..ticks {
+        x = a.back(&op(&x, 1));
+    }
+    a.checksum()
+}
+
+/// Eight values a tick.
+#[inline(never)]
+pub fn mpse8(ticks: u64) -> u64 {
+    let (mut source, mut acc) = (Count::default(), 0u64);
+    for _ in 0..ticks {
+        let i = source.process();
+        let mut take = |p| acc = acc.wrapping_add(op(&numbered(&i, p), p + 1));
+        seq!(P in 0..8 { take(P); });
+        acc = black_box(acc);
+    }
+    acc
+}
+
+/// A ring of 16 states, as arithmetic.
+#[inline(never)]
+pub fn fsm16(ticks: u64) -> u64 {
+    let (mut symbols, mut sink, mut state) = (Symbols::default(), Entered::default(), 0);
+    sink.s(&1);
+    for _ in 0..ticks {
+        state = if symbols.is_reset() { 0 } else { (state + 1) % 16 };
+        sink.s(&(state + 1));
+    }
+    sink.checksum()
+}
+
+seq!(N in 0..16 {
+    #[derive(Clone, Copy)]
+    enum Ring { #(S~N,)* }
+});
+
+/// A ring of 16 states, as a state machine.
+#[inline(never)]
+pub fn fsm16_match(ticks: u64) -> u64 {
+    let (mut symbols, mut sink, mut state) = (Symbols::default(), Entered::default(), Ring::S0);
+    sink.s(&1);
+    for _ in 0..ticks {
+        state = match state {
+            _ if symbols.is_reset() => Ring::S0,
+            Ring::S0 => Ring::S1,
+            Ring::S1 => Ring::S2,
+            Ring::S2 => Ring::S3,
+            Ring::S3 => Ring::S4,
+            Ring::S4 => Ring::S5,
+            Ring::S5 => Ring::S6,
+            Ring::S6 => Ring::S7,
+            Ring::S7 => Ring::S8,
+            Ring::S8 => Ring::S9,
+            Ring::S9 => Ring::S10,
+            Ring::S10 => Ring::S11,
+            Ring::S11 => Ring::S12,
+            Ring::S12 => Ring::S13,
+            Ring::S13 => Ring::S14,
+            Ring::S14 => Ring::S15,
+            Ring::S15 => Ring::S0,
+        };
+        sink.s(&(state as u64 + 1));
+    }
+    sink.checksum()
+}
+
+/// Regions joined by events, node by node.
+#[inline(never)]
+pub fn mixed1000(ticks: u64) -> u64 {
+    let (mut source, mut acc) = (Count::default(), 0);
+    for _ in 0..ticks {
+        acc = black_box(mixed1000::region0(source.process(), acc));
+    }
+    acc
+}
+
+/// Regions joined by events, ⊥ as control flow.
+#[inline(never)]
+pub fn mixed1000_clock(ticks: u64) -> u64 {
+    let (mut source, mut acc) = (Count::default(), 0);
+    for _ in 0..ticks {
+        acc = black_box(mixed1000::clock0(source.process(), acc));
+    }
+    acc
 }

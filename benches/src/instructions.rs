@@ -16,8 +16,8 @@ pub enum Side {
 }
 
 /// Both run lengths are multiples of all periods in the graphs.
-const SHORT: u64 = 200;
-const LONG: u64 = 400;
+const SHORT: u64 = 1000;
+const LONG: u64 = 2000;
 
 /// Prints a table of all graphs.
 pub fn run() -> Result<ExitCode, String> {
@@ -25,10 +25,10 @@ pub fn run() -> Result<ExitCode, String> {
         println!("skipped: counting instructions needs valgrind");
         return Ok(ExitCode::SUCCESS);
     }
-    println!("{:<12}{:>16}{:>16}{:>8}", "graph", "apex instr/tick", "hand instr/tick", "ratio");
+    println!("{:<16}{:>16}{:>16}{:>8}", "graph", "apex instr/tick", "hand instr/tick", "ratio");
     for case in &CASES {
         let (apex, hand) = (per_tick(case.name, Side::Apex)?, per_tick(case.name, Side::Hand)?);
-        println!("{:<12}{apex:>16.2}{hand:>16.2}{:>8.2}", case.name, apex / hand);
+        println!("{:<16}{apex:>16.2}{hand:>16.2}{:>8.2}", case.name, apex / hand);
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -46,7 +46,7 @@ pub fn ticks(graph: &str, side: Side, ticks: u64) -> Result<ExitCode, String> {
 
 fn per_tick(graph: &str, side: Side) -> Result<f64, String> {
     // A frame takes millions of instructions: a few are enough.
-    let scale = if graph == "image" { 25 } else { 1 };
+    let scale = if graph == "image" { 125 } else { 1 };
     let (short, long) = (SHORT / scale, LONG / scale);
     let difference = count(graph, side, long)?.saturating_sub(count(graph, side, short)?);
     Ok(difference as f64 / (long - short) as f64)

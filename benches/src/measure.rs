@@ -15,7 +15,7 @@ pub const RESOLUTION_NS: f64 = 0.5;
 pub struct Effort {
     /// Rounds; both sides run in each.
     pub rounds: usize,
-    /// About how long one side runs in a round. Short, so that a disturbance spoils few rounds.
+    /// About how long the slower side runs in a round. Short, so that a disturbance spoils few rounds.
     pub round: Duration,
 }
 
@@ -30,8 +30,8 @@ pub struct Measurement {
     pub hand_ns: f64,
     /// Median of the ratios of the rounds.
     pub ratio: f64,
-    /// The largest ratio wanted.
-    pub goal: f64,
+    /// The largest ratio wanted, if any.
+    pub goal: Option<f64>,
     /// Whether the checksums agree.
     pub equal: bool,
     /// Allocations per tick of the compiled program, after warm-up.
@@ -41,14 +41,14 @@ pub struct Measurement {
 impl Measurement {
     /// Whether it is as fast as wanted and allocates nothing.
     pub fn meets_goal(&self) -> bool {
-        let fast = self.ratio <= self.goal || self.apex_ns - self.hand_ns < RESOLUTION_NS;
+        let fast = self.goal.is_none_or(|goal| self.ratio <= goal) || self.apex_ns - self.hand_ns < RESOLUTION_NS;
         fast && self.allocations == 0.0
     }
 }
 
 /// Compares both sides of `case`, round by round, each side first in turn.
 pub fn compare(case: &Case, effort: Effort) -> Measurement {
-    let ticks = ticks_in(case.hand, effort.round);
+    let ticks = ticks_in(case.hand, effort.round).min(ticks_in(case.apex, effort.round));
     let mut equal = true;
     let (mut apex, mut hand, mut ratios) = (vec![], vec![], vec![]);
     for round in 0..effort.rounds {

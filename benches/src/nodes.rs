@@ -172,3 +172,343 @@ impl Sink {
         self.acc = black_box(self.acc.rotate_left(5) ^ x);
     }
 }
+
+/// The node A of a ping-pong: folds what comes back into a checksum, and sends the next token.
+#[node]
+#[derive(Default)]
+pub struct Ping {
+    acc: u64,
+}
+
+#[node]
+impl Ping {
+    /// The checksum so far.
+    pub fn checksum(&self) -> u64 {
+        self.acc
+    }
+
+    /// One token came back; gives the next. The guard of a round trip is here: it costs nothing.
+    #[inline]
+    pub fn back(&mut self, y: &u64) -> u64 {
+        self.acc = self.acc.rotate_left(5) ^ y;
+        black_box(());
+        op(y, 2)
+    }
+
+    /// The first token.
+    #[slot]
+    pub fn begin(&mut self, e: Event<u64>) {
+        e.emit(0);
+    }
+
+    /// One token after the other.
+    #[slot]
+    pub fn s(&mut self, y: &u64, e: Event<u64>) {
+        e.emit(self.back(y));
+    }
+}
+
+/// The node A of a ping-pong that sends one token a tick.
+#[node]
+#[derive(Default)]
+pub struct Serve {
+    ping: Ping,
+    next: u64,
+}
+
+#[node]
+impl Serve {
+    /// The checksum so far.
+    pub fn checksum(&self) -> u64 {
+        self.ping.checksum()
+    }
+
+    /// Sends the token.
+    pub fn process(&mut self, e: Event<u64>) {
+        e.emit(self.next);
+    }
+
+    /// Keeps the token for the next tick.
+    #[slot]
+    pub fn s(&mut self, y: &u64) {
+        self.next = self.ping.back(y);
+    }
+}
+
+/// The node B of a ping-pong.
+#[node]
+#[derive(Default)]
+pub struct Pong;
+
+#[node]
+impl Pong {
+    /// Sends it back.
+    #[slot]
+    pub fn s(&mut self, x: &u64, e: Event<u64>) {
+        e.emit(op(x, 1));
+    }
+}
+
+/// Producer number `p`: an event for each number.
+#[node]
+pub fn produce(i: &u64, #[param] p: u64, e: Event<u64>) {
+    e.emit(numbered(i, p));
+}
+
+/// The i-th value of producer `p`.
+pub fn numbered(i: &u64, p: u64) -> u64 {
+    (p << 32) | i
+}
+
+/// Adds up what comes to its eight slots. The last one is the tick's guard.
+#[node]
+#[derive(Default)]
+pub struct Eight {
+    acc: u64,
+}
+
+macro_rules! add_op {
+    ($self:ident, $v:ident, $k:literal) => {
+        $self.acc = $self.acc.wrapping_add(op($v, $k))
+    };
+}
+
+#[node]
+impl Eight {
+    /// The checksum so far.
+    pub fn checksum(&self) -> u64 {
+        self.acc
+    }
+
+    /// From producer 0.
+    #[slot]
+    pub fn s0(&mut self, v: &u64) {
+        add_op!(self, v, 1);
+    }
+
+    /// From producer 1.
+    #[slot]
+    pub fn s1(&mut self, v: &u64) {
+        add_op!(self, v, 2);
+    }
+
+    /// From producer 2.
+    #[slot]
+    pub fn s2(&mut self, v: &u64) {
+        add_op!(self, v, 3);
+    }
+
+    /// From producer 3.
+    #[slot]
+    pub fn s3(&mut self, v: &u64) {
+        add_op!(self, v, 4);
+    }
+
+    /// From producer 4.
+    #[slot]
+    pub fn s4(&mut self, v: &u64) {
+        add_op!(self, v, 5);
+    }
+
+    /// From producer 5.
+    #[slot]
+    pub fn s5(&mut self, v: &u64) {
+        add_op!(self, v, 6);
+    }
+
+    /// From producer 6.
+    #[slot]
+    pub fn s6(&mut self, v: &u64) {
+        add_op!(self, v, 7);
+    }
+
+    /// From producer 7.
+    #[slot]
+    pub fn s7(&mut self, v: &u64) {
+        add_op!(self, v, 8);
+        self.acc = black_box(self.acc);
+    }
+}
+
+/// What a state machine reads: `reset` each thousandth time, else `next`; the optimiser does not know which.
+#[node]
+#[derive(Default)]
+pub struct Symbols {
+    count: u64,
+}
+
+#[node]
+impl Symbols {
+    /// Whether the next symbol is `reset`.
+    #[inline]
+    pub fn is_reset(&mut self) -> bool {
+        self.count += 1;
+        let last = self.count == 1000;
+        if last {
+            self.count = 0;
+        }
+        black_box(last)
+    }
+
+    /// One symbol.
+    pub fn process(&mut self, next: Event<()>, reset: Event<()>) {
+        if self.is_reset() { reset.emit(()) } else { next.emit(()) }
+    }
+}
+
+/// Folds the numbers of entered states into a checksum.
+#[node]
+#[derive(Default)]
+pub struct Entered {
+    acc: u64,
+}
+
+#[node]
+impl Entered {
+    /// The checksum so far.
+    pub fn checksum(&self) -> u64 {
+        self.acc
+    }
+
+    /// acc ← rotl(acc, 5) xor s.
+    #[slot]
+    pub fn s(&mut self, s: &u64) {
+        self.acc = self.acc.rotate_left(5) ^ s;
+    }
+}
+
+/// A state of a ring: passes its activity on at `next`, and to the first state at `reset`.
+#[node]
+#[derive(Default)]
+pub struct State {
+    /// What it says when it is entered.
+    #[param]
+    number: u64,
+}
+
+#[node]
+impl State {
+    /// It is entered.
+    #[slot]
+    pub fn enter(&mut self, entered: Event<u64>) {
+        entered.emit(self.number);
+    }
+
+    /// On to the next state.
+    #[slot]
+    pub fn next(&mut self, ctx: &Ctx, left: Event<()>) {
+        if ctx.active() {
+            left.emit(());
+        }
+    }
+
+    /// Back to the first state.
+    #[slot]
+    pub fn reset(&mut self, ctx: &Ctx, back: Event<()>) {
+        if ctx.active() {
+            back.emit(());
+        }
+    }
+}
+
+/// The first state of a ring. At `reset` it is entered again: a node cannot send an event to a slot of its own.
+#[node]
+#[derive(Default)]
+pub struct First {
+    /// What it says when it is entered.
+    #[param]
+    number: u64,
+}
+
+#[node]
+impl First {
+    /// It is entered.
+    #[slot]
+    pub fn enter(&mut self, entered: Event<u64>) {
+        entered.emit(self.number);
+    }
+
+    /// On to the next state.
+    #[slot]
+    pub fn next(&mut self, ctx: &Ctx, left: Event<()>) {
+        if ctx.active() {
+            left.emit(());
+        }
+    }
+
+    /// Entered again.
+    #[slot]
+    pub fn reset(&mut self, ctx: &Ctx, entered: Event<u64>) {
+        if ctx.active() {
+            entered.emit(self.number);
+        }
+    }
+}
+
+/// (a + rotl(b, 1)) xor k.
+#[node]
+pub fn merge(a: &u64, b: &u64, #[param] k: u64) -> u64 {
+    a.wrapping_add(b.rotate_left(1)) ^ k
+}
+
+/// Passes three quarters of all messages.
+#[node]
+pub fn gate(x: &u64) -> Option<u64> {
+    ((x >> 7) & 3 != 0).then_some(*x)
+}
+
+/// The same.
+#[node]
+pub fn pass(x: &u64) -> u64 {
+    *x
+}
+
+/// `op`, with an event of the same value.
+#[node]
+pub fn tell(x: &u64, #[param] k: u64, e: Event<u64>) -> u64 {
+    let y = op(x, k);
+    e.emit(y);
+    y
+}
+
+/// Events of several nodes as events of one.
+#[node]
+#[derive(Default)]
+pub struct Relay;
+
+#[node]
+impl Relay {
+    /// Passes the token on.
+    #[slot]
+    pub fn s(&mut self, x: &u64, e: Event<u64>) {
+        e.emit(*x);
+    }
+}
+
+/// acc + x·(2k + 1).
+pub fn weigh(acc: u64, x: u64, k: u64) -> u64 {
+    acc.wrapping_add(x.wrapping_mul(2 * k + 1))
+}
+
+/// Adds up what it gets, weighed with its number.
+#[node]
+#[derive(Default)]
+pub struct Weigh {
+    /// Its number.
+    #[param]
+    k: u64,
+    acc: u64,
+}
+
+#[node]
+impl Weigh {
+    /// The sum so far.
+    pub fn sum(&self) -> u64 {
+        self.acc
+    }
+
+    /// Adds `x`.
+    pub fn process(&mut self, x: &u64) {
+        self.acc = weigh(self.acc, *x, self.k);
+    }
+}

@@ -1,14 +1,25 @@
-//! The texts of the graphs that are too long to be written by hand.
+//! The texts that are too long to be written by hand.
+
+#[path = "mixed.rs"]
+mod mixed;
 
 use std::fmt::Write as _;
 
+/// File names, from this package on, and texts of all that is generated.
+pub fn files() -> Vec<(String, String)> {
+    let graphs = all().into_iter().map(|(name, text)| (format!("graphs/{name}"), text));
+    graphs.chain([("src/hand/mixed1000.rs".to_owned(), mixed::rust())]).collect()
+}
+
 /// File names and texts of all generated graphs.
-pub fn all() -> Vec<(String, String)> {
+fn all() -> Vec<(String, String)> {
     let chains = [3, 10, 100, 1000].map(|n| (format!("chain{n}.afg"), chain(n)));
     let silent = [10, 100, 1000].map(|n| (format!("silent{n}.afg"), silent(n)));
     let diamonds = [8, 64].map(|w| (format!("diamond{w}.afg"), diamond(w)));
     let filtered = ("bot100.afg".to_owned(), bot100());
-    chains.into_iter().chain(silent).chain(diamonds).chain([filtered]).collect()
+    let machines = [("fsm16.afg".to_owned(), machine()), ("fsm16nodes.afg".to_owned(), state_nodes())];
+    let mixed = ("mixed1000.afg".to_owned(), mixed::graph());
+    chains.into_iter().chain(silent).chain(diamonds).chain([filtered, mixed]).chain(machines).collect()
 }
 
 fn chain(n: u32) -> String {
@@ -45,6 +56,52 @@ fn diamond(w: u32) -> String {
     }
     text.push_str("    all -> sink;\n}\n");
     text
+}
+
+/// The number of states.
+const STATES: u32 = 16;
+
+fn machine() -> String {
+    let mut text =
+        "/// A ring of 16 states.\nfsm Ring {\n    slot next;\n    slot reset;\n    event entered: u64;\n\n".to_owned();
+    for s in 0..STATES {
+        let _ = writeln!(
+            text,
+            "    state s{s} {{ entry -> entered({}); on next => s{}; on reset => s0; }}",
+            s + 1,
+            (s + 1) % STATES
+        );
+    }
+    text.push_str(
+        "}\n\n/// Its symbols and what is entered.\ngraph Fsm16 {\n    node symbols = Symbols();\n    node ring = Ring();\n    \
+         node sink = Entered();\n\n    symbols.next -> ring.next;\n    symbols.reset -> ring.reset;\n    \
+         ring.entered -> sink.s;\n}\n",
+    );
+    text
+}
+
+fn state_nodes() -> String {
+    let mut text =
+        "/// A ring of 16 nodes, of which one is active.\ngraph StateRing {\n    node symbols = Symbols();\n    \
+                    node sink = Entered();\n"
+            .to_owned();
+    for s in 0..STATES {
+        let kind = if s == 0 { "First" } else { "State" };
+        let _ = writeln!(text, "    node s{s} = {kind}(number = {});", s + 1);
+    }
+    text.push_str("\n    start => s0.enter;\n");
+    for s in 0..STATES {
+        let _ = writeln!(
+            text,
+            "    symbols.next -> s{s}.next;\n    symbols.reset -> s{s}.reset;\n    s{s}.left => s{}.enter;\n    \
+             s{s}.entered -> sink.s;",
+            (s + 1) % STATES
+        );
+    }
+    for s in 1..STATES {
+        let _ = writeln!(text, "    s{s}.back => s0.enter;");
+    }
+    text + "}\n"
 }
 
 /// ` -> op(k = …)` from `first` to `last`, five in a line.

@@ -1,6 +1,6 @@
 //! Both sides of every graph compute the same, and the compiled one allocates nothing once it is warm.
 
-use apex_bench::{CASES, allocations};
+use apex_bench::{CASES, allocations, graphs, hand};
 
 /// Enough for the slowest filter to pass twice.
 const TICKS: u64 = 201;
@@ -10,6 +10,15 @@ fn checksums_are_equal() {
     for case in &CASES {
         let ticks = if case.name == "image" { 9 } else { TICKS };
         assert_eq!((case.apex)(ticks), (case.hand)(ticks), "{}", case.name);
+    }
+}
+
+/// The same that programs in other languages and frameworks compute.
+#[test]
+fn mixed1000_computes_what_everybody_computes() {
+    const CHECKSUM: u64 = 16_515_020_817_037_896_410;
+    for run in [graphs::mixed1000, hand::mixed1000, hand::mixed1000_clock] {
+        assert_eq!(run(100_000), CHECKSUM);
     }
 }
 
