@@ -146,10 +146,14 @@ impl Case {
             size /= 2;
         }
         for n in (0..self.nodes.len()).rev() {
-            add(&|c| drop(c.nodes.remove(n)));
+            add(&|c| {
+                c.nodes.remove(n);
+            });
         }
         for l in 0..self.links.len() {
-            add(&|c| drop(c.links.remove(l)));
+            add(&|c| {
+                c.links.remove(l);
+            });
             if self.links[l].active {
                 add(&|c| c.links[l].active = false);
             }

@@ -43,7 +43,7 @@ pub fn sends(id: i64, [seed, mode, limit]: Parameters, port: &str, call: i64) ->
         hash = (hash ^ word as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         hash ^= hash >> 29;
     }
-    hash % 4 != 0
+    !hash.is_multiple_of(4)
 }
 
 fn number(port: &str) -> i64 {
