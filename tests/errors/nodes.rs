@@ -250,3 +250,16 @@ impl Patient {
     #[no_message]
     fn missing(&mut self) {}
 }
+
+/// Sums, and tells of it.
+#[node]
+#[derive(Default)]
+pub struct Tell {}
+
+#[node]
+impl Tell {
+    fn process(&mut self, x: &u64, y: &u64, done: Event<u64>) -> u64 {
+        done.emit(x + y);
+        x + y
+    }
+}

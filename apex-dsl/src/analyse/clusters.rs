@@ -3,7 +3,7 @@
 use super::{Analysis, Asynchronous, Block, Links, Step, fires, is_source};
 use crate::{
     catalog::Catalog,
-    graph::{Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
+    graph::{Connection, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -177,14 +177,39 @@ pub fn clusters(
             block: Block::default(),
         });
     }
-    for c in graph.connections.iter().filter(|c| graph.is_synchronous(c)) {
-        let (a, b) = (cluster_of[c.from.node], cluster_of[c.to.node]);
-        if a != b {
+    join(graph, &cluster_of, &mut clusters);
+    (guards, clusters, cluster_of)
+}
+
+/// Which cluster sends to which: on its connections, and because the inputs of a nested graph are taken together and its
+/// outputs sent together, so that who takes one of them waits for all that send to that side.
+fn join(graph: &Graph, cluster_of: &[usize], clusters: &mut [Cluster]) {
+    let synchronous: Vec<&Connection> = graph.connections.iter().filter(|c| graph.is_synchronous(c)).collect();
+    let mut senders: BTreeMap<Crossing, BTreeSet<usize>> = BTreeMap::new();
+    loop {
+        let mut changed = false;
+        for c in &synchronous {
+            let mut tokens = BTreeSet::from([cluster_of[c.from.node]]);
+            for crossing in &c.crossings {
+                let side = senders.entry(*crossing).or_default();
+                changed |= !tokens.is_subset(side);
+                side.extend(tokens);
+                tokens = side.clone();
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    for c in &synchronous {
+        let own = BTreeSet::from([cluster_of[c.from.node]]);
+        let b = cluster_of[c.to.node];
+        let last = c.crossings.last().map_or(&own, |side| &senders[side]);
+        for &a in last.iter().filter(|a| **a != b) {
             clusters[a].downstream.insert(b);
             clusters[b].upstream.insert(a);
         }
     }
-    (guards, clusters, cluster_of)
 }
 
 /// What the functions below look at.

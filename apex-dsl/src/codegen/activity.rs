@@ -85,7 +85,7 @@ impl Generator<'_> {
 
     /// A node becomes active, unless it is already.
     pub fn activate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let (flag, index) = (self.flag(Flag::Active, node), self.names.base + node);
+        let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, true));
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|timeout| {
             let (name, nanos) = (self.flag(Flag::Timeout, node), nanos(timeout));
             quote! { state.#name.start(ctx.now(), ::core::time::Duration::from_nanos(#nanos)); }
@@ -95,7 +95,7 @@ impl Generator<'_> {
         quote! {
             if !state.#flag {
                 state.#flag = true;
-                observer.activity(#index, true);
+                #observed
                 #timeout #event #hook
             }
         }
@@ -103,7 +103,7 @@ impl Generator<'_> {
 
     /// A node is no longer active.
     pub fn deactivate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let (flag, index) = (self.flag(Flag::Active, node), self.names.base + node);
+        let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, false));
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|_| {
             let name = self.flag(Flag::Timeout, node);
             quote! { state.#name.stop(); }
@@ -113,9 +113,18 @@ impl Generator<'_> {
         quote! {
             if state.#flag {
                 state.#flag = false;
-                observer.activity(#index, false);
+                #observed
                 #timeout #event #hook
             }
+        }
+    }
+
+    /// Tells the observer; not of a node that only passes tokens on.
+    fn observed(&self, whole: Whole<'_>, node: NodeId, active: bool) -> TokenStream {
+        let index = self.names.base + node;
+        match whole.graph.nodes[node].kind {
+            NodeKind::Relay => quote!(),
+            _ => quote! { observer.activity(#index, #active); },
         }
     }
 

@@ -223,13 +223,9 @@ impl<'a> Builder<'a> {
         let called = self.place(format!("{name} is in a slot"), 0);
         for leg in incoming {
             let connection = self.legs[leg].connection;
-            let other: Vec<usize> = events.iter().copied().filter(|e| *e != leg).collect();
             let mut takes = vec![self.places[leg].token, lock];
-            takes.extend(self.free(&other));
-            let mut gives = vec![called];
-            if !events.contains(&leg) {
-                gives.push(self.places[leg].free);
-            }
+            takes.extend(self.free(&events));
+            let mut gives = vec![called, self.places[leg].free];
             if matches!(self.graph.nodes[node].kind, NodeKind::Reset) {
                 gives.extend(self.starts.values());
             }

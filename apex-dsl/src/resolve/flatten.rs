@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     catalog::Type,
-    graph::{Connection, Crossing, End, NodeId, NodeKind, Port},
+    graph::{Connection, Crossing, End, NodeId, NodeKind, Port, ScopeId},
     report::Diagnostic,
     syntax::tree::{Ident, PortKind},
 };
@@ -69,40 +69,59 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     (connections, hanging.collect())
 }
 
-/// Inputs of a nested graph are taken together and its outputs sent together, also where they lead to a slot:
-/// there a node of its own takes part in the synchronous flow and sends to the slot. Not needed where the port is
+/// Inputs of a nested graph are taken together and its outputs sent together, also where an event leads to them or
+/// where they lead to a slot: there a node of its own takes part in the synchronous flow. Not needed where the port is
 /// the only one of its side, because nobody can see a difference then.
 fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
-    let mut ports: BTreeMap<(usize, PortKind), usize> = BTreeMap::new();
+    let mut ports: BTreeMap<(ScopeId, PortKind), usize> = BTreeMap::new();
     for pin in &builder.pins {
         *ports.entry((pin.scope, pin.kind)).or_default() += 1;
     }
-    let mut relays: BTreeMap<usize, NodeId> = BTreeMap::new();
-    for index in 0..wires.len() {
-        let Place::Pin(pin) = wires[index].from else { continue };
-        let to_slot = match wires[index].to {
-            Place::Port(end) => builder.nodes[end.node].ports[end.port].kind == PortKind::Slot,
-            Place::Pin(to) => !builder.pins[to].kind.is_synchronous(),
-        };
-        let Pin { kind, scope, span, .. } = builder.pins[pin];
-        if !to_slot || !kind.is_synchronous() || ports[&(scope, kind)] < 2 {
-            continue;
+    let is_barred = |builder: &Builder<'_>, place| match place {
+        Place::Pin(pin) => {
+            let Pin { scope, kind, .. } = builder.pins[pin];
+            (kind.is_synchronous() && ports[&(scope, kind)] > 1).then_some(pin)
         }
-        let relay = match relays.get(&pin) {
-            Some(relay) => *relay,
-            None => {
-                let at = if kind == PortKind::Input { scope } else { builder.scopes[scope].parent };
-                let name = Ident { text: format!("{}_relay", builder.pins[pin].name), span };
-                let port = |name, kind| Port::new(name, kind, Type::Unknown(String::new()));
-                let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
-                let Some(node) = builder.node(&name, at, NodeKind::Relay, ports, "") else { return };
-                let wire = Wire { from: Place::Pin(pin), to: Place::Port(End { node, port: 0 }), ..wires[index] };
-                wires.push(wire);
-                relays.insert(pin, node);
-                node
-            }
-        };
-        wires[index].from = Place::Port(End { node: relay, port: 1 });
+        Place::Port(_) => None,
+    };
+    let mut behind: BTreeMap<usize, NodeId> = BTreeMap::new();
+    for index in 0..wires.len() {
+        let Wire { from, to, .. } = wires[index];
+        if let Some(pin) = is_barred(builder, to).filter(|_| !is_synchronous(builder, from)) {
+            let Some(relay) = add_relay(builder, pin, false) else { return };
+            wires.push(Wire { from: Place::Port(End { node: relay, port: 1 }), ..wires[index] });
+            wires[index].to = Place::Port(End { node: relay, port: 0 });
+        }
+        if let Some(pin) = is_barred(builder, from).filter(|_| !is_synchronous(builder, to)) {
+            let relay = match behind.get(&pin) {
+                Some(relay) => *relay,
+                None => {
+                    let Some(relay) = add_relay(builder, pin, true) else { return };
+                    wires.push(Wire { to: Place::Port(End { node: relay, port: 0 }), ..wires[index] });
+                    *behind.entry(pin).or_insert(relay)
+                }
+            };
+            wires[index].from = Place::Port(End { node: relay, port: 1 });
+        }
+    }
+}
+
+/// A node that passes on the tokens of a pin: the one that sends to it, or the one `behind` it.
+fn add_relay(builder: &mut Builder<'_>, pin: usize, behind: bool) -> Option<NodeId> {
+    let Pin { kind, scope, span, ref name } = builder.pins[pin];
+    let name = Ident { text: format!("{name}_{}", if behind { "relay" } else { "entry" }), span };
+    let inside = (kind == PortKind::Input) == behind;
+    let at = if inside { scope } else { builder.scopes[scope].parent };
+    let port = |name, kind| Port::new(name, kind, Type::Unknown(String::new()));
+    let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
+    builder.node(&name, at, NodeKind::Relay, ports, "")
+}
+
+/// Whether the tokens at a place belong to the synchronous flow.
+fn is_synchronous(builder: &Builder<'_>, place: Place) -> bool {
+    match place {
+        Place::Port(end) => builder.nodes[end.node].ports[end.port].kind.is_synchronous(),
+        Place::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
     }
 }
 

@@ -125,7 +125,8 @@ fn link(dice: &mut Dice, case: &mut Case, from: (usize, &'static str), to: (usiz
     let is_synchronous =
         NODE_TYPES.iter().any(|t| t.outputs.contains(&from.1)) && !to.1.starts_with('s') && !to.1.starts_with('t');
     let relayed = flavour.relayed && dice.one_in(if is_synchronous { 8 } else { 2 });
-    let active = flavour.activity && dice.one_in(3);
+    // Activity does not pass delays yet.
+    let active = flavour.activity && dice.one_in(3) && case.node(from.0).is_none_or(|n| n.delay == 0);
     case.links.push(Link { from, to, active, relayed });
 }
 
