@@ -1,7 +1,7 @@
 //! What slots, events and hybrid connections mean for the schedule: which connections may stay occupied, and
 //! whether tokens can go round for ever.
 
-use super::Links;
+use super::{Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
@@ -12,7 +12,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The asynchronous part of a graph.
 #[derive(Debug)]
 pub struct Asynchronous {
-    /// The connections to slots, in the order of the text: slot tokens are told apart by their place in it.
+    /// For each connection, of whatever kind, whether it can ever carry a token.
+    pub live: Vec<bool>,
+    /// The connections to slots that can carry tokens, in the order of the text: slot tokens are told apart by their place
+    /// in it.
     pub slots: Vec<usize>,
     /// For each connection whether it may hold a token at a time when clusters are looked at (execution semantics,
     /// section 3): it leads to an input, out of the program, or to a slot that can itself be held back.
@@ -29,15 +32,20 @@ pub struct Asynchronous {
 }
 
 impl Asynchronous {
-    /// Looks at all asynchronous connections of `graph`.
-    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, regions: &[usize]) -> Self {
-        let flows: Vec<Flow> = graph.connections.iter().map(|c| graph.flow(c)).collect();
-        let slots: Vec<usize> = (0..flows.len()).filter(|c| flows[*c] == Flow::ToSlot).collect();
+    /// Looks at all asynchronous connections of `graph`, and takes those out of `links` that never carry a token.
+    pub fn new(graph: &Graph, catalog: &Catalog, links: &mut Links, regions: &[usize]) -> Self {
         // A vertex is what a token on a connection causes: a firing of its node, or a call of its slot.
-        let causes: Vec<Vec<usize>> =
+        let mut causes: Vec<Vec<usize>> =
             (0..graph.connections.len()).map(|index| caused(graph, catalog, links, index)).collect();
-        let single = is_single(graph, catalog, links, &flows, &causes, regions);
-        let mut stays = stays(graph, links, &flows);
+        let live = live::live(graph, catalog, links, &causes);
+        links.sends.iter_mut().for_each(|sends| sends.retain(|c| live[*c]));
+        causes.iter_mut().zip(&live).filter(|(_, live)| !**live).for_each(|(causes, _)| causes.clear());
+        let links = &*links;
+        let to_slot = |c: &usize| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
+        let slots: Vec<usize> = (0..graph.connections.len()).filter(to_slot).collect();
+        let single = is_single(graph, catalog, links, &slots, &causes, regions);
+        let mut stays = stays(graph, links, &slots);
+        live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| stays[c] = false);
         if single {
             slots.iter().for_each(|c| stays[*c] = false);
         }
@@ -49,7 +57,7 @@ impl Asynchronous {
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
             sent_by_reset(graph).for_each(|c| tracked[c] = true);
         }
-        Self { slots, stays, tracked, endless: is_endless(&causes), single, causes }
+        Self { live, slots, stays, tracked, endless: is_endless(&causes), single, causes }
     }
 
     /// The slot tokens that may follow, one after the other, from tokens on `connections`; and whether they can go
@@ -113,15 +121,15 @@ fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
 
 /// A node whose events all lead to slots that are served at once is served at once itself. That is found from the
 /// ends of chains of events upwards; what lies on a circle is never found.
-fn stays(graph: &Graph, links: &Links, flows: &[Flow]) -> Vec<bool> {
+fn stays(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
     let takers: Vec<NodeId> = (0..graph.nodes.len()).collect();
     let mut waits: Vec<usize> = takers.iter().map(|n| events(graph, links, *n).count()).collect();
     let mut into: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
-    for (index, c) in graph.connections.iter().enumerate().filter(|(i, _)| flows[*i] == Flow::ToSlot) {
-        into.entry(c.to.node).or_default().push(index);
+    for &index in slots {
+        into.entry(graph.connections[index].to.node).or_default().push(index);
     }
     let leaves_program = |node: NodeId| matches!(graph.nodes[node].kind, NodeKind::Boundary(_));
-    let mut stays: Vec<bool> = flows.iter().map(|flow| *flow != Flow::Synchronous).collect();
+    let mut stays: Vec<bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
     let mut served: Vec<NodeId> = takers.into_iter().filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
     while let Some(node) = served.pop() {
         for &index in into.get(&node).into_iter().flatten() {
@@ -144,11 +152,11 @@ fn is_single(
     graph: &Graph,
     catalog: &Catalog,
     links: &Links,
-    flows: &[Flow],
+    slots: &[usize],
     causes: &[Vec<usize>],
     regions: &[usize],
 ) -> bool {
-    let to_slot = |c: &usize| flows[*c] == Flow::ToSlot;
+    let to_slot = |c: &usize| slots.binary_search(c).is_ok();
     // The slot takes the token away: nobody else may want it.
     let alone = |c: &usize| {
         let from = graph.connections[*c].from;
@@ -157,14 +165,15 @@ fn is_single(
     };
     let mut by_region: BTreeMap<usize, usize> = BTreeMap::new();
     let mut at_start = 0;
-    for (index, c) in graph.connections.iter().enumerate().filter(|(i, _)| to_slot(i)) {
+    for &index in slots {
+        let c = &graph.connections[index];
         match &graph.nodes[c.from.node].kind {
             NodeKind::Start => at_start += 1,
             NodeKind::Boundary(PortKind::Slot) => {}
             NodeKind::Library(library) if !by_process(&catalog.signatures[library.signature], graph, c.from) => {}
             _ => *by_region.entry(regions[c.from.node]).or_default() += 1,
         }
-        let held_back = events(graph, links, c.to.node).any(|c| flows[c] == Flow::ToInput);
+        let held_back = events(graph, links, c.to.node).any(|c| graph.flow(&graph.connections[c]) == Flow::ToInput);
         let leaves = matches!(graph.nodes[c.to.node].kind, NodeKind::Boundary(_) | NodeKind::Reset);
         let standard = graph.port(c.from).standard.is_some();
         if !alone(&index) || held_back || leaves || standard || causes[index].iter().filter(|c| to_slot(c)).count() > 1
@@ -176,7 +185,7 @@ fn is_single(
 }
 
 /// Whether `process` may send on a port.
-fn by_process(signature: &Signature, graph: &Graph, from: End) -> bool {
+pub fn by_process(signature: &Signature, graph: &Graph, from: End) -> bool {
     let args = signature.process.as_deref().unwrap_or_default();
     graph.port(from).kind == PortKind::Output || args.contains(&ArgSig::Port(from.port))
 }

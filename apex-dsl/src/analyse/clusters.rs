@@ -31,6 +31,8 @@ pub struct Cluster {
     pub region: usize,
     /// Its nodes, producers before consumers.
     pub nodes: Vec<NodeId>,
+    /// Whether it ever fires: all tokens that it waits for can come.
+    pub fires: bool,
     /// All guards that its nodes depend on.
     pub guards: BTreeSet<usize>,
     /// The guards that it tests itself; the others come with the tokens.
@@ -169,6 +171,7 @@ pub fn clusters(
         clusters.push(Cluster {
             region,
             nodes,
+            fires: true,
             guards: set.clone(),
             own_guards,
             upstream,
@@ -225,16 +228,18 @@ struct View<'a> {
 /// downstream hold them back; else one would wait for what holds back the other.
 fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut [Vec<usize>]) {
     let plain = without_pace(view, guards, own);
-    let mut holding = accumulate(view, guards, own);
+    let above = accumulate(view, guards, own);
+    let mut holding = above.clone();
     for &node in view.order.iter().rev() {
         for &c in &view.links.out_of[node] {
             let next = holding[view.graph.connections[c].to.node].clone();
             holding[node].extend(next);
         }
     }
-    let mut shared: BTreeMap<(usize, BTreeSet<usize>), usize> = BTreeMap::new();
+    // What shares a guard has to share a cluster: that depends on the guards of its own, too.
+    let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
     for node in plain {
-        let guard = *shared.entry((view.regions[node], holding[node].clone())).or_insert_with(|| {
+        let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
             guards.push(Guard::React);
             guards.len() - 1
         });

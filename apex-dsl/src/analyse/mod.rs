@@ -4,6 +4,7 @@ mod activity;
 mod asynchronous;
 mod clocks;
 mod clusters;
+mod live;
 mod order;
 mod pruning;
 mod rates;
@@ -48,6 +49,8 @@ pub struct Analysis {
     pub asynchronous: Asynchronous,
     /// The nodes that activity can reach.
     pub active: BTreeSet<NodeId>,
+    /// How its nodes hang together.
+    pub links: Links,
     /// The bodies of `each` nodes.
     pub bodies: BTreeMap<NodeId, Analysis>,
     /// What is known about the claims.
@@ -63,15 +66,18 @@ pub struct Links {
     pub out_of: Vec<Vec<usize>>,
     /// All connections into the inputs of each node.
     pub inputs: Vec<Vec<usize>>,
-    /// Asynchronous connections out of each node, in the order of its ports, then of the text.
+    /// Asynchronous connections out of each node that can carry tokens, in the order of its ports, then of the text.
     pub sends: Vec<Vec<usize>>,
+    /// The delays on loops: what they send is of the iteration before.
+    pub held_back: BTreeSet<NodeId>,
 }
 
 impl Links {
     /// The connections of `graph`.
     pub fn new(graph: &Graph) -> Self {
         let none = vec![vec![]; graph.nodes.len()];
-        let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none };
+        let held_back = BTreeSet::new();
+        let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none, held_back };
         for (index, connection) in graph.connections.iter().enumerate() {
             let flow = graph.flow(connection);
             if flow == Flow::Synchronous {
@@ -87,19 +93,20 @@ impl Links {
         for sends in &mut links.sends {
             sends.sort_by_key(|c| (graph.connections[*c].from.port, *c));
         }
+        links.held_back = order::delays_on_loops(graph, &links);
         links
     }
 
-    /// The nodes that have to come after `node` in an iteration. What a delay sends is from the iteration before.
+    /// The nodes that have to come after `node` in an iteration.
     pub fn successors<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
-        let held_back = matches!(graph.nodes[node].kind, NodeKind::Delay(_));
+        let held_back = self.held_back.contains(&node);
         self.out_of[node].iter().filter(move |_| !held_back).map(|c| graph.connections[*c].to.node)
     }
 }
 
 /// Analyses a checked graph. `None` if an error was found that leaves nothing to schedule.
 pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Option<Analysis> {
-    let links = Links::new(graph);
+    let mut links = Links::new(graph);
     clusters::check_paces(graph, diagnostics)?;
     let order = order::order(graph, &links, diagnostics)?;
     let repetitions = rates::repetitions(graph, &links, diagnostics)?;
@@ -110,8 +117,11 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         }
     }
     let regions = clusters::regions(graph);
-    let asynchronous = Asynchronous::new(graph, catalog, &links, &regions);
-    let (guards, clusters, cluster_of) = clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
+    let asynchronous = Asynchronous::new(graph, catalog, &mut links, &regions);
+    live::check_live(graph, &links, &asynchronous.live, diagnostics);
+    let (guards, mut clusters, cluster_of) =
+        clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
+    live::mark(&mut clusters, &links, &asynchronous.live);
     let characteristics = pruning::characteristics(graph, catalog, &links, &order);
     let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);
     let active = activity::reachable(graph);
@@ -126,14 +136,16 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         clocks,
         asynchronous,
         active,
+        links,
         bodies,
         claims: Decided::default(),
     };
     for cluster in 0..analysis.clusters.len() {
-        let block = schedule::schedule(graph, &links, &analysis, cluster);
+        let block = schedule::schedule(graph, &analysis.links, &analysis, cluster);
         analysis.clusters[cluster].block = block;
         let order = analysis.clusters[cluster].schedule();
-        analysis.clusters[cluster].sends = order.iter().flat_map(|n| links.sends[*n].iter().copied()).collect();
+        analysis.clusters[cluster].sends =
+            order.iter().flat_map(|n| analysis.links.sends[*n].iter().copied()).collect();
     }
     Some(analysis)
 }

@@ -5,7 +5,10 @@ use crate::{
     graph::{Crossing, Graph, NodeId, NodeKind, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
-use std::{cmp::Reverse, collections::BinaryHeap};
+use std::{
+    cmp::Reverse,
+    collections::{BTreeSet, BinaryHeap},
+};
 
 /// Something to be ordered: a node, or one of the two sides of a nested graph, which takes all its inputs
 /// together and sends all its outputs together (thesis 5.2.3).
@@ -32,8 +35,7 @@ impl Precedence {
         let mut edges = vec![vec![]; vertices.len()];
         for connection in links.into.iter().flatten() {
             let c = &graph.connections[*connection];
-            // What a delay sends is from before: it orders nothing.
-            if matches!(graph.nodes[c.from.node].kind, NodeKind::Delay(_)) {
+            if links.held_back.contains(&c.from.node) {
                 continue;
             }
             let sides = c.crossings.iter().map(|crossing| match crossing {
@@ -52,6 +54,55 @@ impl Precedence {
         }
         Self { vertices, edges }
     }
+}
+
+/// The delays on loops.
+pub fn delays_on_loops(graph: &Graph, links: &Links) -> BTreeSet<NodeId> {
+    let is_delay = |node: &NodeId| matches!(graph.nodes[*node].kind, NodeKind::Delay(_));
+    let mut delays = (0..graph.nodes.len()).filter(is_delay).peekable();
+    if delays.peek().is_none() {
+        return BTreeSet::new();
+    }
+    let edges = Precedence::new(graph, links).edges;
+    let part = components(&edges);
+    delays.filter(|delay| edges[*delay].iter().any(|(next, _)| part[*next] == part[*delay])).collect()
+}
+
+/// The strongly connected component of each vertex (Kosaraju and Sharir).
+fn components(edges: &[Vec<(usize, Option<usize>)>]) -> Vec<usize> {
+    let after: Vec<Vec<usize>> = edges.iter().map(|e| e.iter().map(|(next, _)| *next).collect()).collect();
+    let mut before = vec![vec![]; edges.len()];
+    for (vertex, next) in after.iter().enumerate() {
+        next.iter().for_each(|next| before[*next].push(vertex));
+    }
+    let mut seen = vec![false; edges.len()];
+    let finished: Vec<usize> = (0..edges.len()).flat_map(|v| finish(v, &after, &mut seen)).collect();
+    let (mut part, mut seen) = (vec![0; edges.len()], vec![false; edges.len()]);
+    for &vertex in finished.iter().rev() {
+        finish(vertex, &before, &mut seen).into_iter().for_each(|member| part[member] = vertex);
+    }
+    part
+}
+
+/// What is reached from `start` and was not seen before; a vertex comes after all that is reached from it.
+fn finish(start: usize, after: &[Vec<usize>], seen: &mut [bool]) -> Vec<usize> {
+    let mut finished = vec![];
+    let mut path = if std::mem::replace(&mut seen[start], true) { vec![] } else { vec![(start, 0)] };
+    while let Some((vertex, next)) = path.last_mut() {
+        match after[*vertex].get(*next) {
+            Some(&to) => {
+                *next += 1;
+                if !std::mem::replace(&mut seen[to], true) {
+                    path.push((to, 0));
+                }
+            }
+            None => {
+                finished.push(*vertex);
+                path.pop();
+            }
+        }
+    }
+    finished
 }
 
 /// The order of all nodes; among those that are free, the first in the text comes first.

@@ -31,7 +31,7 @@ impl Bits {
         let clusters = &analysis.clusters;
         let is_free = |c: &usize| clusters[*c].is_free(graph, analysis);
         let mut bits = Self {
-            dispatched: (0..clusters.len()).filter(|c| !is_free(c)).collect(),
+            dispatched: (0..clusters.len()).filter(|c| clusters[*c].fires && !is_free(c)).collect(),
             guards: BTreeMap::new(),
             enabled: BTreeMap::new(),
             edges: BTreeMap::new(),
@@ -60,7 +60,7 @@ impl Bits {
                 let bit = bits.next();
                 bits.free.insert(index, bit);
             }
-            if graph.flow(c) == Flow::ToInput {
+            if analysis.asynchronous.live[index] && graph.flow(c) == Flow::ToInput {
                 let bit = bits.next();
                 bits.tokens.insert(index, bit);
             }
@@ -412,7 +412,8 @@ impl Generator<'_> {
         let has_exit = self.has_exit(graph);
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let fires = (0..analysis.clusters.len()).map(|cluster| {
+        let firing: Vec<usize> = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).collect();
+        let fires = firing.iter().map(|&cluster| {
             let name = format_ident!("cluster_{cluster}");
             let c = &analysis.clusters[cluster];
             let served = match single {
@@ -451,10 +452,10 @@ impl Generator<'_> {
             }
         });
         let is_dispatched = |c: &usize| bits.row(*c).is_some();
-        let fires: Vec<TokenStream> = fires.collect();
+        let fires: BTreeMap<usize, TokenStream> = firing.iter().copied().zip(fires).collect();
         let (inside, before): (Vec<usize>, Vec<usize>) =
-            (0..analysis.clusters.len()).partition(|c| loops && (is_dispatched(c) || ordered));
-        let (before, inside) = (before.iter().map(|c| &fires[*c]), inside.iter().map(|c| &fires[*c]));
+            firing.into_iter().partition(|c| loops && (is_dispatched(c) || ordered));
+        let (before, inside) = (before.iter().map(|c| &fires[c]), inside.iter().map(|c| &fires[c]));
         let start = self.has_start(whole).then(|| {
             let starts = |c: &usize| matches!(graph.nodes[graph.connections[*c].from.node].kind, NodeKind::Start);
             let single = self.serve_single(whole, analysis.asynchronous.slots.iter().copied().filter(starts));

@@ -7,7 +7,6 @@ use super::{
     plan::{BlockId, Storage},
 };
 use crate::{
-    analyse::Links,
     graph::{Each, End, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
@@ -20,9 +19,9 @@ impl Emitter<'_> {
         let index = self.generator.names.base + node;
         let generator = self.generator.inside(self.graph, node);
         let body = &*each.body;
-        let (Some(analysis), links) = (self.analysis.bodies.get(&node), Links::new(body)) else { return quote!() };
+        let Some(analysis) = self.analysis.bodies.get(&node) else { return quote!() };
         let clusters: Vec<Emitter<'_>> = (0..analysis.clusters.len())
-            .map(|cluster| Emitter::new(&generator, Whole { graph: body, analysis, links: &links }, cluster))
+            .map(|cluster| Emitter::new(&generator, Whole { graph: body, analysis, links: &analysis.links }, cluster))
             .collect();
         let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());

@@ -11,7 +11,7 @@ use super::{
     types::{constant, ident},
 };
 use crate::{
-    analyse::{Analysis, Guard, Links},
+    analyse::{Analysis, Guard},
     catalog::Match,
     check::compare_types,
     graph::{End, Graph, Library, NodeId, NodeKind},
@@ -37,8 +37,7 @@ impl Generator<'_> {
         let mut handed_in = vec![];
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
         let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields);
-        let links = Links::new(graph);
-        let whole = Whole { graph, analysis, links: &links };
+        let whole = Whole { graph, analysis, links: &analysis.links };
         let bits = Bits::new(graph, analysis);
         let (state_fields, state_make) = self.state(whole, &bits);
         let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
@@ -304,7 +303,8 @@ impl Generator<'_> {
     }
 
     fn clusters(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let functions = (0..whole.analysis.clusters.len()).map(|cluster| {
+        let firing = (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires);
+        let functions = firing.map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
             let code = if rates::is_multirate(whole.graph, whole.analysis, cluster) {
                 self.rates(whole.graph, whole.analysis, whole.links, cluster)

@@ -30,6 +30,7 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     let sides = builder.legs.iter().filter_map(|l| if let Stop::Side(side) = l.to { Some(side) } else { None });
     let sides: BTreeSet<Crossing> = sides.collect();
     sides.into_iter().for_each(|side| builder.side(side));
+    builder.returning();
     Ok(builder.net)
 }
 
@@ -39,6 +40,8 @@ struct LegPlaces {
     free: PlaceId,
     /// Tell the delays of the loop that it leads into.
     echoes: Vec<PlaceId>,
+    /// Its end has finished; it is free when the delays have, too. Only for a leg into a loop.
+    done: Option<PlaceId>,
 }
 
 struct Builder<'a> {
@@ -48,6 +51,8 @@ struct Builder<'a> {
     places: Vec<LegPlaces>,
     /// The places that a delay on a loop waits for.
     loops: BTreeMap<NodeId, Vec<PlaceId>>,
+    /// For each delay on a loop and each leg into the loop: what that delay sent for a token on it has finished.
+    returns: BTreeMap<(NodeId, usize), PlaceId>,
     /// Where each `start` waits to begin.
     starts: BTreeMap<NodeId, PlaceId>,
     from: BTreeMap<Stop, Vec<usize>>,
@@ -73,6 +78,7 @@ impl<'a> Builder<'a> {
                 token: place(format!("token on {name}"), 0),
                 free: place(format!("{name} is free"), 1),
                 echoes: vec![],
+                done: None,
             });
         }
         let mut loops: BTreeMap<NodeId, Vec<PlaceId>> = BTreeMap::new();
@@ -91,12 +97,21 @@ impl<'a> Builder<'a> {
                 starts.insert(node, place(format!("{} is due", graph.path(node)), 1));
             }
         }
+        let mut returns = BTreeMap::new();
+        for (delay, entries) in route::loops(graph, &legs) {
+            for entry in entries {
+                let leg = connection_name(graph, legs[entry].connection);
+                places[entry].done.get_or_insert_with(|| place(format!("{leg} is done"), 0));
+                let name = format!("{} has finished for {leg}", graph.path(delay));
+                returns.insert((delay, entry), place(name, 0));
+            }
+        }
         let (mut from, mut to) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
         for (i, leg) in legs.iter().enumerate() {
             from.entry(leg.from).or_default().push(i);
             to.entry(leg.to).or_default().push(i);
         }
-        Self { graph, net, legs, places, loops, starts, from, to }
+        Self { graph, net, legs, places, loops, returns, starts, from, to }
     }
 
     fn place(&mut self, name: String, initial: usize) -> PlaceId {
@@ -133,6 +148,22 @@ impl<'a> Builder<'a> {
 
     fn free(&self, legs: &[usize]) -> Vec<PlaceId> {
         legs.iter().map(|l| self.places[*l].free).collect()
+    }
+
+    /// What gets a token when the ends of `legs` have finished.
+    fn finished(&self, legs: &[usize]) -> Vec<PlaceId> {
+        legs.iter().map(|l| self.places[*l].done.unwrap_or(self.places[*l].free)).collect()
+    }
+
+    /// A leg into a loop is free again when its end has finished, and what the delays of the loop sent for its token has.
+    fn returning(&mut self) {
+        for leg in 0..self.legs.len() {
+            let Some(done) = self.places[leg].done else { continue };
+            let mut takes = vec![done];
+            takes.extend(self.returns.iter().filter(|((_, entry), _)| *entry == leg).map(|(_, place)| *place));
+            let name = format!("{} is notified", connection_name(self.graph, self.legs[leg].connection));
+            self.transition(name, Meaning::Return(leg), takes, vec![self.places[leg].free]);
+        }
     }
 
     /// Legs that a node waits for before it counts as finished: not those of its events.
@@ -205,7 +236,7 @@ impl<'a> Builder<'a> {
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
-        gives.extend(self.free(&inputs));
+        gives.extend(self.finished(&inputs));
         self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
     }
 
@@ -257,7 +288,7 @@ impl<'a> Builder<'a> {
         let waiting = self.place(format!("{name} waits for notifications"), 0);
         let mut takes = self.tokens(&inputs);
         takes.push(room);
-        let mut gives = self.free(&inputs);
+        let mut gives = self.finished(&inputs);
         gives.push(held);
         self.transition(format!("{name} takes"), Meaning::Hold(node), takes, gives);
         let mut takes = vec![held, enabled];
@@ -272,6 +303,7 @@ impl<'a> Builder<'a> {
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
+        gives.extend(self.returns.iter().filter(|((delay, _), _)| *delay == node).map(|(_, place)| *place));
         self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
     }
 
@@ -291,7 +323,7 @@ impl<'a> Builder<'a> {
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
-        gives.extend(self.free(&incoming));
+        gives.extend(self.finished(&incoming));
         self.transition(format!("{name} is notified"), Meaning::NotifySide(side), takes, gives);
     }
 }

@@ -86,6 +86,8 @@ pub enum Meaning {
     Release(NodeId),
     /// A delay inside a loop takes a token.
     Hold(NodeId),
+    /// What delays sent for the token on a leg into their loop has finished, too.
+    Return(usize),
     /// The activity of the program begins.
     Start(NodeId),
 }

@@ -60,6 +60,8 @@ pub struct Replay<'a> {
     early: Vec<(NodeId, bool)>,
     /// What the call that was recorded last has taken.
     last: Vec<Token>,
+    /// What is not recorded comes as late as possible.
+    late: bool,
     /// Nodes that wait with ⊥ until something else needs it.
     hesitant: BTreeSet<NodeId>,
 }
@@ -86,6 +88,7 @@ impl<'a> Replay<'a> {
             expected: BTreeMap::new(),
             early: vec![],
             last: vec![],
+            late: false,
             hesitant: BTreeSet::new(),
         };
         replay.expect_changes(true);
@@ -93,9 +96,11 @@ impl<'a> Replay<'a> {
     }
 
     /// The same replay with another order of what is not recorded: a node with slots takes ⊥ as late as possible, not as
-    /// early. Its events may have to wait in one order and not in the other, so that a run is legal if one of the two is.
+    /// early, and a delay that sets the pace of a loop begins a turn when the node behind it can fire. Events may have to wait
+    /// in one order and not in the other, so that a run is legal if one of the two is.
     #[must_use]
     pub fn hesitating(mut self) -> Self {
+        self.late = true;
         let slots = self.net.transitions.iter().filter_map(|t| match t.meaning {
             Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
             _ => None,
@@ -108,7 +113,13 @@ impl<'a> Replay<'a> {
     pub fn begin(&mut self, now: Duration) {
         self.step += 1;
         self.now = now;
-        self.sources.values_mut().for_each(|(_, fired)| *fired = false);
+        for (node, (_, fired)) in &mut self.sources {
+            // The turn that is under way is that of this reaction.
+            let notify = self.by_meaning.get(&Meaning::Notify(*node)).filter(|_| self.late);
+            let waits = notify.and_then(|t| self.net.transitions[*t].takes.first());
+            let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
+            *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
+        }
         self.agenda = (0..self.net.transitions.len()).collect();
         self.settle();
     }

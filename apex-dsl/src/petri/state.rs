@@ -182,6 +182,11 @@ impl<'a> State<'a> {
         self.net.transitions[transition].gives.iter().flat_map(|p| self.consumers[*p].iter().copied())
     }
 
+    /// Whether a token lies at a place.
+    pub fn is_marked(&self, place: PlaceId) -> bool {
+        !self.marking[place].is_empty()
+    }
+
     /// The places that lack a token for `transition`.
     pub fn missing(&self, transition: TransitionId) -> Vec<PlaceId> {
         let takes = &self.net.transitions[transition].takes;
@@ -278,7 +283,7 @@ impl<'a> State<'a> {
                 t.gives.last().map(|p| (*p, token)).into_iter().collect()
             }
             Meaning::Start(node) => self.start(node),
-            Meaning::Notify(_) | Meaning::NotifySide(_) => BTreeMap::new(),
+            Meaning::Notify(_) | Meaning::NotifySide(_) | Meaning::Return(_) => BTreeMap::new(),
         };
         for place in &t.gives {
             self.marking[*place].push_back(colours.get(place).copied().unwrap_or_default());

@@ -58,7 +58,8 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Cata
         let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {c}")).collect();
         let waits = guards.into_iter().chain(upstream).collect::<Vec<_>>().join(", ");
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
-        let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}", cluster.region);
+        let never = if cluster.fires { "" } else { ", and never fires: not all of that can come" };
+        let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}{never}", cluster.region);
         steps(text, graph, analysis, &cluster.block, indent + 2);
     }
     if graph.connections.iter().any(|c| !graph.is_synchronous(c)) {

@@ -160,8 +160,9 @@ fn integer(value: &Value) -> Option<i64> {
 
 /// Replays a run on the net. What is not recorded may have come early or late.
 pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
-    let early = replay(catalog, checked, records, false);
-    if early.is_ok() || replay(catalog, checked, records, true).is_err() { early } else { Ok(()) }
+    let Err((step, early)) = replay(catalog, checked, records, false) else { return Ok(()) };
+    let late = replay(catalog, checked, records, true);
+    late.map_err(|(other, late)| (step, format!("{early}\n  (if ⊥ comes late: step {other}: {late})")))
 }
 
 fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: bool) -> Result<(), Failure> {

@@ -1,0 +1,117 @@
+//! Which connections can ever carry a token. Nothing is generated for the others, nor for what waits for them.
+
+use super::{Cluster, Links, asynchronous::by_process, fires};
+use crate::{
+    catalog::Catalog,
+    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::PortKind,
+};
+
+/// For each connection whether it can ever carry a token. `causes` says on which connections a token on one of them may
+/// be followed by others.
+pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize>]) -> Vec<bool> {
+    let mut search = Search {
+        graph,
+        causes,
+        live: vec![false; graph.connections.len()],
+        missing: links.inputs.iter().map(Vec::len).collect(),
+        found: vec![],
+    };
+    for node in 0..graph.nodes.len() {
+        let sends = links.sends[node].iter().chain(&links.out_of[node]);
+        let starts = fires(graph, catalog, links, node) && links.inputs[node].is_empty();
+        let is_first = |c: &&usize| {
+            let from = graph.connections[**c].from;
+            begins(graph, from) || starts && is_sent(graph, catalog, from)
+        };
+        sends.filter(is_first).for_each(|c| search.find(*c));
+    }
+    while let Some(connection) = search.found.pop() {
+        search.follow(catalog, links, connection);
+    }
+    search.live
+}
+
+struct Search<'a> {
+    graph: &'a Graph,
+    causes: &'a [Vec<usize>],
+    live: Vec<bool>,
+    /// How many inputs of each node have no token yet.
+    missing: Vec<usize>,
+    found: Vec<usize>,
+}
+
+impl Search<'_> {
+    fn find(&mut self, connection: usize) {
+        if !std::mem::replace(&mut self.live[connection], true) {
+            self.found.push(connection);
+        }
+    }
+
+    /// A slot takes each token; a node fires when all its inputs have one.
+    fn follow(&mut self, catalog: &Catalog, links: &Links, connection: usize) {
+        let c = &self.graph.connections[connection];
+        if self.graph.flow(c) == Flow::ToSlot {
+            self.causes[connection].iter().for_each(|next| self.find(*next));
+            return;
+        }
+        let node = c.to.node;
+        self.missing[node] -= 1;
+        if self.missing[node] == 0 {
+            let sends = links.sends[node].iter().chain(&links.out_of[node]);
+            sends
+                .filter(|c| is_sent(self.graph, catalog, self.graph.connections[**c].from))
+                .for_each(|c| self.find(*c));
+        }
+    }
+}
+
+/// Whether tokens come from a port without a token before: from outside, with time, with activity, from a delay.
+fn begins(graph: &Graph, from: End) -> bool {
+    let node = &graph.nodes[from.node];
+    let by_itself = match node.kind {
+        NodeKind::Boundary(kind) => matches!(kind, PortKind::Input | PortKind::Slot),
+        NodeKind::Start | NodeKind::Delay(_) => true,
+        _ => false,
+    };
+    by_itself || graph.port(from).tells_of_activity() || graph.port(from).standard == Some(Standard::Timeout)
+}
+
+/// Whether a node may send on a port when it fires.
+fn is_sent(graph: &Graph, catalog: &Catalog, from: End) -> bool {
+    match &graph.nodes[from.node].kind {
+        NodeKind::Library(library) => {
+            graph.port(from).standard.is_some() || by_process(&catalog.signatures[library.signature], graph, from)
+        }
+        _ => true,
+    }
+}
+
+/// Marks the clusters that never fire: a token that they wait for never comes.
+pub fn mark(clusters: &mut [Cluster], links: &Links, live: &[bool]) {
+    let lacks = |c: &Cluster| c.nodes.iter().flat_map(|n| &links.inputs[*n]).any(|c| !live[*c]);
+    let mut dead: Vec<usize> = (0..clusters.len()).filter(|c| lacks(&clusters[*c])).collect();
+    while let Some(index) = dead.pop() {
+        if std::mem::replace(&mut clusters[index].fires, false) {
+            dead.extend(&clusters[index].downstream);
+        }
+    }
+}
+
+/// Warns of nodes that wait for an event that never comes.
+pub fn check_live(graph: &Graph, links: &Links, live: &[bool], diagnostics: &mut Diagnostics) {
+    if graph.is_body || graph.is_open {
+        return;
+    }
+    let waits_itself = |node: NodeId| links.inputs[node].iter().any(|c| !live[*c]);
+    for (index, c) in graph.connections.iter().enumerate() {
+        if live[index] || graph.flow(c) != Flow::ToInput || waits_itself(c.from.node) {
+            continue;
+        }
+        let (node, event) = (graph.path(c.to.node), graph.end_name(c.from));
+        let message = format!("`{node}` never fires: `{event}` never comes");
+        let note = format!("only slots of `{}` trigger it, and no token comes to them", graph.path(c.from.node));
+        diagnostics.push(Diagnostic::warning("never-fires", c.span, message).note(note));
+    }
+}
