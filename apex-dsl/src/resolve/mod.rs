@@ -21,7 +21,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-pub use names::{GraphId, Texts};
+pub use names::{GraphId, Texts, suggest};
 
 /// Most nodes, nested graphs and connections that one program may have, each.
 pub const MAX_NODES: usize = 50_000;
