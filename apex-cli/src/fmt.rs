@@ -96,15 +96,8 @@ fn format_file(path: &Path, check: bool) -> Result<Outcome, String> {
 }
 
 fn standard_input(check: bool) -> Result<Outcome, String> {
-    let mut bytes = vec![];
-    // One byte more than is allowed is enough to know.
-    let mut input = io::stdin().lock().take(MAX_BYTES as u64 + 1);
-    input.read_to_end(&mut bytes).map_err(|e| format!("cannot read standard input: {e}"))?;
-    let text = String::from_utf8(bytes);
-    let text = text.map_err(|e| {
-        format!("cannot read standard input: byte {} is not UTF-8", e.utf8_error().valid_up_to())
-    })?;
     let path = Path::new("<stdin>");
+    let text = read_input().map_err(|reason| format!("cannot read standard input: {reason}"))?;
     let Some(formatted) = formatted(path, &text) else { return Ok(Outcome::Wrong) };
     if check && formatted != text {
         project::print(&hint(path, &text, &formatted));
@@ -114,11 +107,21 @@ fn standard_input(check: bool) -> Result<Outcome, String> {
         let mut output = io::stdout().lock();
         match output.write_all(formatted.as_bytes()).and_then(|()| output.flush()) {
             // A reader that has gone away is no error.
-            Err(e) if e.kind() != ErrorKind::BrokenPipe => return Err(format!("cannot write: {e}")),
+            Err(e) if e.kind() != ErrorKind::BrokenPipe => return Err(format!("cannot write to standard output: {e}")),
             _ => {}
         }
     }
     Ok(Outcome::Fine)
+}
+
+fn read_input() -> Result<String, String> {
+    let mut bytes = vec![];
+    // One byte more than is allowed is enough to know.
+    io::stdin().lock().take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+    if bytes.len() > MAX_BYTES {
+        return Err(format!("at most {MAX_BYTES} bytes are read"));
+    }
+    String::from_utf8(bytes).map_err(|e| format!("byte {} is not UTF-8", e.utf8_error().valid_up_to()))
 }
 
 /// The text in the style of the language; nothing if it has errors, which are printed.
@@ -139,7 +142,8 @@ fn hint(path: &Path, text: &str, formatted: &str) -> String {
         match (old.next(), new.next()) {
             (Some(is), Some(should_be)) if is == should_be => number += 1,
             (is, should_be) => {
-                let shown = |sign, line: Option<&str>| line.map_or(String::new(), |l| format!("\n{sign} {}", visible(l)));
+                let shown =
+                    |sign, line: Option<&str>| line.map_or(String::new(), |l| format!("\n{sign} {}", visible(l)));
                 let (is, should_be) = (shown('-', is), shown('+', should_be));
                 return format!("{}:{number}: would be changed{is}{should_be}", path.display());
             }
@@ -154,7 +158,10 @@ fn visible(line: &str) -> String {
         None => (line, " (without a line end)"),
     };
     let text = line.trim_end();
-    let blanks: String = line[text.len()..].chars().map(|c| if c == ' ' { '·'.to_string() } else { c.escape_default().to_string() }).collect();
+    let blanks: String = line[text.len()..]
+        .chars()
+        .map(|c| if c == ' ' { '·'.to_string() } else { c.escape_default().to_string() })
+        .collect();
     format!("{text}{blanks}{end}")
 }
 

@@ -13,7 +13,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
     source::{FileId, Span},
     syntax::{
-        self,
+        self, MAX_BYTES,
         concrete::{Text, closes},
     },
 };
@@ -24,23 +24,43 @@ use layout::Layout;
 /// # Errors
 /// What is wrong with a text that cannot be read, with spans in the first file of the sources.
 pub fn format(text: &str) -> Result<String, Diagnostics> {
-    let file = FileId(0);
     let mut diagnostics = Diagnostics::default();
-    let Some(before) = syntax::read(file, text, &mut diagnostics) else { return Err(diagnostics) };
-    let formatted = print::print(&Layout::new(&before.tokens).file(&before.root), newline(text));
-    match syntax::read(file, &formatted, &mut Diagnostics::default()) {
-        Some(after) if words(&before) == words(&after) && comments(&before) == comments(&after) => Ok(formatted),
-        _ => {
-            let message = "the formatter would change what this text says, and has left it alone";
-            let error = Diagnostic::error(UNFAITHFUL, Span::new(file, 0, 0), message);
-            diagnostics.push(error.note("this is a mistake of the formatter: please report it with the text"));
-            Err(diagnostics)
-        }
-    }
+    let Some(read) = syntax::read(FileId(0), text, &mut diagnostics) else { return Err(diagnostics) };
+    settled(&read, newline(text)).map_err(|error| {
+        diagnostics.push(error);
+        diagnostics
+    })
 }
 
+/// A comment may come to stand where it belongs to another token; then the second time differs from the first.
+const MOST_ROUNDS: usize = 8;
+
+/// The formatted text, formatted until nothing changes any more.
+fn settled(text: &Text<'_>, newline: &str) -> Result<String, Diagnostic> {
+    let error = |code, message: String| Diagnostic::error(code, Span::new(FileId(0), 0, 0), message);
+    let write = |text: &Text<'_>| print::print(&Layout::new(&text.tokens).file(&text.root), newline);
+    let mut formatted = write(text);
+    for _ in 0..MOST_ROUNDS {
+        if formatted.len() > MAX_BYTES {
+            let message = format!("formatted, this text has {} bytes; at most {MAX_BYTES} are read", formatted.len());
+            return Err(error(TOO_LARGE, message).note("split it into several files"));
+        }
+        let after = syntax::read(FileId(0), &formatted, &mut Diagnostics::default());
+        let Some(after) = after.filter(|a| words(a) == words(text) && comments(a) == comments(text)) else { break };
+        let again = write(&after);
+        if again == formatted {
+            return Ok(formatted);
+        }
+        formatted = again;
+    }
+    let message = "the formatter does not know how to write this text, and has left it alone";
+    Err(error(FAILED, message.to_owned()).note("this is a mistake of the formatter: please report it with the text"))
+}
+
+/// As for texts that are too large to be read.
+const TOO_LARGE: &str = "too-large";
 /// No text should lead to it.
-const UNFAITHFUL: &str = "formatter";
+const FAILED: &str = "formatter";
 
 fn newline(text: &str) -> &'static str {
     match text.find('\n') {

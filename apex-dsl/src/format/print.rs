@@ -17,7 +17,8 @@ pub fn print(doc: &Doc<'_>, newline: &str) -> String {
     let mut printer = Printer { newline, lines: vec![], line: String::new(), column: 0, empty: true, comment: None };
     printer.run(doc);
     printer.fresh();
-    let widths: Vec<Option<usize>> = printer.lines.iter().map(|l| l.comment.is_some().then(|| width(&l.text))).collect();
+    let widths: Vec<Option<usize>> =
+        printer.lines.iter().map(|l| l.comment.is_some().then(|| width(&l.text))).collect();
     let mut text = String::new();
     for (line, pad) in printer.lines.iter().zip(comment_pads(&widths)) {
         text.push_str(&line.text);
@@ -32,10 +33,7 @@ pub fn print(doc: &Doc<'_>, newline: &str) -> String {
 
 /// The comments behind neighbouring lines stand below each other.
 fn comment_pads(widths: &[Option<usize>]) -> Vec<usize> {
-    widths
-        .chunk_by(|a, b| a.is_some() && b.is_some())
-        .flat_map(columns::pads)
-        .collect()
+    widths.chunk_by(|a, b| a.is_some() && b.is_some()).flat_map(columns::pads).collect()
 }
 
 /// A line that is done.
@@ -204,7 +202,9 @@ impl Printer<'_> {
         let mut text = std::mem::take(&mut self.line);
         text.truncate(text.trim_end_matches(' ').len());
         let opens = text.chars().last().is_some_and(|c| opens(c.encode_utf8(&mut [0; 4])));
-        if self.empty && let Some(comment) = comment.take() {
+        if self.empty
+            && let Some(comment) = comment.take()
+        {
             text = " ".repeat(self.column) + &comment;
         }
         self.lines.push(Line { text, comment, opens });

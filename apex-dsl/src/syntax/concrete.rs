@@ -2,7 +2,7 @@
 
 use super::{Rule, lexical::Lexical};
 use pest::iterators::Pair;
-use std::{iter::Peekable, ops::Range};
+use std::ops::Range;
 
 /// A text without errors.
 pub struct Text<'t> {
@@ -50,7 +50,7 @@ pub struct Comment<'t> {
     pub is_line: bool,
     /// Whether there is an empty line before it.
     pub blank: bool,
-    /// Whether nothing stands behind it in its line.
+    /// Whether no token stands behind it in its line.
     pub ends_line: bool,
 }
 
@@ -69,14 +69,14 @@ pub fn read<'t>(original: &'t str, lexical: &Lexical, file: Pair<'_, Rule>) -> T
     let mut shape = Shape { blanked: &lexical.text, places: vec![], begins: vec![] };
     let root = shape.node(file);
     let mut tokens: Vec<Token<'t>> = vec![];
-    let mut comments = lexical.comments.iter().map(|s| s.start as usize..s.end as usize).peekable();
+    let mut comments: &[Range<usize>] =
+        &lexical.comments.iter().map(|s| s.start as usize..s.end as usize).collect::<Vec<_>>();
     let mut end = 0;
     for (place, begins) in shape.places.into_iter().zip(shape.begins) {
-        let text = &original[place.clone()];
-        let mut token = Token { text, before: vec![], after: vec![], begins, blank: false };
-        let gap = Gap { original, at: end, until: place.start };
-        gap.attach(&mut comments, tokens.last_mut(), &mut token);
-        end = place.end;
+        let mut token = Token { text: &original[place.clone()], before: vec![], after: vec![], begins, blank: false };
+        let (here, rest) = comments.split_at(comments.partition_point(|comment| comment.start < place.start));
+        Gap { original, place: end..place.start }.attach(here, tokens.last_mut(), &mut token);
+        (comments, end) = (rest, place.end);
         tokens.push(token);
     }
     Text { tokens, root }
@@ -149,46 +149,46 @@ fn begins_line(rule: Rule) -> bool {
 /// What stands between two tokens.
 struct Gap<'t> {
     original: &'t str,
-    at: usize,
-    until: usize,
+    place: Range<usize>,
 }
 
 impl<'t> Gap<'t> {
-    /// Gives the comments of the gap to the token on its left or to the one on its right.
-    fn attach(
-        mut self,
-        comments: &mut Peekable<impl Iterator<Item = Range<usize>>>,
-        mut left: Option<&mut Token<'t>>,
-        right: &mut Token<'t>,
-    ) {
-        let mut in_line_of_left = true;
-        while let Some(place) = comments.next_if(|c| c.start < self.until) {
-            let lines = self.lines_to(place.start);
-            let next = comments.peek().map_or(self.until, |c| c.start.min(self.until));
-            self.at = place.end;
-            let text = &self.original[place];
-            let comment = Comment {
-                text: text.trim_end(),
-                is_line: text.starts_with("//"),
-                blank: lines > 1,
-                ends_line: self.lines_to(next) > 0 || text.starts_with("//"),
-            };
-            in_line_of_left &= lines == 0;
-            match left.as_deref_mut().filter(|left| in_line_of_left && stays(left, &comment, right)) {
+    /// Gives the comments of the gap, which stand at `places`, to the token on its left or to the one on its right.
+    fn attach(&self, places: &[Range<usize>], mut left: Option<&mut Token<'t>>, right: &mut Token<'t>) {
+        let mut is_behind_left = true;
+        for (i, comment) in self.comments(places).into_iter().enumerate() {
+            is_behind_left &=
+                self.lines_before(i, places) == 0 && (i == 0 || !self.original[places[i - 1].clone()].contains('\n'));
+            match left.as_deref_mut().filter(|left| is_behind_left && stays(left, &comment, right)) {
                 Some(left) => left.after.push(comment),
                 None => {
-                    in_line_of_left = false;
+                    is_behind_left = false;
                     right.before.push(comment);
                 }
             }
-            in_line_of_left &= !text.contains('\n');
         }
-        right.blank = self.lines_to(self.until) > 1;
+        right.blank = self.lines_before(places.len(), places) > 1;
     }
 
-    /// How many lines end between here and `place`.
-    fn lines_to(&self, place: usize) -> usize {
-        self.original[self.at..place].matches('\n').count()
+    fn comments(&self, places: &[Range<usize>]) -> Vec<Comment<'t>> {
+        let mut ends_line = false;
+        let comment = |i: usize| {
+            let text = &self.original[places[i].clone()];
+            let is_line = text.starts_with("//");
+            // One that another one follows in its line ends it if that one does.
+            ends_line = is_line || self.lines_before(i + 1, places) > 0 || (i + 1 < places.len() && ends_line);
+            Comment { text: text.trim_end(), is_line, blank: self.lines_before(i, places) > 1, ends_line }
+        };
+        let mut comments: Vec<_> = (0..places.len()).rev().map(comment).collect();
+        comments.reverse();
+        comments
+    }
+
+    /// How many lines end between a comment and what stands before it; behind the last comment, the token.
+    fn lines_before(&self, comment: usize, places: &[Range<usize>]) -> usize {
+        let start = if comment == 0 { self.place.start } else { places[comment - 1].end };
+        let end = places.get(comment).map_or(self.place.end, |place| place.start);
+        self.original[start..end].matches('\n').count()
     }
 }
 
