@@ -99,7 +99,7 @@ fn blanks_and_line_ends_make_no_difference() {
 fn comments_survive_everywhere() {
     for (seed, (name, text)) in legal().into_iter().enumerate() {
         for rarity in [2, 30] {
-            let commented = shake::comments(&text, rarity, seed as u64);
+            let commented = shake::comments(&text.replace("\r\n", "\n"), rarity, seed as u64);
             let Some(formatted) = check(&name, &commented) else { panic!("{name} became wrong:\n{commented}") };
             let bare = check(&name, &properties::without_comments(&formatted));
             let expected = check(&name, &properties::without_comments(&text));

@@ -54,8 +54,8 @@ fn shape(mut file: File) -> String {
 
 /// A text without its comments, and without the lines that hold nothing else.
 pub fn without_comments(text: &str) -> String {
-    let mut bare = text.to_owned();
-    for Span { start, end, .. } in read(text).0.comments.into_iter().rev() {
+    let mut bare = text.replace("\r\n", "\n");
+    for Span { start, end, .. } in read(&bare).0.comments.into_iter().rev() {
         let (start, end) = (start as usize, end as usize);
         let before = bare[..start].trim_end_matches([' ', '\t']);
         let is_whole_line = before.is_empty() || before.ends_with('\n');

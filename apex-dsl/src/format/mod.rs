@@ -27,7 +27,7 @@ pub fn format(text: &str) -> Result<String, Diagnostics> {
     let mut diagnostics = Diagnostics::default();
     let Some(read) = syntax::read(FileId(0), text, &mut diagnostics) else { return Err(diagnostics) };
     settled(&read, newline(text)).map_err(|error| {
-        diagnostics.push(error);
+        diagnostics.push(*error);
         diagnostics
     })
 }
@@ -36,14 +36,14 @@ pub fn format(text: &str) -> Result<String, Diagnostics> {
 const MOST_ROUNDS: usize = 8;
 
 /// The formatted text, formatted until nothing changes any more.
-fn settled(text: &Text<'_>, newline: &str) -> Result<String, Diagnostic> {
+fn settled(text: &Text<'_>, newline: &str) -> Result<String, Box<Diagnostic>> {
     let error = |code, message: String| Diagnostic::error(code, Span::new(FileId(0), 0, 0), message);
     let write = |text: &Text<'_>| print::print(&Layout::new(&text.tokens).file(&text.root), newline);
     let mut formatted = write(text);
     for _ in 0..MOST_ROUNDS {
         if formatted.len() > MAX_BYTES {
             let message = format!("formatted, this text has {} bytes; at most {MAX_BYTES} are read", formatted.len());
-            return Err(error(TOO_LARGE, message).note("split it into several files"));
+            return Err(Box::new(error(TOO_LARGE, message).note("split it into several files")));
         }
         let after = syntax::read(FileId(0), &formatted, &mut Diagnostics::default());
         let Some(after) = after.filter(|a| words(a) == words(text) && comments(a) == comments(text)) else { break };
@@ -54,7 +54,8 @@ fn settled(text: &Text<'_>, newline: &str) -> Result<String, Diagnostic> {
         formatted = again;
     }
     let message = "the formatter does not know how to write this text, and has left it alone";
-    Err(error(FAILED, message.to_owned()).note("this is a mistake of the formatter: please report it with the text"))
+    let error = error(FAILED, message.to_owned());
+    Err(Box::new(error.note("this is a mistake of the formatter: please report it with the text")))
 }
 
 /// As for texts that are too large to be read.

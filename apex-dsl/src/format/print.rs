@@ -17,23 +17,19 @@ pub fn print(doc: &Doc<'_>, newline: &str) -> String {
     let mut printer = Printer { newline, lines: vec![], line: String::new(), column: 0, empty: true, comment: None };
     printer.run(doc);
     printer.fresh();
-    let widths: Vec<Option<usize>> =
-        printer.lines.iter().map(|l| l.comment.is_some().then(|| width(&l.text))).collect();
     let mut text = String::new();
-    for (line, pad) in printer.lines.iter().zip(comment_pads(&widths)) {
-        text.push_str(&line.text);
-        if let Some(comment) = &line.comment {
-            text.extend(iter::repeat_n(' ', pad + 1));
-            text.push_str(comment);
+    for neighbours in printer.lines.chunk_by(Line::has_column_with) {
+        let widths: Vec<Option<usize>> = neighbours.iter().map(|line| Some(width(&line.text))).collect();
+        for (line, pad) in neighbours.iter().zip(columns::pads(&widths)) {
+            text.push_str(&line.text);
+            if let Some(comment) = &line.comment {
+                text.extend(iter::repeat_n(' ', pad + 1));
+                text.push_str(comment);
+            }
+            text.push_str(newline);
         }
-        text.push_str(newline);
     }
     text
-}
-
-/// The comments behind neighbouring lines stand below each other.
-fn comment_pads(widths: &[Option<usize>]) -> Vec<usize> {
-    widths.chunk_by(|a, b| a.is_some() && b.is_some()).flat_map(columns::pads).collect()
 }
 
 /// A line that is done.
@@ -43,6 +39,14 @@ struct Line {
     comment: Option<String>,
     /// Whether it opens something.
     opens: bool,
+}
+
+impl Line {
+    /// Whether the comments at the ends of two neighbouring lines stand below each other.
+    fn has_column_with(&self, next: &Self) -> bool {
+        let indent = |line: &Self| line.text.len() - line.text.trim_start().len();
+        self.comment.is_some() && next.comment.is_some() && indent(self) == indent(next)
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
