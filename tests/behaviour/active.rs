@@ -1,35 +1,21 @@
 //! More of activity: what keeps it and what loses it, nested graphs, resets, delays, `timeout`.
 
 use apex_rt::prelude::*;
-use apex_tests::{Log, react, simulate};
+use apex_tests::{Log, active, active_after_each, react, simulate};
 
 graph!("active.afg");
-
-/// The nodes that are active.
-fn active<P: Program>(program: &P) -> String {
-    let nodes = P::INFO.nodes.iter().enumerate().filter(|(node, _)| program.is_active(*node));
-    nodes.map(|(_, node)| node.name).collect::<Vec<_>>().join(" ")
-}
-
-/// The nodes that are active after each of `N` iterations.
-fn after_each<P: Program, const N: usize>(program: &mut P) -> [String; N] {
-    [(); N].map(|()| {
-        react(program, 1);
-        active(program)
-    })
-}
 
 #[test]
 fn act_06_values_over_inactive_connections_leave_it_where_it_is() {
     let mut program = Kept::new();
-    assert_eq!(after_each(&mut program), ["s"; 5]);
+    assert_eq!(active_after_each(&mut program), ["s"; 5]);
     assert_eq!(program.nodes().k.seen, [false; 5]);
 }
 
 #[test]
 fn act_10_the_gate_lets_exactly_one_message_pass() {
     let mut program = Gated::new();
-    assert_eq!(after_each(&mut program), ["go", "go", "g", "k", "k", "k"]);
+    assert_eq!(active_after_each(&mut program), ["go", "go", "g", "k", "k", "k"]);
     assert_eq!(program.nodes().k.seen, [true]);
     assert!(program.nodes().none.seen.is_empty());
 }
@@ -37,14 +23,14 @@ fn act_10_the_gate_lets_exactly_one_message_pass() {
 #[test]
 fn act_12_the_buffer_passes_activity_on_with_the_next_message() {
     let mut program = Waiting::new();
-    assert_eq!(after_each(&mut program), ["go", "buffer", "buffer", "next", "next", "next"]);
+    assert_eq!(active_after_each(&mut program), ["go", "buffer", "buffer", "next", "next", "next"]);
     assert_eq!((program.nodes().next.seen.as_slice(), program.nodes().next.came), (&[1, 4, 5, 6][..], 1));
 }
 
 #[test]
 fn act_13_through_a_nested_graph() {
     let mut program = Through::new();
-    assert_eq!(after_each(&mut program), ["go", "s", "k", "k", "k"]);
+    assert_eq!(active_after_each(&mut program), ["go", "s", "k", "k", "k"]);
     assert_eq!(program.nodes().inner.a.seen, [false, false, true, false, false]);
     assert_eq!(program.nodes().k.came, 1);
 }
@@ -61,14 +47,14 @@ fn act_13_a_nested_graph_keeps_it_for_a_while() {
 #[test]
 fn two_starts() {
     let mut program = TwoStarts::new();
-    assert_eq!(after_each(&mut program), ["b ka kb"; 3]);
+    assert_eq!(active_after_each(&mut program), ["b ka kb"; 3]);
     assert_eq!(program.nodes().ka.seen, [true; 3]);
     assert_eq!((program.nodes().b.count, program.nodes().kb.seen.len()), (1, 0));
 }
 
 #[test]
 fn start_in_a_nested_graph() {
-    assert_eq!(after_each(&mut Nested::new()), ["k"; 2]);
+    assert_eq!(active_after_each(&mut Nested::new()), ["k"; 2]);
 }
 
 #[test]
@@ -92,21 +78,21 @@ fn act_09_what_is_lost_is_told() {
 #[test]
 fn act_08_over_an_input() {
     let mut program = Doused::new();
-    assert_eq!(after_each(&mut program), ["k", "", ""]);
+    assert_eq!(active_after_each(&mut program), ["k", "", ""]);
     assert_eq!(program.nodes().k.seen, [false]);
 }
 
 #[test]
 fn one_emission_multiplies_activity() {
     let mut program = Multiplied::new();
-    assert_eq!(after_each(&mut program), ["a b"; 2]);
+    assert_eq!(active_after_each(&mut program), ["a b"; 2]);
     assert_eq!((program.nodes().a.came, program.nodes().b.came), (1, 1));
 }
 
 #[test]
 fn a_node_that_is_skipped_takes_activity_all_the_same() {
     let mut program = Skipped::new();
-    assert_eq!(after_each(&mut program), ["j"; 3]);
+    assert_eq!(active_after_each(&mut program), ["j"; 3]);
     assert_eq!(program.nodes().k.seen, [7, 9]);
 }
 
@@ -132,6 +118,6 @@ fn a_timeout_that_leads_nowhere_is_triggered_once() {
 #[test]
 fn activated_hands_it_on_at_once() {
     let mut program = Handed::new();
-    assert_eq!(after_each(&mut program), ["k"; 2]);
+    assert_eq!(active_after_each(&mut program), ["k"; 2]);
     assert_eq!((program.nodes().a.came, program.nodes().a.went, program.nodes().k.count), (1, 1, 1));
 }

@@ -1,49 +1,38 @@
 //! Activity: which node is active when, and what tokens carry.
 
 use apex_rt::prelude::*;
-use apex_tests::{Log, react};
+use apex_tests::{Log, active_after_each, react};
 
 graph!("activity.afg");
 
-/// The nodes that are active after each of five iterations.
-fn active<P: Program>(mut program: P) -> Vec<String> {
-    (0..5)
-        .map(|_| {
-            react(&mut program, 1);
-            let names = P::INFO.nodes.iter().enumerate().filter(|(node, _)| program.is_active(*node));
-            names.map(|(_, node)| node.name).collect::<Vec<_>>().join(" ")
-        })
-        .collect()
-}
-
 #[test]
 fn act_01_activity_goes_to_the_end_of_the_chain() {
-    assert_eq!(active(Passed::new()), ["go", "k", "k", "k", "k"]);
+    assert_eq!(active_after_each(&mut Passed::new()), ["go", "k", "k", "k", "k"]);
 }
 
 #[test]
 fn act_02_it_stays_where_no_active_connection_leads_on() {
-    assert_eq!(active(Held::new()), ["go", "m", "m", "m", "m"]);
+    assert_eq!(active_after_each(&mut Held::new()), ["go", "m", "m", "m", "m"]);
 }
 
 #[test]
 fn act_03_it_goes_with_events() {
-    assert_eq!(active(OverEvents::new()), ["go", "k", "k", "k", "k"]);
+    assert_eq!(active_after_each(&mut OverEvents::new()), ["go", "k", "k", "k", "k"]);
 }
 
 #[test]
 fn act_04_from_data_to_an_event() {
-    assert_eq!(active(DataThenEvent::new()), ["go", "k", "k", "k", "k"]);
+    assert_eq!(active_after_each(&mut DataThenEvent::new()), ["go", "k", "k", "k", "k"]);
 }
 
 #[test]
 fn act_05_no_message_carries_nothing() {
-    assert_eq!(active(OnlyValues::new()), ["s", "s", "b", "b", "b"]);
+    assert_eq!(active_after_each(&mut OnlyValues::new()), ["s", "s", "b", "b", "b"]);
 }
 
 #[test]
 fn act_07_only_over_active_connections() {
-    assert_eq!(active(OneOfTwo::new()), ["go", "b", "b", "b", "b"]);
+    assert_eq!(active_after_each(&mut OneOfTwo::new()), ["go", "b", "b", "b", "b"]);
 }
 
 #[test]
@@ -60,7 +49,7 @@ fn act_08_dampen_takes_activity_away() {
 
 #[test]
 fn act_09_reset_starts_anew() {
-    assert_eq!(active(Restarted::new()), ["k", "k", "s", "k", "k"]);
+    assert_eq!(active_after_each(&mut Restarted::new()), ["k", "k", "s", "k", "k"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Figures of the thesis, as texts in `../figures`: each test asserts the point that its figure makes.
 
 use apex_rt::prelude::*;
-use apex_tests::{Log, react, simulate};
+use apex_tests::{Log, active, active_after_each, react, simulate};
 
 graph!("../figures/fig_3_20.afg");
 graph!("../figures/fig_3_21.afg");
@@ -20,20 +20,6 @@ graph!("../figures/fig_8_10.afg");
 graph!("../figures/fig_8_11.afg");
 mod by_activity {
     apex_rt::graph!("../figures/fig_7_04.afg");
-}
-
-/// The nodes that are active.
-fn active<P: Program>(program: &P) -> String {
-    let nodes = P::INFO.nodes.iter().enumerate().filter(|(node, _)| program.is_active(*node));
-    nodes.map(|(_, node)| node.name).collect::<Vec<_>>().join(" ")
-}
-
-/// The nodes that are active after each of `N` iterations.
-fn after_each<P: Program, const N: usize>(program: &mut P) -> [String; N] {
-    [(); N].map(|()| {
-        react(program, 1);
-        active(program)
-    })
 }
 
 #[test]
@@ -141,42 +127,42 @@ fn figure_5_08_streams_converge() {
 #[test]
 fn figure_7_02_a_machine_waits_for_a_message() {
     let mut program = Asked::new();
-    assert_eq!(after_each(&mut program), ["s_2", "s_2", "s_q", "s_q"]);
+    assert_eq!(active_after_each(&mut program), ["s_2", "s_2", "s_q", "s_q"]);
     assert_eq!(program.nodes().s_q.came, 1);
 }
 
 #[test]
 fn figure_7_03_a_machine_of_nodes_and_active_connections() {
-    assert_eq!(after_each(&mut Machine::new()), ["even", "odd", "even", "odd", "accept", "accept"]);
+    assert_eq!(active_after_each(&mut Machine::new()), ["even", "odd", "even", "odd", "accept", "accept"]);
 }
 
 #[test]
 fn figure_7_04_a_buffer_waits_for_a_message() {
     let mut program = by_activity::Waiting::new();
-    assert_eq!(after_each(&mut program), ["s_1", "v_b", "v_b", "s_q", "s_q"]);
+    assert_eq!(active_after_each(&mut program), ["s_1", "v_b", "v_b", "s_q", "s_q"]);
     assert_eq!((program.nodes().s_q.seen.as_slice(), program.nodes().s_q.came), (&[5, 6, 7][..], 1));
 }
 
 #[test]
 fn figure_8_01_waits_for_the_word_that_starts() {
     let mut program = Robot::new();
-    assert_eq!(after_each(&mut program), ["wait.streq", "wait.streq", "next", "next"]);
+    assert_eq!(active_after_each(&mut program), ["wait.streq", "wait.streq", "next", "next"]);
 }
 
 #[test]
 fn figure_8_01_switches_the_lamp_once() {
     let mut program = SwitchLamp::new();
-    assert_eq!(after_each(&mut program), ["turn", "next", "next", "next"]);
+    assert_eq!(active_after_each(&mut program), ["turn", "next", "next", "next"]);
     assert_eq!(program.nodes().lamp.sent, [true]);
 }
 
 #[test]
 fn figure_8_02_activity_takes_the_way_of_the_message() {
     let mut known = Known::new();
-    assert_eq!(after_each(&mut known), ["cube", "cube", "drive"]);
+    assert_eq!(active_after_each(&mut known), ["cube", "cube", "drive"]);
     assert_eq!(known.nodes().drive.seen, [700]);
     let mut unknown = Unknown::new();
-    assert_eq!(after_each(&mut unknown), ["cube", "explore", "explore"]);
+    assert_eq!(active_after_each(&mut unknown), ["cube", "explore", "explore"]);
     assert_eq!(unknown.nodes().explore.seen, [9]);
 }
 

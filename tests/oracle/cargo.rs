@@ -14,6 +14,9 @@ pub struct Program {
     pub text: String,
 }
 
+/// Programs that the graphs of a batch are divided among.
+const PARTS: usize = 2;
+
 const MANIFEST: &str = r#"[package]
 name = "apex-oracle-run"
 version = "0.0.0"
@@ -59,6 +62,7 @@ impl Observer for Recorder {
     }
 }
 
+#[allow(dead_code, reason = "a part may have no graph")]
 fn record<P: Program>(mut program: P) {
     for reaction in 0..10 {
         let now = Time::from_nanos(reaction * 1_000_000);
@@ -82,21 +86,26 @@ pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("oracle");
     let folder = target.join(folder);
-    let (mut graphs, mut runs) = (String::new(), String::new());
-    fs::create_dir_all(folder.join("src")).map_err(|e| e.to_string())?;
+    fs::create_dir_all(folder.join("src/bin")).map_err(|e| e.to_string())?;
     let write = |path: PathBuf, text: &str| match fs::read_to_string(&path) {
         Ok(old) if old == text => Ok(()),
         _ => fs::write(&path, text).map_err(|e| format!("cannot write `{}`: {e}", path.display())),
     };
-    for program in programs {
-        let file = folder.join(format!("{}.afg", program.name));
-        write(file.clone(), &program.text)?;
-        let module = program.name.to_lowercase();
-        graphs.push_str(&format!("mod {module} {{\n    use apex_rt::prelude::*;\n    graph!({file:?});\n}}\n"));
-        runs.push_str(&format!("record({module}::{}::new());\n    ", program.name));
+    // Cargo compiles the parts side by side.
+    let size = programs.len().div_ceil(PARTS).max(1);
+    for part in 0..PARTS {
+        let (mut graphs, mut runs) = (String::new(), String::new());
+        for program in programs.iter().skip(part * size).take(size) {
+            let file = folder.join(format!("{}.afg", program.name));
+            write(file.clone(), &program.text)?;
+            let module = program.name.to_lowercase();
+            graphs.push_str(&format!("mod {module} {{\n    use apex_rt::prelude::*;\n    graph!({file:?});\n}}\n"));
+            runs.push_str(&format!("record({module}::{}::new());\n    ", program.name));
+        }
+        let main = MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs);
+        write(folder.join(format!("src/bin/part{part}.rs")), &main)?;
     }
     write(folder.join("Cargo.toml"), &MANIFEST.replace("ROOT", &root.display().to_string()))?;
-    write(folder.join("src/main.rs"), &MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs))?;
     if !folder.join("Cargo.lock").exists() {
         fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).map_err(|e| e.to_string())?;
     }
@@ -112,13 +121,19 @@ pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
     if !built.status.success() {
         return Err(format!("it does not compile:\n{}", String::from_utf8_lossy(&built.stderr)));
     }
-    let ran = Command::new(target.join("target/debug/apex-oracle-run"))
-        .output()
-        .map_err(|e| format!("cannot run the program: {e}"))?;
-    let text = String::from_utf8_lossy(&ran.stdout);
-    let traces: Vec<String> = text.split_inclusive("# end\n").map(|t| t.replace("# end\n", "")).collect();
-    match traces.len() == programs.len() && ran.status.success() {
+    let mut traces: Vec<String> = vec![];
+    for part in 0..PARTS {
+        let ran = Command::new(target.join(format!("target/debug/part{part}")))
+            .output()
+            .map_err(|e| format!("cannot run the program: {e}"))?;
+        if !ran.status.success() {
+            return Err(format!("it does not run to its end: {}", String::from_utf8_lossy(&ran.stderr)));
+        }
+        let text = String::from_utf8_lossy(&ran.stdout);
+        traces.extend(text.split_inclusive("# end\n").map(|t| t.replace("# end\n", "")));
+    }
+    match traces.len() == programs.len() {
         true => Ok(traces),
-        false => Err(format!("it does not run to its end: {}", String::from_utf8_lossy(&ran.stderr))),
+        false => Err("it does not run to its end".to_owned()),
     }
 }

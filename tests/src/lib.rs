@@ -4,6 +4,7 @@
 
 mod compile;
 mod log;
+mod machines;
 pub mod oracle;
 mod random;
 
@@ -39,7 +40,8 @@ pub mod nodes {
 }
 
 pub use compile::{Found, check, error, expand};
-pub use log::{Log, react, simulate};
+pub use log::{Log, active, active_after_each, react, simulate};
+pub use machines::{LETTERS, Machine, machine, machines_text};
 pub use random::{Case, SEED, Trace, cases, text};
 
 /// A constant that texts use.

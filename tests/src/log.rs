@@ -80,6 +80,20 @@ pub fn react<P: Program>(program: &mut P, times: usize) -> Log {
     log
 }
 
+/// The nodes of `program` that are active.
+pub fn active<P: Program>(program: &P) -> String {
+    let nodes = P::INFO.nodes.iter().enumerate().filter(|(node, _)| program.is_active(*node));
+    nodes.map(|(_, node)| node.name).collect::<Vec<_>>().join(" ")
+}
+
+/// The nodes that are active after each of `N` iterations.
+pub fn active_after_each<P: Program, const N: usize>(program: &mut P) -> [String; N] {
+    [(); N].map(|()| {
+        react(program, 1);
+        active(program)
+    })
+}
+
 /// Runs `program` on a simulated clock from `start` to `end` (exclusive), and says what happened.
 pub fn simulate<P: Program>(program: &mut P, start: Time, end: Time) -> Log {
     let mut log = Log::of(program);

@@ -80,3 +80,32 @@ impl Told {
         self.count += 1;
     }
 }
+
+/// A state of a machine that was translated to activity: while it is active, each letter leads on.
+#[node]
+#[derive(Default)]
+pub struct Phase {}
+
+#[node]
+impl Phase {
+    #[slot]
+    fn enter(&mut self) {}
+    #[slot]
+    fn a(&mut self, ctx: &Ctx, on_a: Event<()>) {
+        if ctx.active() {
+            on_a.emit(());
+        }
+    }
+    #[slot]
+    fn b(&mut self, ctx: &Ctx, on_b: Event<()>) {
+        if ctx.active() {
+            on_b.emit(());
+        }
+    }
+    #[slot]
+    fn c(&mut self, ctx: &Ctx, on_c: Event<()>) {
+        if ctx.active() {
+            on_c.emit(());
+        }
+    }
+}
