@@ -12,6 +12,7 @@ pub mod check;
 pub mod claims;
 pub mod codegen;
 pub mod graph;
+pub mod ide;
 pub mod machine;
 pub mod passes;
 pub mod petri;

@@ -2,8 +2,10 @@
 
 mod build;
 mod lexical;
+mod mend;
 mod recover;
 pub mod tree;
+pub mod words;
 
 use crate::{
     report::Diagnostics,
@@ -12,6 +14,7 @@ use crate::{
 use pest::Parser as _;
 
 pub use lexical::{MAX_BYTES, MAX_DEPTH};
+pub use mend::mended;
 
 use grammar::{Grammar, Rule};
 
