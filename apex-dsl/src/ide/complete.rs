@@ -34,6 +34,8 @@ pub struct Completion {
     pub snippet: Option<String>,
     /// An import that it needs.
     pub import: Option<String>,
+    /// Whether its tokens certainly have the type that is wanted; where only rustc can say, it is `false`.
+    pub sure: bool,
 }
 
 /// What a completion is.
@@ -62,7 +64,7 @@ pub enum CompletionKind {
 impl Completion {
     fn new(label: impl Into<String>, kind: CompletionKind, detail: impl Into<String>, docs: impl Into<String>) -> Self {
         let (label, detail, docs) = (label.into(), detail.into(), docs.into());
-        Self { label, kind, detail, docs, snippet: None, import: None }
+        Self { label, kind, detail, docs, snippet: None, import: None, sure: false }
     }
 }
 
@@ -150,7 +152,9 @@ impl Completer<'_> {
         for facts in self.view.ports(NodeType::Graph(id)).iter().filter(|_| named != Named::Node) {
             if fits(facts.kind.seen_from_inside(), &facts.ty, named, types.as_deref()) {
                 let docs = describe(&self.view, facts.definition);
-                found.push(Completion::new(&facts.name, CompletionKind::Port, port(facts), docs));
+                let sure = is_sure(&facts.ty, types.as_deref());
+                found
+                    .push(Completion { sure, ..Completion::new(&facts.name, CompletionKind::Port, port(facts), docs) });
             }
         }
         for (i, node) in item.nodes.iter().enumerate() {
@@ -171,15 +175,16 @@ impl Completer<'_> {
             return vec![Completion::new(name, CompletionKind::Name, detail, docs())];
         }
         let fitting = self.fitting(id, i, named, types);
+        let item = |label: String, kind, p: &PortFacts, docs| {
+            let sure = is_sure(&p.ty, types);
+            Completion { sure, ..Completion::new(label, kind, port(p), docs) }
+        };
         match fitting.as_slice() {
             [] => vec![],
-            [one] => vec![Completion::new(name, CompletionKind::Name, port(one), docs())],
+            [one] => vec![item(name.to_owned(), CompletionKind::Name, one, docs())],
             several => {
                 let dotted = |p: &PortFacts| format!("{name}.{}", p.name);
-                several
-                    .iter()
-                    .map(|p| Completion::new(dotted(p), CompletionKind::Port, port(p), p.docs.clone()))
-                    .collect()
+                several.iter().map(|p| item(dotted(p), CompletionKind::Port, p, p.docs.clone())).collect()
             }
         }
     }
@@ -466,6 +471,11 @@ fn fits(kind: PortKind, ty: &Type, named: Named, types: Option<&[Type]>) -> bool
         _ => true,
     };
     side && types.is_none_or(|types| types.iter().any(|t| t.compare(ty) != Match::Different))
+}
+
+/// Whether tokens of a type are certainly of one of these.
+fn is_sure(ty: &Type, types: Option<&[Type]>) -> bool {
+    types.is_some_and(|types| types.iter().any(|t| t.compare(ty) == Match::Same))
 }
 
 /// The ports that every node has.

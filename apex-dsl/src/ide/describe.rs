@@ -1,12 +1,13 @@
 //! What hover and completion say, as Markdown.
 
-use super::{Definition, NodeType, ParamFacts, PortFacts, View};
+use super::{Definition, NodeType, ParamFacts, PortFacts, View, lex::tokens_before};
 use crate::{
     graph::{Flow, Standard},
     resolve::Link,
+    source::Span,
     syntax::{
         tree::PortKind,
-        words::{Place, words_at},
+        words::{Place, WORDS, Word, words_at},
     },
 };
 
@@ -69,11 +70,30 @@ pub fn describe_link(view: &View<'_>, link: &Link) -> String {
         (Flow::ToSlot, _) => "one call for each token, in the order in which the tokens were sent",
         (Flow::ToInput, _) => "each token makes what is behind the input run once",
     };
-    let activity = if link.active { " Lets activity pass." } else { "" };
+    let activity = if link.active { "; lets activity pass" } else { "" };
     let arrow = if link.active { "=>" } else { "->" };
     let declaration = format!("{} {arrow} {}", end(&link.from), end(&link.to));
     let types = format!("`{}` → `{}`", link.from.ty, link.to.ty);
-    page(&declaration, &format!("{}: {what}.{activity}\n\n{types}", flow_word(link)))
+    page(&declaration, &format!("{}: {what}{activity}\n\n{types}", flow_word(link)))
+}
+
+/// What the word of the language at `offset` of `text` does; `None` if there is none.
+pub fn describe_word(view: &View<'_>, text: &str, offset: usize) -> Option<String> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let start = text.get(..offset)?.rfind(|c| !is_part(c)).map_or(0, |i| i + 1);
+    let end = text[offset..].find(|c| !is_part(c)).map_or(text.len(), |i| offset + i);
+    let word = text.get(start..end)?;
+    tokens_before(text, start)?;
+    let tree = &view.texts.files[0].1;
+    let around = |s: Span| s.start as usize <= offset && offset <= s.end as usize;
+    let place = match () {
+        () if tree.machines.iter().any(|m| around(m.extent)) => Place::Machine,
+        () if tree.tests.iter().any(|t| around(t.extent)) => Place::Test,
+        () => Place::Graph,
+    };
+    let is_word = |w: &&Word| w.text == word;
+    let found = words_at(place).find(is_word).or_else(|| WORDS.iter().find(is_word))?;
+    Some(page(word, found.docs))
 }
 
 /// The word for how tokens travel: between synchronous ports, between asynchronous ones, or from one to the other.

@@ -16,12 +16,12 @@ use crate::{
     source::Sources,
 };
 
-pub use complete::{Completion, CompletionKind, complete};
+pub use complete::{Completion, CompletionKind, Siblings, complete};
 pub use definition::{Definition, MachineId, NodeType, Origin, ParamFacts, PortFacts};
-pub use describe::{describe, describe_link, flow_word};
+pub use describe::{describe, describe_link, describe_word, flow_word};
 pub use occurrences::{Occurrence, at, occurrences};
 pub use outline::{Symbol, SymbolKind, outline};
-pub use rename::rename;
+pub use rename::{may_rename, rename};
 
 /// A text with what is known of the names in it.
 #[derive(Clone, Copy)]

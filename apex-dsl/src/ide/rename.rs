@@ -28,7 +28,10 @@ pub fn rename(
 }
 
 /// The name that would be changed.
-fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ident, String> {
+///
+/// # Errors
+/// Says why it cannot be.
+pub fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ident, String> {
     view.declared_name(definition).ok_or_else(|| match definition {
         Definition::Own(name) => format!("every graph knows `{name}`; it cannot have another name"),
         Definition::Standard(port) => format!("every node has a port `{}`; it cannot have another name", port.name()),
