@@ -3,6 +3,7 @@
 mod check;
 mod expand;
 mod explain;
+mod fmt;
 mod lsp;
 mod project;
 mod run;
@@ -34,6 +35,18 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+    },
+    /// Bring texts into the one style of the language.
+    #[command(
+        after_help = "Texts with errors are left alone. Exit code 1: one has errors, or would be changed by what --check leaves undone.\n\nExample:\n  apex fmt robots\n  apex fmt --check robots/patsy/patsy.afg\n  apex fmt - < robot.afg"
+    )]
+    Fmt {
+        /// The texts; of a folder all `.afg` below it; `-` for standard input, formatted to standard output.
+        #[arg(required = true, value_name = "FILE")]
+        paths: Vec<PathBuf>,
+        /// Change nothing; say which texts would be changed.
+        #[arg(long)]
+        check: bool,
     },
     /// Print the Rust that a text is compiled to.
     Expand {
@@ -97,6 +110,7 @@ enum Format {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check { files, format } => check::run(&files, format),
+        Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
         Command::Explain { file, format, .. } => explain::run(&file, format),

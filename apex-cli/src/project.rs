@@ -50,13 +50,18 @@ pub fn check(file: &Path) -> Result<Checked, String> {
 impl Checked {
     /// Prints all messages to standard error.
     pub fn print_diagnostics(&self) {
-        let color = io::stderr().is_terminal();
-        for diagnostic in self.diagnostics.sorted() {
-            print_error(&format!("{}\n", render(diagnostic, &self.sources, color)));
-        }
-        if self.diagnostics.left_out() > 0 {
-            print_error(&format!("… and {} more\n", self.diagnostics.left_out()));
-        }
+        print_diagnostics(&self.diagnostics, &self.sources);
+    }
+}
+
+/// Prints all messages to standard error.
+pub fn print_diagnostics(diagnostics: &Diagnostics, sources: &Sources) {
+    let color = io::stderr().is_terminal();
+    for diagnostic in diagnostics.sorted() {
+        print_error(&format!("{}\n", render(diagnostic, sources, color)));
+    }
+    if diagnostics.left_out() > 0 {
+        print_error(&format!("… and {} more\n", diagnostics.left_out()));
     }
 }
 

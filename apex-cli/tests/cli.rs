@@ -249,3 +249,123 @@ fn the_language_server_ends_with_its_editor() {
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     assert!(stderr(&output).starts_with("error: the messages of the editor cannot be read: "), "{}", stderr(&output));
 }
+
+/// `apex fmt` with these arguments.
+fn fmt(arguments: &[&Path]) -> Output {
+    apex().arg("fmt").args(arguments).output().unwrap()
+}
+
+/// `apex fmt` with something on standard input.
+fn fmt_input(arguments: &[&str], input: &[u8]) -> Output {
+    let mut command = apex();
+    command.arg("fmt").args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+const UGLY: &str = "graph A {\n  in x: u64; // why\n}\n";
+const NICE: &str = "graph A {\n    in x: u64; // why\n}\n";
+
+#[test]
+fn files_and_folders_are_formatted() {
+    let folder = Folder::new("fmt");
+    fs::create_dir_all(folder.0.join("deep/.hidden")).unwrap();
+    fs::create_dir_all(folder.0.join("target")).unwrap();
+    let files = [folder.file("a.afg", UGLY), folder.file("deep/b.afg", UGLY), folder.file("c.afg", NICE)];
+    let others =
+        [folder.file("deep/.hidden/d.afg", UGLY), folder.file("e.txt", UGLY), folder.file("target/f.afg", UGLY)];
+    folder.file("target/CACHEDIR.TAG", "");
+    let untouched = fs::metadata(&files[2]).unwrap().modified().unwrap();
+    let output = fmt(&[&folder.0, &files[0]]);
+    assert_eq!((output.status.code(), output.stdout.len(), stderr(&output)), (Some(0), 0, String::new()));
+    assert!(files.iter().all(|file| fs::read_to_string(file).unwrap() == NICE));
+    assert!(others.iter().all(|file| fs::read_to_string(file).unwrap() == UGLY));
+    assert_eq!(fs::metadata(&files[2]).unwrap().modified().unwrap(), untouched);
+    let names = fs::read_dir(&folder.0).unwrap().count();
+    assert_eq!(names, 5, "nothing is left over");
+}
+
+#[test]
+fn what_would_be_changed_is_shown() {
+    let folder = Folder::new("fmt-check");
+    let (ugly, nice) = (folder.file("ugly.afg", UGLY), folder.file("nice.afg", NICE));
+    let open = folder.file("open.afg", NICE.trim_end());
+    let output = fmt(&[Path::new("--check"), &ugly, &nice, &open]);
+    assert_eq!((output.status.code(), stderr(&output)), (Some(1), String::new()));
+    let (ugly_name, open_name) = (ugly.display(), open.display());
+    assert_eq!(
+        String::from_utf8(output.stdout).unwrap(),
+        format!(
+            "{ugly_name}:2: would be changed\n-   in x: u64; // why\n+     in x: u64; // why\n\
+             {open_name}:3: would be changed\n- }} (without a line end)\n+ }}\n"
+        )
+    );
+    assert_eq!(fs::read_to_string(&ugly).unwrap(), UGLY);
+    assert_eq!(fmt(&[Path::new("--check"), &nice]).status.code(), Some(0));
+}
+
+#[test]
+fn standard_input_is_formatted_to_standard_output() {
+    let output = fmt_input(&["-"], UGLY.as_bytes());
+    assert_eq!((output.status.code(), output.stdout.as_slice()), (Some(0), NICE.as_bytes()));
+    let output = fmt_input(&["--check", "-"], UGLY.as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8(output.stdout).unwrap().starts_with("<stdin>:2: would be changed\n"));
+    let output = fmt_input(&["-"], b"graph \xfc { }");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    assert_eq!(stderr(&output), "error: cannot read standard input: byte 6 is not UTF-8\n");
+}
+
+#[test]
+fn texts_with_errors_are_left_alone() {
+    let folder = Folder::new("fmt-wrong");
+    let text = "graph A {\n  in x u64;\n}\n";
+    let (wrong, ugly) = (folder.file("wrong.afg", text), folder.file("ugly.afg", UGLY));
+    let (output, checked) = (fmt(&[&wrong, &ugly]), check(&[], &wrong));
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
+    assert_eq!(stderr(&output), stderr(&checked));
+    assert_eq!(fs::read_to_string(&wrong).unwrap(), text);
+    assert_eq!(fs::read_to_string(&ugly).unwrap(), NICE);
+    let output = fmt_input(&["-"], text.as_bytes());
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
+}
+
+#[test]
+fn what_cannot_be_formatted_is_two_and_the_rest_is_done() {
+    let folder = Folder::new("fmt-unreadable");
+    fs::create_dir_all(folder.0.join("empty")).unwrap();
+    let read_only = folder.file("read_only.afg", UGLY);
+    let mut permissions = fs::metadata(&read_only).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&read_only, permissions).unwrap();
+    for (path, reason) in [
+        (folder.0.join("missing.afg"), "there is no such file"),
+        (folder.0.join("empty"), "there is no `.afg` text in"),
+        (folder.file("latin1.afg", b"graph \xfc { }"), "byte 6 is not UTF-8"),
+        (folder.file("large.afg", " ".repeat(5 << 20)), "bytes; at most"),
+        (read_only, "it is read-only"),
+    ] {
+        let ugly = folder.file("ugly.afg", UGLY);
+        let output = fmt(&[&path, &ugly]);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{}", path.display());
+        let text = stderr(&output);
+        assert!(text.starts_with("error: ") && text.contains(reason), "{text}");
+        assert_eq!(fs::read_to_string(&ugly).unwrap(), NICE);
+    }
+}
+
+/// The file keeps its permissions, and what a link leads to is formatted in its place.
+#[cfg(unix)]
+#[test]
+fn formatting_keeps_permissions_and_links() {
+    use std::os::unix::fs::{PermissionsExt as _, symlink};
+    let folder = Folder::new("fmt-links");
+    let (file, link) = (folder.file("file.afg", UGLY), folder.0.join("link.afg"));
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+    symlink("file.afg", &link).unwrap();
+    assert_eq!(fmt(&[&link]).status.code(), Some(0));
+    assert_eq!(fs::read_to_string(&file).unwrap(), NICE);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+}

@@ -11,6 +11,7 @@ pub mod catalog;
 pub mod check;
 pub mod claims;
 pub mod codegen;
+pub mod format;
 pub mod graph;
 pub mod ide;
 pub mod machine;
@@ -22,3 +23,5 @@ pub mod script;
 pub mod source;
 pub mod syntax;
 pub mod units;
+
+pub use format::format;

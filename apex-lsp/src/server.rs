@@ -5,7 +5,7 @@ use crate::{
     capabilities::{Client, capabilities},
     documents::Document,
     features::{
-        Ready, actions, completion, definition, diagnostics, hints, hover,
+        Ready, actions, completion, definition, diagnostics, formatting, hints, hover,
         references::{self, Target},
         rename, symbols,
     },
@@ -184,6 +184,9 @@ impl Server<'_> {
             request::DocumentSymbolRequest::METHOD => answer(id, params, |p: lsp_types::DocumentSymbolParams| {
                 let found = self.ready(&p.text_document.uri).map(|r| symbols::symbols(&r));
                 Ok(found.map(DocumentSymbolResponse::Nested))
+            }),
+            request::Formatting::METHOD => answer(id, params, |p: lsp_types::DocumentFormattingParams| {
+                Ok(self.ready(&p.text_document.uri).map(|r| formatting::formatting(&r)))
             }),
             request::CodeActionRequest::METHOD => answer(id, params, |p: lsp_types::CodeActionParams| {
                 Ok(self.ready(&p.text_document.uri).map(|r| actions::actions(&r, p.range)))

@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 
 /// File names, from this package on, and texts of all that is generated.
 pub fn files() -> Vec<(String, String)> {
-    let graphs = all().into_iter().map(|(name, text)| (format!("graphs/{name}"), text));
+    let formatted = |text: String| apex_dsl::format(&text).unwrap_or(text);
+    let graphs = all().into_iter().map(|(name, text)| (format!("graphs/{name}"), formatted(text)));
     graphs.chain([("src/hand/mixed1000.rs".to_owned(), mixed::rust())]).collect()
 }
 

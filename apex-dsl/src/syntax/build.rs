@@ -210,7 +210,8 @@ impl<'a> Builder<'a> {
             match part.as_rule() {
                 Rule::port_ref => of = Some(self.port_ref(part)),
                 Rule::active_kw => active = true,
-                Rule::compare => operator = Some(part.as_str().to_owned()),
+                // White space behind a sign belongs to its pair.
+                Rule::compare => operator = Some(part.as_str().trim_end().to_owned()),
                 Rule::expr => value = Some(self.expr(part)),
                 _ => {}
             }

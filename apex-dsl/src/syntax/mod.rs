@@ -1,6 +1,7 @@
 //! Text → tree. A bad statement does not hide the next.
 
 mod build;
+pub(crate) mod concrete;
 mod lexical;
 mod mend;
 mod recover;
@@ -16,7 +17,8 @@ use pest::Parser as _;
 pub use lexical::{MAX_BYTES, MAX_DEPTH};
 pub use mend::mended;
 
-use grammar::{Grammar, Rule};
+use grammar::Grammar;
+pub(crate) use grammar::Rule;
 
 /// The parser that pest makes of the grammar; the rules are documented there.
 #[allow(missing_docs)]
@@ -42,6 +44,20 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::F
             broken()
         }
     }
+}
+
+/// Reads a text with all its tokens and comments; nothing if it has errors, which are reported.
+pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<concrete::Text<'t>> {
+    let lexical = lexical::scan(file, text, diagnostics)?;
+    let pair = match Grammar::parse(Rule::file, &lexical.text) {
+        Ok(mut pairs) => pairs.next()?,
+        Err(error) => {
+            diagnostics.push(recover::diagnose(file, 0, &lexical.text, &error));
+            return None;
+        }
+    };
+    let tree = build::Builder::new(file, &lexical.text, diagnostics).file(pair.clone());
+    (!tree.broken && !diagnostics.has_errors()).then(|| concrete::read(text, &lexical, pair))
 }
 
 /// The span of a pair in `file`.

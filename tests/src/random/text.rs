@@ -1,7 +1,10 @@
 use super::{Case, End, Instance};
 use std::{collections::BTreeSet, fmt::Write as _, ops::Range};
 
-/// The text of `cases`: graphs `Flat0`, `Nested0`, `Flat1`, …
+/// The text of `cases`, formatted: graphs `Flat0`, `Nested0`, `Flat1`, …
+///
+/// # Panics
+/// If it is not a text without errors.
 pub fn text(cases: &[Case]) -> String {
     let mut text = String::from("//! Written by the generator in tests/src/random; see tests/behaviour/random.rs.\n");
     for (number, case) in cases.iter().enumerate() {
@@ -14,7 +17,7 @@ pub fn text(cases: &[Case]) -> String {
             case.body(whole, &case.group).replace("GROUP", &format!("Group{number}"))
         );
     }
-    text
+    apex_dsl::format(&text).unwrap_or_else(|diagnostics| panic!("{:?}", diagnostics.sorted()))
 }
 
 impl Case {

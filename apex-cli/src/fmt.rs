@@ -1,0 +1,188 @@
+//! `apex fmt`.
+
+use crate::project;
+use apex_dsl::{
+    report::Diagnostics,
+    source::{Sources, World as _},
+    syntax::MAX_BYTES,
+};
+use apex_host::Disk;
+use std::{
+    fs,
+    io::{self, ErrorKind, Read as _, Write as _},
+    path::{Path, PathBuf},
+    process::{self, ExitCode},
+};
+
+/// What became of a text.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Outcome {
+    Fine,
+    /// It has errors, or is not in the style and was only looked at.
+    Wrong,
+    /// It could not be read or written.
+    Failed,
+}
+
+/// Formats texts and all texts in folders; only looks at them if `check`. `-` is standard input.
+pub fn run(paths: &[PathBuf], check: bool) -> Result<ExitCode, String> {
+    let mut worst = Outcome::Fine;
+    for path in paths {
+        if path.as_os_str() == "-" {
+            worst = worst.max(told(standard_input(check)));
+            continue;
+        }
+        match files(path) {
+            Ok(files) => files.iter().for_each(|file| worst = worst.max(told(format_file(file, check)))),
+            Err(message) => worst = worst.max(told(Err(message))),
+        }
+    }
+    Ok(ExitCode::from(worst as u8))
+}
+
+/// What became of it; what could not be done is said, and the next one is tried.
+fn told(outcome: Result<Outcome, String>) -> Outcome {
+    outcome.unwrap_or_else(|message| {
+        project::print_error(&format!("error: {message}"));
+        Outcome::Failed
+    })
+}
+
+/// The file itself, or the texts below a folder.
+fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut found = vec![];
+    collect(path, &mut found).map_err(|(folder, e)| format!("cannot read `{}`: {e}", folder.display()))?;
+    if found.is_empty() {
+        return Err(format!("there is no `.afg` text in `{}`", path.display()));
+    }
+    Ok(found)
+}
+
+/// Adds the texts below `folder` in order. Hidden folders and those that tools mark as their caches are left out.
+fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::Error)> {
+    let at = |e| (folder.to_owned(), e);
+    let entries: io::Result<Vec<_>> = fs::read_dir(folder).and_then(Iterator::collect);
+    let mut entries = entries.map_err(at)?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let path = entry.path();
+        let is_hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
+        if entry.file_type().map_err(at)?.is_dir() {
+            if !is_hidden && !path.join("CACHEDIR.TAG").exists() {
+                collect(&path, found)?;
+            }
+        } else if path.extension().is_some_and(|e| e == "afg") && path.is_file() {
+            found.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn format_file(path: &Path, check: bool) -> Result<Outcome, String> {
+    let text = Disk::new(None).read(path).map_err(|reason| format!("cannot read `{}`: {reason}", path.display()))?;
+    let Some(formatted) = formatted(path, &text) else { return Ok(Outcome::Wrong) };
+    if formatted == *text {
+        return Ok(Outcome::Fine);
+    }
+    if check {
+        project::print(&hint(path, &text, &formatted));
+        return Ok(Outcome::Wrong);
+    }
+    replace(path, &formatted).map_err(|e| format!("cannot write `{}`: {e}", path.display()))?;
+    Ok(Outcome::Fine)
+}
+
+fn standard_input(check: bool) -> Result<Outcome, String> {
+    let path = Path::new("<stdin>");
+    let text = read_input().map_err(|reason| format!("cannot read standard input: {reason}"))?;
+    let Some(formatted) = formatted(path, &text) else { return Ok(Outcome::Wrong) };
+    if check && formatted != text {
+        project::print(&hint(path, &text, &formatted));
+        return Ok(Outcome::Wrong);
+    }
+    if !check {
+        let mut output = io::stdout().lock();
+        match output.write_all(formatted.as_bytes()).and_then(|()| output.flush()) {
+            // A reader that has gone away is no error.
+            Err(e) if e.kind() != ErrorKind::BrokenPipe => return Err(format!("cannot write to standard output: {e}")),
+            _ => {}
+        }
+    }
+    Ok(Outcome::Fine)
+}
+
+fn read_input() -> Result<String, String> {
+    let mut bytes = vec![];
+    // One byte more than is allowed is enough to know.
+    io::stdin().lock().take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+    if bytes.len() > MAX_BYTES {
+        return Err(format!("at most {MAX_BYTES} bytes are read"));
+    }
+    String::from_utf8(bytes).map_err(|e| format!("byte {} is not UTF-8", e.utf8_error().valid_up_to()))
+}
+
+/// The text in the style of the language; nothing if it has errors, which are printed.
+fn formatted(path: &Path, text: &str) -> Option<String> {
+    let print = |diagnostics: Diagnostics| {
+        let mut sources = Sources::default();
+        sources.add(path, text);
+        project::print_diagnostics(&diagnostics, &sources);
+    };
+    apex_dsl::format(text).map_err(print).ok()
+}
+
+/// Where a text first differs from the formatted one, and how.
+fn hint(path: &Path, text: &str, formatted: &str) -> String {
+    let (mut old, mut new) = (text.split_inclusive('\n'), formatted.split_inclusive('\n'));
+    let mut number = 1;
+    loop {
+        match (old.next(), new.next()) {
+            (Some(is), Some(should_be)) if is == should_be => number += 1,
+            (is, should_be) => {
+                let shown =
+                    |sign, line: Option<&str>| line.map_or(String::new(), |l| format!("\n{sign} {}", visible(l)));
+                let (is, should_be) = (shown('-', is), shown('+', should_be));
+                return format!("{}:{number}: would be changed{is}{should_be}", path.display());
+            }
+        }
+    }
+}
+
+/// A line whose blanks at the end can be seen.
+fn visible(line: &str) -> String {
+    let (line, end) = match line.strip_suffix('\n') {
+        Some(line) => (line, ""),
+        None => (line, " (without a line end)"),
+    };
+    let text = line.trim_end();
+    let blanks: String = line[text.len()..]
+        .chars()
+        .map(|c| if c == ' ' { '·'.to_string() } else { c.escape_default().to_string() })
+        .collect();
+    format!("{text}{blanks}{end}")
+}
+
+/// Writes a file beside `path` and puts it in its place, so that there is always a whole one.
+fn replace(path: &Path, text: &str) -> io::Result<()> {
+    // What a link leads to is changed, not the link.
+    let path = fs::canonicalize(path)?;
+    let permissions = fs::metadata(&path)?.permissions();
+    if permissions.readonly() {
+        return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let temporary = path.with_file_name(format!(".{name}.{}", process::id()));
+    let written = fs::File::create_new(&temporary).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.set_permissions(permissions)?;
+        file.sync_all()
+    });
+    let result = written.and_then(|()| fs::rename(&temporary, &path));
+    if result.is_err() {
+        let _ = fs::remove_file(&temporary);
+    }
+    result
+}

@@ -1,0 +1,192 @@
+//! Things in brackets, with commas between them.
+
+use super::{
+    doc::{Doc, width},
+    layout::{Layout, nodes, only, rule},
+};
+use crate::syntax::{
+    Rule,
+    concrete::{Kid, Node},
+};
+
+/// Widest row of a matrix whose numbers stand below each other.
+const WIDEST_ROW: usize = 80;
+
+/// An element, and the comma behind it.
+struct Element<'k> {
+    value: &'k Kid,
+    comma: Option<&'k Kid>,
+}
+
+/// What becomes of a comma.
+#[derive(Clone, Copy)]
+enum Comma {
+    Stays,
+    /// It is there if the list is broken, and only then.
+    IfBroken,
+    Goes,
+}
+
+impl<'t> Layout<'_, 't> {
+    /// A list that fills lines if its elements are short, else with an element in each line.
+    pub fn list(&self, node: &Node) -> Doc<'t> {
+        match &node.kids[..] {
+            [open, arg, .., close] if self.is_hugged(node) => {
+                Doc::Concat(vec![self.kid(open), self.kid(arg), self.kid(close)])
+            }
+            kids => match self.columns(node) {
+                Some(columns) => self.brackets(kids, |elements| self.rows(elements, &columns)),
+                None if nodes(kids).all(is_short) => self.brackets(kids, |elements| Doc::Fill(self.items(elements))),
+                None => self.brackets(kids, |elements| {
+                    let items = self.items(elements).into_iter().enumerate();
+                    Doc::Concat(items.flat_map(|(i, item)| [line(i), item]).collect())
+                }),
+            },
+        }
+    }
+
+    /// `claim exclusive(a, b);`
+    pub fn claim(&self, node: &Node) -> Doc<'t> {
+        match &node.kids[..] {
+            [word, kind, of @ .., semi] if !of.is_empty() => {
+                let of = self.brackets(of, |elements| Doc::Fill(self.items(elements)));
+                Doc::Concat(vec![self.kid(word), Doc::Space, self.kid(kind), of, self.kid(semi)])
+            }
+            kids => self.words(kids),
+        }
+    }
+
+    /// `kids` from the opening bracket to the closing one.
+    fn brackets(&self, kids: &[Kid], body: impl FnOnce(&[Element<'_>]) -> Doc<'t>) -> Doc<'t> {
+        let [open, inner @ .., close] = kids else { return self.words(kids) };
+        let elements = elements(inner);
+        let (inside, close) = self.closing(close);
+        let start = if elements.is_empty() { Doc::NIL } else { Doc::SoftLine };
+        let comma = elements.last().map_or(Doc::NIL, |last| self.last_comma(last, elements.len()));
+        let body = [start, body(&elements), comma].into_iter().chain(inside).collect();
+        Doc::group(vec![self.kid(open), Doc::indent(body), Doc::SoftLine, close])
+    }
+
+    /// The elements with the commas between them.
+    fn items(&self, elements: &[Element<'_>]) -> Vec<Doc<'t>> {
+        let Some((last, others)) = elements.split_last() else { return vec![] };
+        let others = others.iter().map(|e| Doc::Concat(vec![self.kid(e.value), self.comma(e, Comma::Stays)]));
+        others.chain([self.kid(last.value)]).collect()
+    }
+
+    /// The comma behind the last of `count` elements.
+    fn last_comma(&self, last: &Element<'_>, count: usize) -> Doc<'t> {
+        // People read a type in parentheses as a tuple only if it has a comma.
+        let is_tuple = rule(last.value) == Some(Rule::ty) && last.comma.is_some() && count == 1;
+        self.comma(last, if is_tuple { Comma::Stays } else { Comma::IfBroken })
+    }
+
+    /// The comma behind an element, with its comments.
+    fn comma(&self, element: &Element<'_>, comma: Comma) -> Doc<'t> {
+        let text = match comma {
+            Comma::Stays => Doc::text(","),
+            Comma::IfBroken => Doc::Broken(",".into()),
+            Comma::Goes => Doc::NIL,
+        };
+        let token = element.comma.map(|comma| self.first(comma));
+        let comments = token.into_iter().flat_map(|token| token.before.iter().chain(&token.after));
+        Doc::Concat([text].into_iter().chain(comments.map(Doc::comment)).collect())
+    }
+
+    /// Whether the only argument is a list: then its brackets and those around it open and close together.
+    fn is_hugged(&self, args: &Node) -> bool {
+        let [open, Kid::Node(arg), rest @ ..] = &args.kids[..] else { return false };
+        let is_list = nodes(&arg.kids).last().and_then(sole_value).is_some_and(|value| value.rule == Rule::list_expr);
+        let has_no_comment = |kid: &Kid| self.first(kid).before.is_empty() && self.first(kid).after.is_empty();
+        let [commas @ .., close] = rest else { return false };
+        args.rule == Rule::args
+            && is_list
+            && commas.iter().all(|kid| rule(kid).is_none() && has_no_comment(kid))
+            && self.first(open).after.is_empty()
+            && self.first(close).before.is_empty()
+    }
+
+    /// How wide the columns are, if this is a list of lists whose numbers can stand below each other.
+    fn columns(&self, list: &Node) -> Option<Vec<usize>> {
+        if list.rule != Rule::list_expr {
+            return None;
+        }
+        let rows = nodes(&list.kids).map(|row| sole_value(row).filter(|row| row.rule == Rule::list_expr));
+        let mut widths: Vec<Vec<usize>> = vec![];
+        for row in rows {
+            widths.push(nodes(&row?.kids).map(|cell| Some(width(&self.node(cell).flat()?))).collect::<Option<_>>()?);
+        }
+        let count = widths.first()?.len();
+        let columns: Vec<usize> =
+            (0..count).map(|i| widths.iter().filter_map(|row| row.get(i)).copied().max().unwrap_or(0)).collect();
+        let fits = columns.iter().sum::<usize>() + 2 * count <= WIDEST_ROW;
+        (widths.len() > 1 && count > 0 && fits && widths.iter().all(|row| row.len() == count)).then_some(columns)
+    }
+
+    /// A row in each line, with columns of these widths.
+    fn rows(&self, rows: &[Element<'_>], columns: &[usize]) -> Doc<'t> {
+        let mut parts = vec![];
+        for (i, row) in rows.iter().enumerate() {
+            parts.push(line(i));
+            if let Kid::Node(row) = row.value {
+                parts.push(sole_value(row).map_or_else(|| self.node(row), |list| self.row(list, columns)));
+            }
+            if i + 1 < rows.len() {
+                parts.push(self.comma(row, Comma::Stays));
+            }
+        }
+        Doc::Concat(parts)
+    }
+
+    fn row(&self, row: &Node, columns: &[usize]) -> Doc<'t> {
+        let [open, inner @ .., close] = &row.kids[..] else { return self.words(&row.kids) };
+        let mut parts = vec![self.kid(open)];
+        for (i, (cell, column)) in elements(inner).iter().zip(columns).enumerate() {
+            let value = self.kid(cell.value);
+            let pad = column.saturating_sub(value.flat().map_or(0, |text| width(&text)));
+            let is_last = i + 1 == columns.len();
+            let comma = self.comma(cell, if is_last { Comma::Goes } else { Comma::Stays });
+            parts.extend([Doc::Broken(" ".repeat(pad).into()), value, comma]);
+            parts.push(if is_last { Doc::NIL } else { Doc::Space });
+        }
+        parts.push(self.kid(close));
+        Doc::Concat(parts)
+    }
+}
+
+fn elements(inner: &[Kid]) -> Vec<Element<'_>> {
+    let mut elements: Vec<Element<'_>> = vec![];
+    for kid in inner {
+        match elements.last_mut() {
+            Some(last) if rule(kid).is_none() => last.comma = Some(kid),
+            _ => elements.push(Element { value: kid, comma: None }),
+        }
+    }
+    elements
+}
+
+/// What stands before an element, behind the opening bracket and its line end.
+fn line<'t>(index: usize) -> Doc<'t> {
+    if index == 0 { Doc::NIL } else { Doc::Line }
+}
+
+/// The value that an expression without operators is.
+fn sole_value(expr: &Node) -> Option<&Node> {
+    match &expr.kids[..] {
+        [Kid::Node(primary)] if expr.rule == Rule::expr => Some(only(primary)),
+        _ => None,
+    }
+}
+
+/// Whether several of these can stand in a line.
+fn is_short(element: &Node) -> bool {
+    match element.rule {
+        Rule::param => false,
+        Rule::endpoint => only(element).rule == Rule::port_ref,
+        _ => !holds_list(element),
+    }
+}
+
+fn holds_list(node: &Node) -> bool {
+    matches!(node.rule, Rule::list_expr | Rule::use_group) || nodes(&node.kids).any(holds_list)
+}

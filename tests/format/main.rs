@@ -1,0 +1,109 @@
+//! The formatter: what it makes of texts (`cases.md`), and what is true of it for every text.
+
+mod cases;
+#[path = "../hostile/random.rs"]
+mod hostile;
+#[path = "../hostile/large.rs"]
+mod large;
+mod properties;
+mod shake;
+
+use properties::check;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// The folder of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// All texts of the repository, by name.
+fn texts() -> Vec<(String, String)> {
+    let mut texts = vec![];
+    for folder in ["benches", "nodes", "robots", "tests"] {
+        collect(&root().join(folder), &mut texts);
+    }
+    texts.sort();
+    assert!(texts.len() > 100, "only {} texts were found", texts.len());
+    texts
+}
+
+fn collect(folder: &Path, texts: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(&path, texts);
+        } else if path.extension().is_some_and(|e| e == "afg") {
+            // One is not UTF-8.
+            texts.extend(fs::read_to_string(&path).ok().map(|text| (path.display().to_string(), text)));
+        }
+    }
+}
+
+/// Texts that tests expect to be as they are: those with errors, and those whose positions are expected.
+fn stays_as_it_is(name: &str) -> bool {
+    ["tests/errors/", "tests/hostile/", "tests/macro/"].iter().any(|folder| name.contains(folder))
+}
+
+#[test]
+fn the_texts_of_the_repository_are_formatted() {
+    for (name, text) in texts().into_iter().filter(|(name, _)| !stays_as_it_is(name)) {
+        assert_eq!(check(&name, &text).as_ref(), Some(&text), "{name}: `apex fmt` has not been run");
+    }
+}
+
+#[test]
+fn the_documentation_is_formatted() {
+    let mut count = 0;
+    for page in ["README.md", "docs/language.md", "docs/nodes.md", "docs/compiler.md", "docs/performance.md"] {
+        let text = fs::read_to_string(root().join(page)).unwrap();
+        for block in text.split("```afg\n").skip(1).filter_map(|rest| rest.split_once("```")) {
+            assert_eq!(check(page, block.0).as_deref(), Some(block.0), "{page}");
+            count += 1;
+        }
+    }
+    assert!(count > 4, "only {count} graphs were found");
+}
+
+#[test]
+fn every_text_keeps_what_it_says() {
+    for (name, text) in texts().into_iter().chain(hostile::texts(0..100)).chain(large::texts()) {
+        check(&name, &text);
+    }
+}
+
+/// Texts that are in order, of the repository and made by the generators of the other tests.
+fn legal() -> Vec<(String, String)> {
+    let sound = |(name, text): (String, String)| check(&name, &text).map(|formatted| (name, formatted));
+    let mut texts: Vec<(String, String)> =
+        texts().into_iter().filter(|(_, text)| text.len() < 20_000).filter_map(sound).collect();
+    for seed in 0..40 {
+        let text = apex_tests::oracle::generate(seed, seed % 2 == 0).text("Random");
+        texts.extend(sound((format!("generated from {seed}"), text)));
+    }
+    assert!(texts.len() > 150, "only {} texts are in order", texts.len());
+    texts
+}
+
+#[test]
+fn blanks_and_line_ends_make_no_difference() {
+    for (seed, (name, text)) in legal().into_iter().enumerate() {
+        let shaken = shake::blanks(&text, seed as u64);
+        assert_eq!(check(&name, &shaken).as_ref(), Some(&text), "{name}:\n{shaken}");
+    }
+}
+
+#[test]
+fn comments_survive_everywhere() {
+    for (seed, (name, text)) in legal().into_iter().enumerate() {
+        for rarity in [2, 30] {
+            let commented = shake::comments(&text.replace("\r\n", "\n"), rarity, seed as u64);
+            let Some(formatted) = check(&name, &commented) else { panic!("{name} became wrong:\n{commented}") };
+            let bare = check(&name, &properties::without_comments(&formatted));
+            let expected = check(&name, &properties::without_comments(&text));
+            assert_eq!(bare, expected, "{name}:\n{commented}");
+        }
+    }
+}
