@@ -134,12 +134,16 @@ fn the_style_of_the_language() {
     let path = unsaved("style.afg");
     let mut format = |text: &str| {
         client.open(&path, text);
-        let params = json!({ "textDocument": { "uri": uri(&path) }, "options": { "tabSize": 4, "insertSpaces": true } });
+        let params =
+            json!({ "textDocument": { "uri": uri(&path) }, "options": { "tabSize": 4, "insertSpaces": true } });
         client.ask("textDocument/formatting", params).unwrap()
     };
     // Only the blanks that are missing are written.
     let edit = &format("// ü\ngraph A {\n  in x: u64;\n}\n")[0];
-    assert_eq!((edit["newText"].as_str(), &edit["range"]["start"]["line"], &edit["range"]["end"]["line"]), (Some("  "), &json!(2), &json!(2)));
+    assert_eq!(
+        (edit["newText"].as_str(), &edit["range"]["start"]["line"], &edit["range"]["end"]["line"]),
+        (Some("  "), &json!(2), &json!(2))
+    );
     for text in ["graph A {\n    in x: u64;\n}\n", "graph A {\n  in x u64;\n}\n", "graph A {"] {
         assert_eq!(format(text), json!([]), "{text}");
     }
