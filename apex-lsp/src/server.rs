@@ -24,7 +24,7 @@ use lsp_types::{
     request::{self, Request as _},
 };
 use std::{
-    collections::{BTreeMap, BTreeSet, HashMap},
+    collections::{BTreeMap, BTreeSet},
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     time::Duration,
@@ -394,16 +394,16 @@ impl Server<'_> {
         let Some(ready) = self.ready(&at.text_document.uri) else { return Ok(None) };
         rename::prepare(&ready, at.position)?;
         let Some(wanted) = references::target_at(&ready, at.position) else { return Ok(None) };
-        let mut changes: HashMap<Uri, Vec<TextEdit>> = HashMap::new();
+        let mut changes: Vec<(Uri, Vec<TextEdit>)> = vec![];
         for path in self.concerned(&uri::to_path(&at.text_document.uri), &wanted) {
             let uri = self.open.get(&path).map(|d| d.uri.clone()).or_else(|| uri::from_path(&path));
             let Some((uri, ready)) = uri.zip(self.analysed(&path, false)) else { continue };
             let edits = rename::edits(&ready, &wanted, &params.new_name)?;
             if !edits.is_empty() {
-                changes.insert(uri, edits);
+                changes.push((uri, edits));
             }
         }
-        Ok(Some(WorkspaceEdit::new(changes)))
+        Ok(Some(WorkspaceEdit::new(changes.into_iter().collect())))
     }
 }
 

@@ -65,8 +65,7 @@ fn everything_that_a_text_names() {
             "jump_width",
             all.replace("gap: f32", "jump_width: f32")
                 .replace("= gap)", "= jump_width)")
-                .replace("Find(gap", "Find(jump_width")
-                .replace("Find(jump_width: f32[m] = 15cm) {\n", "Find(jump_width: f32[m] = 15cm) {\n"),
+                .replace("Find(gap", "Find(jump_width"),
         ),
         (("shut", 1), "closed", all.replace("shut", "closed")),
         (("ring", 1), "bell", all.replace("ring", "bell")),
