@@ -438,25 +438,12 @@ impl Graph {
 
     /// The names of a node's scopes and its own, with dots: `fast.planner`.
     pub fn path(&self, node: NodeId) -> String {
-        let mut names = vec![self.nodes[node].name.as_str()];
-        let mut scope = self.nodes[node].scope;
-        while scope != 0 {
-            names.push(&self.scopes[scope].name);
-            scope = self.scopes[scope].parent;
-        }
-        names.reverse();
-        names.join(".")
+        path(&self.scopes, self.nodes[node].scope, Some(&self.nodes[node].name))
     }
 
     /// The names of a nested graph and of those around it, with dots.
-    pub fn scope_path(&self, mut scope: ScopeId) -> String {
-        let mut names = vec![];
-        while scope != 0 {
-            names.push(self.scopes[scope].name.as_str());
-            scope = self.scopes[scope].parent;
-        }
-        names.reverse();
-        names.join(".")
+    pub fn scope_path(&self, scope: ScopeId) -> String {
+        path(&self.scopes, scope, None)
     }
 
     /// The full name of what a claim is about.
@@ -518,4 +505,15 @@ impl Graph {
     pub fn is_synchronous(&self, connection: &Connection) -> bool {
         self.flow(connection) == Flow::Synchronous
     }
+}
+
+/// The names of `scope` and of those around it, then `name`, with dots.
+pub fn path(scopes: &[Scope], mut scope: ScopeId, name: Option<&str>) -> String {
+    let mut names: Vec<&str> = name.into_iter().collect();
+    while scope != 0 {
+        names.push(&scopes[scope].name);
+        scope = scopes[scope].parent;
+    }
+    names.reverse();
+    names.join(".")
 }

@@ -38,11 +38,6 @@ impl<const N: usize> Queue<N> {
         }
         None
     }
-
-    /// Whether the token for `slot` waits.
-    pub fn contains(&self, slot: u16) -> bool {
-        (0..self.len).any(|at| self.waiting[(self.start + at) % N] == slot)
-    }
 }
 
 impl<const N: usize> Default for Queue<N> {

@@ -20,8 +20,8 @@ pub struct Asynchronous {
     /// For each connection whether it may hold a token at a time when clusters are looked at (execution semantics,
     /// section 3): it leads to an input, out of the program, or to a slot that can itself be held back.
     pub stays: Vec<bool>,
-    /// For each connection whether it is known at run time that it holds a token: it may stay occupied, or a slot of its
-    /// node might be called again before that token was taken (R5).
+    /// For each connection whether it is known at run time that it holds a token: it may stay occupied, a slot of its
+    /// node might be called again before that token was taken (R5), or what feeds its sender is held back by it (R4).
     pub tracked: Vec<bool>,
     /// Whether tokens may go round for ever while the time stands still.
     pub endless: bool,
@@ -53,6 +53,11 @@ impl Asynchronous {
         if !single {
             let called: BTreeSet<NodeId> = slots.iter().map(|c| graph.connections[*c].to.node).collect();
             called.iter().flat_map(|node| events(graph, links, *node)).for_each(|c| tracked[c] = true);
+            // A slot that is held back must not overtake the one for whose sake its event is not yet free (R4, R7).
+            if stays.contains(&true) {
+                let from_output = |c: &&usize| graph.port(graph.connections[**c].from).kind == PortKind::Output;
+                slots.iter().filter(from_output).for_each(|c| tracked[*c] = true);
+            }
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
             sent_by_reset(graph).for_each(|c| tracked[c] = true);

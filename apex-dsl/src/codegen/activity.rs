@@ -1,12 +1,15 @@
 //! Activity (execution semantics, section 5): flags of nodes and of tokens, for the nodes that activity can reach.
 //! All others are never active, and nothing is generated for them.
 
-use super::{Flag, Generator};
+use super::{
+    Flag, Generator,
+    types::{duration, ident},
+};
 use crate::{
     analyse::{Analysis, Links},
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
 };
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// What the code of a program is generated from.
@@ -87,8 +90,8 @@ impl Generator<'_> {
     pub fn activate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, true));
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|timeout| {
-            let (name, nanos) = (self.flag(Flag::Timeout, node), nanos(timeout));
-            quote! { state.#name.start(ctx.now(), ::core::time::Duration::from_nanos(#nanos)); }
+            let (name, timeout) = (self.flag(Flag::Timeout, node), duration(timeout));
+            quote! { state.#name.start(ctx.now(), #timeout); }
         });
         let event = self.trigger(whole.graph, node, Standard::Activated);
         let hook = self.hook(whole.graph, node, |s| s.on_activate.as_deref());
@@ -148,7 +151,7 @@ impl Generator<'_> {
         let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
         match method(&self.catalog.signatures[library.signature]) {
             Some(method) => {
-                let (place, method) = (self.node_place(graph, node), super::types::ident(method));
+                let (place, method) = (self.node_place(graph, node), ident(method));
                 quote! { #place.#method(); }
             }
             None => quote!(),
@@ -189,10 +192,14 @@ impl Generator<'_> {
         present: &dyn Fn(End) -> Option<TokenStream>,
     ) -> TokenStream {
         let mut code = quote!();
+        let sends = whole.links.sends[node].iter().chain(&whole.links.out_of[node]).copied();
+        let mut active: Vec<usize> = sends.filter(|c| whole.graph.connections[*c].active).collect();
+        active.sort_unstable();
         for port in 0..whole.graph.nodes[node].ports.len() {
             let end = End { node, port };
             let (mut carry, mut away, mut any) = (quote!(), quote!(), false);
-            for (index, c) in whole.graph.connections.iter().enumerate().filter(|(_, c)| c.from == end && c.active) {
+            for index in active.iter().copied().filter(|c| whole.graph.connections[*c].from == end) {
+                let c = &whole.graph.connections[index];
                 let to_slot = whole.graph.flow(c) == Flow::ToSlot;
                 any = true;
                 match self.carries(whole, index) {
@@ -229,9 +236,4 @@ impl Generator<'_> {
 /// The flag of the token for a slot: whether it carries activity.
 pub fn carries(slot: usize) -> syn::Ident {
     quote::format_ident!("carries_{slot}")
-}
-
-/// A duration as a literal.
-pub fn nanos(duration: std::time::Duration) -> Literal {
-    Literal::u64_unsuffixed(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX))
 }

@@ -599,10 +599,7 @@ impl Generator<'_> {
         let pass = self.pass_activity(whole, node, &|end| {
             let standard = graph.port(end).standard;
             let sent = matches!(standard, Some(Standard::Timeout | Standard::Deactivated));
-            (sent && self.is_sent_event(whole, end)).then(|| {
-                let name = self.name(end);
-                quote!(state.#name.is_some())
-            })
+            self.sent_event(whole, end).filter(|_| sent)
         });
         let emit = self.emit(whole, bits, node, false);
         let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());

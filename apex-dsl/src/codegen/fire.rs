@@ -174,10 +174,7 @@ impl<'a> Emitter<'a> {
                 let token = self.option(end, block);
                 Some(quote!(#token.is_some()))
             }
-            _ => self.generator.is_sent_event(self.whole, end).then(|| {
-                let name = self.generator.name(end);
-                quote!(state.#name.is_some())
-            }),
+            _ => self.generator.sent_event(self.whole, end),
         });
         quote! { #take #fire #pass }
     }

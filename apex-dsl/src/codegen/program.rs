@@ -2,13 +2,13 @@
 
 use super::{
     Flag, Generator,
-    activity::{Whole, nanos},
+    activity::Whole,
     dispatch::Bits,
     fire::Emitter,
     plan::{Storage, is_buffer, storage},
     rates,
     test::probe,
-    types::{constant, ident},
+    types::{constant, duration, ident},
 };
 use crate::{
     analyse::{Analysis, Guard},
@@ -218,11 +218,8 @@ impl Generator<'_> {
         for guard in &whole.analysis.guards {
             if let Guard::Timer(node) = guard {
                 let (name, modifiers) = (self.timer(*node), &whole.graph.nodes[*node].modifiers);
-                let [first, period] = [modifiers.after.unwrap_or_default(), modifiers.every.unwrap_or(Duration::MAX)]
-                    .map(|time| {
-                        let nanos = nanos(time);
-                        quote!(::core::time::Duration::from_nanos(#nanos))
-                    });
+                let [first, period] =
+                    [modifiers.after.unwrap_or_default(), modifiers.every.unwrap_or(Duration::MAX)].map(duration);
                 fields.extend(quote! { #name: ::apex_rt::Timer, });
                 makes.extend(quote! { #name: ::apex_rt::Timer::new(#first, #period), });
             }

@@ -81,6 +81,11 @@ impl Generator<'_> {
             && whole.links.sends[end.node].iter().any(|c| whole.graph.connections[*c].from == end)
     }
 
+    /// Whether an event that somebody listens to was triggered.
+    pub fn sent_event(&self, whole: Whole<'_>, end: End) -> Option<TokenStream> {
+        self.is_sent_event(whole, end).then(|| self.waits(whole.graph, end))
+    }
+
     /// An event as an argument.
     pub fn event(&self, whole: Whole<'_>, end: End) -> TokenStream {
         if self.is_sent_event(whole, end) {
@@ -131,8 +136,7 @@ impl Generator<'_> {
         let call = self.call_slot(whole, connection);
         let call = if analysis.asynchronous.single { self.taken(graph, c.from, call) } else { call };
         let clear = self.clear_events(whole, node);
-        let pass =
-            self.pass_activity(whole, node, &|end| self.is_sent_event(whole, end).then(|| self.waits(graph, end)));
+        let pass = self.pass_activity(whole, node, &|end| self.sent_event(whole, end));
         let emit = self.emit(whole, bits, node, false);
         quote! { observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
     }

@@ -2,7 +2,7 @@
 
 use super::{
     Generator,
-    types::{constant, ident},
+    types::{constant, duration, ident},
 };
 use crate::{
     graph::{End, Graph, NodeId},
@@ -10,7 +10,6 @@ use crate::{
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use std::time::Duration;
 use syn::Ident;
 
 /// The field of a probe.
@@ -110,9 +109,4 @@ impl Generator<'_> {
         };
         (test, &seen.text, self.position(seen.span))
     }
-}
-
-fn duration(time: Duration) -> TokenStream {
-    let nanos = super::activity::nanos(time);
-    quote!(::core::time::Duration::from_nanos(#nanos))
 }

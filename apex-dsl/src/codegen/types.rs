@@ -190,10 +190,7 @@ pub fn constant(value: &Value, ty: &Type) -> TokenStream {
             quote!(::std::string::String::from(#text))
         }
         Value::Text(text) => quote!(#text),
-        Value::Duration(d) => {
-            let nanos = Literal::u64_unsuffixed(u64::try_from(d.as_nanos()).unwrap_or(u64::MAX));
-            quote!(::core::time::Duration::from_nanos(#nanos))
-        }
+        Value::Duration(time) => duration(*time),
         Value::Path(segments) => match segments.first().map(String::as_str) {
             Some("crate") => path(segments),
             _ => path(&[vec![String::new()], segments.clone()].concat()),
@@ -220,4 +217,10 @@ fn number(n: &Number, ty: &Type) -> TokenStream {
     };
     // A negative literal is an operator and a literal.
     if n.value < 0.0 { quote!(-#tokens) } else { quote!(#tokens) }
+}
+
+/// A duration as an expression.
+pub fn duration(time: std::time::Duration) -> TokenStream {
+    let nanos = Literal::u64_unsuffixed(u64::try_from(time.as_nanos()).unwrap_or(u64::MAX));
+    quote!(::core::time::Duration::from_nanos(#nanos))
 }

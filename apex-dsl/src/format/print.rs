@@ -86,7 +86,7 @@ impl Printer<'_> {
             match work {
                 Work::Doc(doc) => self.step(indent, mode, doc, &mut steps),
                 Work::Item(item) => {
-                    let fits = self.fits(&[(mode, Work::Doc(item))], &steps);
+                    let fits = self.fits(indent, &[(mode, Work::Doc(item))], &steps);
                     steps.push((indent, if fits { Mode::Flat } else { Mode::Broken }, Work::Doc(item)));
                 }
                 Work::Fill([]) => {}
@@ -94,7 +94,11 @@ impl Printer<'_> {
                     steps.push((indent, mode, Work::Fill(rest)));
                     steps.push((indent, Mode::Flat, Work::Item(item)));
                     let next = [(Mode::Flat, Work::Doc(item)), (Mode::Flat, Work::Doc(&Doc::Line))];
-                    if self.fits(&next, &steps[..steps.len() - 1]) { self.space(indent) } else { self.end_line() }
+                    if self.fits(indent, &next, &steps[..steps.len() - 1]) {
+                        self.space(indent)
+                    } else {
+                        self.end_line()
+                    }
                 }
             }
         }
@@ -115,7 +119,7 @@ impl Printer<'_> {
             Doc::Concat(parts) => steps.extend(parts.iter().rev().map(|part| (indent, mode, Work::Doc(part)))),
             Doc::Indent(inner) => steps.push((indent + INDENT, mode, Work::Doc(inner))),
             Doc::Group(inner) => {
-                let fits = mode == Mode::Flat || self.fits(&[(Mode::Flat, Work::Doc(inner))], steps);
+                let fits = mode == Mode::Flat || self.fits(indent, &[(Mode::Flat, Work::Doc(inner))], steps);
                 steps.push((indent, if fits { Mode::Flat } else { Mode::Broken }, Work::Doc(inner)));
             }
             Doc::Fill(items) if mode == Mode::Flat => {
@@ -133,8 +137,9 @@ impl Printer<'_> {
     }
 
     /// Whether `next` (first thing last), and what must stand in the same line behind it, fits into the current line.
-    fn fits<'d, 't>(&self, next: &[(Mode, Work<'d, 't>)], rest: &[Step<'d, 't>]) -> bool {
-        let mut fit = Fit { left: WIDTH.saturating_sub(self.column), comment: self.comment.is_some(), open: vec![] };
+    fn fits<'d, 't>(&self, indent: usize, next: &[(Mode, Work<'d, 't>)], rest: &[Step<'d, 't>]) -> bool {
+        let column = if self.line.is_empty() { indent } else { self.column };
+        let mut fit = Fit { left: WIDTH.saturating_sub(column), comment: self.comment.is_some(), open: vec![] };
         fit.open.extend_from_slice(next);
         while let Some((mode, work)) = fit.open.pop() {
             if let Some(fits) = fit.step(mode, work) {

@@ -4,7 +4,8 @@
 use super::{Arm, Machine, Sending, Slot, Token};
 use crate::{
     catalog::Type,
-    report::{Diagnostic, Diagnostics, nearest},
+    report::{Diagnostic, Diagnostics},
+    resolve::suggest,
     resolve::value::{Evaluated, Scope, as_rust, evaluate},
     source::Span,
     syntax::tree::{Action, Expr, ExprKind, FsmItem, Ident, PortItem, PortKind, StateItem, Transition},
@@ -170,7 +171,11 @@ impl<'a> Opener<'a> {
                     && !states.contains(&target.text.as_str())
                 {
                     let message = format!("there is no state `{}`", target.text);
-                    errors.push(suggest(Diagnostic::error("unknown-state", target.span, message), target, &states));
+                    errors.push(suggest(
+                        Diagnostic::error("unknown-state", target.span, message),
+                        target,
+                        states.iter().copied(),
+                    ));
                 }
                 if let Some(first) = taken.get(slot.text.as_str()) {
                     let message = format!("this is never taken: another transition takes every `{}` before", slot.text);
@@ -187,7 +192,7 @@ impl<'a> Opener<'a> {
         let known: Vec<&str> =
             self.item.ports.iter().filter(|p| p.kind == kind).map(|p| p.name.text.as_str()).collect();
         let message = format!("`{}` has no {word} `{}`", self.item.name.text, name.text);
-        suggest(Diagnostic::error("unknown-port", name.span, message), name, &known)
+        suggest(Diagnostic::error("unknown-port", name.span, message), name, known.iter().copied())
     }
 
     fn arm(&mut self, number: usize, leaf: usize, transition: &'a Transition, leaves: &[usize]) -> Arm {
@@ -306,12 +311,5 @@ fn mentions(expr: &Expr, name: &str) -> bool {
         ExprKind::Binary(_, a, b) => mentions(a, name) || mentions(b, name),
         ExprKind::List(items) => items.iter().any(|item| mentions(item, name)),
         _ => false,
-    }
-}
-
-fn suggest(error: Diagnostic, word: &Ident, known: &[&str]) -> Diagnostic {
-    match nearest(&word.text, known.iter().copied()) {
-        Some(near) => error.fix(format!("did you mean `{near}`?"), word.span, near),
-        None => error,
     }
 }

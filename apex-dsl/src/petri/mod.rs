@@ -15,7 +15,7 @@ mod replay;
 mod route;
 mod state;
 
-use crate::graph::{Crossing, End, Graph, NodeId};
+use crate::graph::{self, Crossing, End, Graph, NodeId};
 use std::fmt;
 
 pub use build::net;
@@ -120,12 +120,5 @@ fn side_name(graph: &Graph, side: Crossing) -> String {
         Crossing::Enter(scope) => (scope, "in"),
         Crossing::Leave(scope) => (scope, "out"),
     };
-    let mut names = vec![word];
-    let mut at = scope;
-    while at != 0 {
-        names.push(&graph.scopes[at].name);
-        at = graph.scopes[at].parent;
-    }
-    names.reverse();
-    names.join(".")
+    graph::path(&graph.scopes, scope, Some(word))
 }

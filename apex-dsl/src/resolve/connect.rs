@@ -207,7 +207,7 @@ impl Builder<'_> {
 
     fn reference(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef) -> Option<(Symbol, String, Span)> {
         let first = reference.parts.first()?;
-        let text = reference.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".");
+        let text = reference.text();
         let Some((symbol, _)) = table.symbols.get(&first.text) else {
             if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
                 let node = self.own_node(body, first, kind)?;

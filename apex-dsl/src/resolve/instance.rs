@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, SignatureId, Type},
-    graph::{Claim, End, Graph, Library, Node, NodeKind, Port, Scope, ScopeId, TypeArg, Value},
+    graph::{self, Claim, End, Graph, Library, Node, NodeKind, Port, Scope, ScopeId, TypeArg, Value},
     machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -278,7 +278,9 @@ impl<'a> Builder<'a> {
         let first = (self.nodes.len(), self.scopes.len());
         for node in &body.item.nodes {
             let made = match &node.body {
-                _ if self.replaced.contains_key(&self.path(body.scope, &node.name.text)) => self.replace(body, node),
+                _ if self.replaced.contains_key(&graph::path(&self.scopes, body.scope, Some(&node.name.text))) => {
+                    self.replace(body, node)
+                }
                 NodeBody::Instance(instance) => self.instance(body, &node.name, instance, &node.docs),
                 NodeBody::HandedIn(ty, modifiers) => self.handed_in(body, &node.name, ty, modifiers, &node.docs),
             };
@@ -298,20 +300,9 @@ impl<'a> Builder<'a> {
     }
 
     /// The path of a node in a scope.
-    fn path(&self, scope: ScopeId, name: &str) -> String {
-        let mut names = vec![name];
-        let mut scope = scope;
-        while scope != 0 {
-            names.push(&self.scopes[scope].name);
-            scope = self.scopes[scope].parent;
-        }
-        names.reverse();
-        names.join(".")
-    }
-
     /// What a test puts in the place of a node; the names in it are those of the first text.
     fn replace(&mut self, body: &Body<'_>, node: &crate::syntax::tree::NodeItem) -> Option<Symbol> {
-        let path = self.path(body.scope, &node.name.text);
+        let path = graph::path(&self.scopes, body.scope, Some(&node.name.text));
         let instance = *self.replaced.get(&path)?;
         let id = GraphId { file: 0, ..body.id };
         let inside = Body { id, values: BTreeMap::new(), fed: body.fed.clone(), ..*body };

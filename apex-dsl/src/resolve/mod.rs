@@ -23,7 +23,7 @@ use crate::{
 use std::collections::BTreeSet;
 
 pub use link::{Link, Side};
-pub use names::{GraphId, Made, Meaning, Texts};
+pub use names::{GraphId, Made, Meaning, Texts, suggest};
 
 /// Most nodes, nested graphs and connections that one program may have, each.
 pub const MAX_NODES: usize = 50_000;

@@ -43,7 +43,7 @@ pub fn test(
     let scope = Scope { params: &BTreeMap::new(), rust_path: &rust_path };
     let values = arguments(texts, catalog, item, id, &scope, diagnostics);
     let mut builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
-    builder.replaced = item.replaced.iter().map(|(of, instance)| (dotted(of), instance)).collect();
+    builder.replaced = item.replaced.iter().map(|(of, instance)| (of.text(), instance)).collect();
     let mut graph = builder.top(id, Purpose::Test(values))?;
     graph.name = format!("{}Test", crate::codegen::camel(&item.name.text));
     graph.robot = false;
@@ -69,10 +69,6 @@ fn arguments(
     args::of_graph(&graph.name, &params, Some((&item.args, scope)), item.span, diagnostics)
 }
 
-fn dotted(reference: &PortRef) -> String {
-    reference.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".")
-}
-
 struct Writer<'a> {
     graph: &'a mut Graph,
     scope: &'a Scope<'a>,
@@ -85,10 +81,9 @@ impl Writer<'_> {
     fn check_replaced(&mut self, item: &TestItem) {
         let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
         for (of, _) in &item.replaced {
-            let (path, inside) = (dotted(of), format!("{}.", dotted(of)));
-            if !paths.iter().any(|p| *p == path || p.starts_with(&inside)) {
-                let message = format!("there is no node `{path}` to be replaced");
-                let word = Ident { text: path, span: of.span };
+            if !paths.iter().any(|p| is_or_contains(of, p)) {
+                let word = Ident { text: of.text(), span: of.span };
+                let message = format!("there is no node `{}` to be replaced", word.text);
                 let error = Diagnostic::error("unknown-node", of.span, message);
                 self.diagnostics.push(suggest(error, &word, paths.iter().map(String::as_str)));
             }
@@ -216,12 +211,10 @@ impl Writer<'_> {
 
     /// The nodes that a name stands for: a node, or all nodes of a nested graph.
     fn scope_or_node(&mut self, of: &PortRef) -> Option<Vec<NodeId>> {
-        let (path, inside) = (dotted(of), format!("{}.", dotted(of)));
         let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
-        let meant = |p: &String| *p == path || p.starts_with(&inside);
-        let found: Vec<NodeId> = (0..paths.len()).filter(|n| meant(&paths[*n])).collect();
+        let found: Vec<NodeId> = (0..paths.len()).filter(|n| is_or_contains(of, &paths[*n])).collect();
         if found.is_empty() {
-            self.unknown(of.span, &path, paths.iter().map(String::as_str));
+            self.unknown(of.span, &of.text(), paths.iter().map(String::as_str));
             return None;
         }
         Some(found)
@@ -235,7 +228,7 @@ impl Writer<'_> {
 
     /// The probe at a port, which is made when a test looks at it for the first time.
     fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
-        let path = dotted(of);
+        let path = of.text();
         let name = format!("probe {path}");
         let known = |n: &crate::graph::Node| n.kind.is_probe() && (n.name == name || n.scope == 0 && n.name == path);
         if let Some(node) = self.graph.nodes.iter().position(known) {
@@ -288,4 +281,9 @@ impl Writer<'_> {
             ends.iter().filter(|end| graph.path(end.node) == path && graph.port(**end).parameter.is_none()).collect();
         exact.copied().or(if let [only] = of_node.as_slice() { Some(**only) } else { None })
     }
+}
+
+/// Whether `path` is the node that is meant, or in the nested graph that is meant.
+fn is_or_contains(meant: &PortRef, path: &str) -> bool {
+    path.strip_prefix(&meant.text()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }

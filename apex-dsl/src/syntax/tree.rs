@@ -407,6 +407,13 @@ pub struct PortRef {
     pub span: Span,
 }
 
+impl PortRef {
+    /// The parts with dots between them.
+    pub fn text(&self) -> String {
+        self.parts.iter().map(|p| p.text.as_str()).collect::<Vec<_>>().join(".")
+    }
+}
+
 /// `claim exclusive(a, b);`
 #[derive(Debug)]
 pub struct Claim {

@@ -1,7 +1,7 @@
 //! The one style of the language.
 
 use super::Ready;
-use apex_dsl::format::format;
+use apex_dsl::format;
 use lsp_types::TextEdit;
 
 /// What has to change for the text to be in the style of the language; nothing as long as it has errors.
