@@ -4,6 +4,7 @@ mod check;
 mod expand;
 mod explain;
 mod fmt;
+mod lsp;
 mod project;
 mod run;
 mod test;
@@ -63,6 +64,9 @@ enum Command {
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
     },
+    /// Serve an editor: the language server, on standard input and output.
+    #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
+    Lsp,
     /// Run the tests of a text on simulated time.
     #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
     Test {
@@ -110,6 +114,7 @@ fn main() -> ExitCode {
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
         Command::Explain { file, format, .. } => explain::run(&file, format),
+        Command::Lsp => lsp::run(),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
         Command::Run { file, robot, params, save_params, args } => {
             run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)

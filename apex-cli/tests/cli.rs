@@ -217,6 +217,39 @@ fn a_reader_that_goes_away_is_no_error() {
     }
 }
 
+#[test]
+fn the_language_server_ends_with_its_editor() {
+    let help = apex().args(["lsp", "--help"]).output().unwrap();
+    assert_eq!((help.status.code(), help.stderr.len()), (Some(0), 0));
+    let serve = |input: &str| {
+        let mut server =
+            apex().arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        // A server that has gone already cannot take all of it.
+        let _ = server.stdin.take().unwrap().write_all(input.as_bytes());
+        server.wait_with_output().unwrap()
+    };
+    let message = |text: &str| format!("Content-Length: {}\r\n\r\n{text}", text.len());
+    let hello = message(r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#);
+    let bye = message(r#"{"jsonrpc":"2.0","id":2,"method":"shutdown"}"#);
+    let exit = message(r#"{"jsonrpc":"2.0","method":"exit"}"#);
+
+    // Nobody is there, or somebody goes without a word.
+    for input in ["", hello.as_str()] {
+        let output = serve(input);
+        assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    }
+    let output = serve(&format!("{hello}{bye}{exit}"));
+    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains(r#""positionEncoding":"utf-16""#) && text.contains(r#""id":2"#), "{text}");
+    assert_eq!(serve(&format!("{hello}{exit}")).status.code(), Some(1));
+
+    // What is no message is said, not taken for the end.
+    let output = serve("Content-Length: 5\r\n\r\n{nope");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    assert!(stderr(&output).starts_with("error: the messages of the editor cannot be read: "), "{}", stderr(&output));
+}
+
 /// `apex fmt` with these arguments.
 fn fmt(arguments: &[&Path]) -> Output {
     apex().arg("fmt").args(arguments).output().unwrap()

@@ -13,6 +13,7 @@ pub mod claims;
 pub mod codegen;
 pub mod format;
 pub mod graph;
+pub mod ide;
 pub mod machine;
 pub mod passes;
 pub mod petri;

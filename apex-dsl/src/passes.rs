@@ -6,7 +6,7 @@ use crate::{
     check, claims, codegen,
     graph::Graph,
     report::Diagnostics,
-    resolve,
+    resolve::{self, Link, Texts},
     script::Script,
     source::{FileId, Sources, Span, World},
 };
@@ -22,6 +22,16 @@ pub struct Program {
     pub script: Option<Script>,
 }
 
+/// What is known about a text after all checks.
+pub struct Checked {
+    /// The text and those that it imports.
+    pub texts: Texts,
+    /// Its connections, as written.
+    pub links: Vec<Link>,
+    /// The programs in it, as far as they are whole.
+    pub programs: Vec<Program>,
+}
+
 /// Checks the text `root` and everything it imports. Programs are given as far as they are whole.
 pub fn check(
     root: FileId,
@@ -30,6 +40,18 @@ pub fn check(
     world: &mut dyn World,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Program> {
+    check_all(root, catalog, sources, world, claims::MAX_STATES, diagnostics).programs
+}
+
+/// As [`check`], for tools that show the text too. To decide claims, at most `states` states are looked at.
+pub fn check_all(
+    root: FileId,
+    catalog: &mut Catalog,
+    sources: &mut Sources,
+    world: &mut dyn World,
+    states: usize,
+    diagnostics: &mut Diagnostics,
+) -> Checked {
     catalog.forget_machines();
     let resolved = resolve::resolve(root, catalog, sources, world, diagnostics);
     let mut programs = vec![];
@@ -47,10 +69,10 @@ pub fn check(
     // In a text with errors connections may be missing, so that claims would fail for no reason.
     if !diagnostics.has_errors() {
         for Program { graph, analysis, .. } in &mut programs {
-            analysis.claims = claims::decide(graph, catalog, claims::MAX_STATES, diagnostics);
+            analysis.claims = claims::decide(graph, catalog, states, diagnostics);
         }
     }
-    programs
+    Checked { texts: resolved.texts, links: resolved.links, programs }
 }
 
 /// Rust for `programs`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in

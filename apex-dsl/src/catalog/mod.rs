@@ -238,6 +238,11 @@ impl Catalog {
         catalog
     }
 
+    /// The node types that are declared in Rust.
+    pub fn rust_nodes(&self) -> &[Signature] {
+        &self.signatures[..self.by_def.len()]
+    }
+
     /// Forgets the machines of texts that were checked before.
     pub fn forget_machines(&mut self) {
         self.signatures.truncate(self.by_def.len());
@@ -396,6 +401,23 @@ impl Catalog {
     /// Files in which a macro makes nodes that the scan cannot see.
     pub fn hidden(&self) -> &[PathBuf] {
         &self.tree.hidden
+    }
+
+    /// The name of a definition.
+    pub fn name(&self, def: DefId) -> &str {
+        &self.tree.defs[def].name
+    }
+
+    /// Where a definition stands: file, and line from 1.
+    pub fn place(&self, def: DefId) -> (PathBuf, usize) {
+        let def = &self.tree.defs[def];
+        (def.file.strip_prefix(&self.crates.root).unwrap_or(&def.file).to_owned(), def.line)
+    }
+
+    /// The crates that a text can import from.
+    pub fn crate_names(&self) -> BTreeSet<&str> {
+        let dependencies = self.crates.own.iter().flat_map(|own| self.crates.all[*own].dependencies.keys());
+        dependencies.map(String::as_str).collect()
     }
 
     /// How generated code reaches a definition.

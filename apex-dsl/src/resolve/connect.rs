@@ -1,6 +1,9 @@
 //! Connections as written: which port is meant where none is named, and whether two ends go together.
 
-use super::instance::{Body, Builder, Wire};
+use super::{
+    instance::{Body, Builder, Wire},
+    link::{Link, Side},
+};
 use crate::{
     catalog::{Match, Type},
     graph::{End, Node, NodeId, NodeKind, Port, Standard},
@@ -339,6 +342,15 @@ impl Builder<'_> {
             self.mismatch(from, to, &source, &target, arrow.span);
         }
         self.wires.push(Wire { from: source.place, to: target.place, active: arrow.active, differs, span: arrow.span });
+        self.note(arrow, (from.2, source), (to.2, target));
+    }
+
+    /// Notes a connection of the outermost graph for those who want to know of it.
+    fn note(&mut self, arrow: &Arrow, from: (Span, Candidate), to: (Span, Candidate)) {
+        let is_outermost = self.open.len() == 1;
+        let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
+        let side = |(span, port): (Span, Candidate)| Side { span, port: port.name, kind: port.kind, ty: port.ty };
+        links.push(Link { arrow: arrow.span, active: arrow.active, from: side(from), to: side(to) });
     }
 
     /// A connection that leads here could not be made: that it is missing is no error of its own.

@@ -4,6 +4,7 @@ use super::{
     Budget, MAX_NESTING, MAX_NODES, args,
     connect::{Place, Symbol, Table, named_ports},
     flatten, generics,
+    link::Link,
     names::{GraphId, Made, Texts},
     value::Scope as Names,
 };
@@ -63,6 +64,8 @@ pub struct Builder<'a> {
     pub replaced: BTreeMap<String, &'a Instance>,
     /// What may still be added.
     pub budget: &'a mut Budget,
+    /// Where the connections of the outermost graph are noted, if somebody wants to know of them.
+    pub links: Option<&'a mut Vec<Link>>,
 }
 
 /// What a graph is opened for; with the arguments for its parameters.
@@ -99,9 +102,11 @@ pub fn graph(
     catalog: &Catalog,
     id: GraphId,
     budget: &mut Budget,
+    links: &mut Vec<Link>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Graph> {
-    let builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
+    let mut builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
+    builder.links = Some(links);
     builder.top(id, Purpose::Program)
 }
 
@@ -127,6 +132,7 @@ impl<'a> Builder<'a> {
             open,
             replaced: BTreeMap::new(),
             budget,
+            links: None,
         }
     }
 

@@ -6,6 +6,7 @@ mod connect;
 mod flatten;
 mod generics;
 mod instance;
+mod link;
 mod names;
 mod testing;
 pub mod value;
@@ -21,7 +22,8 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-pub use names::{GraphId, Texts, suggest};
+pub use link::{Link, Side};
+pub use names::{GraphId, Made, Meaning, Texts, suggest};
 
 /// Most nodes, nested graphs and connections that one program may have, each.
 pub const MAX_NODES: usize = 50_000;
@@ -61,6 +63,8 @@ pub struct Resolved {
     /// The graphs that are not used inside another one of the first text: the programs in it, and those that would
     /// be programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
+    /// The connections of the graphs of the first text, as written.
+    pub links: Vec<Link>,
     /// The tests of the first text: the graph that is tested, and what is done with it.
     pub tests: Vec<(Graph, Script)>,
 }
@@ -76,7 +80,7 @@ pub fn resolve(
     let texts = Texts::load(root, catalog, sources, world, diagnostics);
     let broken = texts.files.iter().any(|(_, file)| file.broken);
     let used = used(&texts.files[0].1);
-    let mut graphs = vec![];
+    let (mut graphs, mut links) = (vec![], vec![]);
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
@@ -84,7 +88,7 @@ pub fn resolve(
         if budget.exceeded {
             break;
         }
-        let resolved = instance::graph(&texts, catalog, id, &mut budget, diagnostics);
+        let resolved = instance::graph(&texts, catalog, id, &mut budget, &mut links, diagnostics);
         if !is_nested {
             graphs.extend(resolved);
         }
@@ -106,7 +110,7 @@ pub fn resolve(
                 .note("a smallest graph is `graph Name { }`"),
         );
     }
-    Resolved { texts, graphs, tests }
+    Resolved { texts, graphs, links, tests }
 }
 
 /// The names of all graphs and nodes that the graphs of a text have instances of.

@@ -39,10 +39,14 @@ pub struct Texts {
     unreadable: BTreeSet<PathBuf>,
 }
 
+/// What a name in a text means.
 #[derive(Debug, Clone)]
-enum Meaning {
+pub enum Meaning {
+    /// A graph.
     Graph(GraphId),
+    /// A state machine.
     Machine(SignatureId),
+    /// Something in Rust, by its full path.
     Rust(Vec<String>),
 }
 
@@ -233,12 +237,24 @@ impl Texts {
         &self.files[id.file].1.graphs[id.graph]
     }
 
+    /// The names that text `file` declares and imports, but for those in its graphs.
+    pub fn names(&self, file: usize) -> &BTreeMap<String, Meaning> {
+        &self.names[file]
+    }
+
+    /// The text and the number in it of a state machine.
+    pub fn machine(&self, signature: SignatureId) -> Option<(usize, usize)> {
+        let find = |machines: &Vec<SignatureId>| machines.iter().position(|m| *m == signature);
+        self.machines.iter().enumerate().find_map(|(file, machines)| Some((file, find(machines)?)))
+    }
+
     /// The number of a text.
     pub fn file_id(&self, file: usize) -> FileId {
         self.files[file].0
     }
 
-    fn full_path(&self, file: usize, path: &PathExpr) -> Vec<String> {
+    /// A path in text `file` with what its first word was imported as.
+    pub fn full_path(&self, file: usize, path: &PathExpr) -> Vec<String> {
         let words: Vec<String> = path.segments.iter().map(|s| s.text.clone()).collect();
         match words.first().and_then(|first| self.names[file].get(first)) {
             Some(Meaning::Rust(full)) => full.iter().chain(&words[1..]).cloned().collect(),

@@ -116,6 +116,7 @@ impl<'a> Builder<'a> {
             nodes: vec![],
             chains: vec![],
             claims: vec![],
+            extent: self.span(&pair),
         };
         for part in pair.into_inner() {
             match part.as_rule() {
@@ -139,6 +140,7 @@ impl<'a> Builder<'a> {
     }
 
     fn test(&mut self, pair: Pair<'_, Rule>) -> Option<TestItem> {
+        let extent = self.span(&pair);
         let (mut docs, mut name, mut graph) = (String::new(), None, None);
         let (mut args, mut replaced, mut steps) = (vec![], vec![], vec![]);
         for part in pair.into_inner() {
@@ -162,7 +164,7 @@ impl<'a> Builder<'a> {
         }
         let (name, graph) = (name?, graph?);
         let span = name.span.to(graph.span);
-        Some(TestItem { docs, name, graph, args, replaced, steps, span })
+        Some(TestItem { docs, name, graph, args, replaced, steps, span, extent })
     }
 
     fn replaced(&mut self, pair: Pair<'_, Rule>) -> Option<(PortRef, Instance)> {
@@ -218,6 +220,7 @@ impl<'a> Builder<'a> {
     }
 
     fn machine(&mut self, pair: Pair<'_, Rule>) -> Option<FsmItem> {
+        let extent = self.span(&pair);
         let (mut docs, mut name) = (String::new(), None);
         let (mut ports, mut states) = (vec![], vec![]);
         for part in pair.into_inner() {
@@ -233,10 +236,11 @@ impl<'a> Builder<'a> {
                 _ => {}
             }
         }
-        Some(FsmItem { docs, name: name?, ports, states })
+        Some(FsmItem { docs, name: name?, ports, states, extent })
     }
 
     fn state(&mut self, pair: Pair<'_, Rule>) -> Option<StateItem> {
+        let extent = self.span(&pair);
         let (mut docs, mut name) = (String::new(), None);
         let (mut entry, mut exit, mut transitions, mut states) = (vec![], vec![], vec![], vec![]);
         for part in pair.into_inner() {
@@ -261,7 +265,7 @@ impl<'a> Builder<'a> {
                 _ => {}
             }
         }
-        Some(StateItem { docs, name: name?, entry, exit, transitions, states })
+        Some(StateItem { docs, name: name?, entry, exit, transitions, states, extent })
     }
 
     fn transition(&mut self, pair: Pair<'_, Rule>) -> Option<Transition> {

@@ -3,8 +3,10 @@
 mod build;
 pub(crate) mod concrete;
 mod lexical;
+mod mend;
 mod recover;
 pub mod tree;
+pub mod words;
 
 use crate::{
     report::Diagnostics,
@@ -13,6 +15,7 @@ use crate::{
 use pest::Parser as _;
 
 pub use lexical::{MAX_BYTES, MAX_DEPTH};
+pub use mend::mended;
 
 use grammar::Grammar;
 pub(crate) use grammar::Rule;

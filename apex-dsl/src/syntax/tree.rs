@@ -60,6 +60,8 @@ pub struct GraphItem {
     pub chains: Vec<Chain>,
     /// Claims.
     pub claims: Vec<Claim>,
+    /// From its documentation to its closing bracket.
+    pub extent: Span,
 }
 
 /// A parameter of a graph.
@@ -266,6 +268,8 @@ pub struct FsmItem {
     pub ports: Vec<PortItem>,
     /// Its states; it begins in the first.
     pub states: Vec<StateItem>,
+    /// From its documentation to its closing bracket.
+    pub extent: Span,
 }
 
 /// `state name { … }`
@@ -283,6 +287,8 @@ pub struct StateItem {
     pub transitions: Vec<Transition>,
     /// States inside; whoever enters it enters the first of them.
     pub states: Vec<StateItem>,
+    /// From its documentation to its closing bracket.
+    pub extent: Span,
 }
 
 /// `on slot if guard => state -> event, event(value);`
@@ -324,6 +330,8 @@ pub struct TestItem {
     pub steps: Vec<TestStep>,
     /// From its name to its graph.
     pub span: Span,
+    /// From its documentation to its closing bracket.
+    pub extent: Span,
 }
 
 /// A statement of a test.

@@ -1,0 +1,518 @@
+//! What could be written at a place.
+
+use super::{
+    Definition, NodeType, PortFacts, View,
+    context::{Context, End, Named, Quantity, context},
+    definition::generics,
+    describe::{describe, param, port, standard_docs},
+};
+use crate::{
+    catalog::{Match, Type},
+    graph::Standard,
+    resolve::{GraphId, Meaning},
+    source::Span,
+    syntax::{
+        tree::{Ident, ModifierKind, PathExpr, PortKind},
+        words::{Place, words_at},
+    },
+    units::{self, Dimension},
+};
+use std::collections::BTreeSet;
+
+/// Something that could be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Completion {
+    /// What is shown, and written if nothing else is.
+    pub label: String,
+    /// What it is.
+    pub kind: CompletionKind,
+    /// What is shown behind it.
+    pub detail: String,
+    /// Documentation, as Markdown.
+    pub docs: String,
+    /// What is written, with `$1` where the text goes on.
+    pub snippet: Option<String>,
+    /// An import that it needs.
+    pub import: Option<String>,
+    /// Whether its tokens certainly have the type that is wanted; where only rustc can say, it is `false`.
+    pub sure: bool,
+}
+
+/// What a completion is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CompletionKind {
+    /// A node with a name, or a state.
+    Name,
+    /// A port.
+    Port,
+    /// A parameter.
+    Param,
+    /// A value.
+    Value,
+    /// A unit.
+    Unit,
+    /// A node type, a graph, a state machine.
+    NodeType,
+    /// A type of tokens.
+    Type,
+    /// A crate, a module or a text.
+    Module,
+    /// A word of the language.
+    Word,
+}
+
+impl Completion {
+    fn new(label: impl Into<String>, kind: CompletionKind, detail: impl Into<String>, docs: impl Into<String>) -> Self {
+        let (label, detail, docs) = (label.into(), detail.into(), docs.into());
+        Self { label, kind, detail, docs, snippet: None, import: None, sure: false }
+    }
+}
+
+/// The texts beside the first one: their names, and those of their graphs and state machines.
+pub type Siblings<'a> = dyn Fn() -> Vec<(String, Vec<String>)> + 'a;
+
+/// What could be written at `offset` of `text`, which is the first text of the view or was a moment ago, and where the
+/// word begins that it stands for.
+pub fn complete(view: &View<'_>, text: &str, offset: usize, siblings: &Siblings<'_>) -> (usize, Vec<Completion>) {
+    let (context, start) = context(text, offset);
+    let completer = Completer { view: *view, graph: graph_at(view, offset), offset };
+    (start, completer.at(context, siblings))
+}
+
+/// The graph of the first text around `offset`.
+fn graph_at(view: &View<'_>, offset: usize) -> Option<GraphId> {
+    let around = |s: Span| s.start as usize <= offset && offset <= s.end as usize;
+    let graph = view.texts.files[0].1.graphs.iter().position(|g| around(g.extent))?;
+    Some(GraphId { file: 0, graph })
+}
+
+struct Completer<'a> {
+    view: View<'a>,
+    graph: Option<GraphId>,
+    offset: usize,
+}
+
+impl Completer<'_> {
+    fn at(&self, context: Context, siblings: &Siblings<'_>) -> Vec<Completion> {
+        match context {
+            Context::Nothing => vec![],
+            Context::Item => words(Place::Item),
+            Context::Import(path) => self.importable(&path, siblings),
+            Context::Path(path) => self.in_module(&path),
+            Context::Type => self.types(),
+            Context::Statement => {
+                let names = self.names(self.graph, Named::Sends, None);
+                words(Place::Graph).into_iter().chain(names).chain(self.node_types(true, None, None)).collect()
+            }
+            Context::Made(handed_in) => self.node_types(!handed_in, None, None),
+            Context::Name(Named::Tested | Named::Fed, _) => {
+                self.tested_names(matches!(context, Context::Name(Named::Fed, _)))
+            }
+            Context::Name(named, other) => self.ends(named, other.as_ref()),
+            Context::Port(of, named, other) => self.ports_of(&of, named, other.as_ref()),
+            Context::Argument(of, given) => self.arguments(&of, &given),
+            Context::Value(of, name) => self.values(&of, &name),
+            Context::Time | Context::Expression => self.parameters(),
+            Context::Unit(quantity) => self.units(quantity),
+            Context::Modifier => words(Place::Modifier),
+            Context::List(of) => self.lists(&of),
+            Context::Claim => words(Place::Claim),
+            Context::Machine(in_state) => {
+                let is_meant = |w: &Completion| in_state != matches!(w.label.as_str(), "slot" | "event");
+                words(Place::Machine).into_iter().filter(|w| is_meant(w) || w.label == "state").collect()
+            }
+            Context::State | Context::MachineSlot | Context::MachineEvent => self.machine_names(&context),
+            Context::Test => words(Place::Test),
+            Context::Tested => self.node_types(false, None, None),
+            Context::Words(words) => words.iter().map(|w| Completion::new(*w, CompletionKind::Word, "", "")).collect(),
+        }
+    }
+
+    // Names and ports
+
+    /// The ends that an arrow can lead to or from.
+    fn ends(&self, named: Named, other: Option<&End>) -> Vec<Completion> {
+        let graph = match named {
+            Named::Node => self.graph.or_else(|| self.tested()),
+            _ => self.graph,
+        };
+        let mut found = self.names(graph, named, other);
+        if named != Named::Node {
+            found.extend(self.node_types(true, Some(named), other));
+        }
+        found
+    }
+
+    /// The ports and nodes of a graph that have a port which fits.
+    fn names(&self, graph: Option<GraphId>, named: Named, other: Option<&End>) -> Vec<Completion> {
+        let Some(id) = graph else { return vec![] };
+        let item = self.view.texts.graph(id);
+        let types = other.and_then(|end| self.types_of(id, end, opposite(named)));
+        let mut found = vec![];
+        for facts in self.view.ports(NodeType::Graph(id)).iter().filter(|_| named != Named::Node) {
+            if fits(facts.kind.seen_from_inside(), &facts.ty, named, types.as_deref()) {
+                let docs = describe(&self.view, facts.definition);
+                let sure = is_sure(&facts.ty, types.as_deref());
+                found
+                    .push(Completion { sure, ..Completion::new(&facts.name, CompletionKind::Port, port(facts), docs) });
+            }
+        }
+        for (i, node) in item.nodes.iter().enumerate() {
+            found.extend(self.node(id, i, &node.name.text, named, types.as_deref()));
+        }
+        let slots = words_at(Place::Node).filter(|w| (w.text == "start") == (named == Named::Sends));
+        let own =
+            slots.filter(|_| named != Named::Node).map(|w| Completion::new(w.text, CompletionKind::Name, "", w.docs));
+        found.into_iter().chain(own).collect()
+    }
+
+    /// A node: by its name if only one of its ports fits, else with each port that does.
+    fn node(&self, id: GraphId, i: usize, name: &str, named: Named, types: Option<&[Type]>) -> Vec<Completion> {
+        let (made, _) = self.view.made_of(id, i);
+        let docs = || describe(&self.view, Definition::Instance(id, i));
+        let detail = made.map_or("", |made| self.view.name_of(made));
+        if named == Named::Node || made.is_none() {
+            return vec![Completion::new(name, CompletionKind::Name, detail, docs())];
+        }
+        let fitting = self.fitting(id, i, named, types);
+        let item = |label: String, kind, p: &PortFacts, docs| {
+            let sure = is_sure(&p.ty, types);
+            Completion { sure, ..Completion::new(label, kind, port(p), docs) }
+        };
+        match fitting.as_slice() {
+            [] => vec![],
+            [one] => vec![item(name.to_owned(), CompletionKind::Name, one, docs())],
+            several => {
+                let dotted = |p: &PortFacts| format!("{name}.{}", p.name);
+                several.iter().map(|p| item(dotted(p), CompletionKind::Port, p, p.docs.clone())).collect()
+            }
+        }
+    }
+
+    /// The ports of a node that can stand at an end.
+    fn fitting(&self, id: GraphId, i: usize, named: Named, types: Option<&[Type]>) -> Vec<PortFacts> {
+        let (made, instance) = self.view.made_of(id, i);
+        let modifiers = instance.map_or(&[][..], |i| i.modifiers.as_slice());
+        // Whether the list or its element is meant, the connections say.
+        let each = modifiers.iter().any(|m| matches!(m.kind, ModifierKind::Each { .. }));
+        let ports = made.map(|made| self.view.ports(made)).unwrap_or_default();
+        ports.into_iter().filter(|p| fits(p.kind, &p.ty, named, types.filter(|_| !each))).collect()
+    }
+
+    /// The types of the tokens at an end; nothing if they are not known.
+    fn types_of(&self, id: GraphId, end: &End, named: Named) -> Option<Vec<Type>> {
+        let of = |ports: Vec<PortFacts>, name: Option<&String>| -> Vec<Type> {
+            let ports = ports.into_iter().filter(|p| name.is_none_or(|n| p.name == *n));
+            ports.filter(|p| fits(p.kind, &p.ty, named, None)).map(|p| p.ty).collect()
+        };
+        let types = match end {
+            End::InPlace(path) => of(self.view.ports(self.node_type(path)?), None),
+            End::Reference(parts) => {
+                let (name, port) = (parts.first()?, parts.get(1));
+                let own = self.view.ports(NodeType::Graph(id)).into_iter().find(|p| p.name == *name);
+                match own {
+                    Some(own) => vec![own.ty],
+                    None => of(self.fitting(id, self.position(id, name)?, named, None), port),
+                }
+            }
+        };
+        (!types.is_empty()).then_some(types)
+    }
+
+    fn position(&self, id: GraphId, name: &str) -> Option<usize> {
+        self.view.texts.graph(id).nodes.iter().position(|n| n.name.text == name)
+    }
+
+    fn node_type(&self, path: &[String]) -> Option<NodeType> {
+        let span = Span::new(self.view.texts.file_id(0), self.offset, self.offset);
+        let segments = path.iter().map(|text| Ident { text: text.clone(), span }).collect();
+        self.view.node_type(0, &PathExpr { segments, span })
+    }
+
+    /// The ports behind `node.`
+    fn ports_of(&self, of: &End, named: Named, other: Option<&End>) -> Vec<Completion> {
+        let graph = if named == Named::Tested { self.tested().or(self.graph) } else { self.graph };
+        let (Some(mut id), End::Reference(parts)) = (graph, of) else { return vec![] };
+        let Some((name, outer)) = parts.split_last() else { return vec![] };
+        for name in outer {
+            let made = self.position(id, name).and_then(|i| self.view.made_of(id, i).0);
+            let Some(NodeType::Graph(inside)) = made else { return vec![] };
+            id = inside;
+        }
+        let Some(i) = self.position(id, name) else { return vec![] };
+        let types = other.and_then(|end| self.types_of(id, end, opposite(named)));
+        let mut found: Vec<Completion> = self
+            .fitting(id, i, named, types.as_deref())
+            .iter()
+            .map(|p| Completion::new(&p.name, CompletionKind::Port, port(p), p.docs.clone()))
+            .collect();
+        let made = self.view.made_of(id, i).0;
+        match made {
+            Some(NodeType::Graph(inside)) if named == Named::Tested => {
+                found.extend(self.names(Some(inside), Named::Node, None))
+            }
+            Some(NodeType::Graph(_)) | None => {}
+            _ => found.extend(standard_ports(named)),
+        }
+        found
+    }
+
+    /// The list inputs of a node.
+    fn lists(&self, of: &[String]) -> Vec<Completion> {
+        let ports = self.node_type(of).map(|node| self.view.ports(node)).unwrap_or_default();
+        let inputs = ports.iter().filter(|p| p.kind == PortKind::Input);
+        inputs.map(|p| Completion::new(&p.name, CompletionKind::Port, port(p), p.docs.clone())).collect()
+    }
+
+    // Tests and state machines
+
+    /// The graph that the test around is about.
+    fn tested(&self) -> Option<GraphId> {
+        let around = |s: Span| s.start as usize <= self.offset && self.offset <= s.end as usize;
+        let test = self.view.texts.files[0].1.tests.iter().find(|t| around(t.extent))?;
+        match self.view.node_type(0, &test.graph)? {
+            NodeType::Graph(id) => Some(id),
+            _ => None,
+        }
+    }
+
+    fn tested_names(&self, fed: bool) -> Vec<Completion> {
+        let Some(id) = self.tested() else { return vec![] };
+        let takes = |p: &&PortFacts| !fed || matches!(p.kind, PortKind::Input | PortKind::Slot);
+        let ports = self.view.ports(NodeType::Graph(id));
+        let ports =
+            ports.iter().filter(takes).map(|p| Completion::new(&p.name, CompletionKind::Port, port(p), p.docs.clone()));
+        let mut found: Vec<Completion> = ports.collect();
+        if !fed {
+            found.extend(self.names(Some(id), Named::Node, None));
+            let active =
+                Completion::new("active", CompletionKind::Word, "", "Whether a node or nested graph is active.");
+            found.push(Completion { snippet: Some("active($1)".to_owned()), ..active });
+        }
+        found
+    }
+
+    fn machine_names(&self, context: &Context) -> Vec<Completion> {
+        let around = |s: Span| s.start as usize <= self.offset && self.offset <= s.end as usize;
+        let machines = &self.view.texts.files[0].1.machines;
+        let Some(machine) = machines.iter().position(|m| around(m.extent)) else { return vec![] };
+        let id = super::MachineId { file: 0, machine };
+        if *context == Context::State {
+            let states = self.view.states(id).into_iter();
+            return states
+                .map(|s| Completion::new(&s.name.text, CompletionKind::Name, "state", s.docs.clone()))
+                .collect();
+        }
+        let kind = if *context == Context::MachineSlot { PortKind::Slot } else { PortKind::Event };
+        let ports = self.view.ports(NodeType::Machine(id));
+        let ports = ports.iter().filter(|p| p.kind == kind);
+        ports.map(|p| Completion::new(&p.name, CompletionKind::Port, port(p), p.docs.clone())).collect()
+    }
+
+    // Arguments and values
+
+    fn arguments(&self, of: &[String], given: &[String]) -> Vec<Completion> {
+        let params = self.node_type(of).map(|node| self.view.params(node)).unwrap_or_default();
+        let open = params.iter().filter(|p| !given.contains(&p.name));
+        let found = open.map(|p| {
+            let docs = describe(&self.view, p.definition);
+            let item = Completion::new(&p.name, CompletionKind::Param, param(p), docs);
+            Completion { snippet: Some(format!("{} = $1", p.name)), ..item }
+        });
+        found.collect()
+    }
+
+    fn values(&self, of: &[String], name: &str) -> Vec<Completion> {
+        let params = self.node_type(of).map(|node| self.view.params(node)).unwrap_or_default();
+        let wanted = params.iter().find(|p| p.name == name);
+        let mut found = self.parameters();
+        if let Some(default) = wanted.and_then(|p| p.default.as_ref()).filter(|d| *d != "…") {
+            let unit =
+                wanted.and_then(|p| p.unit.as_deref()).filter(|_| default.bytes().all(|b| !b.is_ascii_alphabetic()));
+            let text = format!("{default}{}", unit.unwrap_or_default());
+            found.push(Completion::new(text, CompletionKind::Value, "the default", ""));
+        }
+        if wanted.is_none_or(|p| p.ty == "bool") {
+            found.extend(words(Place::Value));
+        }
+        found
+    }
+
+    /// The parameters of the graph around.
+    fn parameters(&self) -> Vec<Completion> {
+        let params = self.graph.map(|id| self.view.params(NodeType::Graph(id))).unwrap_or_default();
+        let found = params
+            .iter()
+            .map(|p| Completion::new(&p.name, CompletionKind::Param, param(p), describe(&self.view, p.definition)));
+        found.collect()
+    }
+
+    fn units(&self, quantity: Quantity) -> Vec<Completion> {
+        let wanted = match quantity {
+            Quantity::Any => None,
+            Quantity::Time => Some("s".to_owned()),
+            Quantity::Argument(of, name) => {
+                let params = self.node_type(&of).map(|node| self.view.params(node));
+                match params.unwrap_or_default().into_iter().find(|p| p.name == name) {
+                    Some(param) if param.unit.is_none() => return vec![],
+                    found => found.and_then(|p| p.unit),
+                }
+            }
+        };
+        let found = match wanted {
+            Some(unit) => units_like(&unit),
+            None => units::names().map(str::to_owned).collect(),
+        };
+        found.into_iter().map(|unit| Completion::new(&unit, CompletionKind::Unit, noun(&unit), "")).collect()
+    }
+
+    // Node types and types
+
+    /// What an instance can be made of: what has a meaning here, then what can be imported.
+    fn node_types(&self, with_args: bool, named: Option<Named>, other: Option<&End>) -> Vec<Completion> {
+        let types =
+            self.graph.zip(other).zip(named).and_then(|((id, end), named)| self.types_of(id, end, opposite(named)));
+        let is_meant = |node: NodeType| {
+            let Some(named) = named else { return true };
+            self.view.ports(node).iter().any(|p| fits(p.kind, &p.ty, named, types.as_deref()))
+        };
+        let (mut found, mut known) = (vec![], BTreeSet::new());
+        for (name, meaning) in self.view.texts.names(0) {
+            let node = match meaning {
+                Meaning::Graph(id) => Some(NodeType::Graph(*id)),
+                Meaning::Machine(signature) => Some(self.view.of_signature(*signature)),
+                Meaning::Rust(path) => self.view.catalog.nodes(path).first().map(|id| NodeType::Rust(*id)),
+            };
+            known.insert(name.as_str());
+            let Some(node) = node.filter(|n| is_meant(*n) && Some(*n) != self.graph.map(NodeType::Graph)) else {
+                continue;
+            };
+            found.push(self.node_type_item(name, node, with_args, None));
+        }
+        for (id, signature) in self.view.catalog.rust_nodes().iter().enumerate() {
+            let node = NodeType::Rust(id);
+            if signature.path.is_empty() || known.contains(signature.name.as_str()) || !is_meant(node) {
+                continue;
+            }
+            let path = signature.path.join("::");
+            let is_own = signature.path.first().is_some_and(|p| p == "crate");
+            let import = (!is_own).then(|| format!("use {};\n", path.trim_start_matches("::")));
+            found.push(self.node_type_item(&signature.name, node, with_args, import));
+        }
+        found
+    }
+
+    fn node_type_item(&self, name: &str, node: NodeType, with_args: bool, import: Option<String>) -> Completion {
+        let required = self.view.params(node).into_iter().filter(|p| p.default.is_none());
+        let args: Vec<String> = required.enumerate().map(|(i, p)| format!("{} = ${}", p.name, i + 1)).collect();
+        let first_line = self.view.docs_of(node).lines().next().unwrap_or_default();
+        let docs = describe(&self.view, Definition::Node(node));
+        let item = Completion::new(name, CompletionKind::NodeType, first_line, docs);
+        Completion { snippet: with_args.then(|| format!("{name}({})$0", args.join(", "))), import, ..item }
+    }
+
+    fn types(&self) -> Vec<Completion> {
+        let plain =
+            ["f32", "f64", "bool", "u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64", "Duration", "Vec", "Option"];
+        let plain = plain.map(|name| Completion::new(name, CompletionKind::Type, "", ""));
+        let imported = self.view.texts.names(0).iter().filter_map(|(name, meaning)| match meaning {
+            Meaning::Rust(path) if !self.view.catalog.types(path).is_empty() => Some(name.clone()),
+            _ => None,
+        });
+        let own = self.graph.map(|id| generics(self.view.texts.graph(id))).unwrap_or_default();
+        let named = imported.chain(own).map(|name| Completion::new(name, CompletionKind::Type, "", ""));
+        named.chain(plain).collect()
+    }
+
+    fn importable(&self, path: &[String], siblings: &Siblings<'_>) -> Vec<Completion> {
+        let module = |name: &str| Completion::new(name, CompletionKind::Module, "", "");
+        match path {
+            [] => {
+                let crates = self.view.catalog.crate_names().into_iter().chain(["crate"]).map(module);
+                let texts = siblings().into_iter().map(|(name, _)| {
+                    let detail = format!("{name}.afg");
+                    Completion::new(name, CompletionKind::Module, detail, "")
+                });
+                crates.chain(texts).collect()
+            }
+            [text] if !self.view.catalog.is_crate(text) => {
+                let graphs = siblings().into_iter().filter(|(name, _)| name == text).flat_map(|(_, graphs)| graphs);
+                graphs.map(|name| Completion::new(name, CompletionKind::NodeType, "", "")).collect()
+            }
+            _ => self.in_module(path),
+        }
+    }
+
+    /// What a module of Rust has.
+    fn in_module(&self, path: &[String]) -> Vec<Completion> {
+        let names: BTreeSet<&str> = self.view.catalog.names_in(path).into_iter().collect();
+        let item = |name: &str| {
+            let full: Vec<String> = path.iter().cloned().chain([name.to_owned()]).collect();
+            if let [node, ..] = self.view.catalog.nodes(&full).as_slice() {
+                return self.node_type_item(name, NodeType::Rust(*node), false, None);
+            }
+            let kind =
+                if self.view.catalog.types(&full).is_empty() { CompletionKind::Module } else { CompletionKind::Type };
+            Completion::new(name, kind, "", "")
+        };
+        names.into_iter().map(item).collect()
+    }
+}
+
+fn opposite(named: Named) -> Named {
+    if named == Named::Takes { Named::Sends } else { Named::Takes }
+}
+
+/// Whether a port can stand at an end, with tokens of one of these types.
+fn fits(kind: PortKind, ty: &Type, named: Named, types: Option<&[Type]>) -> bool {
+    let side = match named {
+        Named::Sends => kind.sends(),
+        Named::Takes => !kind.sends(),
+        _ => true,
+    };
+    side && types.is_none_or(|types| types.iter().any(|t| t.compare(ty) != Match::Different))
+}
+
+/// Whether tokens of a type are certainly of one of these.
+fn is_sure(ty: &Type, types: Option<&[Type]>) -> bool {
+    types.is_some_and(|types| types.iter().any(|t| t.compare(ty) == Match::Same))
+}
+
+/// The ports that every node has.
+fn standard_ports(named: Named) -> impl Iterator<Item = Completion> {
+    let fitting = Standard::ALL.into_iter().filter(move |s| fits(s.kind(), &s.ty(), named, None));
+    fitting.map(|s| {
+        let detail = format!("{} {}: {}", s.kind().word(), s.name(), s.ty());
+        Completion::new(s.name(), CompletionKind::Port, detail, standard_docs(s))
+    })
+}
+
+fn words(place: Place) -> Vec<Completion> {
+    words_at(place).map(|w| Completion::new(w.text, CompletionKind::Word, "", w.docs)).collect()
+}
+
+fn dimension(unit: &str) -> Option<Dimension> {
+    units::parse(unit).ok().map(|u| u.dimension)
+}
+
+fn noun(unit: &str) -> &'static str {
+    dimension(unit).map_or("", Dimension::noun)
+}
+
+/// The units of one dimension; of a quotient, those of its parts.
+fn units_like(unit: &str) -> Vec<String> {
+    let Some(wanted) = dimension(unit) else { return vec![] };
+    let mut found: Vec<String> = units::names().filter(|n| dimension(n) == Some(wanted)).map(str::to_owned).collect();
+    if let Some((above, below)) = unit.split_once('/') {
+        let like = |part: &str| -> Vec<&'static str> {
+            let part = dimension(part);
+            units::names().filter(|n| part.is_some() && dimension(n) == part).collect()
+        };
+        let pairs = like(above).into_iter().flat_map(|a| like(below).into_iter().map(move |b| format!("{a}/{b}")));
+        found.extend(pairs);
+    }
+    if !found.iter().any(|u| u == unit) {
+        found.insert(0, unit.to_owned());
+    }
+    found
+}

@@ -1,0 +1,527 @@
+//! What is being written at a place, told from the words before it.
+
+use super::lex::{Token, TokenKind, tokens_before, unit_start};
+use crate::syntax::MAX_DEPTH;
+
+/// One end of a connection, as written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// `node`, `node.port`
+    Reference(Vec<String>),
+    /// The path of a node that is written in place.
+    InPlace(Vec<String>),
+}
+
+/// Where a node or port of a graph is named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Named {
+    /// As an end of a connection that sends.
+    Sends,
+    /// As an end of a connection that takes.
+    Takes,
+    /// Anything in the graph that is tested: its ports, its nodes and theirs.
+    Tested,
+    /// What tokens can be fed to.
+    Fed,
+    /// A node or nested graph.
+    Node,
+}
+
+/// What a number that is being written measures.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Quantity {
+    /// Nobody knows.
+    Any,
+    /// A time.
+    Time,
+    /// What this argument of this node wants.
+    Argument(Vec<String>, String),
+}
+
+/// What is being written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Context {
+    /// Something that nobody can guess: a new name, a number.
+    Nothing,
+    /// An item.
+    Item,
+    /// Something behind these words of an import.
+    Import(Vec<String>),
+    /// Something behind `a::b::`.
+    Path(Vec<String>),
+    /// A type.
+    Type,
+    /// A statement of a graph.
+    Statement,
+    /// What a named node is made of; `true` if it is handed in.
+    Made(bool),
+    /// An end of a connection; with the end at the other side of the arrow, if there is one.
+    Name(Named, Option<End>),
+    /// A port of this node.
+    Port(End, Named, Option<End>),
+    /// The name of an argument for this node; some are given.
+    Argument(Vec<String>, Vec<String>),
+    /// The value of this argument.
+    Value(Vec<String>, String),
+    /// A time.
+    Time,
+    /// Any other value.
+    Expression,
+    /// The unit of a number.
+    Unit(Quantity),
+    /// A word behind an instance.
+    Modifier,
+    /// A list input of this node.
+    List(Vec<String>),
+    /// What is claimed.
+    Claim,
+    /// A statement of a state machine; `true` inside of a state.
+    Machine(bool),
+    /// A state.
+    State,
+    /// A slot of the state machine.
+    MachineSlot,
+    /// An event of the state machine.
+    MachineEvent,
+    /// A statement of a test.
+    Test,
+    /// The graph that is tested.
+    Tested,
+    /// One of these words.
+    Words(&'static [&'static str]),
+}
+
+/// What is being written at `offset`, and where the word begins of which a part is there.
+pub fn context(text: &str, offset: usize) -> (Context, usize) {
+    let Some(mut tokens) = tokens_before(text, offset) else { return (Context::Nothing, offset) };
+    if depth(&tokens) > MAX_DEPTH {
+        return (Context::Nothing, offset);
+    }
+    let last = tokens.last().copied().filter(|t| t.start + t.text.len() == offset);
+    match last {
+        Some(Token { kind: TokenKind::Word, start, .. }) => {
+            tokens.pop();
+            (at_word(&tokens), start)
+        }
+        Some(Token { kind: TokenKind::Number, text, start }) => {
+            tokens.pop();
+            let start = start + unit_start(text);
+            (unit(&tokens), start)
+        }
+        _ => (at_word(&tokens), offset),
+    }
+}
+
+/// The unit of a number behind these tokens.
+fn unit(tokens: &[Token<'_>]) -> Context {
+    match at_word(tokens) {
+        Context::Value(of, param) => Context::Unit(Quantity::Argument(of, param)),
+        Context::Time => Context::Unit(Quantity::Time),
+        Context::Nothing | Context::Expression => Context::Unit(Quantity::Any),
+        _ => Context::Nothing,
+    }
+}
+
+/// How many brackets are open: every one of them is looked into.
+fn depth(tokens: &[Token<'_>]) -> usize {
+    tokens.iter().fold(0_usize, |depth, token| match token.text {
+        "(" | "[" | "{" => depth + 1,
+        ")" | "]" | "}" => depth.saturating_sub(1),
+        _ => depth,
+    })
+}
+
+fn is(token: Option<&Token<'_>>, text: &str) -> bool {
+    token.is_some_and(|t| t.text == text && t.kind != TokenKind::Text)
+}
+
+/// What a word behind these tokens would be.
+fn at_word(tokens: &[Token<'_>]) -> Context {
+    if let Some(path) = path_before(tokens) {
+        return in_import(tokens).map_or(Context::Path(path), Context::Import);
+    }
+    match opener(tokens) {
+        None => outside(&tokens[statement(tokens, 0)..]),
+        Some(open) => match tokens[open].text {
+            "{" => in_braces(tokens, open),
+            "(" => in_parens(tokens, open),
+            _ => in_brackets(tokens, open),
+        },
+    }
+}
+
+/// The words of a path that ends with `::`.
+fn path_before(tokens: &[Token<'_>]) -> Option<Vec<String>> {
+    let mut path = vec![];
+    let mut rest = tokens;
+    while let [before @ .., word, colons] = rest
+        && colons.text == "::"
+    {
+        path.push(word.text.to_owned());
+        rest = before;
+    }
+    path.reverse();
+    (!path.is_empty()).then_some(path)
+}
+
+/// The path in front of what is being written, if that is an import.
+fn in_import(tokens: &[Token<'_>]) -> Option<Vec<String>> {
+    let mut at = tokens.len();
+    let mut path = path_before(tokens).unwrap_or_default();
+    // Out of the groups, to the word `use`.
+    loop {
+        let before = &tokens[..at];
+        let start = before.iter().rposition(|t| matches!(t.text, ";" | "use")).unwrap_or(0);
+        match opener(before) {
+            Some(open) if open > start && is(tokens[..open].last(), "::") => {
+                let outer = path_before(&tokens[..open])?;
+                path = outer.into_iter().chain(path).collect();
+                at = open;
+            }
+            Some(_) => return None,
+            None => return is(tokens.get(start), "use").then_some(path),
+        }
+    }
+}
+
+/// The innermost bracket that is open.
+fn opener(tokens: &[Token<'_>]) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (i, token) in tokens.iter().enumerate().rev() {
+        match token.text {
+            ")" | "]" | "}" => depth += 1,
+            "(" | "[" | "{" if depth == 0 => return Some(i),
+            "(" | "[" | "{" => depth -= 1,
+            // An item begins here: what was open before was never closed.
+            "graph" | "robot" | "fsm" if depth == 0 && starts_item(tokens, i) => return None,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn starts_item(tokens: &[Token<'_>], at: usize) -> bool {
+    let named = tokens.get(at + 1).is_none_or(|t| t.kind == TokenKind::Word);
+    named && (at == 0 || matches!(tokens[at - 1].text, ";" | "}"))
+}
+
+/// Where the statement begins in which the tokens from `from` end.
+fn statement(tokens: &[Token<'_>], from: usize) -> usize {
+    let mut depth = 0_usize;
+    for (i, token) in tokens.iter().enumerate().skip(from).rev() {
+        match token.text {
+            // A block ends a statement, a group of an import does not.
+            "}" if depth == 0 && !ends_group(tokens, i) => return i + 1,
+            ";" if depth == 0 => return i + 1,
+            ")" | "]" | "}" => depth += 1,
+            "(" | "[" | "{" => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    from
+}
+
+/// Whether the brace that closes at `at` was opened behind `::`.
+fn ends_group(tokens: &[Token<'_>], at: usize) -> bool {
+    opener(&tokens[..at]).is_some_and(|open| is(tokens[..open].last(), "::"))
+}
+
+/// Outside of all brackets.
+fn outside(item: &[Token<'_>]) -> Context {
+    match item {
+        [] => Context::Item,
+        [first] if first.text == "use" => Context::Import(vec![]),
+        [first, .., last] if first.text == "test" && last.text == ":" => Context::Tested,
+        _ => Context::Nothing,
+    }
+}
+
+fn in_braces(tokens: &[Token<'_>], open: usize) -> Context {
+    if is(tokens[..open].last(), "::") {
+        return match (in_import(tokens), tokens.last()) {
+            (Some(path), Some(last)) if matches!(last.text, "{" | ",") => Context::Import(path),
+            _ => Context::Nothing,
+        };
+    }
+    let header = &tokens[header(tokens, open)..open];
+    let written = &tokens[statement(tokens, open + 1)..];
+    match header.first().map(|t| t.text) {
+        Some("fsm") => in_machine(written, false),
+        Some("state") => in_machine(written, true),
+        Some("test") => in_test(written),
+        Some("graph" | "robot") => in_graph(written),
+        _ => Context::Nothing,
+    }
+}
+
+/// Where the header of the block begins that is opened at `open`.
+fn header(tokens: &[Token<'_>], open: usize) -> usize {
+    let before = &tokens[..open];
+    statement(before, opener(before).map_or(0, |outer| outer + 1))
+}
+
+/// A statement of a graph.
+fn in_graph(written: &[Token<'_>]) -> Context {
+    let Some(last) = written.last() else { return Context::Statement };
+    match (written[0].text, written) {
+        ("in" | "out" | "slot" | "event", [_, name, rest @ ..]) if name.kind == TokenKind::Word => typed(rest),
+        ("in" | "out" | "slot" | "event", [_]) => Context::Nothing,
+        ("node", [_]) | ("node", [_, _]) => Context::Nothing,
+        ("node", [_, _, equals]) if equals.text == "=" => Context::Made(false),
+        ("node", [_, _, colon]) if colon.text == ":" => Context::Made(true),
+        ("node", [_, _, colon, ..]) if colon.text == ":" && last.text == "<" => Context::Type,
+        ("claim", [_]) => Context::Claim,
+        ("claim", _) => Context::Nothing,
+        _ => behind_instance(written).unwrap_or_else(|| in_chain(written)),
+    }
+}
+
+/// Behind the name in a declaration.
+fn typed(written: &[Token<'_>]) -> Context {
+    match written.last() {
+        Some(last) if matches!(last.text, ":" | "<" | ",") => Context::Type,
+        _ => Context::Nothing,
+    }
+}
+
+/// The words that can stand behind an instance with a value of their own.
+const TIMES: [&str; 5] = ["every", "after", "timeout", "deadline", "delay"];
+
+/// Behind the arguments of an instance: a word, or the value of one.
+fn behind_instance(written: &[Token<'_>]) -> Option<Context> {
+    let last = written.last()?;
+    let open = written.iter().any(|t| t.text == ")") || written.iter().any(|t| t.text == ":");
+    let behind_value = written.len() > 1 && TIMES.contains(&written[written.len() - 2].text);
+    match last.text {
+        ")" => Some(Context::Modifier),
+        "delay" if open => Some(Context::Expression),
+        word if TIMES.contains(&word) && open => Some(Context::Time),
+        "each" | "par" | "pipelined" | "essential" | "restart" if open => Some(Context::Modifier),
+        "on" if open => Some(Context::Nothing),
+        "=" | "+" | "-" | "*" | "/" if open => Some(Context::Expression),
+        _ if behind_value && open => Some(Context::Modifier),
+        _ => None,
+    }
+}
+
+/// In a chain of connections.
+fn in_chain(written: &[Token<'_>]) -> Context {
+    let Some(last) = written.last() else { return Context::Name(Named::Sends, None) };
+    match last.text {
+        "->" | "=>" => Context::Name(Named::Takes, end_before(&written[..written.len() - 1])),
+        "." => {
+            let name = &written[..written.len() - 1];
+            let (of, start) = reference_before(name);
+            let before = &name[..start];
+            let other = arrow_before(before);
+            let side = if other.is_some() || has_arrow(before) { Named::Takes } else { Named::Sends };
+            Context::Port(End::Reference(of), side, other)
+        }
+        _ => Context::Nothing,
+    }
+}
+
+fn has_arrow(tokens: &[Token<'_>]) -> bool {
+    tokens.iter().any(|t| matches!(t.text, "->" | "=>"))
+}
+
+/// The end in front of the arrow that these tokens end with, lists that are open aside.
+fn arrow_before(tokens: &[Token<'_>]) -> Option<End> {
+    let at = tokens.iter().rposition(|t| matches!(t.text, "->" | "=>"))?;
+    end_before(&tokens[..at])
+}
+
+/// `a.b` at the end of these tokens, and where it begins.
+fn reference_before(tokens: &[Token<'_>]) -> (Vec<String>, usize) {
+    let mut parts = vec![];
+    let mut at = tokens.len();
+    while at > 0 && tokens[at - 1].kind == TokenKind::Word {
+        parts.push(tokens[at - 1].text.to_owned());
+        at -= 1;
+        if at == 0 || tokens[at - 1].text != "." {
+            break;
+        }
+        at -= 1;
+    }
+    parts.reverse();
+    (parts, at)
+}
+
+/// The end of a connection that these tokens end with.
+fn end_before(tokens: &[Token<'_>]) -> Option<End> {
+    let start = tokens.iter().rposition(|t| matches!(t.text, "->" | "=>")).map_or(0, |i| i + 1);
+    let mut end = &tokens[start..];
+    while end.first().is_some_and(|t| t.text == "[") {
+        end = &end[1..];
+    }
+    let words = end.iter().take_while(|t| t.kind == TokenKind::Word || matches!(t.text, "." | "::"));
+    let (mut parts, mut in_place) = (vec![], false);
+    for token in words.clone() {
+        match token.text {
+            "::" => in_place = true,
+            "." => {}
+            word => parts.push(word.to_owned()),
+        }
+    }
+    let is_instance = in_place || end.get(words.count()).is_some_and(|t| matches!(t.text, "(" | "<"));
+    match (parts.is_empty(), is_instance) {
+        (true, _) => None,
+        (_, true) => Some(End::InPlace(parts)),
+        (_, false) => Some(End::Reference(parts)),
+    }
+}
+
+fn in_parens(tokens: &[Token<'_>], open: usize) -> Context {
+    let before = &tokens[..open];
+    let header = &tokens[header(tokens, open)..open];
+    let inside = &tokens[open + 1..];
+    let word = before.last().filter(|t| t.kind == TokenKind::Word).map(|t| t.text);
+    match (header.first().map(|t| t.text), header.len(), word) {
+        (Some("graph" | "robot"), 2, _) => return in_parameters(inside),
+        (Some("claim"), 2, _) => return Context::Name(Named::Node, None),
+        (_, _, Some("active")) => return in_condition(inside),
+        (_, _, Some("each" | "par")) => return each_of(before).map_or(Context::Nothing, Context::List),
+        (_, _, Some(_)) if opener(before).is_some_and(|o| is_state(tokens, o)) => return Context::Expression,
+        (_, _, Some(_)) => {}
+        _ => return nested(tokens, open),
+    }
+    in_arguments(path_of(before), inside)
+}
+
+fn is_state(tokens: &[Token<'_>], open: usize) -> bool {
+    tokens[open].text == "{" && is(tokens.get(header(tokens, open)), "state")
+}
+
+/// `a::b` at the end of these tokens.
+fn path_of(tokens: &[Token<'_>]) -> Vec<String> {
+    match tokens.split_last() {
+        Some((word, rest)) => {
+            let mut path = path_before(rest).unwrap_or_default();
+            path.push(word.text.to_owned());
+            path
+        }
+        None => vec![],
+    }
+}
+
+/// The node whose `each` these tokens end with.
+fn each_of(tokens: &[Token<'_>]) -> Option<Vec<String>> {
+    let each = tokens.iter().rposition(|t| t.text == "each")?;
+    let open = opener(tokens[..each].split_last().filter(|(last, _)| last.text == ")")?.1)?;
+    Some(path_of(&tokens[..open]))
+}
+
+/// Brackets around a part of a value: what is in them is what they are a part of.
+fn nested(tokens: &[Token<'_>], open: usize) -> Context {
+    match at_word(&tokens[..open]) {
+        Context::Value(of, param) => Context::Value(of, param),
+        around @ (Context::Expression | Context::Time) => around,
+        _ => Context::Nothing,
+    }
+}
+
+fn in_arguments(of: Vec<String>, inside: &[Token<'_>]) -> Context {
+    let start = last_comma(inside);
+    let given = |tokens: &[Token<'_>]| -> Vec<String> {
+        let names = tokens.windows(2).filter(|w| w[0].kind == TokenKind::Word && w[1].text == "=");
+        names.map(|w| w[0].text.to_owned()).collect()
+    };
+    match &inside[start..] {
+        [] => Context::Argument(of, given(inside)),
+        [name, equals, ..] if equals.text == "=" => Context::Value(of, name.text.to_owned()),
+        _ => Context::Nothing,
+    }
+}
+
+/// Where the last element of a list begins.
+fn last_comma(tokens: &[Token<'_>]) -> usize {
+    let mut depth = 0_usize;
+    for (i, token) in tokens.iter().enumerate().rev() {
+        match token.text {
+            ")" | "]" | "}" => depth += 1,
+            "(" | "[" | "{" => depth = depth.saturating_sub(1),
+            "," if depth == 0 => return i + 1,
+            _ => {}
+        }
+    }
+    0
+}
+
+/// In the parameters of a graph.
+fn in_parameters(inside: &[Token<'_>]) -> Context {
+    let written = &inside[last_comma(inside)..];
+    match written.last().map(|t| t.text) {
+        Some(":" | "<") => Context::Type,
+        Some("=" | "in" | ".." | "..=" | "+" | "-" | "*" | "/") => Context::Expression,
+        _ => Context::Nothing,
+    }
+}
+
+fn in_brackets(tokens: &[Token<'_>], open: usize) -> Context {
+    let inside = &tokens[open + 1..];
+    let begins = inside.is_empty() || inside.last().is_some_and(|t| t.text == ",");
+    match at_word(&tokens[..open]) {
+        Context::Name(named, other) if begins => Context::Name(named, other),
+        Context::Statement if begins => Context::Name(Named::Sends, None),
+        Context::Name(..) | Context::Statement if is(inside.last(), ".") => {
+            let (of, _) = reference_before(&inside[..inside.len() - 1]);
+            let other = arrow_before(&tokens[..open]);
+            let named = if other.is_some() { Named::Takes } else { Named::Sends };
+            Context::Port(End::Reference(of), named, other)
+        }
+        Context::Name(..) if is(inside.last(), ")") => Context::Modifier,
+        Context::Type if begins => Context::Type,
+        Context::Value(of, param) => Context::Value(of, param),
+        Context::Expression => Context::Expression,
+        Context::Nothing if inside.is_empty() && tokens[..open].last().is_some_and(|t| t.kind == TokenKind::Word) => {
+            Context::Unit(Quantity::Any)
+        }
+        _ => Context::Nothing,
+    }
+}
+
+fn in_machine(written: &[Token<'_>], in_state: bool) -> Context {
+    let Some(last) = written.last() else { return Context::Machine(in_state) };
+    match (written[0].text, last.text) {
+        ("slot" | "event", ":") => Context::Type,
+        ("on", "on") => Context::MachineSlot,
+        ("on", "=>") => Context::State,
+        ("on", "if") => Context::Expression,
+        ("on" | "entry" | "exit", "->") => Context::MachineEvent,
+        ("on" | "entry" | "exit", ",") if has_arrow(written) => Context::MachineEvent,
+        ("on", _) if written.len() == 2 => Context::Words(&["if"]),
+        _ => Context::Nothing,
+    }
+}
+
+fn in_test(written: &[Token<'_>]) -> Context {
+    let Some(last) = written.last() else { return Context::Test };
+    match (written[0].text, last.text) {
+        ("expect" | "never", _) if written.len() == 1 => Context::Name(Named::Tested, None),
+        ("expect" | "never", "." | "==" | "!=" | "<" | ">") => in_condition(&written[1..]),
+        ("expect", "by" | "within") | ("wait", "wait") | (_, "every") => Context::Time,
+        ("feed", "feed") => Context::Name(Named::Fed, None),
+        ("feed", "=") => Context::Expression,
+        ("feed", _) => Context::Words(&["every"]),
+        ("replace", "replace") => Context::Name(Named::Node, None),
+        ("replace", ".") => in_condition(&written[1..]),
+        ("replace", "=") => Context::Made(false),
+        ("replace", ")") => Context::Modifier,
+        ("expect", _) => Context::Words(&["by", "within"]),
+        _ => Context::Nothing,
+    }
+}
+
+/// In what a test looks at.
+fn in_condition(inside: &[Token<'_>]) -> Context {
+    match inside.split_last() {
+        None => Context::Name(Named::Node, None),
+        Some((last, before)) if last.text == "." => {
+            Context::Port(End::Reference(reference_before(before).0), Named::Tested, None)
+        }
+        Some(_) => Context::Expression,
+    }
+}
+
+#[cfg(test)]
+mod tests;

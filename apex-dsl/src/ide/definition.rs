@@ -1,0 +1,309 @@
+//! What a name can mean, and what is declared of it.
+
+use super::View;
+use crate::{
+    catalog::{DefId, DefaultValue, Literal, ParamSig, SignatureId, Type},
+    graph::Standard,
+    resolve::{GraphId, Made},
+    source::Span,
+    syntax::tree::{
+        Expr, FsmItem, GraphItem, Ident, Instance, NodeBody, PathExpr, PortItem, PortKind, StateItem, TypeKind,
+    },
+};
+use std::path::PathBuf;
+
+/// A state machine, by text and number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MachineId {
+    /// The text.
+    pub file: usize,
+    /// Its number in the text.
+    pub machine: usize,
+}
+
+/// What an instance is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NodeType {
+    /// A graph.
+    Graph(GraphId),
+    /// A state machine.
+    Machine(MachineId),
+    /// A node in Rust.
+    Rust(SignatureId),
+}
+
+/// What a name means. Numbers count in the order of the declarations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Definition {
+    /// A text beside this one.
+    Text(usize),
+    /// A graph, a state machine or a node in Rust.
+    Node(NodeType),
+    /// A type in Rust.
+    Type(DefId),
+    /// A type parameter of a graph.
+    Generic(GraphId, usize),
+    /// A parameter.
+    Param(NodeType, usize),
+    /// A port.
+    Port(NodeType, usize),
+    /// A port that every node has.
+    Standard(Standard),
+    /// A node with a name.
+    Instance(GraphId, usize),
+    /// `start`, `reset`, `exit`, `abort`.
+    Own(&'static str),
+    /// A state; states inside of others come behind them.
+    State(MachineId, usize),
+    /// A test.
+    Test(usize, usize),
+}
+
+/// Where something is declared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// In a text.
+    Text(Span),
+    /// In a Rust file, in a line that counts from 1.
+    Rust(PathBuf, usize),
+}
+
+/// What is declared of a port.
+pub struct PortFacts {
+    /// Its name.
+    pub name: String,
+    /// Its kind, seen from outside.
+    pub kind: PortKind,
+    /// The type of its tokens.
+    pub ty: Type,
+    /// Tokens per firing.
+    pub rate: usize,
+    /// An input that may stay open.
+    pub optional: bool,
+    /// Documentation.
+    pub docs: String,
+    /// What it is.
+    pub definition: Definition,
+}
+
+/// What is declared of a parameter.
+pub struct ParamFacts {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: String,
+    /// Its unit; `s` for a time.
+    pub unit: Option<String>,
+    /// What it is where no value is given.
+    pub default: Option<String>,
+    /// Smallest and largest value.
+    pub range: Option<String>,
+    /// Documentation.
+    pub docs: String,
+    /// What it is.
+    pub definition: Definition,
+}
+
+impl<'a> View<'a> {
+    /// A state machine.
+    pub fn machine(&self, id: MachineId) -> &'a FsmItem {
+        &self.texts.files[id.file].1.machines[id.machine]
+    }
+
+    /// What stands behind the path of an instance in text `file`.
+    pub fn node_type(&self, file: usize, path: &PathExpr) -> Option<NodeType> {
+        match self.texts.made(file, path, self.catalog).ok()? {
+            Made::Graph(id) => Some(NodeType::Graph(id)),
+            Made::Node(signature) => Some(self.of_signature(signature)),
+        }
+    }
+
+    /// A node of the catalog, in which state machines are nodes too.
+    pub fn of_signature(&self, signature: SignatureId) -> NodeType {
+        match self.texts.machine(signature) {
+            Some((file, machine)) => NodeType::Machine(MachineId { file, machine }),
+            None => NodeType::Rust(signature),
+        }
+    }
+
+    /// What a named node of a graph is made of, and the instance if it is written as one.
+    pub fn made_of(&self, graph: GraphId, node: usize) -> (Option<NodeType>, Option<&'a Instance>) {
+        match &self.texts.graph(graph).nodes[node].body {
+            NodeBody::Instance(instance) => (self.node_type(graph.file, &instance.path), Some(instance)),
+            NodeBody::HandedIn(ty, _) => match &ty.kind {
+                TypeKind::Path(path, _) => (self.node_type(graph.file, path), None),
+                _ => (None, None),
+            },
+        }
+    }
+
+    /// The name of a graph, state machine or node.
+    pub fn name_of(&self, node: NodeType) -> &'a str {
+        match node {
+            NodeType::Graph(id) => &self.texts.graph(id).name.text,
+            NodeType::Machine(id) => &self.machine(id).name.text,
+            NodeType::Rust(id) => &self.catalog.signatures[id].name,
+        }
+    }
+
+    /// The documentation of a graph, state machine or node.
+    pub fn docs_of(&self, node: NodeType) -> &'a str {
+        match node {
+            NodeType::Graph(id) => &self.texts.graph(id).docs,
+            NodeType::Machine(id) => &self.machine(id).docs,
+            NodeType::Rust(id) => &self.catalog.signatures[id].docs,
+        }
+    }
+
+    /// The ports of a graph, state machine or node, without those that every node has.
+    pub fn ports(&self, node: NodeType) -> Vec<PortFacts> {
+        match node {
+            NodeType::Graph(id) => {
+                let item = self.texts.graph(id);
+                self.declared_ports(node, id.file, &item.ports, &generics(item))
+            }
+            NodeType::Machine(id) => self.declared_ports(node, id.file, &self.machine(id).ports, &[]),
+            NodeType::Rust(id) => {
+                let ports = self.catalog.signatures[id].ports.iter().enumerate();
+                let facts = ports.map(|(i, p)| PortFacts {
+                    name: p.name.clone(),
+                    kind: p.kind,
+                    ty: p.ty.clone(),
+                    rate: p.rate,
+                    optional: p.optional && p.kind == PortKind::Input,
+                    docs: p.docs.clone(),
+                    definition: Definition::Port(node, i),
+                });
+                facts.collect()
+            }
+        }
+    }
+
+    fn declared_ports(&self, node: NodeType, file: usize, ports: &[PortItem], generics: &[String]) -> Vec<PortFacts> {
+        let ty = |port: &PortItem| match &port.ty {
+            Some(ty) => self.catalog.type_in_text(&self.texts.ty(file, ty), generics),
+            None => Type::unit(),
+        };
+        let facts = ports.iter().enumerate().map(|(i, port)| PortFacts {
+            name: port.name.text.clone(),
+            kind: port.kind,
+            ty: ty(port),
+            rate: 1,
+            optional: false,
+            docs: port.docs.clone(),
+            definition: Definition::Port(node, i),
+        });
+        facts.collect()
+    }
+
+    /// The parameters of a graph or node.
+    pub fn params(&self, node: NodeType) -> Vec<ParamFacts> {
+        match node {
+            NodeType::Machine(_) => vec![],
+            NodeType::Rust(id) => {
+                let params = self.catalog.signatures[id].params.iter().enumerate();
+                params.map(|(i, p)| rust_param(p, Definition::Param(node, i))).collect()
+            }
+            NodeType::Graph(id) => {
+                let text = |expr: &Expr| self.sources.text(expr.span).to_owned();
+                let params = self.texts.graph(id).params.iter().enumerate();
+                let facts = params.map(|(i, p)| {
+                    let dots = |inclusive| if inclusive { "..=" } else { ".." };
+                    let range = p.range.as_ref();
+                    let ty = self.sources.text(p.ty.span).to_owned();
+                    ParamFacts {
+                        name: p.name.text.clone(),
+                        unit: p.unit.as_ref().map(|u| u.text.clone()).or_else(|| unit_of(&ty)),
+                        ty,
+                        default: p.default.as_ref().map(text),
+                        range: range.map(|r| format!("{}{}{}", text(&r.low), dots(r.inclusive), text(&r.high))),
+                        docs: p.docs.clone(),
+                        definition: Definition::Param(node, i),
+                    }
+                });
+                facts.collect()
+            }
+        }
+    }
+
+    /// All states of a machine, outer ones before those inside.
+    pub fn states(&self, id: MachineId) -> Vec<&'a StateItem> {
+        let mut open: Vec<&StateItem> = self.machine(id).states.iter().rev().collect();
+        let mut all = vec![];
+        while let Some(state) = open.pop() {
+            all.push(state);
+            open.extend(state.states.iter().rev());
+        }
+        all
+    }
+
+    /// Where a definition stands.
+    pub fn origin(&self, definition: Definition) -> Option<Origin> {
+        if let Some(name) = self.declared_name(definition) {
+            return Some(Origin::Text(name.span));
+        }
+        match definition {
+            Definition::Text(file) => Some(Origin::Text(Span::new(self.texts.file_id(file), 0, 0))),
+            Definition::Node(NodeType::Rust(id))
+            | Definition::Param(NodeType::Rust(id), _)
+            | Definition::Port(NodeType::Rust(id), _) => {
+                let signature = &self.catalog.signatures[id];
+                Some(Origin::Rust(signature.file.clone(), signature.line))
+            }
+            Definition::Type(def) => {
+                let (file, line) = self.catalog.place(def);
+                Some(Origin::Rust(file, line))
+            }
+            _ => None,
+        }
+    }
+
+    /// The name in the declaration of something that a text declares.
+    pub fn declared_name(&self, definition: Definition) -> Option<&'a Ident> {
+        let texts = self.texts;
+        match definition {
+            Definition::Node(NodeType::Graph(id)) => Some(&texts.graph(id).name),
+            Definition::Node(NodeType::Machine(id)) => Some(&self.machine(id).name),
+            Definition::Generic(id, i) => Some(&texts.graph(id).generics[i]),
+            Definition::Param(NodeType::Graph(id), i) => Some(&texts.graph(id).params[i].name),
+            Definition::Port(NodeType::Graph(id), i) => Some(&texts.graph(id).ports[i].name),
+            Definition::Port(NodeType::Machine(id), i) => Some(&self.machine(id).ports[i].name),
+            Definition::Instance(id, i) => Some(&texts.graph(id).nodes[i].name),
+            Definition::State(id, i) => Some(&self.states(id)[i].name),
+            Definition::Test(file, i) => Some(&texts.files[file].1.tests[i].name),
+            _ => None,
+        }
+    }
+}
+
+/// The names of the type parameters of a graph.
+pub fn generics(item: &GraphItem) -> Vec<String> {
+    item.generics.iter().map(|g| g.text.clone()).collect()
+}
+
+fn rust_param(param: &ParamSig, definition: Definition) -> ParamFacts {
+    let ty = param.ty.to_string();
+    let default = match &param.default {
+        Some(DefaultValue::Literal(Literal::Number(value, _))) => Some(value.to_string()),
+        Some(DefaultValue::Literal(Literal::Bool(value))) => Some(value.to_string()),
+        Some(DefaultValue::Literal(Literal::Text(text))) => Some(format!("{text:?}")),
+        Some(DefaultValue::Rust) => Some("…".to_owned()),
+        None => None,
+    };
+    let bound = |bound: Option<f64>| bound.map(|b| b.to_string()).unwrap_or_default();
+    let dots = |inclusive| if inclusive { "..=" } else { ".." };
+    ParamFacts {
+        name: param.name.clone(),
+        unit: param.unit.clone().or_else(|| unit_of(&ty)),
+        ty,
+        default,
+        range: param.range.map(|(low, high, inclusive)| format!("{}{}{}", bound(low), dots(inclusive), bound(high))),
+        docs: param.docs.clone(),
+        definition,
+    }
+}
+
+/// The unit that a type has by itself.
+fn unit_of(ty: &str) -> Option<String> {
+    (ty.rsplit("::").next() == Some("Duration")).then(|| "s".to_owned())
+}

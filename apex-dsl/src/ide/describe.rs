@@ -1,0 +1,177 @@
+//! What hover and completion say, as Markdown.
+
+use super::{Definition, NodeType, ParamFacts, PortFacts, View, lex::tokens_before};
+use crate::{
+    graph::{Flow, Standard},
+    resolve::Link,
+    source::Span,
+    syntax::{
+        tree::PortKind,
+        words::{Place, WORDS, Word, words_at},
+    },
+};
+
+/// What a name means: its declaration, then its documentation.
+pub fn describe(view: &View<'_>, definition: Definition) -> String {
+    match definition {
+        Definition::Node(node) => page(&signature(view, node), view.docs_of(node)),
+        Definition::Instance(id, i) => {
+            let item = &view.texts.graph(id).nodes[i];
+            let made = view.made_of(id, i).0;
+            let declaration = made.map_or_else(String::new, |made| signature(view, made));
+            let docs = match made {
+                Some(made) if item.docs.is_empty() => view.docs_of(made),
+                _ => &item.docs,
+            };
+            page(&format!("node {}\n{declaration}", item.name.text), docs)
+        }
+        Definition::Param(node, i) => {
+            let params = view.params(node);
+            page(&param(&params[i]), &format!("{}\n\nParameter of `{}`.", params[i].docs, view.name_of(node)))
+        }
+        Definition::Port(node, i) => {
+            let ports = view.ports(node);
+            let optional = if ports[i].optional { " It may stay open." } else { "" };
+            let kind = kind_in_words(ports[i].kind);
+            page(&port(&ports[i]), &format!("{}\n\n{kind} of `{}`.{optional}", ports[i].docs, view.name_of(node)))
+        }
+        Definition::Standard(standard) => {
+            let declaration = format!("{} {}: {}", word_of(standard.kind()), standard.name(), standard.ty());
+            page(&declaration, &format!("{}\n\nEvery node has this port.", standard_docs(standard)))
+        }
+        Definition::State(id, i) => {
+            let state = view.states(id)[i];
+            page(&format!("state {}", state.name.text), &state.docs)
+        }
+        Definition::Test(file, i) => {
+            let test = &view.texts.files[file].1.tests[i];
+            page(&format!("test {}: {}", test.name.text, test.graph.text()), &test.docs)
+        }
+        Definition::Text(file) => page("", &view.texts.files[file].1.docs),
+        Definition::Generic(id, i) => page(
+            &view.texts.graph(id).generics[i].text,
+            "A type that the connections decide, or that is written where the graph is used.",
+        ),
+        Definition::Own(name) => page(name, words_at(Place::Node).find(|w| w.text == name).map_or("", |w| w.docs)),
+        Definition::Type(def) => page(&format!("type {}", view.catalog.name(def)), ""),
+    }
+}
+
+/// How tokens travel along an arrow.
+pub fn describe_link(view: &View<'_>, link: &Link) -> String {
+    let end = |side: &crate::resolve::Side| {
+        let written = view.sources.text(side.span).split('(').next().unwrap_or_default().to_owned();
+        let is_named = written == side.port || written.ends_with(&format!(".{}", side.port));
+        if is_named { written } else { format!("{written}.{}", side.port) }
+    };
+    let what = match (link.flow(), link.from.kind) {
+        (Flow::Synchronous, _) => "one token per iteration, a value or ⊥",
+        (Flow::ToSlot, PortKind::Output) => "one call for each value; ⊥ calls nothing",
+        (Flow::ToSlot, _) => "one call for each token, in the order in which the tokens were sent",
+        (Flow::ToInput, _) => "each token makes what is behind the input run once",
+    };
+    let activity = if link.active { "; lets activity pass" } else { "" };
+    let arrow = if link.active { "=>" } else { "->" };
+    let declaration = format!("{} {arrow} {}", end(&link.from), end(&link.to));
+    let types = format!("`{}` → `{}`", link.from.ty, link.to.ty);
+    page(&declaration, &format!("{}: {what}{activity}\n\n{types}", flow_word(link)))
+}
+
+/// What the word of the language at `offset` of `text` does; `None` if there is none.
+pub fn describe_word(view: &View<'_>, text: &str, offset: usize) -> Option<String> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let start = text.get(..offset)?.rfind(|c| !is_part(c)).map_or(0, |i| i + 1);
+    let end = text[offset..].find(|c| !is_part(c)).map_or(text.len(), |i| offset + i);
+    let word = text.get(start..end)?;
+    tokens_before(text, start)?;
+    let tree = &view.texts.files[0].1;
+    let around = |s: Span| s.start as usize <= offset && offset <= s.end as usize;
+    let place = match () {
+        () if tree.machines.iter().any(|m| around(m.extent)) => Place::Machine,
+        () if tree.tests.iter().any(|t| around(t.extent)) => Place::Test,
+        () => Place::Graph,
+    };
+    let is_word = |w: &&Word| w.text == word;
+    let found = words_at(place).find(is_word).or_else(|| WORDS.iter().find(is_word))?;
+    Some(page(word, found.docs))
+}
+
+/// The word for how tokens travel: between synchronous ports, between asynchronous ones, or from one to the other.
+pub fn flow_word(link: &Link) -> &'static str {
+    match (link.from.kind.is_synchronous(), link.to.kind.is_synchronous()) {
+        (true, true) => "synchronous",
+        (false, false) => "asynchronous",
+        _ => "hybrid",
+    }
+}
+
+/// A declaration and what is said about it.
+fn page(declaration: &str, docs: &str) -> String {
+    let code =
+        if declaration.is_empty() { String::new() } else { format!("```afg\n{}\n```\n\n", declaration.trim_end()) };
+    format!("{code}{}", docs.trim()).trim_end().to_owned()
+}
+
+/// A graph, state machine or node with its parameters and ports, as a text would declare it.
+fn signature(view: &View<'_>, node: NodeType) -> String {
+    let word = match node {
+        NodeType::Graph(id) if view.texts.graph(id).robot => "robot",
+        NodeType::Graph(_) => "graph",
+        NodeType::Machine(_) => "fsm",
+        NodeType::Rust(_) => "node",
+    };
+    let params: Vec<String> = view.params(node).iter().map(param).collect();
+    let params = match params.as_slice() {
+        [] => String::new(),
+        [one] => format!("({one})"),
+        several => format!("(\n    {},\n)", several.join(",\n    ")),
+    };
+    let ports: String = view.ports(node).iter().map(|p| format!("    {}\n", port(p))).collect();
+    format!("{word} {}{params}\n{ports}", view.name_of(node))
+}
+
+/// `gap: f32[m] = 0.15 in 0..=1`
+pub fn param(param: &ParamFacts) -> String {
+    let unit = param.unit.as_ref().map(|u| format!("[{u}]")).unwrap_or_default();
+    let default = param.default.as_ref().map(|d| format!(" = {d}")).unwrap_or_default();
+    let range = param.range.as_ref().map(|r| format!(" in {r}")).unwrap_or_default();
+    format!("{}: {}{unit}{default}{range}", param.name, param.ty)
+}
+
+/// `in  scan: Scan`
+pub fn port(port: &PortFacts) -> String {
+    let ty = if port.rate > 1 { format!("[{}; {}]", port.ty, port.rate) } else { port.ty.to_string() };
+    format!("{:5} {}: {ty}", word_of(port.kind), port.name)
+}
+
+fn word_of(kind: PortKind) -> &'static str {
+    match kind {
+        PortKind::Input => "in",
+        PortKind::Output => "out",
+        PortKind::Slot => "slot",
+        PortKind::Event => "event",
+    }
+}
+
+fn kind_in_words(kind: PortKind) -> &'static str {
+    match kind {
+        PortKind::Input => "Input",
+        PortKind::Output => "Output",
+        PortKind::Slot => "Slot",
+        PortKind::Event => "Event",
+    }
+}
+
+/// What a port that every node has is for.
+pub fn standard_docs(standard: Standard) -> &'static str {
+    match standard {
+        Standard::Enable => "The node takes part again; also a place for activity at a node without slots.",
+        Standard::Disable => "The node takes its tokens and sends ⊥; its slots but `enable` swallow theirs.",
+        Standard::Activated => "Its activity came.",
+        Standard::Deactivated => "Its activity went.",
+        Standard::Processed => "`process` was called; not if it was skipped because of ⊥.",
+        Standard::Failed => "`process` or a slot failed; the token says why.",
+        Standard::Timeout => "It has been active for as long as its modifier `timeout` says.",
+        Standard::Late => "It took a token that was older than its `deadline`.",
+    }
+}

@@ -1,0 +1,362 @@
+//! Where names stand, and what they mean: what hover, navigation and rename are answered from.
+
+use super::{Definition, MachineId, NodeType, View};
+use crate::{
+    graph::Standard,
+    resolve::{GraphId, Meaning},
+    source::Span,
+    syntax::{
+        tree::{
+            Action, Arg, Endpoint, Expr, ExprKind, File, FsmItem, GraphItem, Ident, Instance, Modifier, ModifierKind,
+            NodeBody, PathExpr, PortRef, StateItem, TestItem, TestStep, TypeExpr, TypeKind, Use,
+        },
+        words::{Place, words_at},
+    },
+};
+use std::collections::BTreeMap;
+
+/// A name in a text.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Occurrence {
+    /// Its place.
+    pub span: Span,
+    /// What it means.
+    pub definition: Definition,
+    /// Whether it is declared here.
+    pub declares: bool,
+}
+
+/// The name at `offset` of the first text; between two, the one behind.
+pub fn at(occurrences: &[Occurrence], view: &View<'_>, offset: usize) -> Option<Occurrence> {
+    let root = view.texts.file_id(0);
+    let touches = |s: Span| s.file == root && s.start as usize <= offset && offset <= s.end as usize;
+    occurrences.iter().filter(|o| touches(o.span)).max_by_key(|o| o.span.start).cloned()
+}
+
+/// All names in all texts that mean something, in the order of the texts.
+pub fn occurrences(view: &View<'_>) -> Vec<Occurrence> {
+    let mut names = BTreeMap::new();
+    for (file, (_, tree)) in view.texts.files.iter().enumerate() {
+        for (graph, item) in tree.graphs.iter().enumerate() {
+            let id = GraphId { file, graph };
+            names.insert(id, names_in(id, item));
+        }
+    }
+    let mut found = vec![];
+    for (file, (_, tree)) in view.texts.files.iter().enumerate() {
+        let mut walker = Walker { view: *view, file, names: &names, found: &mut found };
+        walker.file(tree);
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
+type Names<'a> = BTreeMap<&'a str, Definition>;
+
+/// The ports and nodes of a graph.
+fn names_in(id: GraphId, item: &GraphItem) -> Names<'_> {
+    let mut names = BTreeMap::new();
+    for (i, port) in item.ports.iter().enumerate() {
+        names.entry(port.name.text.as_str()).or_insert(Definition::Port(NodeType::Graph(id), i));
+    }
+    for (i, node) in item.nodes.iter().enumerate() {
+        names.entry(node.name.text.as_str()).or_insert(Definition::Instance(id, i));
+    }
+    names
+}
+
+struct Walker<'a, 'b> {
+    view: View<'a>,
+    file: usize,
+    names: &'b BTreeMap<GraphId, Names<'a>>,
+    found: &'b mut Vec<Occurrence>,
+}
+
+impl<'a> Walker<'a, '_> {
+    fn declared(&mut self, name: &Ident, definition: Definition) {
+        self.found.push(Occurrence { span: name.span, definition, declares: true });
+    }
+
+    fn used(&mut self, name: &Ident, definition: Definition) {
+        self.found.push(Occurrence { span: name.span, definition, declares: false });
+    }
+
+    fn file(&mut self, tree: &'a File) {
+        tree.uses.iter().for_each(|u| self.import(u));
+        for (graph, item) in tree.graphs.iter().enumerate() {
+            self.graph(GraphId { file: self.file, graph }, item);
+        }
+        for (machine, item) in tree.machines.iter().enumerate() {
+            self.machine(MachineId { file: self.file, machine }, item);
+        }
+        for (i, item) in tree.tests.iter().enumerate() {
+            self.declared(&item.name, Definition::Test(self.file, i));
+            self.test(item);
+        }
+    }
+
+    fn import(&mut self, item: &Use) {
+        let Some(last) = item.path.last() else { return };
+        let meant = match self.view.texts.names(self.file).get(&item.name.text) {
+            Some(Meaning::Graph(id)) => Some((Definition::Node(NodeType::Graph(*id)), Some(id.file))),
+            Some(Meaning::Machine(signature)) => match self.view.of_signature(*signature) {
+                NodeType::Machine(id) => Some((Definition::Node(NodeType::Machine(id)), Some(id.file))),
+                _ => None,
+            },
+            Some(Meaning::Rust(path)) => self.in_rust(path).map(|definition| (definition, None)),
+            None => None,
+        };
+        let Some((definition, text)) = meant else { return };
+        self.used(last, definition);
+        if item.name.span != last.span {
+            self.used(&item.name, definition);
+        }
+        if let (Some(text), [first, _]) = (text, item.path.as_slice()) {
+            self.used(first, Definition::Text(text));
+        }
+    }
+
+    /// A node or type in Rust.
+    fn in_rust(&self, path: &[String]) -> Option<Definition> {
+        match self.view.catalog.nodes(path).as_slice() {
+            [node, ..] => Some(Definition::Node(NodeType::Rust(*node))),
+            [] => self.view.catalog.types(path).first().map(|def| Definition::Type(*def)),
+        }
+    }
+
+    fn graph(&mut self, id: GraphId, item: &'a GraphItem) {
+        let this = NodeType::Graph(id);
+        self.declared(&item.name, Definition::Node(this));
+        for (i, name) in item.generics.iter().enumerate() {
+            self.declared(name, Definition::Generic(id, i));
+        }
+        for (i, param) in item.params.iter().enumerate() {
+            self.declared(&param.name, Definition::Param(this, i));
+            self.ty(Some(id), &param.ty);
+            let range = param.range.iter().flat_map(|r| [&r.low, &r.high]);
+            param.default.iter().chain(range).for_each(|expr| self.expr(Some(id), expr));
+        }
+        for (i, port) in item.ports.iter().enumerate() {
+            self.declared(&port.name, Definition::Port(this, i));
+            port.ty.iter().for_each(|ty| self.ty(Some(id), ty));
+        }
+        for (i, node) in item.nodes.iter().enumerate() {
+            self.declared(&node.name, Definition::Instance(id, i));
+            match &node.body {
+                NodeBody::Instance(instance) => self.instance(Some(id), instance),
+                NodeBody::HandedIn(ty, modifiers) => {
+                    let made = self.view.made_of(id, i).0;
+                    self.handed_in(id, ty, made);
+                    self.modifiers(Some(id), made, modifiers);
+                }
+            }
+        }
+        item.chains.iter().flat_map(|c| &c.ends).for_each(|end| self.endpoint(id, end));
+        item.claims.iter().flat_map(|c| &c.of).for_each(|of| self.reference(id, of));
+    }
+
+    fn handed_in(&mut self, id: GraphId, ty: &TypeExpr, made: Option<NodeType>) {
+        match (&ty.kind, made) {
+            (TypeKind::Path(path, args), Some(made)) => {
+                path.segments.last().iter().for_each(|name| self.used(name, Definition::Node(made)));
+                args.iter().for_each(|ty| self.ty(Some(id), ty));
+            }
+            _ => self.ty(Some(id), ty),
+        }
+    }
+
+    fn endpoint(&mut self, id: GraphId, end: &Endpoint) {
+        match end {
+            Endpoint::Port(reference) => self.reference(id, reference),
+            Endpoint::Instance(instance) => self.instance(Some(id), instance),
+            Endpoint::List(ends, _) => ends.iter().for_each(|end| self.endpoint(id, end)),
+        }
+    }
+
+    /// A node or port of a graph; a test also names what is inside of nested graphs.
+    fn reference(&mut self, graph: GraphId, reference: &PortRef) {
+        let mut graph = graph;
+        let mut parts = reference.parts.as_slice();
+        while let [first, rest @ ..] = parts {
+            let Some(definition) = self.names[&graph].get(first.text.as_str()).copied() else {
+                let own = words_at(Place::Node).find(|w| w.text == first.text);
+                return own.iter().for_each(|w| self.used(first, Definition::Own(w.text)));
+            };
+            self.used(first, definition);
+            let (Definition::Instance(id, node), [port, ..]) = (definition, rest) else { return };
+            let made = self.view.made_of(id, node).0;
+            if let Some(definition) = made.and_then(|made| self.port(made, &port.text)) {
+                return self.used(port, definition);
+            }
+            let Some(NodeType::Graph(inside)) = made else { return };
+            (graph, parts) = (inside, rest);
+        }
+    }
+
+    /// The port of this name; a parameter can be one too.
+    fn port(&self, node: NodeType, name: &str) -> Option<Definition> {
+        let ports = self.view.ports(node).into_iter().filter(|p| p.name == name).map(|p| p.definition).next();
+        let is_library = !matches!(node, NodeType::Graph(_));
+        let param = || is_library.then(|| self.param(node, name)).flatten();
+        let standard = || Standard::ALL.into_iter().find(|s| is_library && s.name() == name).map(Definition::Standard);
+        ports.or_else(param).or_else(standard)
+    }
+
+    fn param(&self, node: NodeType, name: &str) -> Option<Definition> {
+        self.view.params(node).into_iter().find(|p| p.name == name).map(|p| p.definition)
+    }
+
+    fn instance(&mut self, around: Option<GraphId>, instance: &Instance) {
+        let made = self.view.node_type(self.file, &instance.path);
+        if let (Some(made), Some(name)) = (made, instance.path.segments.last()) {
+            self.used(name, Definition::Node(made));
+        }
+        instance.types.iter().for_each(|ty| self.ty(around, ty));
+        self.args(around, made, &instance.args);
+        self.modifiers(around, made, &instance.modifiers);
+    }
+
+    fn args(&mut self, around: Option<GraphId>, made: Option<NodeType>, args: &[Arg]) {
+        for arg in args {
+            self.expr(around, &arg.value);
+            let param = arg.name.as_ref().zip(made).and_then(|(name, made)| self.param(made, &name.text));
+            if let (Some(name), Some(param)) = (&arg.name, param) {
+                self.used(name, param);
+            }
+        }
+    }
+
+    fn modifiers(&mut self, around: Option<GraphId>, made: Option<NodeType>, modifiers: &[Modifier]) {
+        for modifier in modifiers {
+            match &modifier.kind {
+                ModifierKind::Every(e)
+                | ModifierKind::After(e)
+                | ModifierKind::Timeout(e)
+                | ModifierKind::Deadline(e) => {
+                    self.expr(around, e);
+                }
+                ModifierKind::Delay(values) => values.iter().for_each(|e| self.expr(around, e)),
+                ModifierKind::Each { port: Some(port), .. } => {
+                    let definition = made.and_then(|made| self.port(made, &port.text));
+                    definition.iter().for_each(|d| self.used(port, *d));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn expr(&mut self, around: Option<GraphId>, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Path(path) => self.value(around, path),
+            ExprKind::List(items) => items.iter().for_each(|e| self.expr(around, e)),
+            ExprKind::Unary(_, e) => self.expr(around, e),
+            ExprKind::Binary(_, a, b) => {
+                self.expr(around, a);
+                self.expr(around, b);
+            }
+            ExprKind::Number(..) | ExprKind::Text(_) | ExprKind::Bool(_) => {}
+        }
+    }
+
+    /// A parameter of the graph around.
+    fn value(&mut self, around: Option<GraphId>, path: &PathExpr) {
+        let (Some(id), [name]) = (around, path.segments.as_slice()) else { return };
+        let param = self.view.texts.graph(id).params.iter().position(|p| p.name.text == name.text);
+        param.iter().for_each(|i| self.used(name, Definition::Param(NodeType::Graph(id), *i)));
+    }
+
+    fn ty(&mut self, around: Option<GraphId>, ty: &TypeExpr) {
+        match &ty.kind {
+            TypeKind::Path(path, args) => {
+                args.iter().for_each(|ty| self.ty(around, ty));
+                let Some(last) = path.segments.last() else { return };
+                let generics = around.map_or(&[][..], |id| self.view.texts.graph(id).generics.as_slice());
+                let generic = generics.iter().position(|g| g.text == last.text);
+                if let (Some(id), Some(i), [_]) = (around, generic, path.segments.as_slice()) {
+                    return self.used(last, Definition::Generic(id, i));
+                }
+                let full = self.view.texts.full_path(self.file, path);
+                let definition = self.view.catalog.types(&full).first().map(|def| Definition::Type(*def));
+                definition.iter().for_each(|d| self.used(last, *d));
+            }
+            TypeKind::Array(element, _) => self.ty(around, element),
+            TypeKind::Tuple(parts) => parts.iter().for_each(|ty| self.ty(around, ty)),
+            TypeKind::Const(_) => {}
+        }
+    }
+
+    fn machine(&mut self, id: MachineId, item: &FsmItem) {
+        self.declared(&item.name, Definition::Node(NodeType::Machine(id)));
+        for (i, port) in item.ports.iter().enumerate() {
+            self.declared(&port.name, Definition::Port(NodeType::Machine(id), i));
+            port.ty.iter().for_each(|ty| self.ty(None, ty));
+        }
+        for (i, state) in self.view.states(id).into_iter().enumerate() {
+            self.declared(&state.name, Definition::State(id, i));
+            self.state(id, item, state);
+        }
+    }
+
+    fn state(&mut self, id: MachineId, item: &FsmItem, state: &StateItem) {
+        let states = self.view.states(id);
+        for transition in &state.transitions {
+            self.machine_port(id, item, &transition.slot);
+            let target = transition.target.as_ref();
+            let found = target.and_then(|name| states.iter().position(|s| s.name.text == name.text));
+            if let (Some(name), Some(i)) = (target, found) {
+                self.used(name, Definition::State(id, i));
+            }
+        }
+        let actions = state.transitions.iter().flat_map(|t| &t.actions);
+        let actions: Vec<&Action> = actions.chain(&state.entry).chain(&state.exit).collect();
+        actions.iter().for_each(|action| self.machine_port(id, item, &action.event));
+        // In a guard and in the value of an action, the name of the slot is the token.
+        for transition in &state.transitions {
+            let values = transition.actions.iter().filter_map(|a| a.value.as_ref());
+            transition.guard.iter().chain(values).for_each(|e| self.token(id, item, e));
+        }
+    }
+
+    fn token(&mut self, id: MachineId, item: &FsmItem, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Path(path) => {
+                if let [name] = path.segments.as_slice() {
+                    self.machine_port(id, item, name);
+                }
+            }
+            ExprKind::Unary(_, e) => self.token(id, item, e),
+            ExprKind::Binary(_, a, b) => {
+                self.token(id, item, a);
+                self.token(id, item, b);
+            }
+            _ => {}
+        }
+    }
+
+    fn machine_port(&mut self, id: MachineId, item: &FsmItem, name: &Ident) {
+        let port = item.ports.iter().position(|p| p.name.text == name.text);
+        port.iter().for_each(|i| self.used(name, Definition::Port(NodeType::Machine(id), *i)));
+    }
+
+    fn test(&mut self, item: &TestItem) {
+        let made = self.view.node_type(self.file, &item.graph);
+        if let (Some(made), Some(name)) = (made, item.graph.segments.last()) {
+            self.used(name, Definition::Node(made));
+        }
+        self.args(None, made, &item.args);
+        item.replaced.iter().for_each(|(_, instance)| self.instance(None, instance));
+        let Some(NodeType::Graph(id)) = made else { return };
+        item.replaced.iter().for_each(|(of, _)| self.reference(id, of));
+        for step in &item.steps {
+            match step {
+                TestStep::Feed(port, ..) => {
+                    let definition = self.names[&id].get(port.text.as_str()).copied();
+                    definition.iter().for_each(|d| self.used(port, *d));
+                }
+                TestStep::Expect(condition, _) | TestStep::Never(condition) => self.reference(id, &condition.of),
+                TestStep::Wait(_) => {}
+            }
+        }
+    }
+}

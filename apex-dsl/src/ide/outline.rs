@@ -1,0 +1,91 @@
+//! What a text declares, as a tree.
+
+use super::View;
+use crate::{
+    source::Span,
+    syntax::tree::{FsmItem, GraphItem, Ident, NodeBody, StateItem},
+};
+
+/// Something that a text declares.
+pub struct Symbol {
+    /// Its name.
+    pub name: String,
+    /// What is shown behind the name.
+    pub detail: String,
+    /// What it is.
+    pub kind: SymbolKind,
+    /// The name in the text.
+    pub name_span: Span,
+    /// All of it.
+    pub extent: Span,
+    /// What it holds.
+    pub children: Vec<Symbol>,
+}
+
+/// What a symbol is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SymbolKind {
+    /// A graph or robot.
+    Graph,
+    /// A state machine.
+    Machine,
+    /// A state.
+    State,
+    /// A test.
+    Test,
+    /// A parameter.
+    Param,
+    /// An input, output, slot or event.
+    Port,
+    /// A node with a name.
+    Node,
+}
+
+/// What the first text declares, in its order.
+pub fn outline(view: &View<'_>) -> Vec<Symbol> {
+    let tree = &view.texts.files[0].1;
+    let graphs = tree.graphs.iter().map(|g| graph(view, g));
+    let machines = tree.machines.iter().map(|m| machine(view, m));
+    let tests = tree
+        .tests
+        .iter()
+        .map(|t| Symbol { extent: t.extent, ..symbol(&t.name, t.graph.text(), SymbolKind::Test, t.extent) });
+    let mut symbols: Vec<Symbol> = graphs.chain(machines).chain(tests).collect();
+    symbols.sort_by_key(|s| s.extent);
+    symbols
+}
+
+fn symbol(name: &Ident, detail: impl Into<String>, kind: SymbolKind, end: Span) -> Symbol {
+    let (name, name_span) = (name.text.clone(), name.span);
+    Symbol { name, detail: detail.into(), kind, name_span, extent: name_span.to(end), children: vec![] }
+}
+
+fn graph(view: &View<'_>, item: &GraphItem) -> Symbol {
+    let text = |span: Span| view.sources.text(span).to_owned();
+    let params = item.params.iter().map(|p| symbol(&p.name, text(p.ty.span), SymbolKind::Param, p.ty.span));
+    let ports = item.ports.iter().map(|p| {
+        let (ty, end) = p.ty.as_ref().map_or((String::new(), p.name.span), |ty| (text(ty.span), ty.span));
+        symbol(&p.name, format!("{} {ty}", p.kind.word()).trim_end(), SymbolKind::Port, end)
+    });
+    let nodes = item.nodes.iter().map(|n| match &n.body {
+        NodeBody::Instance(instance) => symbol(&n.name, instance.path.text(), SymbolKind::Node, instance.span),
+        NodeBody::HandedIn(ty, _) => symbol(&n.name, text(ty.span), SymbolKind::Node, ty.span),
+    });
+    let children = params.chain(ports).chain(nodes).collect();
+    let word = if item.robot { "robot" } else { "graph" };
+    Symbol { children, extent: item.extent, ..symbol(&item.name, word, SymbolKind::Graph, item.extent) }
+}
+
+fn machine(view: &View<'_>, item: &FsmItem) -> Symbol {
+    let ports = item.ports.iter().map(|p| {
+        let (ty, end) = p.ty.as_ref().map_or(("", p.name.span), |ty| (view.sources.text(ty.span), ty.span));
+        symbol(&p.name, format!("{} {ty}", p.kind.word()).trim_end(), SymbolKind::Port, end)
+    });
+    let children = ports.chain(item.states.iter().map(state)).collect();
+    Symbol { children, extent: item.extent, ..symbol(&item.name, "fsm", SymbolKind::Machine, item.extent) }
+}
+
+fn state(item: &StateItem) -> Symbol {
+    let children = item.states.iter().map(state).collect();
+    Symbol { children, extent: item.extent, ..symbol(&item.name, "", SymbolKind::State, item.extent) }
+}

@@ -1,0 +1,109 @@
+//! Whether something can have another name.
+
+use super::{Definition, NodeType, Occurrence, View};
+use crate::{
+    source::Span,
+    syntax::{
+        tree::{Ident, PathExpr},
+        words::{self, Place, words_at},
+    },
+};
+
+/// The places of these texts where `name` has to be written if `definition` is to have that name.
+///
+/// # Errors
+/// Says why it cannot.
+pub fn rename(
+    view: &View<'_>,
+    occurrences: &[Occurrence],
+    definition: Definition,
+    name: &str,
+) -> Result<Vec<Span>, String> {
+    let old = may_rename(view, definition)?;
+    check_name(definition, name)?;
+    let uses: Vec<Span> = occurrences.iter().filter(|o| o.definition == definition).map(|o| o.span).collect();
+    check_clash(view, &uses, definition, name)?;
+    // What an import calls by a name of its own keeps that.
+    Ok(uses.into_iter().filter(|span| view.sources.text(*span) == old.text).collect())
+}
+
+/// The name that would be changed.
+///
+/// # Errors
+/// Says why it cannot be.
+pub fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ident, String> {
+    view.declared_name(definition).ok_or_else(|| match definition {
+        Definition::Own(name) => format!("every graph knows `{name}`; it cannot have another name"),
+        Definition::Standard(port) => format!("every node has a port `{}`; it cannot have another name", port.name()),
+        Definition::Text(_) => "this is the name of a file; rename the file".to_owned(),
+        _ => "this is declared in Rust; rename it there".to_owned(),
+    })
+}
+
+fn check_name(definition: Definition, name: &str) -> Result<(), String> {
+    if words::RESERVED.contains(&name) {
+        return Err(format!("`{name}` is a word of the language"));
+    }
+    if !words::is_name(name) {
+        return Err(format!("`{name}` is no name: a name has letters, digits and `_`, and begins with no digit"));
+    }
+    let stands_in_graph = matches!(definition, Definition::Instance(..) | Definition::Port(NodeType::Graph(_), _));
+    if stands_in_graph && words_at(Place::Node).any(|w| w.text == name) {
+        return Err(format!("every graph knows `{name}`, which would be hidden"));
+    }
+    Ok(())
+}
+
+fn check_clash(view: &View<'_>, uses: &[Span], definition: Definition, name: &str) -> Result<(), String> {
+    let has = |mut names: &mut dyn Iterator<Item = &Ident>| Iterator::any(&mut names, |n| n.text == name);
+    let texts = view.texts;
+    match definition {
+        Definition::Instance(id, _) | Definition::Port(NodeType::Graph(id), _) => {
+            let item = texts.graph(id);
+            let mut names = item.ports.iter().map(|p| &p.name).chain(item.nodes.iter().map(|n| &n.name));
+            clash(has(&mut names), format!("`{}` has a port or node `{name}` already", item.name.text))
+        }
+        Definition::Param(NodeType::Graph(id), _) => {
+            let item = texts.graph(id);
+            clash(
+                has(&mut item.params.iter().map(|p| &p.name)),
+                format!("`{}` has a parameter `{name}` already", item.name.text),
+            )
+        }
+        Definition::Generic(id, _) => {
+            let item = texts.graph(id);
+            clash(has(&mut item.generics.iter()), format!("`{}` has a type parameter `{name}` already", item.name.text))
+        }
+        Definition::Port(NodeType::Machine(id), _) => {
+            let item = view.machine(id);
+            clash(
+                has(&mut item.ports.iter().map(|p| &p.name)),
+                format!("`{}` has a port `{name}` already", item.name.text),
+            )
+        }
+        Definition::State(id, _) => {
+            let mut names = view.states(id).into_iter().map(|s| &s.name);
+            clash(has(&mut names), format!("`{}` has a state `{name}` already", view.machine(id).name.text))
+        }
+        Definition::Test(file, _) => clash(
+            has(&mut texts.files[file].1.tests.iter().map(|t| &t.name)),
+            format!("there is a test `{name}` already"),
+        ),
+        Definition::Node(_) => uses.iter().try_for_each(|at| item_clash(view, *at, name)),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a graph or state machine that is used at `at` would be taken for something else there.
+fn item_clash(view: &View<'_>, at: Span, name: &str) -> Result<(), String> {
+    let Some(file) = view.texts.files.iter().position(|(id, _)| *id == at.file) else { return Ok(()) };
+    let path = view.sources.get(at.file).path.display().to_string();
+    clash(view.texts.names(file).contains_key(name), format!("`{name}` has a meaning in {path} already"))?;
+    let word = Ident { text: name.to_owned(), span: at };
+    let path = PathExpr { segments: vec![word], span: at };
+    clash(view.node_type(file, &path).is_some(), format!("there is a node `{name}` already, which would be hidden"))
+}
+
+fn clash(clashes: bool, reason: String) -> Result<(), String> {
+    if clashes { Err(reason) } else { Ok(()) }
+}

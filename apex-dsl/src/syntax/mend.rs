@@ -1,0 +1,216 @@
+//! Half-written text, for editors: makes of it one that can be parsed, in which everything else keeps its place.
+
+use super::lexical::{self, MAX_BYTES, MAX_DEPTH};
+use crate::{report::Diagnostics, source::FileId};
+
+/// The words that begin an item.
+const ITEMS: [&str; 5] = ["use", "graph", "robot", "fsm", "test"];
+
+/// What can be parsed instead of a `text` whose brackets, strings, comments or characters are wrong; `None` if they
+/// are not. What is wrong becomes blank, and items that are not closed are closed: the bytes before the end stay where they
+/// are, so that a place in the one text is the same place in the other.
+pub fn mended(text: &str) -> Option<String> {
+    let is_fine = lexical::scan(FileId(0), text, &mut Diagnostics::default()).is_some();
+    if is_fine || text.len() > MAX_BYTES {
+        return None;
+    }
+    let mut mender = Mender { text, bytes: text.as_bytes().to_vec(), at: 0, open: vec![], angles: 0, solid: 0 };
+    mender.run();
+    String::from_utf8(mender.bytes).ok()
+}
+
+struct Mender<'a> {
+    text: &'a str,
+    bytes: Vec<u8>,
+    at: usize,
+    /// The brackets that are open, with their places.
+    open: Vec<(u8, usize)>,
+    /// How many `<` are open.
+    angles: usize,
+    /// Behind the last word or sign.
+    solid: usize,
+}
+
+impl Mender<'_> {
+    fn run(&mut self) {
+        while let Some(&byte) = self.bytes.get(self.at) {
+            let start = self.at;
+            match byte {
+                b' ' | b'\t' | b'\r' | b'\n' => {
+                    self.at += 1;
+                    continue;
+                }
+                b'/' if self.rest().starts_with("//") => {
+                    self.at = self.end_of_line();
+                    continue;
+                }
+                b'/' if self.rest().starts_with("/*") => self.block_comment(),
+                b'"' => self.string(),
+                b'(' | b'[' | b'{' => self.opening(byte),
+                b')' | b']' | b'}' => self.closing(byte),
+                b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' | b'_' => self.word(),
+                b'-' | b'=' if self.bytes.get(start + 1) == Some(&b'>') => self.at += 2,
+                b'<' if self.angles >= MAX_DEPTH => self.blank(1),
+                b'<' => {
+                    self.angles += 1;
+                    self.at += 1;
+                }
+                b'>' => {
+                    self.angles = self.angles.saturating_sub(1);
+                    self.at += 1;
+                }
+                b';' => {
+                    self.angles = 0;
+                    self.drop_until_brace();
+                    self.at += 1;
+                }
+                b',' | b':' | b'.' | b'=' | b'-' | b'+' | b'*' | b'/' | b'%' | b'!' | b'&' | b'|' | b'^' => {
+                    self.at += 1
+                }
+                _ => self.blank(self.rest().chars().next().map_or(1, char::len_utf8)),
+            }
+            self.solid = self.at;
+        }
+        self.drop_until_brace();
+        while let Some((bracket, at)) = self.open.pop() {
+            match bracket {
+                b'{' => self.bytes.extend(self.closer(at)),
+                _ => self.bytes[at] = b' ',
+            }
+        }
+    }
+
+    fn rest(&self) -> &str {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
+    fn end_of_line(&self) -> usize {
+        self.rest().find('\n').map_or(self.text.len(), |n| self.at + n)
+    }
+
+    /// Makes the next `count` bytes blank.
+    fn blank(&mut self, count: usize) {
+        self.bytes[self.at..self.at + count].fill(b' ');
+        self.at += count;
+    }
+
+    fn block_comment(&mut self) {
+        let (mut depth, mut at) = (0, self.at);
+        while at < self.text.len() {
+            let rest = &self.bytes[at..];
+            match () {
+                () if rest.starts_with(b"/*") && depth == MAX_DEPTH => break,
+                () if rest.starts_with(b"/*") => (depth, at) = (depth + 1, at + 2),
+                () if rest.starts_with(b"*/") => (depth, at) = (depth - 1, at + 2),
+                () => at += 1,
+            }
+            if depth == 0 {
+                self.at = at;
+                return;
+            }
+        }
+        self.blank(2);
+    }
+
+    /// A string that does not end with its line is taken for one that is being written.
+    fn string(&mut self) {
+        let line = &self.bytes[self.at + 1..self.end_of_line()];
+        let (mut escaped, mut length) = (false, None);
+        for (i, byte) in line.iter().enumerate() {
+            if *byte == b'"' && !escaped {
+                length = Some(i);
+                break;
+            }
+            escaped = *byte == b'\\' && !escaped;
+        }
+        match length {
+            Some(length) => self.at += length + 2,
+            None => self.blank(1),
+        }
+    }
+
+    fn opening(&mut self, byte: u8) {
+        if self.open.len() >= MAX_DEPTH {
+            return self.blank(1);
+        }
+        self.open.push((byte, self.at));
+        self.at += 1;
+    }
+
+    /// What is open inside of the partner was never closed; without a partner, the bracket closes nothing.
+    fn closing(&mut self, byte: u8) {
+        let partner = match byte {
+            b')' => b'(',
+            b']' => b'[',
+            _ => b'{',
+        };
+        let is_partner = |(open, _): &(u8, usize)| *open == partner;
+        let found = self.open.iter().rposition(is_partner);
+        let Some(found) = found.filter(|f| byte == b'}' || self.open[*f..].iter().all(|(open, _)| *open != b'{'))
+        else {
+            return self.blank(1);
+        };
+        for (_, at) in self.open.split_off(found).into_iter().skip(1) {
+            self.bytes[at] = b' ';
+        }
+        self.at += 1;
+    }
+
+    /// A statement ends: what is open in it was never closed.
+    fn drop_until_brace(&mut self) {
+        while let Some((bracket, at)) = self.open.pop() {
+            if bracket == b'{' {
+                return self.open.push((bracket, at));
+            }
+            self.bytes[at] = b' ';
+        }
+    }
+
+    fn word(&mut self) {
+        let rest = self.rest();
+        let length = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let begins_line = self.at == 0 || self.text.as_bytes()[self.at - 1] == b'\n';
+        let named = rest[length..].trim_start().starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        if begins_line && named && ITEMS.contains(&&rest[..length]) {
+            self.close_items();
+        }
+        self.at += length;
+    }
+
+    /// An item begins where another one is open: closes that in the blanks before, as far as there is room.
+    fn close_items(&mut self) {
+        while let Some((bracket, at)) = self.open.pop() {
+            let closer = self.closer(at);
+            let room = self.bytes[self.solid..].iter().take_while(|b| b.is_ascii_whitespace()).count();
+            if bracket == b'{' && self.solid + closer.len() <= self.at && closer.len() <= room {
+                self.bytes[self.solid..self.solid + closer.len()].copy_from_slice(closer);
+                self.solid += closer.len();
+            } else {
+                self.bytes[at] = b' ';
+            }
+        }
+    }
+
+    /// What closes the brace at `at`: that of an import is followed by a semicolon.
+    fn closer(&self, at: usize) -> &'static [u8] {
+        if self.text[..at].trim_end().ends_with("::") { b"};" } else { b"}" }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_keeps_its_place() {
+        assert_eq!(mended("graph A { }"), None);
+        assert_eq!(mended("graph A {").as_deref(), Some("graph A {}"));
+        assert_eq!(mended("use a::{b, c").as_deref(), Some("use a::{b, c};"));
+        assert_eq!(mended("graph A { x -> B(; }").as_deref(), Some("graph A { x -> B ; }"));
+        assert_eq!(mended("graph A { x -> B[(1]; ) }").as_deref(), Some("graph A { x -> B[ 1];   }"));
+        assert_eq!(mended("graph A { ü }").as_deref(), Some("graph A {    }"));
+        assert_eq!(mended("graph A {\n\nrobot B { }").as_deref(), Some("graph A {}\nrobot B { }"));
+        assert_eq!(mended("graph A { x = \"a\\\"; }\n}").as_deref(), Some("graph A { x =  a  ; }\n "));
+        assert_eq!(mended("/* graph").as_deref(), Some("   graph"));
+    }
+}

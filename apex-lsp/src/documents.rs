@@ -1,0 +1,34 @@
+//! The texts that are open in the editor.
+
+use crate::position::{Encoding, Lines};
+use lsp_types::{TextDocumentContentChangeEvent, Uri};
+use std::sync::Arc;
+
+/// An open text.
+pub struct Document {
+    /// Its address as the editor writes it.
+    pub uri: Uri,
+    /// Its number, which grows with every change.
+    pub version: i32,
+    /// What it says now.
+    pub text: Arc<str>,
+}
+
+impl Document {
+    /// Does what the editor did.
+    pub fn change(&mut self, version: i32, changes: &[TextDocumentContentChangeEvent], encoding: Encoding) {
+        let mut text = self.text.to_string();
+        for change in changes {
+            match change.range {
+                None => text.clone_from(&change.text),
+                Some(range) => {
+                    let lines = Lines::new(&text, encoding);
+                    let (start, end) = (lines.offset(&text, range.start), lines.offset(&text, range.end));
+                    text.replace_range(start..end.max(start), &change.text);
+                }
+            }
+        }
+        self.version = version;
+        self.text = text.into();
+    }
+}

@@ -1,0 +1,60 @@
+//! What is wrong.
+
+use super::Ready;
+use apex_dsl::report::{Diagnostic as Found, Severity};
+use lsp_types::{Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, NumberOrString, Range};
+
+/// The messages about a text. One about a text that it imports stands at the import.
+pub fn diagnostics(ready: &Ready<'_>) -> Vec<Diagnostic> {
+    let package = ready.project.failure.iter().map(|reason| Diagnostic {
+        severity: Some(DiagnosticSeverity::ERROR),
+        source: Some("apex".to_owned()),
+        message: format!("the nodes of the package are not known: {reason}"),
+        ..Diagnostic::default()
+    });
+    package.chain(ready.analysis.diagnostics.iter().map(|found| diagnostic(ready, found))).collect()
+}
+
+/// A message as the protocol wants it.
+pub fn diagnostic(ready: &Ready<'_>, found: &Found) -> Diagnostic {
+    let label = |span, text: &str| {
+        let location = ready.analysis.location(span)?;
+        Some(DiagnosticRelatedInformation { location, message: text.to_owned() })
+    };
+    let mut related: Vec<_> = found.secondary.iter().filter_map(|l| label(l.span, &l.text)).collect();
+    let mut message = found.message.clone();
+    if !ready.analysis.is_own(found.primary.span) {
+        related.extend(label(found.primary.span, "here"));
+        message = format!("{}: {message}", ready.analysis.path(found.primary.span).display());
+    }
+    let label = (!found.primary.text.is_empty()).then_some(&found.primary.text);
+    for line in label.into_iter().chain(&found.notes) {
+        message.push('\n');
+        message.push_str(line);
+    }
+    Diagnostic {
+        range: range(ready, found),
+        severity: Some(match found.severity {
+            Severity::Error => DiagnosticSeverity::ERROR,
+            Severity::Warning => DiagnosticSeverity::WARNING,
+        }),
+        code: Some(NumberOrString::String(found.code.to_owned())),
+        source: Some("apex".to_owned()),
+        message,
+        related_information: (!related.is_empty()).then_some(related),
+        ..Diagnostic::default()
+    }
+}
+
+/// Where a message stands.
+fn range(ready: &Ready<'_>, found: &Found) -> Range {
+    let span = found.primary.span;
+    if ready.analysis.is_own(span) {
+        return ready.analysis.range(span);
+    }
+    let path = ready.analysis.path(span);
+    let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
+    let uses = &ready.view().texts.files[0].1.uses;
+    let import = uses.iter().filter_map(|u| u.path.first()).find(|first| first.text == stem);
+    import.map_or_else(Range::default, |first| ready.analysis.range(first.span))
+}

@@ -1,0 +1,41 @@
+//! The kinds of connections, shown in the text.
+
+use super::Ready;
+use apex_dsl::ide;
+use lsp_types::{InlayHint, InlayHintKind, InlayHintLabel, InlayHintTooltip, MarkupContent, MarkupKind, Range};
+use std::collections::BTreeMap;
+
+/// The kind of each connection in `range`, behind its arrow; those of a list that differ stand side by side.
+pub fn hints(ready: &Ready<'_>, range: Range) -> Vec<InlayHint> {
+    let view = ready.view();
+    let (start, end) = (ready.offset(range.start) as u32, ready.offset(range.end) as u32);
+    let shown = view.links.iter().filter(|l| l.arrow.start >= start && l.arrow.end <= end);
+    let mut arrows = BTreeMap::<_, Vec<_>>::new();
+    shown.for_each(|link| arrows.entry(link.arrow).or_default().push(link));
+    let hint = |(arrow, links): (apex_dsl::source::Span, Vec<&apex_dsl::resolve::Link>)| {
+        let mut words: Vec<&str> = links.iter().map(|l| word(ide::flow_word(l))).collect();
+        words.dedup();
+        let pages: Vec<String> = links.iter().map(|l| ide::describe_link(&view, l)).collect();
+        let value = pages.join("\n\n---\n\n");
+        InlayHint {
+            position: ready.analysis.range(arrow).end,
+            label: InlayHintLabel::String(words.join("/")),
+            kind: Some(InlayHintKind::TYPE),
+            text_edits: None,
+            tooltip: Some(InlayHintTooltip::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value })),
+            padding_left: Some(true),
+            padding_right: Some(false),
+            data: None,
+        }
+    };
+    arrows.into_iter().map(hint).collect()
+}
+
+/// A short word, because it stands at every arrow.
+fn word(flow: &str) -> &str {
+    match flow {
+        "synchronous" => "sync",
+        "asynchronous" => "event",
+        other => other,
+    }
+}

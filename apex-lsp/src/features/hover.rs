@@ -1,0 +1,29 @@
+//! What stands here.
+
+use super::Ready;
+use apex_dsl::ide;
+use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
+
+/// What a name, an arrow or a word means.
+pub fn hover(ready: &Ready<'_>, position: Position) -> Option<Hover> {
+    let (view, offset) = (ready.view(), ready.offset(position));
+    let (value, range) = match ready.occurrence(position) {
+        Some(found) => (ide::describe(&view, found.definition), Some(ready.analysis.range(found.span))),
+        None => match arrow(ready, offset) {
+            Some((value, range)) => (value, Some(range)),
+            None => (ide::describe_word(&view, &ready.analysis.text, offset)?, None),
+        },
+    };
+    let contents = HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value });
+    (!matches!(&contents, HoverContents::Markup(m) if m.value.is_empty())).then_some(Hover { contents, range })
+}
+
+/// The connections of the arrow at `offset`.
+fn arrow(ready: &Ready<'_>, offset: usize) -> Option<(String, lsp_types::Range)> {
+    let view = ready.view();
+    let here = |s: apex_dsl::source::Span| s.start as usize <= offset && offset <= s.end as usize;
+    let links: Vec<_> = view.links.iter().filter(|l| here(l.arrow)).collect();
+    let first = links.first()?;
+    let pages: Vec<String> = links.iter().map(|l| ide::describe_link(&view, l)).collect();
+    Some((pages.join("\n\n---\n\n"), ready.analysis.range(first.arrow)))
+}

@@ -1,0 +1,27 @@
+//! Other names for things.
+
+use super::{
+    Ready,
+    references::{Target, uses},
+};
+use apex_dsl::ide;
+use lsp_types::{Position, PrepareRenameResponse, TextEdit};
+
+/// The name at a position, if it can be changed.
+pub fn prepare(ready: &Ready<'_>, position: Position) -> Result<PrepareRenameResponse, String> {
+    let found = ready.occurrence(position).ok_or("there is no name here")?;
+    let view = ready.view();
+    let name = ide::may_rename(&view, found.definition)?.text.clone();
+    if view.sources.text(found.span) != name {
+        return Err(format!("this is what the text calls `{name}`; rename that, or change the import"));
+    }
+    Ok(PrepareRenameResponse::RangeWithPlaceholder { range: ready.analysis.range(found.span), placeholder: name })
+}
+
+/// The changes of one text that give the target another name.
+pub fn edits(ready: &Ready<'_>, wanted: &Target, name: &str) -> Result<Vec<TextEdit>, String> {
+    let Some(definition) = uses(ready, wanted).first().map(|o| o.definition) else { return Ok(vec![]) };
+    let spans = ide::rename(&ready.view(), &ready.analysis.occurrences, definition, name)?;
+    let own = spans.into_iter().filter(|span| ready.analysis.is_own(*span));
+    Ok(own.map(|span| TextEdit::new(ready.analysis.range(span), name.to_owned())).collect())
+}

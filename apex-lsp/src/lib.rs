@@ -1,0 +1,14 @@
+//! The language server: what editors ask about `.afg` texts, over the Language Server Protocol.
+//!
+//! Everything that knows the language is in `apex_dsl::ide`; here is the protocol, one module per feature.
+
+mod analysis;
+mod capabilities;
+mod documents;
+mod features;
+mod position;
+mod project;
+mod server;
+mod uri;
+
+pub use server::{serve, stdio};

@@ -1,0 +1,71 @@
+//! The package that a text belongs to, with the nodes it can use.
+
+use crate::documents::Document;
+use apex_dsl::{
+    catalog::{Catalog, Crates, Item},
+    source::World,
+};
+use apex_host::{Disk, Seen, Workspace};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// A package.
+pub struct Project {
+    /// Files of nodes are named by their path in this folder.
+    pub root: PathBuf,
+    /// The nodes.
+    pub catalog: Catalog,
+    /// The file system, as far as it was read.
+    pub disk: Disk,
+    /// Why its nodes are not known.
+    pub failure: Option<String>,
+}
+
+impl Project {
+    /// Reads the package in `folder`; without one there are no nodes.
+    pub fn load(folder: Option<&Path>) -> Self {
+        let (workspace, failure) = match folder.map(Workspace::load).transpose() {
+            Ok(workspace) => (workspace, None),
+            Err(reason) => (None, Some(reason)),
+        };
+        let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
+        let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
+        let root = crates.root.clone();
+        let catalog = Catalog::load(crates, &mut disk);
+        disk.save();
+        Self { root, catalog, disk, failure }
+    }
+}
+
+/// The folder of the package that a file belongs to.
+pub fn package_of(file: &Path) -> Option<PathBuf> {
+    file.ancestors().skip(1).find(|folder| folder.join("Cargo.toml").is_file()).map(Path::to_owned)
+}
+
+/// The file system with the open texts in front of it.
+pub struct Overlay<'a> {
+    /// The file system.
+    pub disk: &'a mut Disk,
+    /// The open texts.
+    pub open: &'a BTreeMap<PathBuf, Document>,
+}
+
+impl World for Overlay<'_> {
+    fn read(&mut self, path: &Path) -> Result<Arc<str>, String> {
+        match self.open.get(path) {
+            Some(document) => Ok(document.text.clone()),
+            None => self.disk.read(path),
+        }
+    }
+
+    fn exists(&mut self, path: &Path) -> bool {
+        self.open.contains_key(path) || self.disk.exists(path)
+    }
+
+    fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
+        self.disk.items(path)
+    }
+}

@@ -1,0 +1,430 @@
+//! The server: takes messages, keeps the open texts, answers.
+
+use crate::{
+    analysis::Analysis,
+    capabilities::{Client, capabilities},
+    documents::Document,
+    features::{
+        Ready, actions, completion, definition, diagnostics, formatting, hints, hover,
+        references::{self, Target},
+        rename, symbols,
+    },
+    project::{Overlay, Project, package_of},
+    uri,
+};
+use apex_dsl::source::World as _;
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response};
+use lsp_types::{
+    CompletionParams, CompletionResponse, DidChangeTextDocumentParams, DidChangeWatchedFilesParams,
+    DidChangeWatchedFilesRegistrationOptions, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
+    DidSaveTextDocumentParams, DocumentSymbolResponse, FileSystemWatcher, GlobPattern, GotoDefinitionResponse,
+    InitializeParams, InitializeResult, PublishDiagnosticsParams, ReferenceParams, Registration, RegistrationParams,
+    RenameParams, ServerInfo, TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
+    notification::{self, Notification as _},
+    request::{self, Request as _},
+};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+/// How long nothing has to be written before what is wrong is said.
+const QUIET: Duration = Duration::from_millis(5);
+
+/// Serves an editor on standard input and output until it leaves; whether it did so in good order.
+///
+/// # Errors
+/// Says what the editor sent that is no message.
+pub fn stdio() -> Result<bool, String> {
+    let (connection, threads) = Connection::stdio();
+    let orderly = serve(&connection);
+    drop(connection);
+    threads.join().map_err(|e| format!("the messages of the editor cannot be read: {e}"))?;
+    Ok(orderly)
+}
+
+/// Serves an editor until it leaves. `false` if it says `exit` without `shutdown` before.
+pub fn serve(connection: &Connection) -> bool {
+    let Some(client) = initialize(connection) else { return true };
+    let mut server = Server {
+        connection,
+        client,
+        open: BTreeMap::new(),
+        projects: BTreeMap::new(),
+        analyses: BTreeMap::new(),
+        unsaid: BTreeMap::new(),
+        is_shut_down: false,
+    };
+    server.watch_files();
+    server.run()
+}
+
+/// Greets the client; `None` if it leaves.
+fn initialize(connection: &Connection) -> Option<Client> {
+    while let Ok(message) = connection.receiver.recv() {
+        let answer = match message {
+            Message::Request(Request { id, method, params }) if method == request::Initialize::METHOD => {
+                let params: InitializeParams = serde_json::from_value(params).unwrap_or_default();
+                let client = Client::new(&params.capabilities);
+                let info = ServerInfo { name: "apex".to_owned(), version: Some(env!("CARGO_PKG_VERSION").to_owned()) };
+                let result = InitializeResult { capabilities: capabilities(client.encoding), server_info: Some(info) };
+                connection.sender.send(Response::new_ok(id, result).into()).ok()?;
+                return Some(client);
+            }
+            Message::Request(request) => {
+                let message = "the first request is `initialize`".to_owned();
+                Response::new_err(request.id, ErrorCode::ServerNotInitialized as i32, message)
+            }
+            Message::Notification(n) if n.method == notification::Exit::METHOD => return None,
+            _ => continue,
+        };
+        connection.sender.send(answer.into()).ok()?;
+    }
+    None
+}
+
+struct Server<'c> {
+    connection: &'c Connection,
+    client: Client,
+    open: BTreeMap<PathBuf, Document>,
+    /// The packages by folder, and what texts outside of all of them see.
+    projects: BTreeMap<Option<PathBuf>, Project>,
+    analyses: BTreeMap<PathBuf, Analysis>,
+    /// The texts of which the client does not know what is wrong, and whether to look thoroughly.
+    unsaid: BTreeMap<PathBuf, bool>,
+    is_shut_down: bool,
+}
+
+type Answer<T> = Result<T, String>;
+
+impl Server<'_> {
+    fn run(&mut self) -> bool {
+        loop {
+            // What is wrong is said when nothing else is to be done.
+            let message = if self.unsaid.is_empty() {
+                self.connection.receiver.recv().map_err(|_| true)
+            } else {
+                self.connection.receiver.recv_timeout(QUIET).map_err(|e| e.is_disconnected())
+            };
+            match message {
+                Ok(Message::Notification(n)) if n.method == notification::Exit::METHOD => return self.is_shut_down,
+                Ok(message) => self.guarded(|server| server.take(message)),
+                Err(true) => return true,
+                Err(false) => self.guarded(Self::say_what_is_wrong),
+            }
+        }
+    }
+
+    /// An error in the server must not take the editor's session with it: what is known is made anew.
+    fn guarded(&mut self, step: impl FnOnce(&mut Self)) {
+        if catch_unwind(AssertUnwindSafe(|| step(self))).is_err() {
+            self.projects.clear();
+            self.analyses.clear();
+            self.unsaid.clear();
+        }
+    }
+
+    fn take(&mut self, message: Message) {
+        match message {
+            Message::Request(request) => {
+                let id = request.id.clone();
+                let answer = catch_unwind(AssertUnwindSafe(|| self.request(request)));
+                let answer = answer.unwrap_or_else(|_| {
+                    self.projects.clear();
+                    self.analyses.clear();
+                    Response::new_err(
+                        id,
+                        ErrorCode::InternalError as i32,
+                        "the server failed; please report this".to_owned(),
+                    )
+                });
+                self.send(answer.into());
+            }
+            Message::Notification(notification) => self.notification(notification),
+            Message::Response(_) => {}
+        }
+    }
+
+    /// A client that has gone away is noticed where messages are received.
+    fn send(&self, message: Message) {
+        let _ = self.connection.sender.send(message);
+    }
+
+    fn request(&mut self, request: Request) -> Response {
+        let Request { id, method, params } = request;
+        match method.as_str() {
+            request::Shutdown::METHOD => {
+                self.is_shut_down = true;
+                Response::new_ok(id, ())
+            }
+            request::Completion::METHOD => answer(id, params, |p| self.completion(&p)),
+            request::HoverRequest::METHOD => answer(id, params, |p: lsp_types::HoverParams| {
+                let at = p.text_document_position_params;
+                Ok(self.ready(&at.text_document.uri).and_then(|r| hover::hover(&r, at.position)))
+            }),
+            request::GotoDefinition::METHOD => answer(id, params, |p: lsp_types::GotoDefinitionParams| {
+                let at = p.text_document_position_params;
+                let found = self.ready(&at.text_document.uri).and_then(|r| definition::definition(&r, at.position));
+                Ok(found.map(GotoDefinitionResponse::Scalar))
+            }),
+            request::References::METHOD => answer(id, params, |p| Ok(self.references(&p))),
+            request::DocumentHighlightRequest::METHOD => answer(id, params, |p: lsp_types::DocumentHighlightParams| {
+                let at = p.text_document_position_params;
+                Ok(self.ready(&at.text_document.uri).map(|r| references::highlights(&r, at.position)))
+            }),
+            request::PrepareRenameRequest::METHOD => answer(id, params, |p: TextDocumentPositionParams| {
+                self.ready(&p.text_document.uri).map(|r| rename::prepare(&r, p.position)).transpose()
+            }),
+            request::Rename::METHOD => answer(id, params, |p| self.rename(&p)),
+            request::InlayHintRequest::METHOD => answer(id, params, |p: lsp_types::InlayHintParams| {
+                Ok(self.ready(&p.text_document.uri).map(|r| hints::hints(&r, p.range)))
+            }),
+            request::DocumentSymbolRequest::METHOD => answer(id, params, |p: lsp_types::DocumentSymbolParams| {
+                let found = self.ready(&p.text_document.uri).map(|r| symbols::symbols(&r));
+                Ok(found.map(DocumentSymbolResponse::Nested))
+            }),
+            request::Formatting::METHOD => answer(id, params, |p: lsp_types::DocumentFormattingParams| {
+                Ok(self.ready(&p.text_document.uri).map(|r| formatting::formatting(&r)))
+            }),
+            request::CodeActionRequest::METHOD => answer(id, params, |p: lsp_types::CodeActionParams| {
+                Ok(self.ready(&p.text_document.uri).map(|r| actions::actions(&r, p.range)))
+            }),
+            _ => Response::new_err(id, ErrorCode::MethodNotFound as i32, format!("`{method}` is not supported")),
+        }
+    }
+
+    fn notification(&mut self, notification: Notification) {
+        let Notification { method, params } = notification;
+        match method.as_str() {
+            notification::DidOpenTextDocument::METHOD => with(params, |p| self.opened(p)),
+            notification::DidChangeTextDocument::METHOD => with(params, |p| self.changed(p)),
+            notification::DidSaveTextDocument::METHOD => {
+                with(params, |p: DidSaveTextDocumentParams| self.saved(&uri::to_path(&p.text_document.uri)));
+            }
+            notification::DidCloseTextDocument::METHOD => with(params, |p| self.closed(&p)),
+            notification::DidChangeWatchedFiles::METHOD => with(params, |p| self.files_changed(&p)),
+            _ => {}
+        }
+    }
+
+    // What the editor tells
+
+    fn opened(&mut self, params: DidOpenTextDocumentParams) {
+        let item = params.text_document;
+        let path = uri::to_path(&item.uri);
+        self.open.insert(path.clone(), Document { uri: item.uri, version: item.version, text: item.text.into() });
+        self.text_changed(&path, true);
+    }
+
+    fn changed(&mut self, params: DidChangeTextDocumentParams) {
+        let path = uri::to_path(&params.text_document.uri);
+        let Some(document) = self.open.get_mut(&path) else { return };
+        document.change(params.text_document.version, &params.content_changes, self.client.encoding);
+        self.text_changed(&path, false);
+    }
+
+    /// Nodes may have been saved too, and not every client watches files.
+    fn saved(&mut self, path: &Path) {
+        if self.client.watches {
+            self.text_changed(path, true);
+        } else {
+            self.nodes_changed();
+        }
+    }
+
+    fn closed(&mut self, params: &DidCloseTextDocumentParams) {
+        let path = uri::to_path(&params.text_document.uri);
+        if let Some(document) = self.open.remove(&path) {
+            self.publish(document.uri, None, vec![]);
+        }
+        self.text_changed(&path, false);
+        self.unsaid.remove(&path);
+    }
+
+    fn files_changed(&mut self, params: &DidChangeWatchedFilesParams) {
+        let paths: Vec<PathBuf> = params.changes.iter().map(|c| uri::to_path(&c.uri)).collect();
+        let is_text = |p: &PathBuf| p.extension().is_some_and(|e| e == "afg");
+        if paths.iter().any(|p| !is_text(p)) {
+            self.nodes_changed();
+        } else if paths.iter().any(|p| !self.open.contains_key(p)) {
+            // A new text may be one that another wants to import.
+            self.analyses.clear();
+            self.unsaid.extend(self.open.keys().map(|p| (p.clone(), true)));
+        }
+    }
+
+    /// What was known of the nodes holds no longer.
+    fn nodes_changed(&mut self) {
+        self.projects.clear();
+        self.analyses.clear();
+        self.unsaid.extend(self.open.keys().map(|p| (p.clone(), true)));
+    }
+
+    /// What was known of a text, and of those that import it, holds no longer.
+    fn text_changed(&mut self, path: &Path, thorough: bool) {
+        self.analyses.retain(|_, analysis| !analysis.reads(path));
+        let gone = self.open.keys().filter(|p| !self.analyses.contains_key(*p));
+        for open in gone.cloned().collect::<Vec<_>>() {
+            *self.unsaid.entry(open).or_default() |= thorough;
+        }
+    }
+
+    // What the server tells
+
+    fn watch_files(&self) {
+        if !self.client.watches {
+            return;
+        }
+        let watcher = |glob: &str| FileSystemWatcher { glob_pattern: GlobPattern::String(glob.to_owned()), kind: None };
+        let watchers = ["**/*.rs", "**/*.afg", "**/Cargo.toml", "**/Cargo.lock"].map(watcher).to_vec();
+        let options = DidChangeWatchedFilesRegistrationOptions { watchers };
+        let registration = Registration {
+            id: "files".to_owned(),
+            method: notification::DidChangeWatchedFiles::METHOD.to_owned(),
+            register_options: serde_json::to_value(options).ok(),
+        };
+        self.ask::<request::RegisterCapability>(RegistrationParams { registrations: vec![registration] });
+    }
+
+    /// Asks the client for something; what it answers makes no difference.
+    fn ask<R: request::Request>(&self, params: R::Params) {
+        let id = RequestId::from(R::METHOD.to_owned());
+        self.send(Request::new(id, R::METHOD.to_owned(), params).into());
+    }
+
+    fn say_what_is_wrong(&mut self) {
+        for (path, thorough) in std::mem::take(&mut self.unsaid) {
+            let Some(document) = self.open.get(&path) else { continue };
+            let (uri, version) = (document.uri.clone(), document.version);
+            if thorough {
+                self.analyses.remove(&path);
+            }
+            let found = self.analysed(&path, thorough).map(|ready| diagnostics::diagnostics(&ready));
+            self.publish(uri, Some(version), found.unwrap_or_default());
+        }
+        if self.client.refreshes_hints {
+            self.ask::<request::InlayHintRefreshRequest>(());
+        }
+    }
+
+    fn publish(&self, uri: Uri, version: Option<i32>, diagnostics: Vec<lsp_types::Diagnostic>) {
+        let params = PublishDiagnosticsParams::new(uri, diagnostics, version);
+        self.send(Notification::new(notification::PublishDiagnostics::METHOD.to_owned(), params).into());
+    }
+
+    // What is known
+
+    /// What is known of an open text.
+    fn ready(&mut self, uri: &Uri) -> Option<Ready<'_>> {
+        let path = uri::to_path(uri);
+        self.open.contains_key(&path).then(|| self.analysed(&path, false)).flatten()
+    }
+
+    /// What is known of a text, open or not.
+    fn analysed(&mut self, path: &Path, thorough: bool) -> Option<Ready<'_>> {
+        let folder = package_of(path);
+        if !self.projects.contains_key(&folder) {
+            self.projects.insert(folder.clone(), Project::load(folder.as_deref()));
+        }
+        let project = self.projects.get_mut(&folder)?;
+        if !self.analyses.contains_key(path) {
+            let mut world = Overlay { disk: &mut project.disk, open: &self.open };
+            let text = world.read(path).ok()?;
+            let parts = (&mut project.catalog, &mut world as &mut _);
+            let analysis = Analysis::new(path, &text, parts, self.client.encoding, thorough);
+            self.analyses.insert(path.to_owned(), analysis);
+        }
+        Some(Ready { analysis: &self.analyses[path], project: &self.projects[&folder] })
+    }
+
+    // Questions about more than one text
+
+    fn completion(&mut self, params: &CompletionParams) -> Answer<Option<CompletionResponse>> {
+        let at = &params.text_document_position;
+        let path = uri::to_path(&at.text_document.uri);
+        let snippets = self.client.snippets;
+        let trigger = params.context.as_ref().and_then(|c| c.trigger_character.as_deref());
+        if self
+            .ready(&at.text_document.uri)
+            .is_none_or(|r| trigger == Some(" ") && completion::is_indent(&r, at.position))
+        {
+            return Ok(None);
+        }
+        let beside = self.beside(&path);
+        let open = &self.open;
+        let siblings = || completion::siblings(&beside, open);
+        let folder = package_of(&path);
+        let ready = Ready { analysis: &self.analyses[&path], project: &self.projects[&folder] };
+        Ok(Some(CompletionResponse::Array(completion::completion(&ready, at.position, snippets, &siblings))))
+    }
+
+    /// The texts in the folder of a text, itself left out: only they can import it.
+    fn beside(&self, path: &Path) -> BTreeSet<PathBuf> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+        let open = self.open.keys().filter(|p| p.parent() == Some(folder)).cloned();
+        entries.chain(open).filter(|p| p != path && p.extension().is_some_and(|e| e == "afg")).collect()
+    }
+
+    /// The texts that may use the target: the one at `path`, the one that declares it and those beside that.
+    fn concerned(&self, path: &Path, wanted: &Target) -> BTreeSet<PathBuf> {
+        let declaring = match wanted {
+            Target::Text(declaring, _) => declaring.clone(),
+            Target::Rust(_) => path.to_owned(),
+        };
+        let beside = self.beside(&declaring);
+        beside.into_iter().chain([path.to_owned(), declaring]).collect()
+    }
+
+    fn references(&mut self, params: &ReferenceParams) -> Option<Vec<lsp_types::Location>> {
+        let at = &params.text_document_position;
+        let wanted = references::target_at(&self.ready(&at.text_document.uri)?, at.position)?;
+        let mut found = vec![];
+        for path in self.concerned(&uri::to_path(&at.text_document.uri), &wanted) {
+            let Some(ready) = self.analysed(&path, false) else { continue };
+            found.extend(references::references(&ready, &wanted, params.context.include_declaration));
+        }
+        Some(found)
+    }
+
+    fn rename(&mut self, params: &RenameParams) -> Answer<Option<WorkspaceEdit>> {
+        let at = &params.text_document_position;
+        let Some(ready) = self.ready(&at.text_document.uri) else { return Ok(None) };
+        rename::prepare(&ready, at.position)?;
+        let Some(wanted) = references::target_at(&ready, at.position) else { return Ok(None) };
+        let mut changes: Vec<(Uri, Vec<TextEdit>)> = vec![];
+        for path in self.concerned(&uri::to_path(&at.text_document.uri), &wanted) {
+            let uri = self.open.get(&path).map(|d| d.uri.clone()).or_else(|| uri::from_path(&path));
+            let Some((uri, ready)) = uri.zip(self.analysed(&path, false)) else { continue };
+            let edits = rename::edits(&ready, &wanted, &params.new_name)?;
+            if !edits.is_empty() {
+                changes.push((uri, edits));
+            }
+        }
+        Ok(Some(WorkspaceEdit::new(changes.into_iter().collect())))
+    }
+}
+
+/// Answers a request whose parameters can be read; a reason is said to the user.
+fn answer<P: serde::de::DeserializeOwned, T: serde::Serialize>(
+    id: RequestId,
+    params: serde_json::Value,
+    handle: impl FnOnce(P) -> Answer<T>,
+) -> Response {
+    match serde_json::from_value(params) {
+        Ok(params) => match handle(params) {
+            Ok(result) => Response::new_ok(id, result),
+            Err(reason) => Response::new_err(id, ErrorCode::RequestFailed as i32, reason),
+        },
+        Err(error) => Response::new_err(id, ErrorCode::InvalidParams as i32, error.to_string()),
+    }
+}
+
+/// Takes the parameters of a notification; those that cannot be read are nobody's business.
+fn with<P: serde::de::DeserializeOwned>(params: serde_json::Value, take: impl FnOnce(P)) {
+    if let Ok(params) = serde_json::from_value(params) {
+        take(params);
+    }
+}

@@ -1,0 +1,126 @@
+//! What `editors/` knows of the language is what the compiler knows: words, snippets.
+
+use apex_dsl::{
+    report::Diagnostics,
+    source::FileId,
+    syntax::{
+        self,
+        words::{Place, WORDS, words_at},
+    },
+    units,
+};
+use serde_json::Value;
+use std::{collections::BTreeSet, fs, path::Path};
+
+fn read(path: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../editors").join(path)).unwrap()
+}
+
+fn words(place: Place) -> BTreeSet<&'static str> {
+    words_at(place).map(|w| w.text).collect()
+}
+
+#[test]
+fn words_of_the_textmate_grammar() {
+    let grammar: Value = serde_json::from_str(&read("vscode/syntaxes/afg.tmLanguage.json")).unwrap();
+    for (name, place) in [
+        ("item", Place::Item),
+        ("graph", Place::Graph),
+        ("machine", Place::Machine),
+        ("test", Place::Test),
+        ("modifier", Place::Modifier),
+        ("inside", Place::Inside),
+        ("value", Place::Value),
+        ("node", Place::Node),
+        ("claim", Place::Claim),
+    ] {
+        let pattern = grammar["repository"][format!("words-{name}")]["match"].as_str().unwrap();
+        // The words are the only plain group.
+        let groups = pattern.split('(').skip(1).filter(|group| !group.starts_with('?'));
+        let found: BTreeSet<&str> = groups.flat_map(|group| group.split(')').next().unwrap().split('|')).collect();
+        assert_eq!(found, words(place), "words-{name}");
+        let included = grammar["repository"]["words"]["patterns"].as_array().unwrap();
+        assert!(included.iter().any(|p| p["include"] == format!("#words-{name}").as_str()), "words-{name}");
+    }
+}
+
+#[test]
+fn words_of_the_tree_sitter_grammar() {
+    let grammar: Value = serde_json::from_str(&read("tree-sitter-afg/src/grammar.json")).unwrap();
+    let mut found = BTreeSet::new();
+    collect(&grammar["rules"], &mut found);
+    // These are no words of its own there: a claim and a node are named, a crate is a path.
+    let named = |place| matches!(place, Place::Claim | Place::Node);
+    let wanted = WORDS.iter().filter(|w| !named(w.place) && w.text != "crate").map(|w| w.text.to_owned());
+    let wanted: BTreeSet<String> = wanted.collect();
+    assert_eq!(found, wanted);
+
+    let colours = read("tree-sitter-afg/queries/highlights.scm");
+    for word in wanted.iter().filter(|w| !words(Place::Value).contains(w.as_str())) {
+        assert!(colours.contains(&format!("\"{word}\"")), "`{word}` has no colour");
+    }
+    for word in words(Place::Node) {
+        assert!(colours.contains(&format!("\"{word}\"")), "`{word}` has no colour");
+    }
+}
+
+/// All words that stand for themselves in a grammar.
+fn collect(rule: &Value, found: &mut BTreeSet<String>) {
+    if rule["type"] == "STRING" {
+        let text = rule["value"].as_str().unwrap();
+        if text.chars().all(|c| c.is_ascii_alphabetic()) {
+            found.insert(text.to_owned());
+        }
+    }
+    match rule {
+        Value::Object(parts) => parts.values().for_each(|part| collect(part, found)),
+        Value::Array(parts) => parts.iter().for_each(|part| collect(part, found)),
+        _ => {}
+    }
+}
+
+/// A unit is any word there, so that each of the compiler's is one.
+#[test]
+fn units_are_words() {
+    for unit in units::names() {
+        assert!(unit == "%" || unit.bytes().all(|b| b.is_ascii_alphabetic()), "{unit}");
+    }
+}
+
+/// Every snippet is a text without errors of syntax, as it stands or in what it belongs to.
+#[test]
+fn snippets() {
+    let snippets: Value = serde_json::from_str(&read("vscode/snippets.json")).unwrap();
+    let snippets = snippets.as_object().unwrap();
+    for (name, snippet) in snippets {
+        let body = match &snippet["body"] {
+            Value::Array(lines) => lines.iter().map(|l| l.as_str().unwrap()).collect::<Vec<_>>().join("\n"),
+            line => line.as_str().unwrap().to_owned(),
+        };
+        let text = filled(&body);
+        let around = [text.clone(), format!("graph A {{ {text} }}"), format!("fsm A {{ {text} }}")];
+        assert!(around.iter().any(|text| is_syntax(text)), "{name}: {text}");
+        assert_eq!(snippet["prefix"], name.as_str());
+    }
+    let missing: Vec<&str> =
+        words(Place::Item).into_iter().chain(words(Place::Graph)).filter(|w| !snippets.contains_key(*w)).collect();
+    assert_eq!(missing, Vec::<&str>::new());
+}
+
+fn is_syntax(text: &str) -> bool {
+    let mut diagnostics = Diagnostics::default();
+    syntax::parse(FileId(0), text, &mut diagnostics);
+    !diagnostics.has_errors()
+}
+
+/// A snippet as it is when nothing is changed: `${1:name}` is `name`, and so is every other `$1`.
+fn filled(body: &str) -> String {
+    let mut text = body.to_owned();
+    for number in 0..10 {
+        let open = format!("${{{number}:");
+        let default = text.split_once(&open).map(|(_, rest)| rest.split('}').next().unwrap().to_owned());
+        let default = default.unwrap_or_default();
+        text = text.replace(&format!("{open}{default}}}"), &default).replace(&format!("${number}"), &default);
+    }
+    text
+}

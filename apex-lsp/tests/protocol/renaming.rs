@@ -1,0 +1,151 @@
+//! Other names for things.
+
+use crate::client::{Client, position, unsaved, uri};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const TEXT: &str = "use apex_nodes::scan::{JumpDistance, Scan, Segments};
+graph Find(gap: f32[m] = 15cm) {
+    in  scan: Scan;
+    out segments: Segments;
+    node jump = JumpDistance(gap = gap);
+    scan -> jump.scan;
+    jump -> segments;
+    claim exclusive(jump, jump);
+}
+graph Twice {
+    in   input: Scan;
+    node one = Find();
+    node two = Find(gap = 1m);
+    input -> [one, two.scan];
+}
+fsm Door { slot go; event ring; state shut { on go => open -> ring; } state open { on go => shut; } }
+test finds: Find { expect active(jump); }
+";
+
+/// Renames what the `n`th `word` of a text means.
+fn rename(client: &mut Client, path: &Path, text: &str, (word, n): (&str, usize), name: &str) -> Result<Value, String> {
+    client.open(path, text);
+    let at = text.match_indices(word).nth(n).unwrap().0;
+    client.ask_at(path, position(&text[..at]), "rename", json!({ "newName": name }))
+}
+
+/// A text after the changes to it.
+fn applied(text: &str, path: &Path, edit: &Value) -> String {
+    let mut edits = edit["changes"][uri(path)].as_array().cloned().unwrap_or_default();
+    edits.sort_by_key(|e| {
+        std::cmp::Reverse((e["range"]["start"]["line"].as_u64(), e["range"]["start"]["character"].as_u64()))
+    });
+    let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
+    for edit in edits {
+        let number = |end: &str, key: &str| edit["range"][end][key].as_u64().unwrap() as usize;
+        let line = &mut lines[number("start", "line")];
+        line.replace_range(number("start", "character")..number("end", "character"), edit["newText"].as_str().unwrap());
+    }
+    lines.join("\n")
+}
+
+#[test]
+fn everything_that_a_text_names() {
+    let mut client = Client::start();
+    let path = unsaved("renaming.afg");
+    let all = TEXT;
+    for ((word, n), name, expected) in [
+        (("jump", 1), "split", all.replace("jump", "split")),
+        (("Find", 1), "Search", all.replace("Find", "Search")),
+        (("two", 1), "second", all.replace("two", "second")),
+        (("segments", 1), "parts", all.replace("segments", "parts")),
+        (
+            ("scan: Scan", 0),
+            "view",
+            all.replace("in  scan", "in  view").replace("    scan ->", "    view ->").replace("two.scan", "two.view"),
+        ),
+        (
+            ("gap: f32", 0),
+            "jump_width",
+            all.replace("gap: f32", "jump_width: f32")
+                .replace("= gap)", "= jump_width)")
+                .replace("Find(gap", "Find(jump_width"),
+        ),
+        (("shut", 1), "closed", all.replace("shut", "closed")),
+        (("ring", 1), "bell", all.replace("ring", "bell")),
+        (("finds", 0), "works", all.replace("finds", "works")),
+    ] {
+        let edit = rename(&mut client, &path, TEXT, (word, n), name).unwrap();
+        assert_eq!(applied(TEXT, &path, &edit), expected, "{word} → {name}");
+    }
+    assert!(client.stop());
+}
+
+#[test]
+fn refusals_say_why() {
+    let mut client = Client::start();
+    let path = unsaved("renaming.afg");
+    for ((word, n), name, reason) in [
+        (("jump", 0), "segments", "`Find` has a port or node `segments` already"),
+        (("jump", 0), "node", "`node` is a word of the language"),
+        (("jump", 0), "1st", "`1st` is no name: a name has letters, digits and `_`, and begins with no digit"),
+        (("jump", 0), "größe", "`größe` is no name: a name has letters, digits and `_`, and begins with no digit"),
+        (("jump", 0), "", "`` is no name: a name has letters, digits and `_`, and begins with no digit"),
+        (("jump", 0), "start", "every graph knows `start`, which would be hidden"),
+        (("Find", 0), "ScanLog", "there is a node `ScanLog` already, which would be hidden"),
+        (("shut", 0), "open", "`Door` has a state `open` already"),
+        (("JumpDistance", 1), "Jump", "this is declared in Rust; rename it there"),
+        (("f32", 0), "f64", "there is no name here"),
+    ] {
+        let found = rename(&mut client, &path, TEXT, (word, n), name);
+        assert_eq!(found, Err(reason.to_owned()), "{word} → {name}");
+    }
+    let found = rename(&mut client, &path, TEXT, ("Find", 0), "Twice").unwrap_err();
+    assert!(found.starts_with("`Twice` has a meaning in ") && found.ends_with("renaming.afg already"), "{found}");
+    assert!(client.stop());
+}
+
+#[test]
+fn a_graph_and_the_texts_that_import_it() {
+    let mut client = Client::start();
+    let (inner, outer, other) = (unsaved("re_inner.afg"), unsaved("re_outer.afg"), unsaved("re_other.afg"));
+    let texts = [
+        (&inner, "graph Inner { in x: u8; }\n"),
+        (&outer, "use re_inner::Inner;\ngraph Outer { in x: u8; node i = Inner(); x -> i.x; }\n"),
+        (&other, "use re_inner::Inner as Mine;\ngraph Other { in y: u8; y -> Mine(); }\n"),
+    ];
+    texts.iter().for_each(|(path, text)| client.open(path, text));
+    let edit = rename(&mut client, &inner, texts[0].1, ("Inner", 0), "Core").unwrap();
+    assert_eq!(applied(texts[0].1, &inner, &edit), "graph Core { in x: u8; }\n");
+    assert_eq!(applied(texts[1].1, &outer, &edit), texts[1].1.replace("Inner", "Core"));
+    // What an import calls by a name of its own keeps that.
+    assert_eq!(applied(texts[2].1, &other, &edit), texts[2].1.replace("Inner", "Core"));
+    // The port, seen from outside.
+    let edit = rename(&mut client, &outer, texts[1].1, ("i.x", 0), "j").unwrap();
+    assert_eq!(applied(texts[1].1, &outer, &edit), texts[1].1.replace("node i", "node j").replace("i.x", "j.x"));
+    let at = position(&texts[1].1[..texts[1].1.find("i.x").unwrap() + 2]);
+    let edit = client.ask_at(&outer, at, "rename", json!({ "newName": "value" })).unwrap();
+    assert_eq!(applied(texts[0].1, &inner, &edit), "graph Inner { in value: u8; }\n");
+    assert_eq!(applied(texts[1].1, &outer, &edit), texts[1].1.replace("i.x", "i.value"));
+    // A name that has a meaning in one of the texts is refused.
+    let found = rename(&mut client, &inner, texts[0].1, ("Inner", 0), "Outer").unwrap_err();
+    assert!(found.ends_with("re_outer.afg already"), "{found}");
+    let found = rename(&mut client, &other, texts[2].1, ("Mine", 1), "Yours").unwrap_err();
+    assert_eq!(found, "this is what the text calls `Inner`; rename that, or change the import");
+    assert!(client.stop());
+}
+
+#[test]
+fn before_it_is_renamed() {
+    let mut client = Client::start();
+    let path = unsaved("renaming.afg");
+    client.open(&path, TEXT);
+    let at = TEXT.find("jump").unwrap();
+    let found = client.ask_at(&path, position(&TEXT[..at]), "prepareRename", json!({})).unwrap();
+    assert_eq!(
+        (found["placeholder"].as_str(), &found["range"]["start"]),
+        (Some("jump"), &json!({ "line": 4, "character": 9 }))
+    );
+    let at = TEXT.find("f32").unwrap();
+    assert_eq!(
+        client.ask_at(&path, position(&TEXT[..at]), "prepareRename", json!({})),
+        Err("there is no name here".to_owned())
+    );
+    assert!(client.stop());
+}

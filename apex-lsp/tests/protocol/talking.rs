@@ -1,0 +1,179 @@
+//! How server and editor understand each other.
+
+use crate::client::{Client, range, unsaved, uri};
+use serde_json::{Value, json};
+use std::{fs, path::PathBuf};
+
+#[test]
+fn comes_and_goes() {
+    let (client, capabilities) = Client::with(json!({}));
+    assert_eq!(capabilities["positionEncoding"], "utf-16");
+    assert_eq!(capabilities["hoverProvider"], true);
+    assert!(client.stop());
+    assert!(Client::start().leave());
+}
+
+#[test]
+fn a_client_that_only_says_exit_was_impolite() {
+    let (server, client) = lsp_server::Connection::memory();
+    let server = std::thread::spawn(move || apex_lsp::serve(&server));
+    let send = |text: Value| client.sender.send(serde_json::from_value(text).unwrap()).unwrap();
+    send(json!({ "id": 1, "method": "textDocument/hover", "params": {} }));
+    let early: Value = serde_json::to_value(client.receiver.recv().unwrap()).unwrap();
+    assert_eq!(early["error"]["code"], -32002);
+    send(json!({ "id": 2, "method": "initialize", "params": { "capabilities": {} } }));
+    client.receiver.recv().unwrap();
+    send(json!({ "method": "exit" }));
+    assert!(!server.join().unwrap());
+}
+
+#[test]
+fn what_it_does_not_know_is_an_error_of_the_protocol() {
+    let mut client = Client::start();
+    assert_eq!(
+        client.ask("textDocument/nothing", json!({})),
+        Err("`textDocument/nothing` is not supported".to_owned())
+    );
+    assert!(client.ask("textDocument/hover", json!({ "position": 3 })).unwrap_err().contains("Position"));
+    client.tell("textDocument/didChange", json!("nonsense"));
+    // A text that is not open has no answers.
+    let nowhere =
+        json!({ "textDocument": { "uri": "file:///nowhere.afg" }, "position": { "line": 0, "character": 0 } });
+    assert_eq!(client.ask("textDocument/hover", nowhere), Ok(Value::Null));
+    assert!(client.stop());
+}
+
+#[test]
+fn errors_while_typing() {
+    let mut client = Client::start();
+    let path = unsaved("typing.afg");
+    let text = "graph A {\n    in x: f64;\n    out y: f64;\n    x -> y;\n}\n";
+    client.open(&path, text);
+    assert_eq!(client.diagnostics(&path), Vec::<Value>::new());
+
+    client.change(&path, Some(range(text, "x -> y")), "x -> z");
+    let found = client.diagnostics(&path);
+    let codes: Vec<&str> = found.iter().map(|d| d["code"].as_str().unwrap()).collect();
+    assert_eq!(codes, ["open-output", "unknown-node"]);
+    assert!(
+        found[1]["message"].as_str().unwrap().starts_with("there is no node or port `z` in this graph\ndeclare it")
+    );
+    assert_eq!(found[1]["range"]["start"], json!({ "line": 3, "character": 9 }));
+
+    client.change(&path, Some(range(&text.replace("x -> y", "x -> z"), "x -> z;\n}\n")), "x -> ");
+    let found = client.diagnostics(&path);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0]["code"].as_str(), found[0]["severity"].as_i64()), (Some("unclosed"), Some(1)));
+
+    client.change(&path, None, text);
+    assert_eq!(client.diagnostics(&path), Vec::<Value>::new());
+    assert!(client.stop());
+}
+
+/// Columns are units of UTF-16, unless bytes are offered; lines end as on Windows, too.
+#[test]
+fn columns() {
+    let text = "/// 😀ü\r\ngraph A {\r\n    /* 😀 */ node a = Nothing();\r\n}\r\n";
+    for (offered, column) in [(json!(["utf-16"]), 22), (json!(["utf-32", "utf-8"]), 24)] {
+        let (mut client, capabilities) = Client::with(json!({ "general": { "positionEncodings": offered } }));
+        let path = unsaved("columns.afg");
+        client.open(&path, text);
+        let found = client.diagnostics(&path);
+        assert_eq!(found[0]["range"]["start"], json!({ "line": 2, "character": column }), "{capabilities}");
+        // A change behind characters that are wider than one column.
+        let end = json!({ "line": 2, "character": column + 7 });
+        client.change(&path, Some(json!({ "start": { "line": 2, "character": column }, "end": end })), "B");
+        let found = client.diagnostics(&path);
+        assert!(found[0]["message"].as_str().unwrap().starts_with("there is no node or graph `B`"), "{found:?}");
+        assert!(client.stop());
+    }
+}
+
+/// A package in a folder of its own, which is removed at the end.
+struct Package(PathBuf);
+
+impl Package {
+    fn new(name: &str, nodes: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("apex-lsp-{}-{name}", std::process::id()));
+        fs::create_dir_all(folder.join("src")).unwrap();
+        let runtime = crate::client::repository().join("apex-rt");
+        let manifest = format!(
+            "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"
+        );
+        fs::write(folder.join("Cargo.toml"), manifest).unwrap();
+        fs::write(folder.join("src/lib.rs"), nodes).unwrap();
+        Self(folder)
+    }
+}
+
+impl Drop for Package {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+const RAMP: &str = "use apex_rt::prelude::*;\n/// Up.\n#[node]\npub fn ramp() -> u64 { 1 }\n";
+
+#[test]
+fn nodes_that_change_are_read_again() {
+    let package = Package::new("nodes", RAMP);
+    let path = package.0.join("robot.afg");
+    let text = "graph A {\n    ramp() -> show();\n}\n";
+    let more = format!("{RAMP}#[node]\npub fn show(x: &u64) {{}}\n");
+
+    // A client that watches files.
+    let (mut client, _) =
+        Client::with(json!({ "workspace": { "didChangeWatchedFiles": { "dynamicRegistration": true } } }));
+    client.open(&path, text);
+    assert_eq!(client.diagnostics(&path)[0]["code"], "unknown-node");
+    let source = package.0.join("src/lib.rs");
+    fs::write(&source, &more).unwrap();
+    client.tell("workspace/didChangeWatchedFiles", json!({ "changes": [{ "uri": uri(&source), "type": 2 }] }));
+    client.said.clear();
+    assert_eq!(client.diagnostics(&path), Vec::<Value>::new());
+    assert!(client.stop());
+
+    // One that does not: the nodes are read when a text is saved.
+    let mut client = Client::start();
+    client.open(&path, text);
+    assert_eq!(client.diagnostics(&path), Vec::<Value>::new());
+    fs::write(&source, RAMP).unwrap();
+    client.said.clear();
+    client.tell("textDocument/didSave", json!({ "textDocument": { "uri": uri(&path) } }));
+    assert_eq!(client.diagnostics(&path)[0]["code"], "unknown-node");
+    assert!(client.stop());
+}
+
+#[test]
+fn a_package_that_cargo_cannot_read() {
+    let package = Package::new("broken", RAMP);
+    fs::write(package.0.join("Cargo.toml"), "[package\n").unwrap();
+    let path = package.0.join("robot.afg");
+    let mut client = Client::start();
+    client.open(&path, "graph A { }\n");
+    let found = client.diagnostics(&path);
+    assert!(
+        found[0]["message"].as_str().unwrap().starts_with("the nodes of the package are not known: cargo"),
+        "{found:?}"
+    );
+    assert!(client.stop());
+}
+
+/// What is open in the editor counts, not what is on the disk; and what is wrong in a text stands where it is imported.
+#[test]
+fn texts_that_import_each_other() {
+    let mut client = Client::start();
+    let (inner, outer) = (unsaved("inner.afg"), unsaved("outer.afg"));
+    client.open(&inner, "graph Inner { in x: u8; out y: u8; x -> y; }\n");
+    client.open(&outer, "use inner::Inner;\ngraph Outer { in x: u8; out y: u8; x -> Inner() -> y; }\n");
+    assert_eq!(client.diagnostics(&outer), Vec::<Value>::new());
+
+    client.change(&inner, None, "graph Inner { in x: u8; out y: u16; x -> y; }\n");
+    let version = client.diagnostics(&inner);
+    assert_eq!(version[0]["code"], "type-mismatch");
+    client.tell("textDocument/didClose", json!({ "textDocument": { "uri": uri(&inner) } }));
+    client.change(&outer, None, "use inner::Inner;\ngraph Outer { }\n");
+    let found = client.diagnostics(&outer);
+    assert_eq!(found[0]["code"], "unknown-import", "{found:?}");
+    assert!(client.stop());
+}

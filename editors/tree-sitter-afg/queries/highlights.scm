@@ -1,0 +1,54 @@
+; What the parts of a text are; the later of two that fit counts.
+
+(line_comment) @comment
+(block_comment) @comment
+(doc_comment) @comment.documentation
+
+(string) @string
+(number) @number
+(unit) @type.builtin
+(unit_text) @type.builtin
+(boolean) @constant.builtin
+
+["use" "as"] @keyword.import
+["graph" "robot" "fsm" "test"] @keyword.type
+["in" "out" "slot" "event" "node" "claim" "state"] @keyword
+["on" "if" "entry" "exit"] @keyword
+["replace" "feed" "wait" "expect" "never" "by" "within" "active"] @keyword
+["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "essential" "restart"] @keyword.modifier
+
+(arrow) @operator
+(operator) @operator
+(transition ["=>" "->"] @operator)
+(hook "->" @operator)
+["(" ")" "[" "]" "{" "}"] @punctuation.bracket
+["," ";" ":" "::" "."] @punctuation.delimiter
+
+(reference (identifier) @variable)
+(reference port: (identifier) @property)
+(path (identifier) @variable)
+(type (path (identifier) @type))
+(use (path (identifier) @type))
+(use_group (path (identifier) @type))
+(use_group (path (path (identifier) @module)))
+(use_group . (path (identifier) @module))
+(use_as name: (identifier) @type)
+(instance type: (path (identifier) @function))
+(test graph: (path (identifier) @type))
+
+(graph name: (identifier) @type)
+(fsm name: (identifier) @type)
+(test name: (identifier) @function)
+(state name: (identifier) @label)
+(transition target: (identifier) @label)
+(transition slot: (identifier) @property)
+(action event: (identifier) @property)
+(generics (identifier) @type)
+(parameter name: (identifier) @variable.parameter)
+(argument name: (identifier) @variable.parameter)
+(port name: (identifier) @property)
+(node name: (identifier) @variable)
+(claim kind: (identifier) @function.builtin)
+
+((reference . (identifier) @variable.builtin .)
+  (#any-of? @variable.builtin "start" "reset" "exit" "abort"))
