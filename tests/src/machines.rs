@@ -49,7 +49,7 @@ fn flow(text: &mut String, number: u64, machine: &Machine) {
     for state in 0..machine.len() {
         let _ = writeln!(text, "node s{state} = Phase();");
     }
-    text.push_str("start => s0;");
+    text.push_str("start => s0.enter;");
     for (state, targets) in machine.iter().enumerate() {
         for (letter, target) in LETTERS.iter().zip(targets) {
             let _ = writeln!(text, "{letter} -> s{state}.{letter};");
