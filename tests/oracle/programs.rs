@@ -11,6 +11,8 @@ use std::{collections::BTreeMap, env};
 const BATCH: usize = 40;
 /// Most failures that are made small and shown.
 const SHOWN: usize = 3;
+/// Most times that one is made smaller: each compiles many graphs.
+const ROUNDS: usize = 15;
 
 fn number(name: &str) -> Option<u64> {
     env::var(name).ok().and_then(|text| text.parse().ok())
@@ -64,10 +66,10 @@ fn last_lines(text: &str, count: usize) -> String {
     lines[lines.len().saturating_sub(count)..].join("\n")
 }
 
-/// The smallest graph that is still wrong, and what is wrong with it.
+/// A small graph that is still wrong, and what is wrong with it.
 fn smallest(checker: &Checker, case: Case, why: String) -> (Case, String) {
     let (mut case, mut why) = (case, why);
-    loop {
+    for _ in 0..ROUNDS {
         let legal: Vec<Case> =
             case.smaller().into_iter().filter(|c| checker.check(&c.text("Random")).is_ok()).collect();
         let mut found = None;
@@ -82,9 +84,10 @@ fn smallest(checker: &Checker, case: Case, why: String) -> (Case, String) {
         }
         match found {
             Some(smaller) => (case, why) = smaller,
-            None => return (case, why),
+            None => break,
         }
     }
+    (case, why)
 }
 
 /// Shows the first failure of each kind made small: the others are mostly the same.
@@ -101,7 +104,6 @@ fn show(checker: &Checker, failures: &[(&Case, String)]) {
 }
 
 #[test]
-#[ignore = "not settled yet: it does not end in reasonable time where it finds a disagreement to be made small"]
 fn compiled_programs_run_as_their_nets_may() {
     let count = number("APEX_ORACLE_GRAPHS").unwrap_or(40);
     let first = number("APEX_ORACLE_SEED").unwrap_or(1);
