@@ -1,9 +1,6 @@
 //! Wires through ports of nested graphs → connections between nodes.
 
-use super::{
-    MAX_NODES,
-    instance::Builder,
-};
+use super::{MAX_NODES, instance::Builder};
 use crate::{
     catalog::Type,
     graph::{Connection, Crossing, End, NodeId, NodeKind, Pin, Place, Port, ScopeId, Wire},
