@@ -1,7 +1,7 @@
 //! What a picture shows.
 
 /// Most boxes of one picture; nobody can read more.
-pub const MAX_ITEMS: usize = 2000;
+pub const MAX_ITEMS: usize = 500;
 
 /// A thing with ports: a node, a nested graph, or the whole graph.
 #[derive(Debug, Clone, PartialEq)]

@@ -119,9 +119,12 @@ impl View<'_> {
         match ports {
             Some(ports) => Anchor::Of(*item, ports[&port]),
             None => {
-                let made = &mut self.result.items[*item].ports;
-                made.push(Port::unnamed(side));
-                Anchor::Of(*item, made.len() - 1)
+                let made = &mut self.result.items[*item];
+                // All lines at a dot end at the same point.
+                if made.shape == Shape::State || made.ports.is_empty() {
+                    made.ports.push(Port::unnamed(side));
+                }
+                Anchor::Of(*item, made.ports.len() - 1)
             }
         }
     }

@@ -11,7 +11,7 @@ use crate::model::{Frame, Item, Side};
 /// Room between the border and what is inside.
 const PAD: i64 = 14;
 /// How often heights are changed because lines would lie on each other.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 6;
 /// Distance between lines that lead from the top or to the bottom of a frame.
 const STAIR: i64 = 9;
 

@@ -9,9 +9,7 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, SignatureId, Type},
-    graph::{
-        self, Claim, End, Graph, Library, Node, NodeKind, Pin, Place, Port, Scope, ScopeId, TypeArg, Value, Wire,
-    },
+    graph::{self, Claim, End, Graph, Library, Node, NodeKind, Pin, Place, Port, Scope, ScopeId, TypeArg, Value, Wire},
     machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
