@@ -4,6 +4,7 @@ mod check;
 mod expand;
 mod explain;
 mod fmt;
+mod graph;
 mod lsp;
 mod project;
 mod run;
@@ -64,6 +65,26 @@ enum Command {
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
     },
+    /// Draw a graph.
+    #[command(
+        after_help = "Single lines are `->`, double ones `=>`. Data goes from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted ones lead from the one to the other. Coloured: where activity can be.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
+    )]
+    Graph {
+        /// The text.
+        file: PathBuf,
+        /// Which graph; without it the only robot, or the last graph that stands in no other one.
+        #[arg(long, value_name = "NAME")]
+        graph: Option<String>,
+        /// Only where activity can be, and where it goes, as a state diagram.
+        #[arg(long)]
+        activity: bool,
+        /// The file to write; without it, standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+        /// What to write; without it, what the name of the file says.
+        #[arg(long, value_enum)]
+        format: Option<graph::Picture>,
+    },
     /// Serve an editor: the language server, on standard input and output.
     #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
     Lsp,
@@ -114,6 +135,9 @@ fn main() -> ExitCode {
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
         Command::Explain { file, format, .. } => explain::run(&file, format),
+        Command::Graph { file, graph, activity, output, format } => {
+            graph::run(&file, &graph::Wanted { graph, activity, output, format })
+        }
         Command::Lsp => lsp::run(),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
         Command::Run { file, robot, params, save_params, args } => {

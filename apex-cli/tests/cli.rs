@@ -369,3 +369,51 @@ fn formatting_keeps_permissions_and_links() {
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
 }
+
+const BELL: &str = "fsm Bell {\n    slot  push;\n    event ring;\n    state quiet { on push => loud -> ring; }\n    state loud { on push => quiet; }\n}\ngraph House {\n    slot push;\n    node bell = Bell();\n    push -> bell.push;\n}\n";
+
+fn graph(arguments: &[&str], file: &Path) -> Output {
+    apex().arg("graph").args(arguments).arg(file).output().unwrap()
+}
+
+#[test]
+fn graphs_are_drawn() {
+    let folder = Folder::new("graph");
+    let file = folder.file("bell.afg", BELL);
+    let printed = graph(&[], &file);
+    assert_eq!((printed.status.code(), stderr(&printed)), (Some(0), String::new()));
+    let svg = String::from_utf8(printed.stdout).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n") && !svg.contains("loud"), "{svg}");
+    let picture = folder.0.join("bell.svg");
+    let written = graph(&["-o", picture.to_str().unwrap(), "--graph", "House"], &file);
+    assert_eq!((written.status.code(), written.stdout.len()), (Some(0), 0));
+    assert_eq!(fs::read_to_string(&picture).unwrap(), svg);
+    let states = graph(&["--activity", "--format", "dot"], &file);
+    let dot = String::from_utf8(states.stdout).unwrap();
+    assert!(dot.starts_with("digraph {") && dot.contains("loud"), "{dot}");
+    let named = folder.0.join("bell.dot");
+    assert_eq!(graph(&["-o", named.to_str().unwrap()], &file).status.code(), Some(0));
+    assert!(fs::read_to_string(&named).unwrap().starts_with("digraph {"));
+}
+
+#[test]
+fn graphs_that_cannot_be_drawn() {
+    let folder = Folder::new("undrawn");
+    let file = folder.file("bell.afg", BELL);
+    let fails = |arguments: &[&str], file: &Path, words: &str| {
+        let output = graph(arguments, file);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}");
+        assert!(stderr(&output).contains(words), "{arguments:?}: {}", stderr(&output));
+    };
+    fails(&[], &folder.0.join("none.afg"), "cannot read");
+    fails(&["-o", "bell.png"], &file, "ends neither in .svg nor in .dot: say which with `--format`");
+    fails(&["-o", "bell"], &file, "ends neither in .svg nor in .dot");
+    fails(&["-o", folder.0.join("no/such/folder.svg").to_str().unwrap()], &file, "cannot write");
+    fails(&["--graph", "Hose"], &file, "there is no graph `Hose` to draw; there are `House`");
+    fails(&["--activity"], &folder.file("still.afg", "graph Still { }\n"), "no activity comes to a node of `Still`");
+    let wrong = folder.file("wrong.afg", "graph A {\n    node a = Nothing();\n}\n");
+    let picture = folder.0.join("wrong.svg");
+    let output = graph(&["-o", picture.to_str().unwrap()], &wrong);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("unknown-node") && !picture.exists(), "{}", stderr(&output));
+}

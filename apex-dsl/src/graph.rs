@@ -35,6 +35,10 @@ pub struct Graph {
     pub connections: Vec<Connection>,
     /// Scope 0 is the graph itself, each other one an instance of a nested graph; parents come first.
     pub scopes: Vec<Scope>,
+    /// The ports of the nested graphs.
+    pub pins: Vec<Pin>,
+    /// The connections as the text has them, before nested graphs were opened: what a picture shows.
+    pub wires: Vec<Wire>,
     /// Claims.
     pub claims: Vec<Claim>,
     /// Nodes with an input that hangs on an unconnected port of the nested graph around them; reported there.
@@ -52,7 +56,50 @@ pub struct Scope {
     pub graph: String,
     /// The scope around it; itself for scope 0.
     pub parent: ScopeId,
+    /// The arguments of the instance.
+    pub args: Vec<(String, Value)>,
+    /// Documentation: of the instance if it has one, else of the graph.
+    pub docs: String,
     /// The instance in the text.
+    pub span: Span,
+}
+
+/// A port of a nested graph, seen from both sides: tokens come in from one and go out to the other.
+#[derive(Debug, Clone)]
+pub struct Pin {
+    /// Its name.
+    pub name: String,
+    /// Its kind, seen from outside.
+    pub kind: PortKind,
+    /// The scope of the nested graph.
+    pub scope: ScopeId,
+    /// Where it is declared.
+    pub span: Span,
+    /// Documentation.
+    pub docs: String,
+}
+
+/// An end of a connection as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Place {
+    /// A port of a node.
+    Port(End),
+    /// A port of a nested graph, by number in [`Graph::pins`].
+    Pin(usize),
+}
+
+/// A connection as written: it may begin and end at pins.
+#[derive(Debug, Clone)]
+pub struct Wire {
+    /// Where tokens come from.
+    pub from: Place,
+    /// Where they go.
+    pub to: Place,
+    /// `=>`
+    pub active: bool,
+    /// Its ends carry different types, which has been reported.
+    pub differs: bool,
+    /// The arrow.
     pub span: Span,
 }
 
@@ -372,6 +419,14 @@ impl NodeKind {
     /// Whether it is a place where a test looks.
     pub fn is_probe(&self) -> bool {
         matches!(self, Self::Probe)
+    }
+}
+
+impl Scope {
+    /// The scope of the graph itself.
+    pub fn top(graph: &str, span: Span) -> Self {
+        let name = String::new();
+        Self { name, graph: graph.to_owned(), parent: 0, args: vec![], docs: String::new(), span }
     }
 }
 

@@ -1,26 +1,17 @@
 //! Connections as written: which port is meant where none is named, and whether two ends go together.
 
 use super::{
-    instance::{Body, Builder, Wire},
+    instance::{Body, Builder},
     link::{Link, Side},
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{End, Node, NodeId, NodeKind, Port, Standard},
+    graph::{End, Node, NodeId, NodeKind, Place, Port, Standard, Wire},
     report::{Diagnostic, Diagnostics, nearest},
     source::Span,
     syntax::tree::{Arrow, Endpoint, Ident, PortKind, PortRef},
 };
 use std::collections::{BTreeMap, BTreeSet};
-
-/// An end of a connection as written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Place {
-    /// A port of a node.
-    Port(End),
-    /// A port of a nested graph.
-    Pin(usize),
-}
 
 /// A port that a name in a text can mean.
 #[derive(Debug, Clone)]

@@ -1,13 +1,9 @@
 //! Wires through ports of nested graphs → connections between nodes.
 
-use super::{
-    MAX_NODES,
-    connect::Place,
-    instance::{Builder, Pin, Wire},
-};
+use super::{MAX_NODES, instance::Builder};
 use crate::{
     catalog::Type,
-    graph::{Connection, Crossing, End, NodeId, NodeKind, Port, ScopeId},
+    graph::{Connection, Crossing, End, NodeId, NodeKind, Pin, Place, Port, ScopeId, Wire},
     report::Diagnostic,
     syntax::tree::{Ident, PortKind},
 };
@@ -15,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Replaces all pins by what stands behind them. Also gives the nodes that hang on a pin without a token.
 pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
-    let mut wires = std::mem::take(&mut builder.wires);
+    let mut wires = builder.wires.clone();
     check_single(builder, &wires);
     add_relays(builder, &mut wires);
     let mut into: BTreeMap<Place, Vec<usize>> = BTreeMap::new();
@@ -108,7 +104,7 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
 
 /// A node that passes on the tokens of a pin: the one that sends to it, or the one `behind` it.
 fn add_relay(builder: &mut Builder<'_>, pin: usize, behind: bool) -> Option<NodeId> {
-    let Pin { kind, scope, span, ref name } = builder.pins[pin];
+    let Pin { kind, scope, span, ref name, .. } = builder.pins[pin];
     let name = Ident { text: format!("{name}_{}", if behind { "relay" } else { "entry" }), span };
     let inside = (kind == PortKind::Input) == behind;
     let at = if inside { scope } else { builder.scopes[scope].parent };

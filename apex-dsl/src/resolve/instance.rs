@@ -2,7 +2,7 @@
 
 use super::{
     Budget, MAX_NESTING, MAX_NODES, args,
-    connect::{Place, Symbol, Table, named_ports},
+    connect::{Symbol, Table, named_ports},
     flatten, generics,
     link::Link,
     names::{GraphId, Made, Texts},
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, SignatureId, Type},
-    graph::{self, Claim, End, Graph, Library, Node, NodeKind, Port, Scope, ScopeId, TypeArg, Value},
+    graph::{self, Claim, End, Graph, Library, Node, NodeKind, Pin, Place, Port, Scope, ScopeId, TypeArg, Value, Wire},
     machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -19,32 +19,6 @@ use crate::{
     },
 };
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A port of a nested graph, seen from both sides: tokens come in from one and go out to the other.
-pub struct Pin {
-    /// Its name.
-    pub name: String,
-    /// Its kind, seen from outside.
-    pub kind: PortKind,
-    /// The scope of the nested graph.
-    pub scope: ScopeId,
-    /// Where it is declared.
-    pub span: Span,
-}
-
-/// A connection as written: it may begin and end at pins.
-pub struct Wire {
-    /// Where tokens come from.
-    pub from: Place,
-    /// Where they go.
-    pub to: Place,
-    /// `=>`
-    pub active: bool,
-    /// Its ends carry different types, which has been reported.
-    pub differs: bool,
-    /// The arrow.
-    pub span: Span,
-}
 
 /// Everything that one flat graph is built from.
 pub struct Builder<'a> {
@@ -159,7 +133,7 @@ impl<'a> Builder<'a> {
             let params = self.param_types(id);
             args::of_graph(&item.name, &params, None, item.name.span, self.diagnostics)
         });
-        self.scopes.push(Scope { name: String::new(), graph: item.name.text.clone(), parent: 0, span: item.name.span });
+        self.scopes.push(Scope::top(&item.name.text, item.name.span));
         let mut table = Table::new();
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
@@ -196,6 +170,8 @@ impl<'a> Builder<'a> {
             nodes: self.nodes,
             connections,
             scopes: self.scopes,
+            pins: self.pins,
+            wires: self.wires,
             claims: self.claims,
             open_pins,
             excused: ports(&self.excused),
@@ -324,7 +300,7 @@ impl<'a> Builder<'a> {
         });
         let symbol = match (made, each) {
             (Made::Node(signature), None) => self.library(body, name, signature, instance, docs)?,
-            (Made::Graph(id), None) => self.nested(body, name, id, instance)?,
+            (Made::Graph(id), None) => self.nested(body, name, id, instance, docs)?,
             (Made::Node(signature), Some(each)) => {
                 let inner = self.each_of_node(body, name, signature, instance)?;
                 self.each(body, name, inner, each, docs)?
@@ -477,7 +453,14 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn nested(&mut self, body: &Body<'_>, name: &Ident, id: GraphId, instance: &Instance) -> Option<Symbol> {
+    fn nested(
+        &mut self,
+        body: &Body<'_>,
+        name: &Ident,
+        id: GraphId,
+        instance: &Instance,
+        docs: &str,
+    ) -> Option<Symbol> {
         self.may_open(id, instance.span)?;
         self.spend(name.span)?;
         for modifier in &instance.modifiers {
@@ -501,10 +484,13 @@ impl<'a> Builder<'a> {
         let values = self.graph_args(body, id, instance);
         let item = self.texts.graph(id);
         self.look(item.ports.len() + item.params.len() + item.claims.len(), name.span)?;
+        let given: Vec<String> = instance.args.iter().filter_map(|a| Some(a.name.as_ref()?.text.clone())).collect();
         self.scopes.push(Scope {
             name: name.text.clone(),
             graph: item.name.text.clone(),
             parent: body.scope,
+            args: given.iter().filter_map(|name| Some((name.clone(), values.get(name)?.clone()))).collect(),
+            docs: if docs.is_empty() { item.docs.clone() } else { docs.to_owned() },
             span: name.span,
         });
         let scope = self.scopes.len() - 1;
@@ -512,7 +498,8 @@ impl<'a> Builder<'a> {
         let mut symbol = vec![];
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
-            self.pins.push(Pin { name: port.name.text.clone(), kind: port.kind, scope, span: port.name.span });
+            let (name, docs) = (port.name.text.clone(), port.docs.clone());
+            self.pins.push(Pin { name, kind: port.kind, scope, span: port.name.span, docs });
             let place = Place::Pin(self.pins.len() - 1);
             // What takes tokens outside sends them inside.
             let inner = port.kind.seen_from_inside();

@@ -1,14 +1,14 @@
 //! Modifiers that put something around an instance: `each` and `delay`.
 
 use super::{
-    connect::{Place, Symbol},
+    connect::Symbol,
     flatten, generics,
-    instance::{Body, Builder, Wire},
+    instance::{Body, Builder},
     value::{Scope as Names, evaluate},
 };
 use crate::{
     catalog::SignatureId,
-    graph::{Each, End, Graph, NodeKind, Port, Scope, Value},
+    graph::{Each, End, Graph, NodeKind, Place, Port, Scope, Value, Wire},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
@@ -25,7 +25,7 @@ impl Builder<'_> {
         instance: &Instance,
     ) -> Option<Graph> {
         self.inner(|mut builder| {
-            builder.scopes.push(Scope { name: String::new(), graph: instance.path.text(), parent: 0, span: name.span });
+            builder.scopes.push(Scope::top(&instance.path.text(), name.span));
             let inside = Body {
                 scope: 0,
                 values: body.values.clone(),
@@ -59,6 +59,8 @@ impl Builder<'_> {
                 nodes: builder.nodes,
                 connections,
                 scopes: builder.scopes,
+                pins: builder.pins,
+                wires: builder.wires,
                 claims: vec![],
                 open_pins,
                 excused: BTreeSet::new(),

@@ -1,0 +1,265 @@
+//! Graph → model. Nested graphs come from the connections as they are written, not from the flattened ones.
+
+use crate::{
+    model::{Anchor, Flow, Frame, Item, Line, Port, Shape, Side},
+    states, words,
+};
+use apex_dsl::{
+    analyse,
+    catalog::Catalog,
+    graph::{Each, End, Graph, Library, Node, NodeId, NodeKind, Place, ScopeId, Wire},
+    syntax::tree::PortKind,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The picture of a graph.
+pub fn diagram(graph: &Graph, catalog: &Catalog) -> Item {
+    let mut item = Item::new(Shape::Node, &graph.name);
+    item.docs.clone_from(&graph.docs);
+    let builder = Builder::new(graph, catalog);
+    item.ports = builder.boundaries().map(|node| builder.boundary_port(node)).collect();
+    item.inside = Some(builder.frame(0));
+    item
+}
+
+/// What stands in a scope.
+#[derive(Clone, Copy)]
+enum Member {
+    Node(NodeId),
+    Scope(ScopeId),
+}
+
+struct Builder<'a> {
+    graph: &'a Graph,
+    catalog: &'a Catalog,
+    /// The nodes that activity can reach.
+    active: BTreeSet<NodeId>,
+    /// All ends of connections.
+    connected: BTreeSet<Place>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(graph: &'a Graph, catalog: &'a Catalog) -> Self {
+        let connected = graph.wires.iter().flat_map(|w| [w.from, w.to]).collect();
+        Self { graph, catalog, active: analyse::active_nodes(graph), connected }
+    }
+
+    /// The ports of the graph itself.
+    fn boundaries(&self) -> impl Iterator<Item = NodeId> {
+        (0..self.graph.nodes.len()).filter(|n| matches!(self.graph.nodes[*n].kind, NodeKind::Boundary(_)))
+    }
+
+    fn boundary_port(&self, id: NodeId) -> Port {
+        let node = &self.graph.nodes[id];
+        let NodeKind::Boundary(kind) = node.kind else { unreachable!("only called for ports of the graph") };
+        let connected = self.connected.contains(&Place::Port(End { node: id, port: 0 }));
+        Port {
+            name: node.name.clone(),
+            side: side(kind),
+            docs: docs(&node.ports[0].ty.to_string(), &node.docs),
+            connected,
+        }
+    }
+
+    /// Everything in a scope, in the order of the text.
+    fn frame(&self, scope: ScopeId) -> Frame {
+        let mut frame = Frame::default();
+        let mut places: BTreeMap<Place, Anchor> = self.own_places(scope);
+        let mut waiting = vec![];
+        for member in self.members(scope) {
+            let at = frame.items.len();
+            let (item, shown) = match member {
+                Member::Node(node) => self.node(node),
+                Member::Scope(inner) => self.scope(inner),
+            };
+            places.extend(shown.into_iter().enumerate().map(|(port, place)| (place, Anchor::Of(at, port))));
+            if matches!(member, Member::Node(node) if self.graph.nodes[node].starts_active) {
+                waiting.push(at);
+            }
+            frame.items.push(item);
+        }
+        frame.lines = self.graph.wires.iter().filter_map(|wire| self.line(wire, &places)).collect();
+        start(&mut frame, &waiting);
+        frame
+    }
+
+    fn own_places(&self, scope: ScopeId) -> BTreeMap<Place, Anchor> {
+        let places: Vec<Place> = match scope {
+            0 => self.boundaries().map(|node| Place::Port(End { node, port: 0 })).collect(),
+            _ => self.pins(scope).map(Place::Pin).collect(),
+        };
+        places.into_iter().enumerate().map(|(port, place)| (place, Anchor::Own(port))).collect()
+    }
+
+    fn pins(&self, scope: ScopeId) -> impl Iterator<Item = usize> {
+        (0..self.graph.pins.len()).filter(move |pin| self.graph.pins[*pin].scope == scope)
+    }
+
+    fn members(&self, scope: ScopeId) -> Vec<Member> {
+        let graph = self.graph;
+        let drawn = |n: &NodeId| {
+            let node = &graph.nodes[*n];
+            let hidden = matches!(node.kind, NodeKind::Boundary(_) | NodeKind::Relay | NodeKind::Probe);
+            node.scope == scope && !hidden
+        };
+        let nodes = (0..graph.nodes.len()).filter(drawn).map(|n| (graph.nodes[n].span.start, Member::Node(n)));
+        let inner = (1..graph.scopes.len()).filter(|s| graph.scopes[*s].parent == scope);
+        let inner = inner.map(|s| (graph.scopes[s].span.start, Member::Scope(s)));
+        let mut all: Vec<(u32, Member)> = nodes.chain(inner).collect();
+        all.sort_by_key(|(at, _)| *at);
+        all.into_iter().map(|(_, member)| member).collect()
+    }
+
+    /// A wire whose ends both belong to the scope that `places` are of.
+    fn line(&self, wire: &Wire, places: &BTreeMap<Place, Anchor>) -> Option<Line> {
+        let (from, to) = (*places.get(&wire.from)?, *places.get(&wire.to)?);
+        let sends = |place: Place| match place {
+            Place::Port(end) => self.graph.port(end).kind,
+            Place::Pin(pin) => self.graph.pins[pin].kind,
+        };
+        let flow = match (sends(wire.from).is_synchronous(), sends(wire.to).is_synchronous()) {
+            (true, true) => Flow::Synchronous,
+            (false, false) => Flow::Asynchronous,
+            _ => Flow::Hybrid,
+        };
+        Some(Line { from, to, active: wire.active, flow, label: String::new() })
+    }
+
+    /// A nested graph with its pins.
+    fn scope(&self, id: ScopeId) -> (Item, Vec<Place>) {
+        let scope = &self.graph.scopes[id];
+        let mut item = Item::new(Shape::Node, &scope.name);
+        item.words = [scope.graph.clone()].into_iter().chain(words::arguments(&scope.args)).collect();
+        item.docs.clone_from(&scope.docs);
+        let pins: Vec<usize> = self.pins(id).collect();
+        let port = |pin: &usize| {
+            let (place, pin) = (Place::Pin(*pin), &self.graph.pins[*pin]);
+            let connected = self.connected.contains(&place);
+            Port { name: pin.name.clone(), side: side(pin.kind), docs: pin.docs.clone(), connected }
+        };
+        item.ports = pins.iter().map(port).collect();
+        let frame = self.frame(id);
+        item.active = frame.items.iter().any(|inner| inner.active);
+        item.inside = Some(frame);
+        (item, pins.into_iter().map(Place::Pin).collect())
+    }
+
+    /// A node, with the places of the ports that are shown.
+    fn node(&self, id: NodeId) -> (Item, Vec<Place>) {
+        let node = &self.graph.nodes[id];
+        let mut item = match &node.kind {
+            NodeKind::Library(library) => self.library(node, library),
+            NodeKind::Each(each) => self.each(node, each),
+            NodeKind::Delay(initial) => {
+                let held: Vec<String> =
+                    initial.iter().map(|v| v.as_ref().map_or("0".to_owned(), |v| words::value(v, None))).collect();
+                let mut item = Item::new(Shape::Node, "delay");
+                item.words.push(format!("[{}]", held.join(", ")));
+                item
+            }
+            NodeKind::Start => Item::new(Shape::Start, "start"),
+            NodeKind::Exit(_) => Item::new(Shape::End, &node.name),
+            NodeKind::Reset => Item::new(Shape::Reset, &node.name),
+            NodeKind::Boundary(_) | NodeKind::Relay | NodeKind::Probe => unreachable!("these are no members"),
+        };
+        item.active = self.active.contains(&id);
+        let ports = 0..node.ports.len();
+        let places: Vec<Place> = ports.map(|port| Place::Port(End { node: id, port })).collect();
+        let shown: Vec<usize> = (0..places.len())
+            .filter(|p| {
+                let port = &node.ports[*p];
+                self.connected.contains(&places[*p]) || port.standard.is_none() && port.parameter.is_none()
+            })
+            .collect();
+        let is_alone =
+            |port: &usize| shown.iter().filter(|p| node.ports[**p].kind == node.ports[*port].kind).count() == 1;
+        let is_delay = node.is_delay();
+        let port = |index: &usize| {
+            let port = &node.ports[*index];
+            // `out` is what a node without a name for its result is given.
+            let hidden = is_delay || item.shape != Shape::Node || port.name == "out" && is_alone(index);
+            let name = if hidden { String::new() } else { port.name.clone() };
+            let connected = self.connected.contains(&places[*index]);
+            Port {
+                name,
+                side: shape_side(item.shape, port.kind),
+                docs: docs(&port.ty.to_string(), &port.docs),
+                connected,
+            }
+        };
+        item.ports = shown.iter().map(port).collect();
+        (item, shown.into_iter().map(|p| places[p]).collect())
+    }
+
+    fn library(&self, node: &Node, library: &Library) -> Item {
+        let mut item = Item::new(Shape::Node, &node.name);
+        item.words.push(words::type_name(library, self.catalog));
+        item.words.extend(words::parameters(library, self.catalog));
+        item.words.extend(words::modifiers(&node.modifiers));
+        item.docs.clone_from(&node.docs);
+        item.states = self.catalog.machines.get(&library.signature).map(states::machine);
+        item
+    }
+
+    /// The body of an `each`, open; that of a single node is the node itself.
+    fn each(&self, node: &Node, each: &Each) -> Item {
+        let body = &*each.body;
+        let inner = Builder::new(body, self.catalog);
+        let mut item = match &body.nodes[..] {
+            [only, ..] if only.span == body.span && matches!(only.kind, NodeKind::Library(_)) => inner.node(0).0,
+            _ => {
+                let mut item = Item::new(Shape::Node, &node.name);
+                item.words.push(body.name.clone());
+                item.docs.clone_from(&body.docs);
+                item.inside = Some(inner.frame(0));
+                item
+            }
+        };
+        let list = node.ports.get(each.list).map_or("", |p| p.name.as_str());
+        item.words.push(format!("each {}({list})", if each.parallel { "par " } else { "" }).replace("each (", "each("));
+        item.each = true;
+        item
+    }
+}
+
+/// Leads activity to the items at which it begins without a token.
+fn start(frame: &mut Frame, waiting: &[usize]) {
+    if waiting.is_empty() {
+        return;
+    }
+    let dot = frame.items.iter().position(|item| item.shape == Shape::Start).unwrap_or_else(|| {
+        let mut item = Item::new(Shape::Start, "start");
+        item.ports.push(Port::unnamed(Side::Right));
+        frame.items.push(item);
+        frame.items.len() - 1
+    });
+    for &item in waiting {
+        frame.items[item].ports.push(Port::unnamed(Side::Top));
+        let to = Anchor::Of(item, frame.items[item].ports.len() - 1);
+        let from = Anchor::Of(dot, 0);
+        frame.lines.push(Line { from, to, active: true, flow: Flow::Asynchronous, label: String::new() });
+    }
+}
+
+fn docs(ty: &str, docs: &str) -> String {
+    let (ty, docs) = (ty.trim(), docs.trim());
+    if ty.is_empty() || docs.is_empty() { format!("{ty}{docs}") } else { format!("{ty}\n{docs}") }
+}
+
+fn side(kind: PortKind) -> Side {
+    match kind {
+        PortKind::Input => Side::Left,
+        PortKind::Output => Side::Right,
+        PortKind::Slot => Side::Top,
+        PortKind::Event => Side::Bottom,
+    }
+}
+
+/// Dots have lines at their left and right only.
+fn shape_side(shape: Shape, kind: PortKind) -> Side {
+    match shape {
+        Shape::Node | Shape::State => side(kind),
+        Shape::Start => Side::Right,
+        Shape::End | Shape::Reset => Side::Left,
+    }
+}

@@ -1,0 +1,18 @@
+//! Pictures of graphs: a graph becomes a model of boxes, ports and lines, the model gets coordinates, and these become SVG.
+//!
+//! All of it is pure and the same for the same graph: no files, no clock, no unordered iteration.
+
+mod build;
+mod dot;
+pub mod layout;
+mod model;
+mod states;
+mod svg;
+mod text;
+mod words;
+
+pub use build::diagram;
+pub use dot::dot;
+pub use model::{Anchor, Flow, Frame, Item, Line, MAX_ITEMS, Port, Shape, Side};
+pub use states::states;
+pub use svg::svg;

@@ -1,0 +1,273 @@
+//! A placed model as SVG that needs nothing else: no scripts, no fonts, no images.
+
+use crate::{
+    layout::{Align, Placed, Point, Text, place},
+    model::{Anchor, Frame, Item, Line, Shape},
+};
+use std::fmt::Write as _;
+
+/// Room around the picture.
+const MARGIN: i64 = 10;
+/// Radius of corners of lines.
+const CORNER: i64 = 4;
+
+const STYLE: &str = "\
+text { font-family: Helvetica, Arial, 'DejaVu Sans', sans-serif; fill: #222 }
+.name { font-weight: bold }
+.box { fill: #fff; stroke: #555 }
+.active > .box { fill: #fdf0d5; stroke: #b3701b }
+.frame > .box { fill: #000; fill-opacity: 0.025; stroke: #999 }
+.active.frame > .box { fill: #fdf0d5; fill-opacity: 0.3; stroke: #b3701b }
+.line { fill: none; stroke: #444 }
+.wide { stroke-width: 4 }
+.core { fill: none; stroke: #fff; stroke-width: 2 }
+.asynchronous { stroke-dasharray: 5 3 }
+.hybrid { stroke-dasharray: 8 3 2 3 }
+.dot { fill: #222; stroke: #222 }
+.ring { fill: #fff; stroke: #222 }
+";
+
+/// The picture of an item as an SVG document.
+pub fn svg(item: &Item) -> String {
+    let placed = place(item);
+    let (width, height) = (placed.size.0 + 2 * MARGIN, placed.size.1 + 2 * MARGIN);
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n<style>\n{STYLE}</style>\n"
+    );
+    let _ = writeln!(text, "<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>");
+    let connected = vec![false; item.ports.len()];
+    draw(&mut text, item, &placed, (MARGIN, MARGIN), &connected);
+    text.push_str("</svg>\n");
+    text
+}
+
+/// An item with its upper left corner at `at`. `taking` are the ports where a line from outside ends: they have an arrow head.
+fn draw(out: &mut String, item: &Item, placed: &Placed, at: Point, taking: &[bool]) {
+    let classes = [("item", true), ("active", item.active), ("frame", item.inside.is_some())];
+    let classes: Vec<&str> = classes.into_iter().filter(|(_, on)| *on).map(|(class, _)| class).collect();
+    let _ = writeln!(out, "<g class=\"{}\" transform=\"translate({} {})\">", classes.join(" "), at.0, at.1);
+    title(out, &item_title(item));
+    shape(out, item, placed);
+    if let Some(frame) = &item.inside {
+        inside(out, item, frame, placed);
+    }
+    for text in &placed.texts {
+        words(out, text);
+    }
+    if matches!(item.shape, Shape::Node | Shape::State) {
+        for ((port, at), taking) in item.ports.iter().zip(&placed.ports).zip(taking) {
+            if *taking && item.inside.is_none() || item.shape == Shape::State && port.name.is_empty() {
+                continue;
+            }
+            let fill = if port.connected { "#444" } else { "#fff" };
+            let (x, y) = (at.0 - 2, at.1 - 2);
+            let square = format!("x=\"{x}\" y=\"{y}\" width=\"4\" height=\"4\" fill=\"{fill}\" stroke=\"#444\"");
+            let docs = escaped(&[port.name.as_str(), port.docs.as_str()].join(": "));
+            let _ = writeln!(out, "<rect {square}><title>{docs}</title></rect>");
+        }
+    }
+    out.push_str("</g>\n");
+}
+
+fn item_title(item: &Item) -> String {
+    let mut title = item.name.clone();
+    if let Some(kind) = item.words.first() {
+        let _ = write!(title, ": {kind}");
+    }
+    if !item.docs.is_empty() {
+        let _ = write!(title, "\n{}", item.docs.trim());
+    }
+    title
+}
+
+fn title(out: &mut String, words: &str) {
+    let _ = writeln!(out, "<title>{}</title>", escaped(words));
+}
+
+fn shape(out: &mut String, item: &Item, placed: &Placed) {
+    let (width, height) = placed.size;
+    let radius = match (item.shape, &item.inside) {
+        (Shape::State, _) => 10,
+        (_, Some(_)) => 6,
+        _ => 2,
+    };
+    let middle = height / 2;
+    let _ = match item.shape {
+        Shape::Node | Shape::State => {
+            if item.each {
+                // As many as there are elements.
+                for shift in [6, 3] {
+                    let _ = writeln!(
+                        out,
+                        "<rect class=\"box\" x=\"{shift}\" y=\"-{shift}\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>"
+                    );
+                }
+                let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\" rx=\"{radius}\" fill=\"#fff\"/>");
+            }
+            writeln!(out, "<rect class=\"box\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>")
+        }
+        Shape::Start => writeln!(out, "<circle class=\"dot\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>", middle - 1),
+        Shape::End => writeln!(
+            out,
+            "<circle class=\"ring\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/><circle class=\"dot\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>",
+            middle - 1,
+            middle - 4
+        ),
+        Shape::Reset => {
+            writeln!(out, "<circle class=\"ring\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>", middle - 1)
+        }
+    };
+}
+
+fn inside(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
+    lines(out, item, frame, placed);
+    for (index, (inner, place)) in frame.items.iter().zip(&placed.items).enumerate() {
+        let mut taking = vec![false; inner.ports.len()];
+        for line in &frame.lines {
+            if let Anchor::Of(to, port) = line.to
+                && to == index
+            {
+                taking[port] = true;
+            }
+        }
+        draw(out, inner, place, place.at, &taking);
+    }
+}
+
+/// All lines; those that begin together first get their borders, then their cores, so that they join.
+fn lines(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
+    let mut order: Vec<usize> = (0..frame.lines.len()).collect();
+    let key = |line: &Line| (line.active, line.from, line.flow);
+    order.sort_by_key(|i| key(&frame.lines[*i]));
+    for together in order.chunk_by(|a, b| key(&frame.lines[*a]) == key(&frame.lines[*b])) {
+        for &index in together {
+            let (line, route) = (&frame.lines[index], &placed.routes[index]);
+            let wide = if line.active { " wide" } else { "" };
+            let _ = write!(out, "<path class=\"line {}{wide}\" d=\"{}\">", line.flow.word(), path(route, line.active));
+            let _ = writeln!(out, "<title>{}</title></path>", escaped(&line_title(item, frame, line)));
+        }
+        for &index in together.iter().filter(|i| frame.lines[**i].active) {
+            let _ = writeln!(out, "<path class=\"core\" d=\"{}\"/>", path(&placed.routes[index], true));
+        }
+        forks(out, together, placed);
+        together.iter().for_each(|index| head(out, &placed.routes[*index], frame.lines[*index].active));
+    }
+}
+
+/// A dot where lines part.
+fn forks(out: &mut String, together: &[usize], placed: &Placed) {
+    let mut dots: Vec<Point> = vec![];
+    for (at, a) in together.iter().enumerate() {
+        for b in &together[at + 1..] {
+            dots.extend(parting(&placed.routes[*a], &placed.routes[*b]));
+        }
+    }
+    dots.sort_unstable();
+    dots.dedup();
+    for (x, y) in dots {
+        let _ = writeln!(out, "<circle class=\"dot\" cx=\"{x}\" cy=\"{y}\" r=\"2\"/>");
+    }
+}
+
+/// The point up to which two lines are one.
+fn parting(a: &[Point], b: &[Point]) -> Option<Point> {
+    let same = a.iter().zip(b).take_while(|(a, b)| a == b).count();
+    let (last, next_a, next_b) = (*a.get(same.checked_sub(1)?)?, a.get(same), b.get(same));
+    let (next_a, next_b) = (*next_a?, *next_b?);
+    let step = |to: Point| ((to.0 - last.0).signum(), (to.1 - last.1).signum());
+    let length = |to: Point| (to.0 - last.0).abs() + (to.1 - last.1).abs();
+    match step(next_a) == step(next_b) {
+        true => Some(if length(next_a) < length(next_b) { next_a } else { next_b }),
+        false => (same > 1).then_some(last),
+    }
+}
+
+fn line_title(item: &Item, frame: &Frame, line: &Line) -> String {
+    let name = |end: Anchor| match end {
+        Anchor::Own(port) => item.ports[port].name.clone(),
+        Anchor::Of(inner, port) => {
+            let inner = &frame.items[inner];
+            match inner.ports[port].name.as_str() {
+                "" => inner.name.clone(),
+                port => format!("{}.{port}", inner.name),
+            }
+        }
+    };
+    let arrow = if line.active { "=>" } else { "->" };
+    format!("{} {arrow} {} ({})", name(line.from), name(line.to), line.flow.word())
+}
+
+/// A line with rounded corners that ends before its arrow head.
+fn path(route: &[Point], active: bool) -> String {
+    let mut points = route.to_vec();
+    if let [.., before, last] = &mut points[..] {
+        let back = if active { 7 } else { 5 };
+        last.0 -= (last.0 - before.0).signum() * back;
+        last.1 -= (last.1 - before.1).signum() * back;
+    }
+    let mut text = String::new();
+    for (i, &(x, y)) in points.iter().enumerate() {
+        let _ = match (i.checked_sub(1).map(|i| points[i]), points.get(i + 1)) {
+            (None, _) => write!(text, "M{x} {y}"),
+            (_, None) => write!(text, "L{x} {y}"),
+            (Some(before), Some(&after)) => {
+                let towards = |to: Point| {
+                    let length = (to.0 - x).abs() + (to.1 - y).abs();
+                    let step = CORNER.min(length / 2);
+                    (x + (to.0 - x).signum() * step, y + (to.1 - y).signum() * step)
+                };
+                let ((ax, ay), (bx, by)) = (towards(before), towards(after));
+                write!(text, "L{ax} {ay}Q{x} {y} {bx} {by}")
+            }
+        };
+    }
+    text
+}
+
+/// The arrow head at the end of a line.
+fn head(out: &mut String, route: &[Point], active: bool) {
+    let [.., before, (x, y)] = route[..] else { return };
+    let (dx, dy) = ((x - before.0).signum(), (y - before.1).signum());
+    let (long, half) = if active { (9, 5) } else { (7, 3) };
+    let (bx, by) = (x - dx * long, y - dy * long);
+    let _ = writeln!(
+        out,
+        "<path d=\"M{x} {y}L{} {}L{} {}Z\" fill=\"#444\"/>",
+        bx + dy * half,
+        by + dx * half,
+        bx - dy * half,
+        by - dx * half
+    );
+}
+
+fn words(out: &mut String, text: &Text) {
+    let anchor = match text.align {
+        Align::Begin => "start",
+        Align::Middle => "middle",
+        Align::End => "end",
+    };
+    let (x, y) = text.at;
+    let _ = write!(out, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\">", text.size);
+    if !text.bold.is_empty() {
+        let _ = write!(out, "<tspan class=\"name\">{}</tspan>", escaped(&text.bold));
+    }
+    let _ = writeln!(out, "{}</text>", escaped(&text.plain));
+}
+
+/// Text for XML.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' | '\t' => out.push(c),
+            // XML has no way to write these.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,123 @@
+//! Types, parameters and modifiers, as short as they stand in a box.
+
+use crate::text::shortened;
+use apex_dsl::{
+    catalog::{Catalog, DefaultValue, Literal, ParamSig},
+    graph::{Library, Modifiers, Value},
+    units,
+};
+use std::time::Duration;
+
+/// Longest line in a box, in characters.
+const LONGEST: usize = 34;
+/// Most parameters that a box shows.
+const MOST: usize = 4;
+
+/// The name of a type with its type arguments, as far as they are written.
+pub fn type_name(library: &Library, catalog: &Catalog) -> String {
+    shortened(&catalog.signatures[library.signature].name, LONGEST)
+}
+
+/// The parameters that are not what they are by default.
+pub fn parameters(library: &Library, catalog: &Catalog) -> Vec<String> {
+    let params = &catalog.signatures[library.signature].params;
+    let differs = |(param, value): &(&ParamSig, &Value)| !is_default(param, value);
+    let lines = params.iter().zip(&library.params).filter(differs);
+    limited(lines.map(|(param, given)| argument(&param.name, given, param.unit.as_deref())).collect())
+}
+
+/// Arguments of a nested graph.
+pub fn arguments(args: &[(String, Value)]) -> Vec<String> {
+    limited(args.iter().map(|(name, given)| argument(name, given, None)).collect())
+}
+
+fn limited(mut lines: Vec<String>) -> Vec<String> {
+    if lines.len() > MOST {
+        let more = lines.len() + 1 - MOST;
+        lines.truncate(MOST - 1);
+        lines.push(format!("… {more} more"));
+    }
+    lines
+}
+
+fn argument(name: &str, given: &Value, unit: Option<&str>) -> String {
+    shortened(&format!("{name} = {}", value(given, unit)), LONGEST)
+}
+
+fn is_default(param: &ParamSig, value: &Value) -> bool {
+    match (&param.default, value) {
+        (_, Value::RustDefault) => true,
+        (Some(DefaultValue::Literal(Literal::Number(default, _))), Value::Number(n)) => same(*default, n.value),
+        (Some(DefaultValue::Literal(Literal::Number(default, _))), Value::Duration(d)) => {
+            same(*default, d.as_secs_f64())
+        }
+        (Some(DefaultValue::Literal(Literal::Bool(default))), Value::Bool(b)) => default == b,
+        (Some(DefaultValue::Literal(Literal::Text(default))), Value::Text(t)) => default == t,
+        _ => false,
+    }
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs()
+}
+
+/// A value as a text has it, in this unit if it is a number.
+pub fn value(given: &Value, unit: Option<&str>) -> String {
+    match given {
+        Value::Number(n) => {
+            let known = unit.and_then(|text| Some((text, units::parse(text).ok()?.factor)));
+            let (number, unit) = match known {
+                Some((text, factor)) => (n.value / factor, format!(" {text}")),
+                None if n.dimension.is_none() => (n.value, String::new()),
+                None => (n.value, format!(" {}", n.dimension)),
+            };
+            // What a division leaves in the last digits says nothing.
+            let rounded = format!("{number:.9e}").parse().unwrap_or(number);
+            format!("{rounded}{unit}")
+        }
+        Value::Bool(b) => b.to_string(),
+        Value::Text(text) => format!("{text:?}"),
+        Value::List(values) => {
+            let values: Vec<String> = values.iter().take(20).map(|v| value(v, unit)).collect();
+            format!("[{}]", values.join(", "))
+        }
+        Value::Unit => "()".to_owned(),
+        Value::Duration(d) => duration(*d),
+        Value::Path(path) => path.last().cloned().unwrap_or_default(),
+        Value::RustDefault => "…".to_owned(),
+    }
+}
+
+/// A duration in the unit in which it is short.
+pub fn duration(d: Duration) -> String {
+    let seconds = d.as_secs();
+    if d.subsec_nanos() == 0 && seconds > 0 {
+        return match (seconds % 3600, seconds % 60) {
+            (0, _) => format!("{} h", seconds / 3600),
+            (_, 0) => format!("{} min", seconds / 60),
+            _ => format!("{seconds} s"),
+        };
+    }
+    match d.as_nanos() {
+        n if n % 1_000_000 == 0 => format!("{} ms", n / 1_000_000),
+        n if n % 1000 == 0 => format!("{} us", n / 1000),
+        n => format!("{n} ns"),
+    }
+}
+
+/// The modifiers of an instance, in one line; nothing if it has none.
+pub fn modifiers(modifiers: &Modifiers) -> Option<String> {
+    let timed = [
+        ("every", modifiers.every),
+        ("after", modifiers.after),
+        ("timeout", modifiers.timeout),
+        ("deadline", modifiers.deadline),
+    ];
+    let timed = timed.into_iter().filter_map(|(word, time)| Some(format!("{word} {}", duration(time?))));
+    let group = modifiers.group.iter().map(|group| format!("on {group}"));
+    let flags =
+        [("pipelined", modifiers.pipelined), ("essential", modifiers.essential), ("restart", modifiers.restart)];
+    let flags = flags.into_iter().filter(|(_, on)| *on).map(|(word, _)| word.to_owned());
+    let words: Vec<String> = timed.chain(group).chain(flags).collect();
+    (!words.is_empty()).then(|| words.join(" "))
+}

@@ -1,0 +1,90 @@
+//! `docs/figures.md` and its pictures are what is drawn today. `APEX_UPDATE_PICTURES=1` writes them anew.
+
+use crate::{Drawer, root};
+use apex_diagram::{diagram, states, svg};
+use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
+
+const INTRODUCTION: &str = "# Figures
+
+The figures of the dissertation that are about the model itself, as texts in [`tests/figures`](../tests/figures), drawn by `apex graph`. The tests
+run all of them, and write this page.
+
+Data goes from left to right: inputs are at the left of a box, outputs at the right. Slots are at the top, events at the bottom. Double lines
+are `=>`, which activity passes. Solid lines are synchronous, dashed ones asynchronous; dash-dotted ones lead from the one to the
+other. Where activity can be is coloured, and it begins at the dot. A second picture shows the activity alone (`--activity`).
+";
+
+/// What stands behind `mark` at the beginning of a text.
+fn header<'a>(text: &'a str, mark: &str) -> String {
+    let lines: Vec<&'a str> = text.lines().map_while(|line| line.strip_prefix(mark)).map(str::trim).collect();
+    lines.join("\n")
+}
+
+/// The pages and pictures, by path.
+fn written() -> BTreeMap<String, String> {
+    let folder = root().join("tests/figures");
+    let mut drawer = Drawer::new();
+    let mut names: Vec<String> = fs::read_dir(&folder)
+        .expect("the folder is there")
+        .map(|entry| entry.expect("it can be read").file_name().into_string().expect("names are plain"))
+        .filter(|name| name.ends_with(".afg"))
+        .collect();
+    names.sort();
+    let mut files = BTreeMap::new();
+    let mut page = INTRODUCTION.to_owned();
+    for name in names {
+        let text = fs::read_to_string(folder.join(&name)).expect("it can be read");
+        let stem = name.trim_end_matches(".afg");
+        let number = stem.trim_start_matches("fig_").split('_').map(|n| n.trim_start_matches('0')).collect::<Vec<_>>();
+        let words = header(&text, "//!");
+        let words = words.split_once(": ").map_or(words.as_str(), |(_, words)| words);
+        let mut begin = words.chars();
+        let words: String = begin.next().into_iter().flat_map(char::to_uppercase).chain(begin).collect();
+        let _ = write!(page, "\n## {}\n\n{words}\n\n[`{name}`](../tests/figures/{name})\n", number.join("."));
+        for graph in drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}")) {
+            let picture = diagram(&graph, &drawer.0);
+            let docs = graph.docs.trim();
+            let docs = if docs.is_empty() { String::new() } else { format!(": {}", docs.replace('\n', " ")) };
+            let _ = write!(page, "\n`{}`{docs}\n", graph.name);
+            let path = format!("images/figures/{stem}_{}", graph.name.to_lowercase());
+            let _ = write!(page, "\n![{}]({path}.svg)\n", graph.name);
+            files.insert(format!("docs/{path}.svg"), svg(&picture));
+            if let Some(activity) = states(&picture) {
+                let _ = write!(page, "\n![The activity of {}]({path}_activity.svg)\n", graph.name);
+                files.insert(format!("docs/{path}_activity.svg"), svg(&activity));
+            }
+        }
+    }
+    files.insert("docs/figures.md".to_owned(), page);
+    files.insert("docs/images/mission.svg".to_owned(), mission());
+    files
+}
+
+/// The picture of the README.
+fn mission() -> String {
+    let folder = root().join("robots/patsy");
+    let text = fs::read_to_string(folder.join("mission.afg")).expect("it can be read");
+    let mut drawer = Drawer::of(&folder);
+    let graphs = drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}"));
+    svg(&diagram(&graphs[0], &drawer.0))
+}
+
+#[test]
+fn the_pictures_of_the_documentation_are_up_to_date() {
+    let files = written();
+    let update = std::env::var_os("APEX_UPDATE_PICTURES").is_some();
+    for (path, text) in &files {
+        let file = root().join(path);
+        if update {
+            fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).expect("the folder can be made");
+            fs::write(&file, text).expect("it can be written");
+        }
+        let is = fs::read_to_string(&file).unwrap_or_default().replace("\r\n", "\n");
+        assert!(is == *text, "{path} is not what is drawn today: run this test with APEX_UPDATE_PICTURES=1");
+    }
+    let folder = fs::read_dir(root().join("docs/images/figures")).expect("the folder is there");
+    for entry in folder {
+        let name = entry.expect("it can be read").file_name().into_string().expect("names are plain");
+        assert!(files.contains_key(&format!("docs/images/figures/{name}")), "{name} is the picture of nothing");
+    }
+}

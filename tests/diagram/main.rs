@@ -1,0 +1,79 @@
+//! Pictures of graphs: what is drawn, where it is drawn, and that the pictures of the documentation are what is drawn today.
+
+mod dot;
+mod figures;
+mod layout;
+mod model;
+mod svg;
+
+use apex_diagram::{Item, diagram};
+use apex_dsl::{
+    catalog::Catalog,
+    graph::Graph,
+    passes,
+    report::{Diagnostics, render},
+    source::Sources,
+};
+use apex_host::{Disk, Seen, Workspace};
+use std::path::{Path, PathBuf};
+
+/// The nodes that texts can use.
+struct Drawer(Catalog);
+
+impl Drawer {
+    /// Sees the nodes of this package.
+    fn new() -> Self {
+        Self::of(&root().join("tests"))
+    }
+
+    /// Sees the nodes of the package in this folder.
+    fn of(folder: &Path) -> Self {
+        let workspace = Workspace::load(folder).expect("cargo knows the package");
+        let mut disk = Disk::new(Some(&workspace.cache_folder()));
+        let catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
+        disk.save();
+        Self(catalog)
+    }
+
+    /// The graphs of a text that stands in this folder.
+    fn graphs(&mut self, folder: &Path, text: &str) -> Result<Vec<Graph>, String> {
+        let mut sources = Sources::default();
+        let file = sources.add(folder.join("text.afg"), text);
+        let mut diagnostics = Diagnostics::default();
+        let programs = passes::check(file, &mut self.0, &mut sources, &mut Disk::new(None), &mut diagnostics);
+        if diagnostics.has_errors() {
+            return Err(diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect());
+        }
+        Ok(programs.into_iter().filter(|p| p.script.is_none()).map(|p| p.graph).collect())
+    }
+
+    /// The picture of the only graph of a text.
+    fn one(&mut self, text: &str) -> Item {
+        let graphs = self.graphs(&root().join("tests"), text).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(graphs.len(), 1, "one graph is expected");
+        diagram(&graphs[0], &self.0)
+    }
+}
+
+/// The folder of the workspace.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Pictures of random graphs of all kinds, some of them with nested graphs, activity and events.
+fn random(count: usize) -> Vec<(String, Item)> {
+    let mut drawer = Drawer::new();
+    let mut texts: Vec<String> =
+        (0..count as u64).map(|seed| apex_tests::oracle::generate(seed, true).text("Random")).collect();
+    texts.push(apex_tests::text(&apex_tests::cases(apex_tests::SEED, count / 4)));
+    let mut pictures = vec![];
+    for text in &texts {
+        // Not all random graphs are legal.
+        for graph in drawer.graphs(&root().join("tests"), text).unwrap_or_default() {
+            pictures.push((text.clone(), diagram(&graph, &drawer.0)));
+        }
+    }
+    assert!(pictures.len() > count * 3 / 4, "only {} graphs of {count} are legal", pictures.len());
+    assert!(pictures.iter().any(|(_, item)| item.count() > 40), "all graphs are small");
+    pictures
+}

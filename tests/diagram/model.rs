@@ -1,0 +1,194 @@
+//! Everything is drawn, and drawn once.
+
+use crate::{Drawer, root};
+use apex_diagram::{Anchor, Flow, Frame, Item, Shape, Side, diagram, states};
+use apex_dsl::graph::{Graph, NodeKind};
+
+const KINDS: &str = "
+use apex_nodes::flow::{ActivityGate, Relay, Wait};
+use apex_tests::nodes::{Count, Snk, Take, Tee, mul};
+
+/// Everything that can be connected.
+graph Kinds {
+    in    x: i64;
+    out   y: i64;
+    slot  go;
+    event over;
+
+    /// Has a doc of its own.
+    node s     = Count(end = 4) every 20ms;
+    node inner = Inner(k = 7);
+    node t     = Take();
+    node k     = Snk();
+    node wait  = Relay();
+    node rest  = Wait() timeout 2s;
+    start       => wait.enable;
+    go          -> wait.put;
+    wait.signal => rest.activate;
+    rest.timeout => over;
+    rest.timeout => wait.enable;
+    x -> inner.a;
+    inner.b -> y;
+    s -> k;
+    s -> t.s;
+    inner.e -> mul(k = 2) -> Snk();
+}
+
+/// A graph inside.
+graph Inner(k: i64 = 3) {
+    in    a: i64;
+    out   b: i64;
+    event e: i64;
+    node m   = mul(k = k);
+    node tee = Tee();
+    a -> m -> tee;
+    tee.out -> b;
+    tee.e -> e;
+}
+";
+
+fn named<'a>(frame: &'a Frame, name: &str) -> (usize, &'a Item) {
+    let mut found = frame.items.iter().enumerate().filter(|(_, item)| item.name == name);
+    let item = found.next().unwrap_or_else(|| panic!("there is no `{name}`"));
+    assert!(found.next().is_none(), "`{name}` is drawn twice");
+    item
+}
+
+/// A line by the names at its ends.
+fn lines(item: &Item) -> Vec<String> {
+    let frame = item.inside.as_ref().expect("it has an inside");
+    let name = |end: Anchor| match end {
+        Anchor::Own(port) => item.ports[port].name.clone(),
+        Anchor::Of(at, port) => {
+            let inner = &frame.items[at];
+            format!("{}.{}", inner.name, inner.ports[port].name)
+        }
+    };
+    let line = |l: &apex_diagram::Line| {
+        let arrow = if l.active { "=>" } else { "->" };
+        format!("{} {arrow} {} {:?}", name(l.from), name(l.to), l.flow)
+    };
+    let mut all: Vec<String> = frame.lines.iter().map(line).collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn nodes_and_connections_of_all_kinds() {
+    let item = Drawer::new().one(KINDS);
+    assert_eq!(item.docs.trim(), "Everything that can be connected.");
+    let sides: Vec<(&str, Side)> = item.ports.iter().map(|p| (p.name.as_str(), p.side)).collect();
+    assert_eq!(sides, [("x", Side::Left), ("y", Side::Right), ("go", Side::Top), ("over", Side::Bottom)]);
+    let expected = [
+        "go -> wait.put Asynchronous",
+        "inner.b -> y Synchronous",
+        "inner.e -> mul_1.x Hybrid",
+        "mul_1. -> snk_2.x Synchronous",
+        "rest.timeout => over Asynchronous",
+        "rest.timeout => wait.enable Asynchronous",
+        "s. -> k.x Synchronous",
+        "s. -> t.s Hybrid",
+        "start. => wait.enable Asynchronous",
+        "wait.signal => rest.activate Asynchronous",
+        "x -> inner.a Synchronous",
+    ];
+    assert_eq!(lines(&item), expected);
+    let frame = item.inside.as_ref().unwrap();
+    assert_eq!(frame.items.len(), 9);
+    assert_eq!(named(frame, "s").1.words, ["Count", "end = 4", "every 20 ms"]);
+    assert_eq!(named(frame, "s").1.docs.trim(), "Has a doc of its own.");
+    assert_eq!(named(frame, "rest").1.words, ["Wait", "timeout 2 s"]);
+    assert_eq!(named(frame, "start").1.shape, Shape::Start);
+    assert_eq!((named(frame, "rest").1.active, named(frame, "k").1.active), (true, false));
+    let inner = named(frame, "inner").1;
+    assert_eq!(inner.words, ["Inner", "k = 7"]);
+    assert_eq!(inner.docs.trim(), "A graph inside.");
+    let expected =
+        ["a -> m.x Synchronous", "m. -> tee.x Synchronous", "tee. -> b Synchronous", "tee.e -> e Asynchronous"];
+    assert_eq!(lines(inner), expected);
+}
+
+#[test]
+fn values_that_are_the_default_are_not_shown() {
+    let text = "use apex_nodes::scan::JumpDistance;\nuse apex_nodes::scan::Scan;\ngraph A { in s: Scan; node j = JumpDistance(gap = VALUE); s -> j; }";
+    let words = |value: &str| {
+        let item = Drawer::new().one(&text.replace("VALUE", value));
+        named(item.inside.as_ref().unwrap(), "j").1.words.clone()
+    };
+    assert_eq!(words("15cm"), ["JumpDistance"]);
+    assert_eq!(words("30cm"), ["JumpDistance", "gap = 0.3 m"]);
+}
+
+#[test]
+fn activity_alone_is_a_state_diagram() {
+    let seen = states(&Drawer::new().one(KINDS)).expect("there is activity in it");
+    let frame = seen.inside.as_ref().unwrap();
+    let names: Vec<&str> = frame.items.iter().map(|i| i.name.as_str()).collect();
+    assert_eq!(names, ["wait", "rest", "start"], "neither data flow nor what it goes through");
+    assert_eq!(seen.ports.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["over"]);
+    let labels: Vec<&str> = frame.lines.iter().map(|l| l.label.as_str()).collect();
+    assert_eq!(labels, ["", "signal", "timeout", "timeout"]);
+    let silent = Drawer::new().one("use apex_tests::nodes::{Count, Snk}; graph A { node s = Count(); s -> Snk(); }");
+    assert_eq!(states(&silent), None);
+}
+
+#[test]
+fn a_machine_shows_its_states() {
+    let text = "
+fsm Door {
+    slot  push;
+    slot  lock: i64;
+    event bell;
+    state closed { on push => open -> bell; on lock -> bell; }
+    state open { on push => closed; on lock if lock > 3 => closed; }
+}
+graph House { slot push; node door = Door(); push -> door.push; }
+";
+    let item = Drawer::new().one(text);
+    let (_, door) = named(item.inside.as_ref().unwrap(), "door");
+    assert!(door.inside.is_none(), "the graph shows it as a box");
+    let seen = states(&item).expect("a machine has states");
+    let (_, door) = named(seen.inside.as_ref().unwrap(), "door");
+    let frame = door.inside.as_ref().expect("its states are drawn");
+    let names: Vec<&str> = frame.items.iter().map(|i| i.name.as_str()).collect();
+    assert_eq!(names, ["closed", "open", "start"]);
+    assert_eq!(frame.items[0].words, ["lock / bell"]);
+    let labels: Vec<&str> = frame.lines.iter().map(|l| l.label.as_str()).collect();
+    assert_eq!(labels, ["", "push / bell", "push", "lock [lock > 3]"]);
+}
+
+/// Nodes and connections that a picture must have.
+fn expected(graph: &Graph) -> (usize, usize) {
+    let drawn = |n: &&apex_dsl::graph::Node| !matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Relay);
+    let nodes = graph.nodes.iter().filter(drawn).count() + graph.scopes.len() - 1;
+    (nodes, graph.wires.len() + graph.nodes.iter().filter(|n| n.starts_active).count())
+}
+
+/// Items and lines of a frame, without dots where activity begins and without what is inside an `each`.
+fn drawn(frame: &Frame) -> (usize, usize) {
+    let dots = frame.items.iter().filter(|i| i.shape == Shape::Start).count();
+    let mut count = (frame.items.len() - dots, frame.lines.len());
+    for inner in frame.items.iter().filter(|i| !i.each).filter_map(|i| i.inside.as_ref()) {
+        let (items, lines) = drawn(inner);
+        count = (count.0 + items, count.1 + lines);
+    }
+    count
+}
+
+#[test]
+fn each_node_and_each_connection_is_drawn_once() {
+    let mut drawer = Drawer::new();
+    let mut hybrid = 0;
+    for seed in 0..60 {
+        let text = apex_tests::oracle::generate(seed, true).text("Random");
+        for graph in drawer.graphs(&root().join("tests"), &text).unwrap_or_default() {
+            let item = diagram(&graph, &drawer.0);
+            let frame = item.inside.as_ref().unwrap();
+            let starts = graph.nodes.iter().filter(|n| matches!(n.kind, NodeKind::Start)).count();
+            let (nodes, connections) = expected(&graph);
+            assert_eq!(drawn(frame), (nodes - starts, connections), "{text}");
+            hybrid += frame.lines.iter().filter(|l| l.flow == Flow::Hybrid).count();
+        }
+    }
+    assert!(hybrid > 10, "the random graphs have hybrid connections");
+}
