@@ -216,7 +216,7 @@ impl<'a> Builder<'a> {
             }
         };
         let list = node.ports.get(each.list).map_or("", |p| p.name.as_str());
-        item.words.push(format!("each {}({list})", if each.parallel { "par " } else { "" }).replace("each (", "each("));
+        item.words.push(format!("each{}({list})", if each.parallel { " par" } else { "" }));
         item.each = true;
         item
     }

@@ -115,7 +115,7 @@ fn hidden(frame: &Frame, placed: &Placed) -> Vec<String> {
 #[test]
 fn nothing_stands_or_runs_over_anything_else() {
     let mut activity = 0;
-    for (text, item) in random(80) {
+    for (text, item) in random(50) {
         let seen = states(&item);
         activity += usize::from(seen.is_some());
         for picture in [Some(item), seen].into_iter().flatten() {
@@ -125,7 +125,7 @@ fn nothing_stands_or_runs_over_anything_else() {
             assert!(found.is_empty(), "{}\n{text}", found.join("\n"));
         }
     }
-    assert!(activity > 20, "only {activity} pictures with activity");
+    assert!(activity > 12, "only {activity} pictures with activity");
 }
 
 #[test]

@@ -179,7 +179,7 @@ fn drawn(frame: &Frame) -> (usize, usize) {
 fn each_node_and_each_connection_is_drawn_once() {
     let mut drawer = Drawer::new();
     let mut hybrid = 0;
-    for seed in 0..60 {
+    for seed in 0..40 {
         let text = apex_tests::oracle::generate(seed, true).text("Random");
         for graph in drawer.graphs(&root().join("tests"), &text).unwrap_or_default() {
             let item = diagram(&graph, &drawer.0);

@@ -6,7 +6,7 @@ use roxmltree::Document;
 
 #[test]
 fn random_pictures_are_well_formed() {
-    for (text, item) in random(40) {
+    for (text, item) in random(24) {
         for picture in [Some(item.clone()), states(&item)].into_iter().flatten() {
             let svg = svg(&picture);
             let document = Document::parse(&svg).unwrap_or_else(|e| panic!("{e}\n{text}\n{svg}"));
