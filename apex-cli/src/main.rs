@@ -1,10 +1,12 @@
 //! The `apex` command: thin shells around the compiler.
 
 mod check;
+mod completions;
 mod expand;
 mod explain;
 mod fmt;
 mod lsp;
+mod new;
 mod project;
 mod run;
 mod test;
@@ -35,6 +37,12 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+    },
+    /// Print what a shell needs to complete this command.
+    #[command(after_help = "Example:\n  apex completions bash > ~/.local/share/bash-completion/completions/apex")]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
     },
     /// Bring texts into the one style of the language.
     #[command(
@@ -67,6 +75,16 @@ enum Command {
     /// Serve an editor: the language server, on standard input and output.
     #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
     Lsp,
+    /// Make a project that runs at once.
+    #[command(after_help = "Example:\n  apex new my-robot\n  cd my-robot\n  cargo run")]
+    New {
+        /// The folder of the project; its name is that of the package.
+        #[arg(value_name = "NAME")]
+        folder: PathBuf,
+        /// The checkout that the crates of Apex are taken from, if not the one that this command was built from.
+        #[arg(long, value_name = "FOLDER")]
+        path: Option<PathBuf>,
+    },
     /// Run the tests of a text on simulated time.
     #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
     Test {
@@ -110,11 +128,13 @@ enum Format {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check { files, format } => check::run(&files, format),
+        Command::Completions { shell } => completions::run(shell),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
         Command::Explain { file, format, .. } => explain::run(&file, format),
         Command::Lsp => lsp::run(),
+        Command::New { folder, path } => new::run(&folder, path.as_deref()),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
         Command::Run { file, robot, params, save_params, args } => {
             run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)
