@@ -10,6 +10,7 @@ mod new;
 mod project;
 mod run;
 mod test;
+mod watch;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use std::{path::PathBuf, process::ExitCode};
@@ -109,6 +110,9 @@ enum Command {
         /// Writes all parameters into this file when the run ends, also by Ctrl-C.
         #[arg(long, value_name = "FILE")]
         save_params: Option<PathBuf>,
+        /// Builds and starts it anew whenever its text or the Rust beside it changes; Ctrl-C ends both.
+        #[arg(long)]
+        watch: bool,
         /// Arguments for the program.
         #[arg(last = true)]
         args: Vec<String>,
@@ -136,8 +140,10 @@ fn main() -> ExitCode {
         Command::Lsp => lsp::run(),
         Command::New { folder, path } => new::run(&folder, path.as_deref()),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
-        Command::Run { file, robot, params, save_params, args } => {
-            run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)
+        Command::Run { file, robot, params, save_params, watch, args } => {
+            let params = run::Params { load: params, save: save_params };
+            let wanted = run::Wanted { file: &file, robot: robot.as_deref(), params: &params, args: &args, watch };
+            if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };
     match result {
