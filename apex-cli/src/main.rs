@@ -5,6 +5,7 @@ mod completions;
 mod expand;
 mod explain;
 mod fmt;
+mod import;
 mod lsp;
 mod new;
 mod project;
@@ -73,6 +74,20 @@ enum Command {
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
     },
+    /// Turn a graph file of CS::APEX into a text.
+    #[command(
+        after_help = "What the library does not have stands in the text with a comment; --nodes writes Rust for it, to be filled in.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
+    )]
+    Import {
+        /// The graph file: .apex, or a snippet .apexs.
+        file: PathBuf,
+        /// Where the text is written, if not to standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+        /// Writes skeletons of the node types that the library does not have into this Rust file.
+        #[arg(long, value_name = "FILE")]
+        nodes: Option<PathBuf>,
+    },
     /// Serve an editor: the language server, on standard input and output.
     #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
     Lsp,
@@ -137,6 +152,7 @@ fn main() -> ExitCode {
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
         Command::Explain { file, format, .. } => explain::run(&file, format),
+        Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
         Command::Lsp => lsp::run(),
         Command::New { folder, path } => new::run(&folder, path.as_deref()),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),

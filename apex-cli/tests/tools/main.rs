@@ -1,8 +1,9 @@
-//! Commands that make and drive things: projects, completions, programs that follow their text.
+//! Commands that make and drive things: projects, completions, programs that follow their text, imports.
 
 #[path = "../common/mod.rs"]
 mod common;
 
 mod completions;
+mod import;
 mod new;
 mod watch;
