@@ -107,7 +107,11 @@ impl Type<'_> {
     fn method(&self, name: &str, arguments: &[(String, String)], rust: &mut String) {
         let list: Vec<String> = arguments.iter().map(|(name, ty)| format!("{name}: {ty}")).collect();
         let names: Vec<&str> = arguments.iter().map(|(name, _)| name.as_str()).collect();
-        let body = if names.is_empty() { String::new() } else { format!("let _ = ({});", names.join(", ")) };
+        let body = match names.as_slice() {
+            [] => String::new(),
+            [only] => format!("let _ = {only};"),
+            names => format!("let _ = ({});", names.join(", ")),
+        };
         let _ = writeln!(rust, "fn {name}(&mut self, {}) {{ {body} }}", list.join(", "));
     }
 }
@@ -120,10 +124,8 @@ fn rust_value(param: &Param) -> (String, String) {
         Param::Bool(value) => ("bool".to_owned(), value.to_string()),
         Param::Text(value) => ("String".to_owned(), format!("String::from({value:?})")),
         Param::List(values) => {
-            let values: Vec<(String, String)> = values.iter().map(rust_value).collect();
-            let ty = values.first().map_or("i64", |(ty, _)| ty);
-            let list: Vec<&str> = values.iter().map(|(_, value)| value.as_str()).collect();
-            (format!("Vec<{ty}>"), format!("vec![{}]", list.join(", ")))
+            let ty = if matches!(values[..], [Param::Text(_), ..]) { "&'static str" } else { "i64" };
+            (format!("&'static [{ty}]"), format!("&{}", text::value(param)))
         }
         Param::None => ("i64".to_owned(), "0".to_owned()),
     }
@@ -146,5 +148,7 @@ pub fn write(top: &Graph) -> Result<String, String> {
         shown.write(ty, &mut rust);
     }
     let file = syn::parse_file(&rust).map_err(|e| format!("the nodes cannot be written as Rust: {e}"))?;
-    Ok(prettyplease::unparse(&file))
+    // It writes items without space between them.
+    let rust = prettyplease::unparse(&file);
+    Ok(rust.replace("\n///", "\n\n///").replace("\n#[node]\nimpl", "\n\n#[node]\nimpl"))
 }

@@ -106,7 +106,8 @@ fn arguments(node: &Node) -> String {
     arguments.join(", ")
 }
 
-fn value(param: &Param) -> String {
+/// A value as the language and Rust write it.
+pub fn value(param: &Param) -> String {
     match param {
         Param::Int(value) => value.to_string(),
         Param::Float(value) => format!("{value:?}"),

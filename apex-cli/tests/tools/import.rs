@@ -1,5 +1,8 @@
-use crate::common::{Folder, apex, package, stderr};
-use std::{fs, path::Path, process::Output};
+use crate::{
+    MADE, TARGET,
+    common::{Folder, apex, package, stderr},
+};
+use std::{fs, path::Path, process::Output, sync::PoisonError};
 
 fn import(file: &Path, more: &[&str]) -> Output {
     apex().arg("import").arg(file).args(more).output().unwrap()
@@ -189,14 +192,20 @@ yaml:
     let written = fs::read_to_string(&text).unwrap();
     assert!(written.contains("graph TwoTrees {"), "{written}");
     let checked = apex().arg("check").arg(&text).output().unwrap();
-    assert_eq!((checked.status.code(), stderr(&checked)), (Some(0), String::new()), "{written}");
+    // Where activity begins is not in the file: there are warnings, but no errors.
+    assert!(checked.status.code() == Some(0) && !stderr(&checked).contains("error"), "{}{written}", stderr(&checked));
     // The camera is a source without end: somebody stands for it who ends the run.
     let runs = written.replace("graph TwoTrees {", "graph TwoTrees {\n    once() -> exit;\n");
     fs::write(&text, runs).unwrap();
     fs::write(folder.0.join("src/lib.rs"), "pub mod nodes;\n/// One.\n#[apex_rt::node]\npub fn once() -> u8 { 1 }\n")
         .unwrap();
-    let ran = apex().args(["run", "--robot", "TwoTrees"]).arg(&text).output().unwrap();
-    assert_eq!(ran.status.code(), Some(0), "{}\n{}", stderr(&ran), fs::read_to_string(&nodes).unwrap());
+    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut command = apex();
+    command.args(["run", "--robot", "TwoTrees"]).arg(&text).env("CARGO_TARGET_DIR", TARGET);
+    let ran = command.output().unwrap();
+    let nodes = fs::read_to_string(&nodes).unwrap();
+    assert_eq!(ran.status.code(), Some(0), "{}\n{nodes}", stderr(&ran));
+    assert!(!stderr(&ran).contains("unused"), "{}", stderr(&ran));
 }
 
 #[test]

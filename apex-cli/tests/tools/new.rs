@@ -1,12 +1,12 @@
-use crate::common::{Folder, apex, stderr};
+use crate::{
+    TARGET,
+    common::{Folder, apex, stderr},
+};
 use std::{
     fs,
     path::Path,
     process::{Command, Output},
 };
-
-/// Where the projects of these tests are built.
-const TARGET: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/new");
 
 /// Runs a command in a folder as a user without network would.
 fn run_in(folder: &Path, command: &mut Command, arguments: &[&str]) -> (Option<i32>, String, String) {

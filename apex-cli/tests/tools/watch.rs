@@ -1,11 +1,15 @@
 //! A program that follows its text. What is waited for is a line, never a time.
 
-use crate::common::{Folder, apex, package};
+use crate::{
+    MADE, TARGET,
+    common::{Folder, apex, package},
+};
 use std::{
     fs,
     io::{BufRead, BufReader, Lines},
     path::Path,
     process::{Child, ChildStderr, ChildStdout, Command, Stdio},
+    sync::PoisonError,
 };
 
 /// `apex run --watch`, seen from outside.
@@ -18,8 +22,8 @@ struct Watched {
 impl Watched {
     fn start(file: &Path) -> Self {
         let mut command = apex();
-        command.args(["run", "--watch"]).arg(file).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = command.spawn().unwrap();
+        command.args(["run", "--watch"]).arg(file).env("CARGO_TARGET_DIR", TARGET);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let output = BufReader::new(child.stdout.take().unwrap()).lines();
         let errors = BufReader::new(child.stderr.take().unwrap()).lines();
         Self { child, output, errors }
@@ -79,6 +83,7 @@ const SET: &str =
 #[cfg(unix)]
 #[test]
 fn the_program_follows_its_text_and_keeps_what_it_changed() {
+    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = Folder::new("watch");
     package(&folder, NODES);
     let file = folder.file("robot.afg", "graph Robot {\n");
