@@ -1,14 +1,18 @@
 //! The `apex` command: thin shells around the compiler.
 
 mod check;
+mod completions;
 mod expand;
 mod explain;
 mod fmt;
 mod graph;
+mod import;
 mod lsp;
+mod new;
 mod project;
 mod run;
 mod test;
+mod watch;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use std::{path::PathBuf, process::ExitCode};
@@ -36,6 +40,12 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+    },
+    /// Print what a shell needs to complete this command.
+    #[command(after_help = "Example:\n  apex completions bash > ~/.local/share/bash-completion/completions/apex")]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
     },
     /// Bring texts into the one style of the language.
     #[command(
@@ -85,9 +95,33 @@ enum Command {
         #[arg(long, value_enum)]
         format: Option<graph::Picture>,
     },
+    /// Turn a graph file of CS::APEX into a text.
+    #[command(
+        after_help = "What the library does not have stands in the text with a comment; --nodes writes Rust for it, to be filled in.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
+    )]
+    Import {
+        /// The graph file: .apex, or a snippet .apexs.
+        file: PathBuf,
+        /// Where the text is written, if not to standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+        /// Writes skeletons of the node types that the library does not have into this Rust file.
+        #[arg(long, value_name = "FILE")]
+        nodes: Option<PathBuf>,
+    },
     /// Serve an editor: the language server, on standard input and output.
     #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
     Lsp,
+    /// Make a project that runs at once.
+    #[command(after_help = "Example:\n  apex new my-robot\n  cd my-robot\n  cargo run")]
+    New {
+        /// The folder of the project; its name is that of the package.
+        #[arg(value_name = "NAME")]
+        folder: PathBuf,
+        /// The checkout that the crates of Apex are taken from, if not the one that this command was built from.
+        #[arg(long, value_name = "FOLDER")]
+        path: Option<PathBuf>,
+    },
     /// Run the tests of a text on simulated time.
     #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
     Test {
@@ -112,6 +146,9 @@ enum Command {
         /// Writes all parameters into this file when the run ends, also by Ctrl-C.
         #[arg(long, value_name = "FILE")]
         save_params: Option<PathBuf>,
+        /// Builds and starts it anew whenever its text or the Rust beside it changes; Ctrl-C ends both.
+        #[arg(long)]
+        watch: bool,
         /// Arguments for the program.
         #[arg(last = true)]
         args: Vec<String>,
@@ -131,6 +168,7 @@ enum Format {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check { files, format } => check::run(&files, format),
+        Command::Completions { shell } => completions::run(shell),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
         Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
@@ -138,10 +176,14 @@ fn main() -> ExitCode {
         Command::Graph { file, graph, activity, output, format } => {
             graph::run(&file, &graph::Wanted { graph, activity, output, format })
         }
+        Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
         Command::Lsp => lsp::run(),
+        Command::New { folder, path } => new::run(&folder, path.as_deref()),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
-        Command::Run { file, robot, params, save_params, args } => {
-            run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)
+        Command::Run { file, robot, params, save_params, watch, args } => {
+            let params = run::Params { load: params, save: save_params };
+            let wanted = run::Wanted { file: &file, robot: robot.as_deref(), params: &params, args: &args, watch };
+            if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };
     match result {

@@ -4,7 +4,9 @@ use crate::project;
 use apex_dsl::{graph::NodeKind, passes::Program};
 use apex_host::Workspace;
 use std::{
-    env, fs,
+    env,
+    ffi::OsString,
+    fs,
     path::{Path, PathBuf},
     process::{Command, ExitCode},
 };
@@ -21,58 +23,109 @@ impl Params {
     fn are_wanted(&self) -> bool {
         self.load.is_some() || self.save.is_some()
     }
+}
 
-    /// Tells the made program, whose arguments belong to the nodes, by its environment.
-    fn tell(&self, command: &mut Command) {
-        for (name, path) in [(LOAD, &self.load), (SAVE, &self.save)] {
+/// The variables by which the made program, whose arguments belong to the nodes, learns the files.
+const LOAD: &str = "APEX_PARAMS";
+const SAVE: &str = "APEX_SAVE_PARAMS";
+const KEPT: &str = "APEX_KEPT_PARAMS";
+
+/// What is to be run.
+pub struct Wanted<'a> {
+    /// The text.
+    pub file: &'a Path,
+    /// Which robot or graph, if the text has several.
+    pub robot: Option<&'a str>,
+    /// Its parameters.
+    pub params: &'a Params,
+    /// Arguments for the program.
+    pub args: &'a [String],
+    /// Whether it is built again and again, and what it changed in its parameters is kept.
+    pub watch: bool,
+}
+
+/// A program as cargo finds it.
+pub struct Found {
+    /// What says it to cargo.
+    select: Vec<OsString>,
+    /// Where cargo is called.
+    folder: PathBuf,
+    /// The folder of the package, if it was made for the text.
+    pub made: Option<PathBuf>,
+}
+
+impl Found {
+    /// `cargo run` or `cargo build`.
+    pub fn cargo(&self, verb: &str) -> Command {
+        let mut command = cargo();
+        command.args([verb, "--release", "--quiet"]).args(&self.select).current_dir(&self.folder);
+        command
+    }
+}
+
+impl Wanted<'_> {
+    /// Gives a program that is about to start what it gets.
+    pub fn tell(&self, program: &Found, command: &mut Command) {
+        command.args(self.args);
+        let Some(made) = &program.made else { return };
+        let kept = self.watch.then(|| made.join("kept"));
+        for (name, path) in [(LOAD, &self.params.load), (SAVE, &self.params.save), (KEPT, &kept)] {
             match path {
                 Some(path) => command.env(name, path),
                 None => command.env_remove(name),
             };
         }
     }
-}
 
-/// The variables by which the made program learns the files.
-const LOAD: &str = "APEX_PARAMS";
-const SAVE: &str = "APEX_SAVE_PARAMS";
-
-/// Checks, builds and runs.
-pub fn run(file: &Path, robot: Option<&str>, params: &Params, args: &[String]) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
-    checked.print_diagnostics();
-    if checked.diagnostics.has_errors() {
-        return Ok(ExitCode::from(1));
-    }
-    let folder = package(file)?;
-    let workspace = Workspace::load(&folder)?;
-    let (package, binary) = workspace.binary();
-    let mut command = cargo();
-    match binary.filter(|_| robot.is_none()) {
-        Some(binary) if params.are_wanted() => {
-            return Err(format!(
+    /// Checks the text and finds its program; `None` if the text has errors, which are printed.
+    pub fn find(&self) -> Result<Option<Found>, String> {
+        let checked = project::check(self.file)?;
+        checked.print_diagnostics();
+        if checked.diagnostics.has_errors() {
+            return Ok(None);
+        }
+        let folder = package(self.file)?;
+        let workspace = Workspace::load(&folder)?;
+        let (package, binary) = workspace.binary();
+        match binary.filter(|_| self.robot.is_none()) {
+            Some(binary) if self.params.are_wanted() => Err(format!(
                 "`--params` and `--save-params` are for programs that are made for the text, but `{binary}` is a program of its own: leave them out, or choose a robot with `--robot`"
+            )),
+            Some(binary) => {
+                let select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
+                Ok(Some(Found { select, folder, made: None }))
+            }
+            None => self.make(choose(&checked.programs, self.robot)?, &workspace).map(Some),
+        }
+    }
+
+    /// Makes a package whose only job is to drive the program.
+    fn make(&self, program: &Program, workspace: &Workspace) -> Result<Found, String> {
+        let graph = &program.graph;
+        if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
+            return Err(format!(
+                "`{}` of `{}` is made in Rust: run it from a program of your own",
+                node.name, graph.name
             ));
         }
-        Some(binary) => {
-            command
-                .args(["run", "--release", "--quiet", "--package", package, "--bin", binary, "--"])
-                .args(args)
-                .current_dir(&folder);
-        }
-        None => {
-            let program = choose(&checked.programs, robot)?;
-            let made = driver(file, program, &workspace, params.are_wanted())?;
-            command
-                .args(["run", "--release", "--quiet", "--manifest-path"])
-                .arg(made)
-                .arg("--target-dir")
-                .arg(workspace.target.join("apex/run"))
-                .arg("--")
-                .args(args);
-            params.tell(&mut command);
-        }
+        let params = self.watch || self.params.are_wanted();
+        let made = workspace.cache_folder().join("run").join(&graph.name);
+        let main = main_file(&absolute(self.file)?, &graph.name, params);
+        let manifest = make_package(&made, workspace, params, "src/main.rs", &main)?;
+        let target = workspace.target.join("apex/run");
+        let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.into()].to_vec();
+        // Files are named as the user sees them.
+        let folder = env::current_dir().map_err(|e| format!("cannot see the current folder: {e}"))?;
+        Ok(Found { select, folder, made: Some(made) })
     }
+}
+
+/// Checks, builds and runs.
+pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
+    let Some(program) = wanted.find()? else { return Ok(ExitCode::from(1)) };
+    let mut command = program.cargo("run");
+    command.arg("--");
+    wanted.tell(&program, &mut command);
     let status = command.status().map_err(|e| format!("cannot run cargo: {e}"))?;
     Ok(status.code().and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from))
 }
@@ -106,17 +159,6 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
         ([], [only]) => Ok(*only),
         _ => Err(format!("which one is to run? choose with `--robot`: {}", names())),
     }
-}
-
-/// Makes a package whose only job is to drive the program.
-fn driver(file: &Path, program: &Program, workspace: &Workspace, params: bool) -> Result<PathBuf, String> {
-    let graph = &program.graph;
-    if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
-        return Err(format!("`{}` of `{}` is made in Rust: run it from a program of your own", node.name, graph.name));
-    }
-    let folder = workspace.cache_folder().join("run").join(&graph.name);
-    let main = main_file(&absolute(file)?, &graph.name, params);
-    make_package(&folder, workspace, params, "src/main.rs", &main)
 }
 
 /// The whole path of a text, as a made package names it.
@@ -172,10 +214,10 @@ graph!({file:?});
 
 fn drive() -> Result<u8, String> {{
     let file = |name| env::var_os(name).map(PathBuf::from);
-    let (load, save) = (file("{LOAD}"), file("{SAVE}"));
+    let (load, save, kept) = (file("{LOAD}"), file("{SAVE}"), file("{KEPT}"));
     // Without it the program would end at once, and nothing would be saved.
     let clock = UntilStopped::ctrl_c(WallClock::new())?;
-    run_with_files({name}::new(), clock, load.as_deref(), save.as_deref())
+    run_with_files({name}::new(), clock, load.as_deref(), save.as_deref(), kept.as_deref())
 }}
 
 fn main() -> ExitCode {{

@@ -1,46 +1,18 @@
 //! The built command: what it prints where, and its exit codes.
 
+mod common;
+
+use common::{Folder, apex, package, stderr};
 use serde_json::Value;
 use std::{
     fs,
     io::Write as _,
-    path::{Path, PathBuf},
-    process::{Command, Output, Stdio},
+    path::Path,
+    process::{Output, Stdio},
 };
-
-/// A folder outside of any package, which is removed at the end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("apex-cli-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn file(&self, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.0.join(name);
-        fs::write(&path, text).unwrap();
-        path
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn apex() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_apex"))
-}
 
 fn check(arguments: &[&str], file: &Path) -> Output {
     apex().arg("check").args(arguments).arg(file).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 #[test]
@@ -116,14 +88,8 @@ fn wrong_use_is_two() {
 #[test]
 fn nodes_of_the_package() {
     let folder = Folder::new("package");
-    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../apex-rt");
-    let manifest = format!(
-        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"
-    );
-    folder.file("Cargo.toml", manifest);
-    fs::create_dir_all(folder.0.join("src")).unwrap();
-    folder.file(
-        "src/lib.rs",
+    package(
+        &folder,
         "use apex_rt::prelude::*;\n#[node]\npub fn ramp(#[param(default = [0.0, 1.0])] range: [f32; 2]) -> u64 { 1 }\n#[node]\npub fn show(x: &u64) {}\n",
     );
     let file = folder.file("robot.afg", "graph Robot {\n    ramp() -> show();\n}\n");
@@ -133,17 +99,6 @@ fn nodes_of_the_package() {
     }
     let output = apex().arg("expand").arg(&file).output().unwrap();
     assert!(String::from_utf8(output.stdout).unwrap().contains("pub struct Robot"));
-}
-
-/// A package with nodes and no program of its own; removed with the folder.
-fn package(folder: &Folder, nodes: &str) {
-    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../apex-rt");
-    let manifest = format!(
-        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"
-    );
-    folder.file("Cargo.toml", manifest);
-    fs::create_dir_all(folder.0.join("src")).unwrap();
-    folder.file("src/lib.rs", nodes);
 }
 
 const SPEAKER: &str = "\

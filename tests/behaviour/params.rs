@@ -339,11 +339,11 @@ fn a_run_with_files() {
     let folder = Folder::new("run");
     let (load, save) = (folder.0.join("load.toml"), folder.0.join("save.toml"));
     fs::write(&load, "late.gain = 4").unwrap();
-    run_with_files(tuned(), SimClock::until(Time::from_millis(3)), Some(&load), Some(&save)).unwrap();
+    run_with_files(tuned(), SimClock::until(Time::from_millis(3)), Some(&load), Some(&save), None).unwrap();
     assert_eq!(fs::read_to_string(&save).unwrap(), SAVED.replace("gain = 1", "gain = 4"));
     fs::write(&load, "late.gain = 40").unwrap();
     fs::remove_file(&save).unwrap();
-    run_with_files(tuned(), SimClock::until(Time::from_millis(3)), Some(&load), Some(&save)).unwrap_err();
+    run_with_files(tuned(), SimClock::until(Time::from_millis(3)), Some(&load), Some(&save), None).unwrap_err();
     assert!(!save.exists());
 }
 

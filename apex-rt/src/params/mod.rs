@@ -6,6 +6,8 @@
 mod error;
 #[cfg(feature = "params")]
 mod file;
+#[cfg(feature = "params")]
+mod keep;
 mod probe;
 #[cfg(feature = "params")]
 mod run;

@@ -1,0 +1,246 @@
+//! What a graph file says.
+
+use super::{
+    Wrong, known, names,
+    ports::{End, Kind, Port},
+    text::MESSAGE,
+    yaml::{Value, Yaml},
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How deep graphs may be in each other: as in the language.
+const MAX_DEPTH: usize = 64;
+
+/// A graph; those in it are nodes with a graph.
+#[derive(Debug)]
+pub struct Graph {
+    /// Its name in the text.
+    pub name: String,
+    pub nodes: Vec<Node>,
+    pub connections: Vec<Connection>,
+    /// Its own ports, as far as something is connected to them inside or outside.
+    pub ports: BTreeSet<(Kind, u32)>,
+}
+
+#[derive(Debug)]
+pub struct Node {
+    /// Its name in the text.
+    pub name: String,
+    /// Its type, as the file spells it.
+    pub ty: String,
+    pub params: Vec<(String, Param)>,
+    /// Its thread group.
+    pub group: Option<String>,
+    pub enabled: bool,
+    pub graph: Option<Graph>,
+}
+
+#[derive(Debug)]
+pub struct Connection {
+    pub from: End,
+    pub to: End,
+    pub active: bool,
+}
+
+/// The value of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Param {
+    Int(i64),
+    Float(f64),
+    Bool(bool),
+    Text(String),
+    List(Vec<Param>),
+    /// It has none that could be written: a button, a colour wheel.
+    None,
+}
+
+/// What is the same in all graphs of a file.
+struct File {
+    graph_names: BTreeSet<String>,
+    /// The thread groups, by the ids of nodes from the outermost graph on.
+    groups: BTreeMap<String, String>,
+}
+
+/// Reads a graph (`.apex`), or a snippet with a graph in it (`.apexs`).
+pub fn read(yaml: &Yaml, file_name: &str) -> Result<Graph, Wrong> {
+    let snippet = yaml.get("yaml").filter(|_| yaml.get("nodes").is_none());
+    let name = yaml.get("name").filter(|_| snippet.is_some());
+    let name = name.and_then(|n| n.scalar("").ok()).filter(|n| !n.is_empty()).unwrap_or(file_name);
+    let yaml = snippet.unwrap_or(yaml);
+    let mut file = File { graph_names: BTreeSet::from([MESSAGE.to_owned()]), groups: groups(yaml)? };
+    take_types(yaml, &mut file.graph_names);
+    file.graph(yaml, name, "", 0)
+}
+
+/// A graph cannot have the name of a node type.
+fn take_types(yaml: &Yaml, taken: &mut BTreeSet<String>) {
+    for node in yaml.get("nodes").and_then(|nodes| nodes.list("").ok()).into_iter().flatten() {
+        let ty = node.get("type").and_then(|ty| ty.scalar("").ok()).unwrap_or_default();
+        taken.insert(known::find(ty).map_or_else(|| names::camel(ty), |known| known.ours.1.to_owned()));
+        node.get("subgraph").into_iter().for_each(|graph| take_types(graph, taken));
+    }
+}
+
+/// Thread groups that are named; those without a name are the machine's business.
+fn groups(yaml: &Yaml) -> Result<BTreeMap<String, String>, Wrong> {
+    let mut groups = BTreeMap::new();
+    let Some(threads) = yaml.get("threads") else { return Ok(groups) };
+    let list = |key| threads.get(key).map_or(Ok(&[][..]), |list| list.list(&format!("`{key}`")));
+    let mut names = BTreeMap::new();
+    for group in list("groups")? {
+        let id = group.need("id", "a thread group")?.scalar("`id`")?;
+        names.insert(id, group.need("name", "a thread group")?.scalar("`name`")?);
+    }
+    for assignment in list("assignments")? {
+        let uuid = assignment.need("uuid", "an assignment")?.scalar("`uuid`")?;
+        let id = assignment.need("id", "an assignment")?.scalar("`id`")?;
+        if let Some(name) = names.get(id) {
+            groups.insert(uuid.to_owned(), names::snake(name));
+        }
+    }
+    Ok(groups)
+}
+
+impl File {
+    fn graph(&mut self, yaml: &Yaml, name: &str, path: &str, depth: usize) -> Result<Graph, Wrong> {
+        if depth > MAX_DEPTH {
+            return Err(Wrong::new(yaml.line, format!("graphs are nested deeper than {MAX_DEPTH} times")));
+        }
+        let name = names::unique(names::camel(name), &mut self.graph_names);
+        let mut graph = Graph { name, nodes: vec![], connections: vec![], ports: BTreeSet::new() };
+        let mut places: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+        let mut taken = BTreeSet::new();
+        for node in yaml.need("nodes", "a graph")?.list("`nodes`")? {
+            let uuid = node.need("uuid", "a node")?;
+            let id = uuid.scalar("`uuid`")?;
+            if let Some((_, line)) = places.insert(id, (graph.nodes.len(), uuid.line)) {
+                let message = format!("the node `{id}` is there twice; the first stands in line {line}");
+                return Err(Wrong::new(uuid.line, message));
+            }
+            graph.nodes.push(self.node(node, id, path, depth, &mut taken)?);
+        }
+        for connection in yaml.get("connections").map_or(Ok(&[][..]), |c| c.list("`connections`"))? {
+            graph.connect(connection, |id| places.get(id).map(|(index, _)| *index))?;
+        }
+        Ok(graph)
+    }
+
+    fn node(
+        &mut self,
+        yaml: &Yaml,
+        id: &str,
+        path: &str,
+        depth: usize,
+        taken: &mut BTreeSet<String>,
+    ) -> Result<Node, Wrong> {
+        let ty = yaml.need("type", "a node")?.scalar("`type`")?;
+        // A label that nobody has changed is the id of the node or that of one of which it is a copy.
+        let label = yaml.get("label").and_then(|label| label.scalar("").ok());
+        let label = label.filter(|label| !label.is_empty() && !label.starts_with(ty)).unwrap_or(id);
+        let path = if path.is_empty() { id.to_owned() } else { format!("{path}:|:{id}") };
+        let graph = yaml.get("subgraph").map(|graph| self.graph(graph, label, &path, depth + 1)).transpose()?;
+        let params = yaml.get("state").and_then(|state| state.get("params"));
+        Ok(Node {
+            name: names::unique(names::snake(label), taken),
+            ty: ty.to_owned(),
+            // Those of a graph say which ports it has.
+            params: params.filter(|_| graph.is_none()).map_or(Ok(vec![]), read_params)?,
+            group: self.groups.get(&path).cloned(),
+            enabled: yaml.get("enabled").is_none_or(|e| e.value != Value::Scalar("false".to_owned())),
+            graph,
+        })
+    }
+}
+
+impl Graph {
+    /// Reads the connections of one source.
+    fn connect(&mut self, yaml: &Yaml, node: impl Fn(&str) -> Option<usize>) -> Result<(), Wrong> {
+        let from = yaml.need("uuid", "a connection")?;
+        let source = End::read(from.scalar("`uuid`")?, from.line, &node)?;
+        if !source.is_source() {
+            return Err(Wrong::new(from.line, format!("`{}` sends nothing", from.scalar("")?)));
+        }
+        let targets = yaml.need("targets", "a connection")?.list("`targets`")?;
+        let types = yaml.get("types").map_or(Ok(&[][..]), |types| types.list("`types`"))?;
+        if !types.is_empty() && types.len() != targets.len() {
+            let message = format!("there are {} `targets`, but {} `types`", targets.len(), types.len());
+            return Err(Wrong::new(yaml.line, message));
+        }
+        for (index, target) in targets.iter().enumerate() {
+            let to = End::read(target.scalar("a target")?, target.line, &node)?;
+            if to.is_source() {
+                return Err(Wrong::new(target.line, format!("`{}` takes nothing", target.scalar("")?)));
+            }
+            let active = match types.get(index).map(|ty| (ty.scalar("a type"), ty.line)) {
+                None | Some((Ok("default"), _)) => false,
+                Some((Ok("active"), _)) => true,
+                Some((Ok(other), line)) => {
+                    return Err(Wrong::new(line, format!("the type `{other}` is neither `default` nor `active`")));
+                }
+                Some((Err(wrong), _)) => return Err(wrong),
+            };
+            self.note_ports(&source);
+            self.note_ports(&to);
+            self.connections.push(Connection { from: source.clone(), to, active });
+        }
+        Ok(())
+    }
+
+    /// A port of a graph is there because something is connected to it.
+    fn note_ports(&mut self, end: &End) {
+        match end {
+            End::Own(kind, k) => drop(self.ports.insert((*kind, *k))),
+            End::Node(index, port) => {
+                let graph = self.nodes[*index].graph.as_mut();
+                graph.and_then(|graph| port.of_graph().map(|port| graph.ports.insert(port)));
+            }
+        }
+    }
+
+    /// The ports of node `index` that are connected, each once.
+    pub fn connected(&self, index: usize) -> BTreeSet<&Port> {
+        let ends = self.connections.iter().flat_map(|c| [&c.from, &c.to]);
+        ends.filter_map(|end| match end {
+            End::Node(node, port) if *node == index => Some(port),
+            _ => None,
+        })
+        .collect()
+    }
+}
+
+fn read_params(yaml: &Yaml) -> Result<Vec<(String, Param)>, Wrong> {
+    let entries = yaml.map("`params`")?.iter();
+    entries.map(|(name, entry)| Ok((name.clone(), read_param(entry)?))).collect()
+}
+
+/// A parameter has its value under the name of its type.
+fn read_param(yaml: &Yaml) -> Result<Param, Wrong> {
+    let wrong = |yaml: &Yaml, what: &str| Wrong::new(yaml.line, format!("this is no {what}"));
+    for (key, what) in [
+        ("txt", "text"),
+        ("string", "text"),
+        ("value", "text"),
+        ("double", "number"),
+        ("int", "whole number"),
+        ("bool", "`true` or `false`"),
+    ] {
+        let Some(value) = yaml.get(key) else { continue };
+        let text = value.scalar(&format!("`{key}`"))?;
+        let param = match key {
+            "double" => text.parse().ok().map(|x: f64| if x.is_finite() { Param::Float(x) } else { Param::None }),
+            "int" => text.parse().ok().map(Param::Int),
+            "bool" => text.parse().ok().map(Param::Bool),
+            _ => Some(Param::Text(text.to_owned())),
+        };
+        return param.ok_or_else(|| wrong(value, what));
+    }
+    if let Some(list) = yaml.get("list") {
+        let texts = list.list("`list`")?.iter().map(|t| Ok(Param::Text(t.scalar("an element")?.to_owned())));
+        return Ok(Param::List(texts.collect::<Result<_, Wrong>>()?));
+    }
+    if let Some(values) = yaml.get("values") {
+        let number = |v: &Yaml| v.scalar("an element")?.parse().map(Param::Int).map_err(|_| wrong(v, "whole number"));
+        return Ok(Param::List(values.list("`values`")?.iter().map(number).collect::<Result<_, Wrong>>()?));
+    }
+    Ok(Param::None)
+}

@@ -1,0 +1,92 @@
+//! `apex import`: graph files of CS::APEX become texts.
+
+mod graph;
+mod known;
+mod names;
+mod ports;
+mod skeletons;
+mod text;
+mod yaml;
+
+use crate::project;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+/// Most bytes of a file that is read.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// Something that is wrong with a graph file.
+#[derive(Debug, PartialEq)]
+pub struct Wrong {
+    /// Line, from 1.
+    pub line: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl Wrong {
+    fn new(line: usize, message: impl Into<String>) -> Self {
+        Self { line, message: message.into() }
+    }
+}
+
+/// Writes the graph of `file` as a text into `output`, or prints it, and skeletons of the nodes that the library does
+/// not have into `nodes`. If the file is wrong, nothing is written.
+pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<ExitCode, String> {
+    for path in [output, nodes].into_iter().flatten() {
+        if path.exists() {
+            return Err(format!("`{}` is there already: remove it first, or take another name", path.display()));
+        }
+    }
+    let yaml = read(file)?;
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    let imported = yaml::read(&yaml).and_then(|yaml| graph::read(&yaml, &name));
+    let imported = match imported {
+        Ok(imported) => imported,
+        Err(Wrong { line, message }) => {
+            project::print_error(&format!("error: {}:{line}: {message}", file.display()));
+            return Ok(ExitCode::from(1));
+        }
+    };
+    let module = nodes.map_or_else(|| "crate".to_owned(), module);
+    let text = apex_dsl::format(&text::write(&imported, &module))
+        .map_err(|errors| format!("this graph cannot be written as a text: {}", errors.sorted()[0].message))?;
+    let skeletons = nodes.map(|path| Ok::<_, String>((path, skeletons::write(&imported)?))).transpose()?;
+    match output {
+        Some(path) => write(path, &text)?,
+        None => project::print(text.trim_end()),
+    }
+    if let Some((path, rust)) = skeletons {
+        write(path, &rust)?;
+    }
+    let unknown = skeletons::types(&imported);
+    if !unknown.is_empty() {
+        let names: Vec<&str> = unknown.keys().copied().collect();
+        project::print_error(&format!("note: not in the library: {}", names.join(", ")));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn read(file: &Path) -> Result<String, String> {
+    let fail = |reason: String| format!("cannot read `{}`: {reason}", file.display());
+    let metadata = fs::metadata(file).map_err(|e| fail(e.to_string()))?;
+    if metadata.len() > MAX_BYTES {
+        return Err(fail(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len())));
+    }
+    let bytes = fs::read(file).map_err(|e| fail(e.to_string()))?;
+    String::from_utf8(bytes).map_err(|e| fail(format!("byte {} is not UTF-8", e.utf8_error().valid_up_to())))
+}
+
+/// The module that a Rust file of a package is, if it stands in `src`.
+fn module(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    if ["lib", "main"].contains(&&*stem) { "crate".to_owned() } else { format!("crate::{}", names::snake(&stem)) }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    let path = PathBuf::from(path);
+    fs::write(&path, text).map_err(|e| format!("cannot write `{}`: {e}", path.display()))
+}

@@ -1,0 +1,114 @@
+//! The ends of connections.
+
+use super::Wrong;
+
+/// What kind of port it is, as its own graph or node has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    In,
+    Out,
+    Slot,
+    Event,
+}
+
+/// A port of a node.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Port {
+    /// By its number. Slots 0 and 1 and events 0 to 2 are those that every node has.
+    Number(Kind, u32),
+    /// That of a parameter: where it is set, or where it is sent.
+    Param(Kind, String),
+}
+
+/// An end of a connection.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End {
+    /// A node, by its place in the graph.
+    Node(usize, Port),
+    /// A port of the graph itself, seen from inside.
+    Own(Kind, u32),
+}
+
+/// Slots and events that every node has come first.
+pub const COMMON_SLOTS: [&str; 2] = ["enable", "disable"];
+pub const COMMON_EVENTS: [&str; 3] = ["activated", "deactivated", "processed"];
+
+impl Port {
+    fn kind(&self) -> Kind {
+        match self {
+            Self::Number(kind, _) | Self::Param(kind, _) => *kind,
+        }
+    }
+
+    /// Its name, if every node has it.
+    pub fn common(&self) -> Option<&'static str> {
+        match self {
+            Self::Number(Kind::Slot, k) => COMMON_SLOTS.get(*k as usize).copied(),
+            Self::Number(Kind::Event, k) => COMMON_EVENTS.get(*k as usize).copied(),
+            _ => None,
+        }
+    }
+
+    /// The port of a nested graph that this port of its node is.
+    pub fn of_graph(&self) -> Option<(Kind, u32)> {
+        match *self {
+            Self::Number(kind @ (Kind::In | Kind::Out), k) => Some((kind, k)),
+            Self::Number(Kind::Slot, k) => Some((Kind::Slot, k.checked_sub(2)?)),
+            Self::Number(Kind::Event, k) => Some((Kind::Event, k.checked_sub(3)?)),
+            Self::Param(..) => None,
+        }
+    }
+}
+
+impl Kind {
+    /// Its word in the language, which begins its names as well.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::In => "in",
+            Self::Out => "out",
+            Self::Slot => "slot",
+            Self::Event => "event",
+        }
+    }
+}
+
+impl End {
+    /// Reads an id; `node` finds a node by its own.
+    pub fn read(id: &str, line: usize, node: impl Fn(&str) -> Option<usize>) -> Result<Self, Wrong> {
+        let unknown = |what: String| Wrong::new(line, format!("unknown id `{id}`: {what}"));
+        let Some((owner, port)) = id.rsplit_once(":|:") else {
+            // Inside, an input of the graph is where tokens come from.
+            let kinds = [
+                ("relayout", Kind::In),
+                ("relayin", Kind::Out),
+                ("relayevent", Kind::Slot),
+                ("relayslot", Kind::Event),
+            ];
+            let own = id.rsplit_once('_').and_then(|(name, k)| {
+                Some(Self::Own(kinds.iter().find(|(relay, _)| *relay == name)?.1, k.parse().ok()?))
+            });
+            return own.ok_or_else(|| unknown("it is no port such as `node:|:in_0` or `relayin_0`".to_owned()));
+        };
+        let index = node(owner).ok_or_else(|| unknown(format!("there is no node `{owner}` in this graph")))?;
+        let port = read_port(port).ok_or_else(|| unknown(format!("`{port}` is no port")))?;
+        Ok(Self::Node(index, port))
+    }
+
+    /// Whether tokens come from here.
+    pub fn is_source(&self) -> bool {
+        match self {
+            Self::Node(_, port) => matches!(port.kind(), Kind::Out | Kind::Event),
+            Self::Own(kind, _) => matches!(kind, Kind::In | Kind::Slot),
+        }
+    }
+}
+
+fn read_port(port: &str) -> Option<Port> {
+    let (name, rest) = port.split_once('_').filter(|(_, rest)| !rest.is_empty())?;
+    let kind = [Kind::In, Kind::Out, Kind::Slot, Kind::Event].into_iter().find(|kind| kind.word() == name)?;
+    match (rest.parse(), kind) {
+        (Ok(number), _) => Some(Port::Number(kind, number)),
+        (Err(_), Kind::In | Kind::Out) => Some(Port::Param(kind, rest.to_owned())),
+        (Err(_), _) => None,
+    }
+}

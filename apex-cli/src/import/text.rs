@@ -1,0 +1,149 @@
+//! A graph file as a text of the language; `apex fmt` brings it into the style.
+
+use super::{
+    graph::{Connection, Graph, Node, Param},
+    known, names,
+    ports::{End, Kind, Port},
+};
+use std::{collections::BTreeSet, fmt::Write as _};
+
+/// The type of ports that the file says nothing about.
+pub const MESSAGE: &str = "Message";
+
+/// The text; `module` is where the type of messages stands.
+pub fn write(top: &Graph, module: &str) -> String {
+    let mut text = "//! Imported from a graph of CS::APEX.\n".to_owned();
+    let (mut library, mut has_ports) = (BTreeSet::new(), false);
+    visit(top, &mut |graph| {
+        has_ports |= !graph.ports.is_empty();
+        library.extend(graph.nodes.iter().filter_map(|node| known::find(&node.ty)).map(|known| known.ours));
+    });
+    for (module, name) in library {
+        let _ = writeln!(text, "use apex_nodes::{module}::{name};");
+    }
+    if has_ports {
+        text += "// The file does not say what the ports of graphs carry: put the types in.\n";
+        let _ = writeln!(text, "use {module}::{MESSAGE};");
+    }
+    visit(top, &mut |graph| write_graph(graph, &mut text));
+    text
+}
+
+/// Calls `each` with a graph and those in it.
+pub fn visit<'a>(graph: &'a Graph, each: &mut impl FnMut(&'a Graph)) {
+    each(graph);
+    graph.nodes.iter().filter_map(|node| node.graph.as_ref()).for_each(|graph| visit(graph, each));
+}
+
+// Writing into a string cannot fail.
+fn write_graph(graph: &Graph, text: &mut String) {
+    let _ = writeln!(text, "\ngraph {} {{", graph.name);
+    for (kind, k) in &graph.ports {
+        let word = kind.word();
+        let _ = writeln!(text, "{word} {word}_{k}: {MESSAGE};");
+    }
+    text.push('\n');
+    for (index, node) in graph.nodes.iter().enumerate() {
+        write_node(graph, index, node, text);
+    }
+    text.push('\n');
+    for Connection { from, to, active } in &graph.connections {
+        let arrow = if *active { "=>" } else { "->" };
+        let _ = writeln!(text, "{} {arrow} {};", end(graph, from), end(graph, to));
+    }
+    text.push_str("}\n");
+}
+
+/// The type of the notes on the canvas, which do nothing.
+pub const NOTE: &str = "csapex::Note";
+
+fn write_node(graph: &Graph, index: usize, node: &Node, text: &mut String) {
+    if node.ty == NOTE {
+        for (_, param) in &node.params {
+            let Param::Text(note) = param else { continue };
+            note.lines().for_each(|line| text.push_str(&format!("// {}\n", plain(line))));
+        }
+        return;
+    }
+    if !node.enabled {
+        text.push_str("// It was disabled.\n");
+    }
+    let group = node.group.as_ref().map_or(String::new(), |group| format!(" on {group}"));
+    let (ty, arguments) = match (&node.graph, known::find(&node.ty)) {
+        (Some(graph), _) => (graph.name.clone(), String::new()),
+        (None, Some(known)) => (known.ours.1.to_owned(), String::new()),
+        (None, None) => {
+            let ports: Vec<String> = graph.connected(index).into_iter().map(|port| port_name(node, port)).collect();
+            let ports =
+                if ports.is_empty() { "no ports used".to_owned() } else { format!("uses {}", ports.join(", ")) };
+            text.push_str(&format!("// `{}` is not in the library; {ports}.\n", plain(&node.ty)));
+            (names::camel(&node.ty), arguments(node))
+        }
+    };
+    let _ = writeln!(text, "node {} = {ty}({arguments}){group};", node.name);
+}
+
+/// What can stand in a comment.
+fn plain(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).collect()
+}
+
+/// The parameters of a node that have values and names of their own.
+pub fn params(node: &Node) -> Vec<(String, &Param)> {
+    let mut taken = BTreeSet::new();
+    let has_value = |(_, param): &&(String, Param)| !matches!(param, Param::None) && !is_empty(param);
+    let params = node.params.iter().filter(has_value);
+    params.map(|(name, param)| (names::unique(names::snake(name), &mut taken), param)).collect()
+}
+
+fn is_empty(param: &Param) -> bool {
+    matches!(param, Param::List(items) if items.is_empty())
+}
+
+fn arguments(node: &Node) -> String {
+    let arguments: Vec<String> =
+        params(node).into_iter().map(|(name, param)| format!("{name} = {}", value(param))).collect();
+    arguments.join(", ")
+}
+
+/// A value as the language and Rust write it.
+pub fn value(param: &Param) -> String {
+    match param {
+        Param::Int(value) => value.to_string(),
+        Param::Float(value) => format!("{value:?}"),
+        Param::Bool(value) => value.to_string(),
+        Param::Text(value) => format!("{value:?}"),
+        Param::List(values) => format!("[{}]", values.iter().map(self::value).collect::<Vec<_>>().join(", ")),
+        Param::None => String::new(),
+    }
+}
+
+fn end(graph: &Graph, end: &End) -> String {
+    match end {
+        End::Own(kind, k) => format!("{}_{k}", kind.word()),
+        End::Node(index, port) => {
+            let node = &graph.nodes[*index];
+            format!("{}.{}", node.name, port_name(node, port))
+        }
+    }
+}
+
+/// The name of a port of a node.
+pub fn port_name(node: &Node, port: &Port) -> String {
+    if let Some(name) = port.common() {
+        return name.to_owned();
+    }
+    if let (Some(_), Some((kind, k))) = (&node.graph, port.of_graph()) {
+        return format!("{}_{k}", kind.word());
+    }
+    let name = match port {
+        Port::Number(kind, k) => format!("{}_{k}", kind.word()),
+        // It is the port of the parameter itself, if that is there.
+        Port::Param(Kind::In, param) if params(node).iter().any(|(name, _)| *name == names::snake(param)) => {
+            names::snake(param)
+        }
+        Port::Param(kind, param) => format!("{}_{}", kind.word(), names::snake(param)),
+    };
+    let known = known::find(&node.ty).and_then(|known| known.ports.iter().find(|(theirs, _)| *theirs == name));
+    known.map_or(name, |(_, ours)| (*ours).to_owned())
+}

@@ -1,0 +1,92 @@
+//! `apex run --watch`: the program follows its text.
+
+mod files;
+mod program;
+
+use crate::{
+    project::print_error,
+    run::{self, Wanted},
+};
+use apex_host::Workspace;
+use files::Files;
+use program::{Built, Running};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    sync::atomic::{AtomicBool, Ordering},
+    thread,
+    time::Duration,
+};
+
+/// How often files and the program are looked at.
+const INTERVAL: Duration = Duration::from_millis(200);
+
+/// Set when the user wants to end.
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
+/// Builds and runs until Ctrl-C; after each change anew. While the text has errors, the program from before goes on.
+pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
+    ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed))
+        .map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
+    let mut folders = folders(wanted.file)?;
+    let mut running: Option<Running> = None;
+    let mut first = true;
+    while !STOPPED.load(Ordering::Relaxed) {
+        let files = Files::below(&folders);
+        match Built::new(wanted) {
+            Ok(Some(built)) if !STOPPED.load(Ordering::Relaxed) => {
+                running.take().map(Running::end);
+                if first {
+                    built.forget();
+                }
+                first = false;
+                running = Some(built.start(wanted)?);
+            }
+            Ok(Some(_)) => break,
+            Ok(None) => print_error(&waiting(running.as_mut())),
+            Err(message) if running.is_none() && first => return Err(message),
+            Err(message) => print_error(&format!("error: {message}\n{}", waiting(running.as_mut()))),
+        }
+        wait(&files, &folders, running.as_mut());
+        folders = self::folders(wanted.file).unwrap_or(folders);
+    }
+    running.map(Running::end);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What happens until the next change.
+fn waiting(running: Option<&mut Running>) -> String {
+    match running.is_some_and(|program| program.ended().is_none()) {
+        true => "the program from before goes on".to_owned(),
+        false => "waiting for a change".to_owned(),
+    }
+}
+
+/// Waits until files have changed and nobody writes any more, or the user wants to end.
+fn wait(files: &Files, folders: &[PathBuf], mut running: Option<&mut Running>) {
+    let mut last = files.clone();
+    while !STOPPED.load(Ordering::Relaxed) {
+        if let Some(code) = running.as_mut().and_then(|program| program.ended()) {
+            print_error(&format!("the program has ended ({code}); waiting for a change"));
+            running = None;
+        }
+        thread::sleep(INTERVAL);
+        let now = Files::below(folders);
+        if now == last && now != *files {
+            return;
+        }
+        last = now;
+    }
+}
+
+/// The folders of the packages that the program is made of.
+fn folders(file: &Path) -> Result<Vec<PathBuf>, String> {
+    let package = run::package(file)?;
+    let workspace = Workspace::load(&package)?;
+    let libraries = workspace.libraries().into_iter().map(|(_, folder)| folder.to_owned());
+    let mut folders: Vec<PathBuf> = libraries.chain([package]).filter_map(|f| fs::canonicalize(f).ok()).collect();
+    folders.sort();
+    folders.dedup();
+    Ok(folders)
+}

@@ -1,0 +1,53 @@
+//! The built command, and folders to let it work in.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+/// A folder outside of any package, which is removed at the end.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    /// An empty one; the name tells those of one process apart.
+    pub fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("apex-cli-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// Writes a file in it.
+    pub fn file(&self, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The command.
+pub fn apex() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_apex"))
+}
+
+/// What a command said on standard error.
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Makes a package with nodes and no program of its own.
+pub fn package(folder: &Folder, nodes: &str) {
+    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../apex-rt");
+    let manifest = format!(
+        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"
+    );
+    folder.file("Cargo.toml", manifest);
+    fs::create_dir_all(folder.0.join("src")).unwrap();
+    folder.file("src/lib.rs", nodes);
+}

@@ -1,0 +1,146 @@
+//! A program that follows its text. What is waited for is a line, never a time.
+
+use crate::{
+    MADE, TARGET,
+    common::{Folder, apex, package},
+};
+use std::{
+    fs,
+    io::{BufRead, BufReader, Lines},
+    path::Path,
+    process::{Child, ChildStderr, ChildStdout, Command, Stdio},
+    sync::PoisonError,
+};
+
+/// `apex run --watch`, seen from outside.
+struct Watched {
+    child: Child,
+    output: Lines<BufReader<ChildStdout>>,
+    errors: Lines<BufReader<ChildStderr>>,
+}
+
+impl Watched {
+    fn start(file: &Path) -> Self {
+        let mut command = apex();
+        command.args(["run", "--watch"]).arg(file).env("CARGO_TARGET_DIR", TARGET);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let output = BufReader::new(child.stdout.take().unwrap()).lines();
+        let errors = BufReader::new(child.stderr.take().unwrap()).lines();
+        Self { child, output, errors }
+    }
+
+    /// Reads until the program says this line.
+    fn until(&mut self, line: &str) {
+        assert!(self.output.by_ref().any(|l| l.unwrap() == line), "`{line}` never came");
+    }
+
+    /// Reads what it complains of, until a line has this in it.
+    fn until_error(&mut self, part: &str) {
+        assert!(self.errors.by_ref().any(|l| l.unwrap().contains(part)), "`{part}` never came");
+    }
+
+    /// Asks it to end; the program ends too, or its output would not.
+    #[cfg(unix)]
+    fn end(mut self) {
+        assert!(Command::new("kill").arg(self.child.id().to_string()).status().unwrap().success());
+        self.output.by_ref().for_each(drop);
+        assert_eq!(self.child.wait().unwrap().code(), Some(0));
+    }
+}
+
+const NODES: &str = "\
+use apex_rt::prelude::*;
+/// Says its parameters.
+#[node]
+pub struct Speaker {
+    #[param(default = String::from(\"none\"))]
+    word: String,
+    #[param(default = 1)]
+    volume: u8,
+    #[param(default = 1)]
+    pace: u8,
+}
+#[node]
+impl Speaker {
+    fn process(&mut self) {
+        println!(\"{} {} {}\", self.word, self.volume, self.pace);
+    }
+}
+/// Sends nine.
+#[node]
+pub fn nine() -> u8 { 9 }
+";
+
+/// A speaker of its own pace.
+fn text(arguments: &str) -> String {
+    format!("graph Robot {{\n    node speaker = Speaker({arguments}) every 20ms;\n}}\n")
+}
+
+/// A speaker whose volume is set while it runs.
+const SET: &str =
+    "graph Robot {\n    node speaker = Speaker(word = \"one\");\n    nine() every 20ms -> speaker.volume;\n}\n";
+
+#[cfg(unix)]
+#[test]
+fn the_program_follows_its_text_and_keeps_what_it_changed() {
+    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = Folder::new("watch");
+    package(&folder, NODES);
+    let file = folder.file("robot.afg", "graph Robot {\n");
+    let mut watched = Watched::start(&file);
+    watched.until_error("waiting for a change");
+
+    folder.file("robot.afg", SET);
+    watched.until("one 9 1");
+
+    // What it changed itself is kept, what the text says is taken, and so it is in Rust.
+    folder.file("robot.afg", text("word = \"two\", pace = 2"));
+    watched.until("two 9 2");
+    folder.file("src/lib.rs", NODES.replace("{} {} {}", "<{} {} {}>"));
+    watched.until("<two 9 2>");
+
+    // Errors leave it running.
+    folder.file("robot.afg", text("word = \"three\", pase = 3"));
+    watched.until_error("error[unknown-argument]");
+    watched.until_error("the program from before goes on");
+    watched.until("<two 9 2>");
+    folder.file("src/lib.rs", "compile_error!();");
+    folder.file("robot.afg", text("word = \"three\""));
+    watched.until_error("the program from before goes on");
+    watched.until("<two 9 2>");
+
+    // A volume that the text names is no longer the one that was kept.
+    folder.file("src/lib.rs", NODES);
+    folder.file("robot.afg", text("word = \"four\", volume = 5"));
+    watched.until("four 5 1");
+    watched.end();
+    assert!(folder.0.join("robot.afg").exists());
+}
+
+/// A program of one's own is restarted too, and one that has ended is started again by a change.
+#[cfg(unix)]
+#[test]
+fn a_program_of_its_own_is_restarted() {
+    let folder = Folder::new("watch-own");
+    package(&folder, NODES);
+    let file = folder.file("robot.afg", "graph Robot { }\n");
+    let main = |word: &str| format!("fn main() {{ println!(\"{word}\"); }}\n");
+    folder.file("src/main.rs", main("first"));
+    let mut watched = Watched::start(&file);
+    watched.until("first");
+    watched.until_error("the program has ended (exit status: 0); waiting for a change");
+    folder.file("src/main.rs", main("second"));
+    watched.until("second");
+    watched.end();
+}
+
+#[test]
+fn what_cannot_be_run_at_all_is_said_at_once() {
+    let folder = Folder::new("watch-nothing");
+    for (name, reason) in [("missing.afg", "cannot read `"), ("robot.afg", "is in no cargo package")] {
+        fs::write(folder.0.join("robot.afg"), "graph Robot { }\n").unwrap();
+        let output = apex().args(["run", "--watch"]).arg(folder.0.join(name)).output().unwrap();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+        assert!(String::from_utf8(output.stderr).unwrap().contains(reason), "{name}");
+    }
+}
