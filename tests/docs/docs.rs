@@ -2,22 +2,59 @@
 
 use apex_dsl::{
     catalog::Catalog,
-    passes,
+    passes::{self, Program},
     report::{Diagnostics, render},
     source::Sources,
 };
 use apex_host::{Disk, Seen, Workspace};
-use std::{fs, path::Path};
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+};
 
+mod book;
+mod embedding;
+mod from;
 mod language;
 #[allow(dead_code)]
 mod nodes;
+#[allow(dead_code)]
+mod rates;
 mod readme;
+mod texts;
+mod tour;
 
-const PAGES: [&str; 5] = ["README.md", "docs/language.md", "docs/nodes.md", "docs/compiler.md", "docs/performance.md"];
+/// The page whose texts belong to a package of their own.
+const TOUR: &str = "docs/tour.md";
+
+/// The folder of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// All pages, by their paths from the root.
+fn pages() -> Vec<String> {
+    let mut pages = vec!["README.md".to_owned()];
+    collect("docs", &mut pages);
+    pages.sort();
+    assert!(pages.len() > 10, "only {} pages were found", pages.len());
+    pages
+}
+
+fn collect(folder: &str, pages: &mut Vec<String>) {
+    for entry in fs::read_dir(root().join(folder)).unwrap() {
+        let entry = entry.unwrap();
+        let name = format!("{folder}/{}", entry.file_name().to_str().unwrap());
+        if entry.path().is_dir() {
+            collect(&name, pages);
+        } else if name.ends_with(".md") {
+            pages.push(name);
+        }
+    }
+}
 
 fn page(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    let path = root().join(name);
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
@@ -27,42 +64,123 @@ fn blocks(page: &str, word: &str) -> Vec<String> {
     page.split(&fence).skip(1).filter_map(|rest| rest.split_once("```").map(|(block, _)| block.to_owned())).collect()
 }
 
-/// The messages about a text, as `apex check` prints them.
-fn messages(text: &str) -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let workspace = Workspace::load(folder).expect("cargo knows the package");
-    let mut disk = Disk::new(None);
-    let mut catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
-    let mut sources = Sources::default();
-    let root = sources.add("robot.afg", text);
-    let mut diagnostics = Diagnostics::default();
-    passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
-    diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect()
+/// The pages whose texts are looked at here; those about errors have tests of their own.
+fn pages_with_texts() -> impl Iterator<Item = String> {
+    pages().into_iter().filter(|name| !name.starts_with("docs/errors/"))
+}
+
+/// The graphs of all pages, with the name of their page.
+fn graphs() -> Vec<(String, String)> {
+    let of = |name: String| blocks(&page(&name), "afg").into_iter().map(move |block| (name.clone(), block));
+    pages_with_texts().flat_map(of).collect()
+}
+
+/// A package that texts belong to.
+struct Package {
+    catalog: Catalog,
+    disk: Disk,
+    file: &'static str,
+}
+
+/// What the compiler says of a text.
+struct Checked {
+    messages: Vec<String>,
+    programs: Vec<Program>,
+}
+
+impl Package {
+    /// The one whose nodes the texts of a page use.
+    fn of(page: &str) -> Self {
+        let (folder, file) = if page == TOUR { ("robots/rover", "rover.afg") } else { ("tests", "robot.afg") };
+        let workspace = Workspace::load(&root().join(folder)).expect("cargo knows the package");
+        let mut disk = Disk::new(None);
+        Self { catalog: Catalog::load(workspace.crates(&Seen::Package), &mut disk), disk, file }
+    }
+
+    /// Checks a text, as `apex check` does.
+    fn check(&mut self, text: &str) -> Checked {
+        let mut sources = Sources::default();
+        let file = sources.add(self.file, text);
+        let mut diagnostics = Diagnostics::default();
+        let programs = passes::check(file, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
+        let messages = diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect();
+        Checked { messages, programs }
+    }
 }
 
 #[test]
 fn every_graph_in_the_documentation_is_right() {
-    let mut count = 0;
-    for name in PAGES {
-        for block in blocks(&page(name), "afg") {
-            count += 1;
-            assert_eq!(messages(&block), Vec::<String>::new(), "{name}:\n{block}");
-        }
+    let (mut rover, mut tests) = (Package::of(TOUR), Package::of("README.md"));
+    let graphs = graphs();
+    for (name, block) in &graphs {
+        let package = if name == TOUR { &mut rover } else { &mut tests };
+        assert_eq!(package.check(block).messages, Vec::<String>::new(), "{name}:\n{block}");
     }
-    assert!(count >= 4, "only {count} graphs were found");
+    assert!(graphs.len() > 30, "only {} graphs were found", graphs.len());
+}
+
+#[test]
+fn every_test_in_the_documentation_is_run() {
+    let with_tests = graphs().into_iter().filter(|(_, block)| block.contains("\ntest "));
+    for (name, block) in with_tests.filter(|(name, _)| name != TOUR) {
+        assert!(texts::TEXTS.contains(&block.as_str()), "{name}: no file in tests/docs/texts is\n{block}");
+    }
+}
+
+/// A page with the messages about its wrong texts, each of which stands before its messages.
+fn with_messages(page: &str, package: &mut Package, count: &mut usize) -> String {
+    let mut parts = page.split("```afg wrong\n");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (wrong, rest) = part.split_once("```").expect("the text ends");
+        let (between, rest) = rest.split_once("```text\n").expect("there are messages");
+        let (_, rest) = rest.split_once("```").expect("they end");
+        let messages = package.check(wrong).messages;
+        assert!(!messages.is_empty(), "nothing is wrong:\n{wrong}");
+        text += &format!("```afg wrong\n{wrong}```{between}```text\n{}\n```{rest}", messages.join("\n\n"));
+        *count += 1;
+    }
+    text
+}
+
+#[test]
+fn every_error_in_the_documentation_is_the_real_one() {
+    let (mut rover, mut tests) = (Package::of(TOUR), Package::of("README.md"));
+    let mut count = 0;
+    for name in pages_with_texts() {
+        let package = if name == TOUR { &mut rover } else { &mut tests };
+        let text = with_messages(&page(&name), package, &mut count);
+        expect(&name, &text);
+    }
+    assert!(count > 5, "only {count} errors were found");
+}
+
+/// Holds a page against what it should be; with `APEX_UPDATE_EXPECTATIONS=1` it becomes that.
+fn expect(name: &str, text: &str) {
+    if env::var_os("APEX_UPDATE_EXPECTATIONS").is_some() {
+        fs::write(root().join(name), text).unwrap();
+    } else {
+        assert_eq!(page(name), text, "{name}: APEX_UPDATE_EXPECTATIONS=1 writes what is shown of the compiler anew");
+    }
 }
 
 #[test]
 fn the_rust_in_the_documentation_is_compiled_here() {
     assert_eq!(blocks(&page("README.md"), "rust"), [include_str!("readme.rs")]);
     assert_eq!(blocks(&page("docs/nodes.md"), "rust"), [include_str!("nodes.rs")]);
-    assert_eq!(blocks(&page("docs/language.md"), "rust"), [include_str!("language.rs")]);
+    assert_eq!(blocks(&page("docs/language.md"), "rust"), [include_str!("language.rs"), include_str!("rates.rs")]);
+    assert_eq!(blocks(&page("docs/embedding.md"), "rust"), embedding::BLOCKS);
+    assert_eq!(blocks(&page("docs/from/copper.md"), "rust"), [include_str!("from/copper.rs")]);
+    assert_eq!(blocks(&page("docs/from/cs-apex.md"), "rust"), [include_str!("from/cs_apex.rs")]);
     readme::main();
     language::main();
+    embedding::main();
+    from::copper::main();
+    from::cs_apex::main();
 }
 
 #[test]
 fn the_message_in_the_readme_is_the_real_one() {
     let text = "use apex_nodes::scan::{JumpDistance, Scan, Segments};\n\ngraph Segment {\n    in  scan: Scan;\n    out segments: Segments;\n\n    scan -> JumpDistance(gap = 15) -> segments;\n}\n";
-    assert_eq!(blocks(&page("README.md"), "text"), [messages(text).remove(0) + "\n"]);
+    assert_eq!(blocks(&page("README.md"), "text"), [Package::of("README.md").check(text).messages.remove(0) + "\n"]);
 }

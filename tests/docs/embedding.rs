@@ -1,0 +1,29 @@
+//! The programs of `docs/embedding.md`.
+
+mod driven;
+mod first;
+mod own_loop;
+mod parameters;
+#[allow(dead_code)]
+mod parts;
+mod watching;
+
+/// Their texts, in the order of the page.
+pub const BLOCKS: [&str; 6] = [
+    include_str!("embedding/first.rs"),
+    include_str!("embedding/own_loop.rs"),
+    include_str!("embedding/driven.rs"),
+    include_str!("embedding/parts.rs"),
+    include_str!("embedding/parameters.rs"),
+    include_str!("embedding/watching.rs"),
+];
+
+/// Runs them.
+pub fn main() {
+    first::main();
+    own_loop::main();
+    driven::main();
+    parts::main();
+    parameters::main();
+    watching::main();
+}

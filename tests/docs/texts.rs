@@ -1,0 +1,54 @@
+//! The examples that have tests, compiled so that their tests run.
+
+mod answers {
+    apex_rt::graph!("texts/answers.afg");
+}
+mod duty {
+    apex_rt::graph!("texts/duty.afg");
+}
+mod filled {
+    apex_rt::graph!("texts/filled.afg");
+}
+mod gate {
+    apex_rt::graph!("texts/gate.afg");
+}
+mod help {
+    apex_rt::graph!("texts/help.afg");
+}
+mod hours {
+    apex_rt::graph!("texts/hours.afg");
+}
+mod join {
+    apex_rt::graph!("texts/join.afg");
+}
+mod lamp {
+    apex_rt::graph!("texts/lamp.afg");
+}
+mod mission {
+    apex_rt::graph!("texts/mission.afg");
+}
+mod stop {
+    apex_rt::graph!("texts/stop.afg");
+}
+mod times {
+    apex_rt::graph!("texts/times.afg");
+}
+mod waiting {
+    apex_rt::graph!("texts/waiting.afg");
+}
+
+/// Their texts.
+pub const TEXTS: [&str; 12] = [
+    include_str!("texts/answers.afg"),
+    include_str!("texts/duty.afg"),
+    include_str!("texts/filled.afg"),
+    include_str!("texts/gate.afg"),
+    include_str!("texts/help.afg"),
+    include_str!("texts/hours.afg"),
+    include_str!("texts/join.afg"),
+    include_str!("texts/lamp.afg"),
+    include_str!("texts/mission.afg"),
+    include_str!("texts/stop.afg"),
+    include_str!("texts/times.afg"),
+    include_str!("texts/waiting.afg"),
+];
