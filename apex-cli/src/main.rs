@@ -3,9 +3,11 @@
 mod check;
 mod expand;
 mod explain;
+mod fix;
 mod fmt;
 mod lsp;
 mod project;
+mod replace;
 mod run;
 mod test;
 
@@ -27,7 +29,9 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Check texts and say what is wrong with them.
-    #[command(after_help = "Example:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg")]
+    #[command(
+        after_help = "--fix makes the changes of which there is no doubt, and says which; those that are guesses are shown as ever.\nExit code 0: no error is left.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
+    )]
     Check {
         /// The texts.
         #[arg(required = true)]
@@ -35,6 +39,9 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+        /// Mend what can be mended without doubt.
+        #[arg(long)]
+        fix: bool,
     },
     /// Bring texts into the one style of the language.
     #[command(
@@ -53,10 +60,17 @@ enum Command {
         /// The text.
         file: PathBuf,
     },
-    /// Print what the compiler has decided: regions, guards, clusters, schedule, pruning, memory.
+    /// Print what the compiler has decided about a text, or what the code of a message means.
+    #[command(
+        after_help = "Of a text: regions, guards, clusters, schedule, rates, pruning, memory, claims. Of a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain missing-unit\n  apex explain --list"
+    )]
     Explain {
-        /// The text.
-        file: PathBuf,
+        /// The text, or a code such as `missing-unit`.
+        #[arg(required_unless_present = "list", value_name = "FILE | CODE")]
+        what: Option<PathBuf>,
+        /// Print all codes.
+        #[arg(long, exclusive = true)]
+        list: bool,
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
@@ -109,17 +123,17 @@ enum Format {
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
-        Command::Check { files, format } => check::run(&files, format),
+        Command::Check { files, format, fix } => check::run(&files, format, fix),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
-        Command::Explain { file, format, .. } => explain::run(&file, format),
+        Command::Explain { what, format, pnml, .. } => explain::run(what.as_deref(), format, pnml),
         Command::Lsp => lsp::run(),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
         Command::Run { file, robot, params, save_params, args } => {
             run::run(&file, robot.as_deref(), &run::Params { load: params, save: save_params }, &args)
         }
     };
+    project::print_where_to_read_on();
     match result {
         Ok(code) => code,
         Err(message) => {

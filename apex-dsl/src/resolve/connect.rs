@@ -165,9 +165,12 @@ impl Builder<'_> {
                 if symbols[i].iter().any(Option::is_none) {
                     symbols[i + 1].iter().flatten().for_each(|to| self.excuse(&to.0));
                 }
+                let is_port = |end: &Endpoint| matches!(end, Endpoint::Port(_));
+                let open =
+                    [i == 0 && is_port(&chain.ends[0]), i + 2 == chain.ends.len() && is_port(&chain.ends[i + 1])];
                 for from in symbols[i].iter().flatten() {
                     for to in symbols[i + 1].iter().flatten() {
-                        self.connect(from, to, arrow);
+                        self.connect(from, to, arrow, open);
                         if self.is_exhausted() {
                             return;
                         }
@@ -212,6 +215,10 @@ impl Builder<'_> {
             if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
                 let node = self.own_node(body, first, kind)?;
                 return Some((Symbol::of_node(node, &self.nodes[node]), text, reference.span));
+            }
+            // A statement that could not be read may declare it.
+            if self.texts.are_broken() {
+                return None;
             }
             let message = format!("there is no node or port `{}` in this graph", first.text);
             let error = Diagnostic::error("unknown-node", first.span, message);
@@ -260,7 +267,7 @@ impl Builder<'_> {
         let message = format!("`{node}` has no port `{}`", port.text);
         let error = Diagnostic::error("unknown-port", port.span, message);
         let mut error = match nearest(&port.text, ports.iter().map(|p| p.name.as_str())) {
-            Some(near) => error.fix(format!("did you mean `{near}`?"), port.span, near),
+            Some(near) => error.guess(format!("did you mean `{near}`?"), port.span, near),
             None => error,
         };
         error = error.note(match list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>()) {
@@ -312,7 +319,12 @@ impl Builder<'_> {
         let is_start = from
             .iter()
             .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
-        let takes = |c: &Candidate| c.kind == PortKind::Slot && c.ty.compare(&Type::unit()) != Match::Different;
+        // Of a generic slot nobody knows yet what it takes; the connections that say so are data.
+        let takes = |c: &Candidate| {
+            c.kind == PortKind::Slot
+                && !matches!(c.ty, Type::Param(_))
+                && c.ty.compare(&Type::unit()) != Match::Different
+        };
         if !is_start || !arrow.active || to.1.contains('.') || to_ports.iter().any(takes) {
             return false;
         }
@@ -325,7 +337,9 @@ impl Builder<'_> {
         }
     }
 
-    fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow) {
+    /// Connects two ends of a chain; `open` says for each whether a port can be named behind it: a node that is written
+    /// in place has no name, and one inside the chain would be left by the port that takes.
+    fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow, open: [bool; 2]) {
         let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
         if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
             return;
@@ -336,7 +350,7 @@ impl Builder<'_> {
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other side; so do types.
-        let Some((source, target)) = self.choose(sources, targets) else { return self.excuse(&to.0) };
+        let Some((source, target)) = self.choose(sources, targets, open) else { return self.excuse(&to.0) };
         let differs = source.ty.compare(&target.ty) == Match::Different;
         if differs {
             self.mismatch(from, to, &source, &target, arrow.span);
@@ -362,7 +376,7 @@ impl Builder<'_> {
         }
     }
 
-    fn choose(&mut self, from: Meant, to: Meant) -> Option<(Candidate, Candidate)> {
+    fn choose(&mut self, from: Meant, to: Meant, open: [bool; 2]) -> Option<(Candidate, Candidate)> {
         let fits = |a: &Candidate, b: &Candidate| a.ty.compare(&b.ty) != Match::Different;
         let narrow = |side: &Meant, other: &Meant| -> Vec<Candidate> {
             match side.candidates.as_slice() {
@@ -374,24 +388,33 @@ impl Builder<'_> {
         match (sources.as_slice(), targets.as_slice()) {
             ([source], [target]) => Some((source.clone(), target.clone())),
             ([_], _) => {
-                self.ambiguous(&to, &targets, &from, ["takes", "take", "sends"]);
+                self.ambiguous(&to, &targets, &from, ["takes", "take", "sends"], open[1]);
                 None
             }
             _ => {
-                self.ambiguous(&from, &sources, &to, ["sends", "send", "takes"]);
+                self.ambiguous(&from, &sources, &to, ["sends", "send", "takes"], open[0]);
                 None
             }
         }
     }
 
-    fn ambiguous(&mut self, meant: &Meant, fitting: &[Candidate], other: &Meant, [one, many, opposite]: [&str; 3]) {
+    fn ambiguous(
+        &mut self,
+        meant: &Meant,
+        fitting: &[Candidate],
+        other: &Meant,
+        [one, many, opposite]: [&str; 3],
+        open: bool,
+    ) {
         let name = &meant.name;
         let error = match (meant.candidates.len(), fitting.len()) {
-            (0, _) if meant.explicit => Diagnostic::error(
-                "wrong-direction",
-                meant.span,
-                format!("`{name}` {one} no tokens, it {opposite} them"),
-            ),
+            (0, _) if meant.explicit => {
+                let message = format!("`{name}` {one} no tokens, it {opposite} them");
+                let error = Diagnostic::error("wrong-direction", meant.span, message);
+                // Seen from inside, the ports of the graph around are the other way round.
+                let own = "inside a graph its `in` and `slot` ports send, and its `out` and `event` ports take";
+                if name.contains('.') { error } else { error.note(own) }
+            }
             (0, _) => {
                 Diagnostic::error("wrong-direction", meant.span, format!("`{name}` has no port that {one} tokens"))
                     .note(match meant.all.as_str() {
@@ -412,8 +435,13 @@ impl Builder<'_> {
                 let error = Diagnostic::error("ambiguous-port", meant.span, message);
                 let all: Vec<&Candidate> = fitting.iter().collect();
                 let error = error.note(format!("`{name}` has {}", list(&all)));
+                let fitting = if open { fitting } else { &[] };
+                let error = match open {
+                    true => error,
+                    false => error.note("declare it with `node name = …;`, end the chain at `name.port`, and begin another one behind it"),
+                };
                 fitting.iter().take(4).fold(error, |error, c| {
-                    error.fix(format!("use `{}`", c.name), meant.span.after(), format!(".{}", c.name))
+                    error.guess(format!("use `{}`", c.name), meant.span.after(), format!(".{}", c.name))
                 })
             }
         };
@@ -456,6 +484,7 @@ impl Builder<'_> {
                         signature.name
                     )
                 }
+                NodeKind::Start => format!("{name} is where activity begins; every graph has it"),
                 _ => format!("{name} is a port of this graph"),
             },
             Place::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
