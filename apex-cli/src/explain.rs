@@ -35,7 +35,7 @@ fn code(code: &str) -> Result<ExitCode, String> {
 
 /// What a page says at first.
 fn first_sentence(page: &str) -> &str {
-    let text = page.split("\n\n").nth(1).unwrap_or_default();
+    let text = page.split("\n\n").nth(1).unwrap_or_default().trim_end();
     text.split_once(". ").map_or(text.trim_end_matches('.'), |(first, _)| first)
 }
 

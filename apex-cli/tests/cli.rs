@@ -78,7 +78,7 @@ fn errors_as_text_and_as_json() {
 #[test]
 fn several_files_are_all_checked() {
     let folder = Folder::new("several");
-    let (wrong, right) = (folder.file("wrong.afg", "graph {\n"), folder.file("right.afg", "graph A { }\n"));
+    let (wrong, right) = (folder.file("wrong.afg", "graph A {\n"), folder.file("right.afg", "graph A { }\n"));
     let output = apex().args(["check", "--format", "json"]).args([&wrong, &right, &wrong]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     let messages: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -9,7 +9,7 @@ use crate::{
     graph::{End, Node, NodeId, NodeKind, Port, Standard},
     report::{Diagnostic, Diagnostics, nearest},
     source::Span,
-    syntax::tree::{Arrow, Endpoint, Ident, PortKind, PortRef},
+    syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -170,7 +170,7 @@ impl Builder<'_> {
                     [i == 0 && is_port(&chain.ends[0]), i + 2 == chain.ends.len() && is_port(&chain.ends[i + 1])];
                 for from in symbols[i].iter().flatten() {
                     for to in symbols[i + 1].iter().flatten() {
-                        self.connect(from, to, arrow, open);
+                        self.connect(body, from, to, arrow, open);
                         if self.is_exhausted() {
                             return;
                         }
@@ -314,16 +314,15 @@ impl Builder<'_> {
 
     /// `start => node`: nothing is sent, the node is active from the beginning. A node with a slot for it is sent
     /// a token as by any other event.
-    fn starts_active(&mut self, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
+    fn starts_active(&mut self, body: &Body<'_>, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
         let (Symbol::Ports(from), Symbol::Ports(to_ports)) = (from, &to.0) else { return false };
         let is_start = from
             .iter()
             .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
-        // Of a generic slot nobody knows yet what it takes; the connections that say so are data.
+        // Of a generic slot other connections say what it takes, if there are any.
         let takes = |c: &Candidate| {
-            c.kind == PortKind::Slot
-                && !matches!(c.ty, Type::Param(_))
-                && c.ty.compare(&Type::unit()) != Match::Different
+            let decided = matches!(c.ty, Type::Param(_)) && is_fed(body.item, &to.1);
+            c.kind == PortKind::Slot && !decided && c.ty.compare(&Type::unit()) != Match::Different
         };
         if !is_start || !arrow.active || to.1.contains('.') || to_ports.iter().any(takes) {
             return false;
@@ -339,12 +338,19 @@ impl Builder<'_> {
 
     /// Connects two ends of a chain; `open` says for each whether a port can be named behind it: a node that is written
     /// in place has no name, and one inside the chain would be left by the port that takes.
-    fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow, open: [bool; 2]) {
+    fn connect(
+        &mut self,
+        body: &Body<'_>,
+        from: &(Symbol, String, Span),
+        to: &(Symbol, String, Span),
+        arrow: &Arrow,
+        open: [bool; 2],
+    ) {
         let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
         if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
             return;
         }
-        if self.starts_active(&from.0, to, arrow) {
+        if self.starts_active(body, &from.0, to, arrow) {
             return;
         }
         let sources = meant(from, true);
@@ -426,9 +432,12 @@ impl Builder<'_> {
                 let all: Vec<&Candidate> = meant.candidates.iter().collect();
                 let message = format!("no port of `{name}` goes with `{}`", other.name);
                 let others: Vec<&Candidate> = other.candidates.iter().collect();
-                Diagnostic::error("type-mismatch", meant.span, message)
+                let error = Diagnostic::error("type-mismatch", meant.span, message)
                     .also(other.span, format!("has {}", list(&others)))
-                    .note(format!("`{name}` has {}", list(&all)))
+                    .note(format!("`{name}` has {}", list(&all)));
+                let ends = [(all.first(), name), (others.first(), &other.name)];
+                let declared = ends.into_iter().filter_map(|(c, name)| Some(self.declared(c?, &format!("`{name}`"))));
+                declared.fold(error, Diagnostic::note)
             }
             _ => {
                 let message = format!("`{name}` has several ports that could {many} this: name one");
@@ -490,6 +499,19 @@ impl Builder<'_> {
             Place::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
         }
     }
+}
+
+/// Whether anything but `start` leads to the node `name` in this graph.
+fn is_fed(graph: &GraphItem, name: &str) -> bool {
+    fn names(end: &Endpoint, name: &str) -> bool {
+        match end {
+            Endpoint::Port(reference) => reference.parts.first().is_some_and(|first| first.text == name),
+            Endpoint::List(ends, _) => ends.iter().any(|end| names(end, name)),
+            Endpoint::Instance(_) => false,
+        }
+    }
+    let steps = graph.chains.iter().flat_map(|chain| chain.ends.windows(2));
+    steps.into_iter().any(|step| names(&step[1], name) && !names(&step[0], "start"))
 }
 
 /// The ports on the sending or the taking side that an endpoint may mean. Parameters count only if named.

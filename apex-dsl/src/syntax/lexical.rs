@@ -37,6 +37,7 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
         angles: 0,
         unknown: 0,
         comments: vec![],
+        long_string: None,
         failed: false,
     };
     scanner.run(text, diagnostics);
@@ -66,6 +67,8 @@ struct Scanner<'a> {
     angles: usize,
     unknown: usize,
     comments: Vec<Span>,
+    /// The first string that goes over the end of its line.
+    long_string: Option<usize>,
     failed: bool,
 }
 
@@ -216,10 +219,15 @@ impl Scanner<'_> {
         self.at += 1;
         while let Some(&byte) = self.bytes.get(self.at) {
             self.at += if byte == b'\\' { 2 } else { 1 };
+            if byte == b'\n' {
+                self.long_string.get_or_insert(start);
+            }
             if byte == b'"' {
                 return;
             }
         }
+        // Behind a string that is not closed, all others begin where they should end.
+        let start = self.long_string.unwrap_or(start);
         let span = Span::new(self.file, start, start + 1);
         self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this string is never closed"));
     }

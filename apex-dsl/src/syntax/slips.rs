@@ -133,7 +133,7 @@ impl Slip<'_> {
         (named && is_here).then(|| {
             let error =
                 Diagnostic::error("syntax", self.here(word(self.rest()).len()), "expected `:` or `;`").note(HOW);
-            error.fix("write `:`", self.here(0), ": ")
+            error.fix("write `:`", self.span(self.before().len(), self.before().len()), ":")
         })
     }
 
