@@ -1,14 +1,17 @@
 //! `apex check`.
 
-use crate::{Format, project};
+use crate::{Format, fix, project};
 use apex_dsl::report::json;
 use std::{path::PathBuf, process::ExitCode};
 
-/// Checks each file; 1 if one has errors.
-pub fn run(files: &[PathBuf], format: Format) -> Result<ExitCode, String> {
+/// Checks each file, with `mend` after what can be mended; 1 if one has errors.
+pub fn run(files: &[PathBuf], format: Format, mend: bool) -> Result<ExitCode, String> {
     let mut failed = false;
     let mut messages = vec![];
     for file in files {
+        if mend {
+            fix::file(file)?.iter().for_each(|change| project::print_error(change));
+        }
         let checked = project::check(file)?;
         failed |= checked.diagnostics.has_errors();
         match format {

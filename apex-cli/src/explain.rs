@@ -3,12 +3,44 @@
 use crate::{Format, project};
 use apex_dsl::{
     petri,
-    report::{explain, explain_json},
+    report::{PAGES, explain, explain_json, nearest, page},
 };
 use std::{path::Path, process::ExitCode};
 
+/// Explains a text or a code; without either, lists the codes.
+pub fn run(what: Option<&Path>, format: Format, pnml: bool) -> Result<ExitCode, String> {
+    let Some(what) = what else {
+        PAGES.iter().for_each(|(code, page)| project::print(&format!("{code:<24}{}", first_sentence(page))));
+        return Ok(ExitCode::SUCCESS);
+    };
+    let is_word = what.extension().is_none() && what.components().count() == 1 && !what.exists();
+    match what.to_str().filter(|_| is_word) {
+        Some(code) => self::code(code),
+        None if pnml => net(what),
+        None => text(what, format),
+    }
+}
+
+/// Prints the page of a code.
+fn code(code: &str) -> Result<ExitCode, String> {
+    let Some(page) = page(code) else {
+        let near = nearest(code, PAGES.iter().map(|(code, _)| *code));
+        let hint =
+            near.map_or("`apex explain --list` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
+        return Err(format!("`{code}` is neither a text nor the code of a message; {hint}"));
+    };
+    project::print(page.trim_end());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What a page says at first.
+fn first_sentence(page: &str) -> &str {
+    let text = page.split("\n\n").nth(1).unwrap_or_default().trim_end();
+    text.split_once(". ").map_or(text.trim_end_matches('.'), |(first, _)| first)
+}
+
 /// Prints what was decided about each program of a text.
-pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
+fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
@@ -25,7 +57,7 @@ pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
 }
 
 /// Prints the Petri net of each program of a text.
-pub fn pnml(file: &Path) -> Result<ExitCode, String> {
+fn net(file: &Path) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {

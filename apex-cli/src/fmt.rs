@@ -1,6 +1,6 @@
 //! `apex fmt`.
 
-use crate::project;
+use crate::{project, replace::replace};
 use apex_dsl::{
     report::Diagnostics,
     source::{Sources, World as _},
@@ -11,7 +11,7 @@ use std::{
     fs,
     io::{self, ErrorKind, Read as _, Write as _},
     path::{Path, PathBuf},
-    process::{self, ExitCode},
+    process::ExitCode,
 };
 
 /// What became of a text.
@@ -163,26 +163,4 @@ fn visible(line: &str) -> String {
         .map(|c| if c == ' ' { '·'.to_string() } else { c.escape_default().to_string() })
         .collect();
     format!("{text}{blanks}{end}")
-}
-
-/// Writes a file beside `path` and puts it in its place, so that there is always a whole one.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
-    // What a link leads to is changed, not the link.
-    let path = fs::canonicalize(path)?;
-    let permissions = fs::metadata(&path)?.permissions();
-    if permissions.readonly() {
-        return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
-    }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}", process::id()));
-    let written = fs::File::create_new(&temporary).and_then(|mut file| {
-        file.write_all(text.as_bytes())?;
-        file.set_permissions(permissions)?;
-        file.sync_all()
-    });
-    let result = written.and_then(|()| fs::rename(&temporary, &path));
-    if result.is_err() {
-        let _ = fs::remove_file(&temporary);
-    }
-    result
 }

@@ -4,12 +4,14 @@ mod check;
 mod completions;
 mod expand;
 mod explain;
+mod fix;
 mod fmt;
 mod graph;
 mod import;
 mod lsp;
 mod new;
 mod project;
+mod replace;
 mod run;
 mod test;
 mod watch;
@@ -32,7 +34,9 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Check texts and say what is wrong with them.
-    #[command(after_help = "Example:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg")]
+    #[command(
+        after_help = "--fix makes the changes of which there is no doubt, and says which; those that are guesses are shown as ever.\nExit code 0: no error is left.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
+    )]
     Check {
         /// The texts.
         #[arg(required = true)]
@@ -40,6 +44,9 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+        /// Mend what can be mended without doubt.
+        #[arg(long)]
+        fix: bool,
     },
     /// Print what a shell needs to complete this command.
     #[command(after_help = "Example:\n  apex completions bash > ~/.local/share/bash-completion/completions/apex")]
@@ -64,10 +71,17 @@ enum Command {
         /// The text.
         file: PathBuf,
     },
-    /// Print what the compiler has decided: regions, guards, clusters, schedule, pruning, memory.
+    /// Print what the compiler has decided about a text, or what the code of a message means.
+    #[command(
+        after_help = "Of a text: regions, guards, clusters, schedule, rates, pruning, memory, claims. Of a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain missing-unit\n  apex explain --list"
+    )]
     Explain {
-        /// The text.
-        file: PathBuf,
+        /// The text, or a code such as `missing-unit`.
+        #[arg(required_unless_present = "list", value_name = "FILE | CODE")]
+        what: Option<PathBuf>,
+        /// Print all codes.
+        #[arg(long, exclusive = true)]
+        list: bool,
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
@@ -167,12 +181,11 @@ enum Format {
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
-        Command::Check { files, format } => check::run(&files, format),
+        Command::Check { files, format, fix } => check::run(&files, format, fix),
         Command::Completions { shell } => completions::run(shell),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { file, pnml: true, .. } => explain::pnml(&file),
-        Command::Explain { file, format, .. } => explain::run(&file, format),
+        Command::Explain { what, format, pnml, .. } => explain::run(what.as_deref(), format, pnml),
         Command::Graph { file, graph, activity, output, format } => {
             graph::run(&file, &graph::Wanted { graph, activity, output, format })
         }
@@ -186,6 +199,7 @@ fn main() -> ExitCode {
             if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };
+    project::print_where_to_read_on();
     match result {
         Ok(code) => code,
         Err(message) => {

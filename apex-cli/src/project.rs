@@ -3,7 +3,7 @@
 use apex_dsl::{
     catalog::{Catalog, Crates},
     passes::{self, Program},
-    report::{Diagnostics, render},
+    report::{Diagnostics, Severity, render},
     source::{Sources, World as _},
 };
 use apex_host::{Disk, Seen, Workspace};
@@ -11,6 +11,7 @@ use std::{
     env,
     io::{self, IsTerminal as _, Write as _},
     path::{Path, PathBuf},
+    sync::{Arc, OnceLock},
 };
 
 /// A checked text.
@@ -33,18 +34,43 @@ pub fn package_of(file: &Path) -> Option<PathBuf> {
 
 /// Reads and checks `file`. A text outside of any package sees no nodes.
 pub fn check(file: &Path) -> Result<Checked, String> {
-    let folder = package_of(file);
-    let workspace = folder.as_deref().map(Workspace::load).transpose()?;
-    let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
-    let text = disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))?;
-    let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
-    let mut catalog = Catalog::load(crates, &mut disk);
-    let mut sources = Sources::default();
-    let root = sources.add(file, text);
-    let mut diagnostics = Diagnostics::default();
-    let programs = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
-    disk.save();
-    Ok(Checked { sources, diagnostics, programs, catalog })
+    let mut checker = Checker::new(file)?;
+    let text = checker.read(file)?;
+    let (sources, diagnostics, programs) = checker.check(file, text);
+    checker.disk.save();
+    Ok(Checked { sources, diagnostics, programs, catalog: checker.catalog })
+}
+
+/// Checks texts of one package, also those that are not what stands on the disk.
+pub struct Checker {
+    catalog: Catalog,
+    disk: Disk,
+}
+
+impl Checker {
+    /// For texts in the package that `file` belongs to.
+    pub fn new(file: &Path) -> Result<Self, String> {
+        let folder = package_of(file);
+        let workspace = folder.as_deref().map(Workspace::load).transpose()?;
+        let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
+        let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
+        let catalog = Catalog::load(crates, &mut disk);
+        Ok(Self { catalog, disk })
+    }
+
+    /// What stands in `file`.
+    pub fn read(&mut self, file: &Path) -> Result<Arc<str>, String> {
+        self.disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))
+    }
+
+    /// Checks `text` as if it stood in `file`.
+    pub fn check(&mut self, file: &Path, text: Arc<str>) -> (Sources, Diagnostics, Vec<Program>) {
+        let mut sources = Sources::default();
+        let root = sources.add(file, text);
+        let mut diagnostics = Diagnostics::default();
+        let programs = passes::check(root, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
+        (sources, diagnostics, programs)
+    }
 }
 
 impl Checked {
@@ -58,10 +84,23 @@ impl Checked {
 pub fn print_diagnostics(diagnostics: &Diagnostics, sources: &Sources) {
     let color = io::stderr().is_terminal();
     for diagnostic in diagnostics.sorted() {
+        if diagnostic.severity == Severity::Error {
+            FIRST_ERROR.get_or_init(|| diagnostic.code);
+        }
         print_error(&format!("{}\n", render(diagnostic, sources, color)));
     }
     if diagnostics.left_out() > 0 {
         print_error(&format!("… and {} more\n", diagnostics.left_out()));
+    }
+}
+
+/// The code of the first error that was printed.
+static FIRST_ERROR: OnceLock<&str> = OnceLock::new();
+
+/// Says once, behind all errors, where more can be read about them.
+pub fn print_where_to_read_on() {
+    if let Some(code) = FIRST_ERROR.get() {
+        print_error(&format!("for more about an error, try `apex explain {code}`"));
     }
 }
 

@@ -1,7 +1,7 @@
 //! `apex run`: the package's own program, or one that is made for the text.
 
 use crate::project;
-use apex_dsl::{graph::NodeKind, passes::Program};
+use apex_dsl::{graph::NodeKind, passes::Program, report::nearest};
 use apex_host::Workspace;
 use std::{
     env,
@@ -147,11 +147,12 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
     let programs: Vec<&Program> = programs.iter().filter(|p| p.script.is_none()).collect();
     let names = || programs.iter().map(|p| format!("`{}`", p.graph.name)).collect::<Vec<_>>().join(", ");
     if let Some(name) = name {
-        return programs
-            .iter()
-            .copied()
-            .find(|p| p.graph.name == name)
-            .ok_or_else(|| format!("there is no robot `{name}`; there are {}", names()));
+        return programs.iter().copied().find(|p| p.graph.name == name).ok_or_else(|| {
+            match nearest(name, programs.iter().map(|p| p.graph.name.as_str())) {
+                Some(near) => format!("there is no robot or graph `{name}`; did you mean `{near}`?"),
+                None => format!("there is no robot or graph `{name}`; there are {}", names()),
+            }
+        });
     }
     let robots: Vec<&Program> = programs.iter().copied().filter(|p| p.graph.robot).collect();
     match (robots.as_slice(), programs.as_slice()) {

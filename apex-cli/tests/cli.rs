@@ -50,7 +50,7 @@ fn errors_as_text_and_as_json() {
 #[test]
 fn several_files_are_all_checked() {
     let folder = Folder::new("several");
-    let (wrong, right) = (folder.file("wrong.afg", "graph {\n"), folder.file("right.afg", "graph A { }\n"));
+    let (wrong, right) = (folder.file("wrong.afg", "graph A {\n"), folder.file("right.afg", "graph A { }\n"));
     let output = apex().args(["check", "--format", "json"]).args([&wrong, &right, &wrong]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -203,6 +203,73 @@ fn the_language_server_ends_with_its_editor() {
     let output = serve("Content-Length: 5\r\n\r\n{nope");
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     assert!(stderr(&output).starts_with("error: the messages of the editor cannot be read: "), "{}", stderr(&output));
+}
+
+#[test]
+fn a_code_is_explained() {
+    let explain = |argument: &str| apex().args(["explain", argument]).output().unwrap();
+    let output = explain("missing-unit");
+    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/errors/missing-unit.md");
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), fs::read_to_string(page).unwrap());
+
+    let output = explain("--list");
+    let list = String::from_utf8(output.stdout).unwrap();
+    assert_eq!((output.status.code(), list.lines().count() > 50), (Some(0), true), "{list}");
+    assert!(list.lines().all(|line| line.split_whitespace().count() > 2), "{list}");
+
+    let output = explain("mising-unit");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    assert!(stderr(&output).ends_with("did you mean `missing-unit`?\n"), "{}", stderr(&output));
+
+    // A file comes first, and what looks like one is one.
+    let folder = Folder::new("explain");
+    folder.file("missing-unit", "graph A { }\n");
+    let output = apex().args(["explain", "missing-unit"]).current_dir(&folder.0).output().unwrap();
+    assert!(output.stdout.starts_with(b"graph A\n"), "{output:?}");
+    let output = explain("missing-unit.afg");
+    assert!(stderr(&output).contains("there is no such file"), "{}", stderr(&output));
+}
+
+#[test]
+fn errors_say_once_where_to_read_on() {
+    let folder = Folder::new("read-on");
+    let file = folder.file("wrong.afg", "graph A {\n    node a = Nothing();\n    node a = Nothing();\n}\n");
+    let output = apex().arg("check").args([&file, &file]).output().unwrap();
+    let text = stderr(&output);
+    assert_eq!(text.matches("for more about an error").count(), 1, "{text}");
+    assert!(text.ends_with("\nfor more about an error, try `apex explain unknown-node`\n"), "{text}");
+    let warning = folder.file("warning.afg", "fsm A {\n    slot go;\n    state a { }\n    state b { }\n}\n");
+    let text = stderr(&check(&[], &warning));
+    assert!(text.starts_with("warning[never-entered]") && !text.contains("for more"), "{text}");
+}
+
+#[test]
+fn what_is_certain_is_mended() {
+    let folder = Folder::new("mend");
+    let file = folder.file("a.afg", "graph A {\n    in x u64;\n    out y = u64\n    x --> y;\n}\n");
+    let output = check(&["--fix"], &file);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(0), 0), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "graph A {\n    in x: u64;\n    out y: u64;\n    x -> y;\n}\n");
+    let name = file.display();
+    let told = stderr(&output);
+    assert!(told.lines().all(|line| line.starts_with(&format!("fixed {name}:"))), "{told}");
+    assert_eq!(told.lines().count(), 4, "{told}");
+    assert_eq!(stderr(&check(&["--fix"], &file)), "");
+
+    // A guess is shown, not made; the file is not touched.
+    let text = "graph A {\n    in x: u64;\n    out y: u64;\n    x -> z;\n}\n";
+    let file = folder.file("b.afg", text);
+    let output = check(&["--fix"], &file);
+    assert_eq!((output.status.code(), fs::read_to_string(&file).unwrap().as_str()), (Some(1), text));
+    assert!(stderr(&output).starts_with("error["), "{}", stderr(&output));
+
+    // What makes it worse is taken back: the bracket is closed, and then there is one more error than before.
+    let text = "graph A {\n    in x: u64;\n    x -> B(;\n}\ngraph C { in x: u64; x -> D(); }\n";
+    let file = folder.file("c.afg", text);
+    let before = stderr(&check(&[], &file)).matches("error[").count();
+    let after = stderr(&check(&["--fix"], &file)).matches("error[").count();
+    assert!(after <= before, "{after} > {before}");
 }
 
 /// `apex fmt` with these arguments.

@@ -66,6 +66,9 @@ pub fn check_all(
             }
         }
     }
+    if resolved.broken {
+        resolve::Resolved::retain_certain(&resolved.texts, diagnostics);
+    }
     // In a text with errors connections may be missing, so that claims would fail for no reason.
     if !diagnostics.has_errors() {
         for Program { graph, analysis, .. } in &mut programs {

@@ -1,7 +1,7 @@
 //! Activity: which node is active when, and what tokens carry.
 
 use apex_rt::prelude::*;
-use apex_tests::{Log, active_after_each, react};
+use apex_tests::{Log, active_after_each};
 
 graph!("activity.afg");
 

@@ -90,7 +90,7 @@ fn describe(compiled: &Compiled, diagnostic: &Diagnostic, line: &str) -> Vec<Str
     }
     lines.extend(diagnostic.notes.iter().map(|note| format!("// | {}", without_lines(note))));
     for fix in &diagnostic.fixes {
-        lines.push(format!("// | {} → `{}`", fix.title, fix.replacement.trim_end()));
+        lines.push(format!("// | {} → `{}`", fix.title, fix.replacement.trim_end().replace('\n', "\\n")));
     }
     lines
 }
@@ -129,7 +129,7 @@ fn first_line(text: &str) -> &str {
 }
 
 /// The line at which a node is declared changes whenever a node is added.
-fn without_lines(note: &str) -> String {
+pub fn without_lines(note: &str) -> String {
     let mut parts = note.split(".rs:");
     let mut text = parts.next().unwrap_or_default().to_owned();
     for part in parts {

@@ -8,6 +8,7 @@ mod expect;
 mod library;
 #[allow(dead_code, reason = "the compiler reads them; nothing runs them")]
 mod nodes;
+mod pages;
 
 use apex_dsl::report::Diagnostic;
 use compile::{Compiled, catalog, compile, folder};
@@ -117,8 +118,8 @@ fn messages_keep_the_house_style() {
     }
 }
 
-#[test]
-fn every_code_has_a_text() {
+/// The codes of all messages in the source of the compiler.
+fn emitted() -> BTreeSet<String> {
     let sources = folder().join("../../apex-dsl/src");
     let mut emitted = BTreeSet::new();
     for path in files(&sources, "rs") {
@@ -134,6 +135,12 @@ fn every_code_has_a_text() {
         }
     }
     assert!(emitted.contains("unknown-port") && emitted.contains("bad-number"), "{emitted:?}");
+    emitted
+}
+
+#[test]
+fn every_code_has_a_text() {
+    let emitted = emitted();
     let compiled = compiled();
     let covered: BTreeSet<&str> =
         compiled.iter().flat_map(|(_, _, c)| c.diagnostics.sorted()).map(|d| d.code).collect();

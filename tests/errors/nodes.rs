@@ -263,3 +263,29 @@ impl Tell {
         x + y
     }
 }
+
+/// Passes tokens of any type on.
+#[node]
+pub struct Repeat<T> {
+    _last: Option<T>,
+}
+
+#[node]
+impl<T: Clone> Repeat<T> {
+    #[slot]
+    fn put(&mut self, value: &T, sent: Event<T>) {
+        sent.emit(value.clone());
+    }
+}
+
+/// A word that lives as long as the program.
+#[node]
+pub fn word(x: &u64) -> Option<&'static str> {
+    (*x > 1).then_some("word")
+}
+
+/// Reads a word.
+#[node]
+pub fn read(word: &&'static str) {
+    let _ = word;
+}

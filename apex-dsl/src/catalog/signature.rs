@@ -296,7 +296,11 @@ fn returns(output: &ReturnType) -> syn::Result<Returns> {
         Some(some) => (true, some),
         None => (false, ty),
     };
-    if let Type::Reference(reference) = ty {
+    // What lives as long as the program is a value as any other.
+    let is_static = |reference: &syn::TypeReference| reference.lifetime.as_ref().is_some_and(|l| l.ident == "static");
+    if let Type::Reference(reference) = ty
+        && !is_static(reference)
+    {
         return Err(syn::Error::new_spanned(
             reference,
             "a node sends values: return `T`, or write into a `&mut Out<T>`",

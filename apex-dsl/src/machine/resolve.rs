@@ -60,8 +60,9 @@ impl<'a> Opener<'a> {
         for port in &self.item.ports {
             if port.kind.is_synchronous() {
                 let message = format!(
-                    "a state machine has slots and events, but `{}` is an {}",
+                    "a state machine has slots and events, but `{}` is {} {}",
                     port.name.text,
+                    port.kind.article(),
                     port.kind.word()
                 );
                 self.diagnostics.push(

@@ -28,6 +28,8 @@ pub struct Fix {
     pub span: Span,
     /// By what.
     pub replacement: String,
+    /// Whether this is what was meant, so that a tool may do it unasked; otherwise it is a guess.
+    pub certain: bool,
 }
 
 /// One message to the user. Messages are lower case, without a final period, names in back quotes.
@@ -84,10 +86,20 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a change that would mend it.
+    /// Adds a change that mends it: nothing else can have been meant.
     #[must_use]
-    pub fn fix(mut self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
-        self.fixes.push(Fix { title: shortened(title.into()), span, replacement: replacement.into() });
+    pub fn fix(self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
+        self.change(title.into(), span, replacement.into(), true)
+    }
+
+    /// Adds a change that may be what was meant: somebody has to look at it.
+    #[must_use]
+    pub fn guess(self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
+        self.change(title.into(), span, replacement.into(), false)
+    }
+
+    fn change(mut self, title: String, span: Span, replacement: String, certain: bool) -> Self {
+        self.fixes.push(Fix { title: shortened(title), span, replacement, certain });
         self
     }
 }

@@ -98,6 +98,7 @@ pub fn json(diagnostic: &Diagnostic, sources: &Sources) -> serde_json::Value {
             let mut object = place(fix.span, sources);
             object["title"] = fix.title.as_str().into();
             object["replacement"] = fix.replacement.as_str().into();
+            object["certain"] = fix.certain.into();
             object
         })
         .collect();

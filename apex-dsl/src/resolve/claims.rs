@@ -16,6 +16,10 @@ use std::collections::BTreeMap;
 impl Builder<'_> {
     /// Resolves the claims of a graph body. Its nodes and nested graphs have these numbers and higher ones.
     pub fn resolve_claims(&mut self, body: &Body<'_>, table: &Table, (node, scope): (usize, usize)) {
+        // A statement that could not be read may declare what a claim is about.
+        if self.texts.are_broken() {
+            return;
+        }
         if body.item.claims.is_empty() {
             return;
         }

@@ -9,7 +9,7 @@ use crate::{
     graph::{End, Node, NodeId, NodeKind, Place, Port, Standard, Wire},
     report::{Diagnostic, Diagnostics, nearest},
     source::Span,
-    syntax::tree::{Arrow, Endpoint, Ident, PortKind, PortRef},
+    syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -156,9 +156,12 @@ impl Builder<'_> {
                 if symbols[i].iter().any(Option::is_none) {
                     symbols[i + 1].iter().flatten().for_each(|to| self.excuse(&to.0));
                 }
+                let is_port = |end: &Endpoint| matches!(end, Endpoint::Port(_));
+                let open =
+                    [i == 0 && is_port(&chain.ends[0]), i + 2 == chain.ends.len() && is_port(&chain.ends[i + 1])];
                 for from in symbols[i].iter().flatten() {
                     for to in symbols[i + 1].iter().flatten() {
-                        self.connect(from, to, arrow);
+                        self.connect(body, from, to, arrow, open);
                         if self.is_exhausted() {
                             return;
                         }
@@ -203,6 +206,10 @@ impl Builder<'_> {
             if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
                 let node = self.own_node(body, first, kind)?;
                 return Some((Symbol::of_node(node, &self.nodes[node]), text, reference.span));
+            }
+            // A statement that could not be read may declare it.
+            if self.texts.are_broken() {
+                return None;
             }
             let message = format!("there is no node or port `{}` in this graph", first.text);
             let error = Diagnostic::error("unknown-node", first.span, message);
@@ -251,7 +258,7 @@ impl Builder<'_> {
         let message = format!("`{node}` has no port `{}`", port.text);
         let error = Diagnostic::error("unknown-port", port.span, message);
         let mut error = match nearest(&port.text, ports.iter().map(|p| p.name.as_str())) {
-            Some(near) => error.fix(format!("did you mean `{near}`?"), port.span, near),
+            Some(near) => error.guess(format!("did you mean `{near}`?"), port.span, near),
             None => error,
         };
         error = error.note(match list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>()) {
@@ -298,12 +305,16 @@ impl Builder<'_> {
 
     /// `start => node`: nothing is sent, the node is active from the beginning. A node with a slot for it is sent
     /// a token as by any other event.
-    fn starts_active(&mut self, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
+    fn starts_active(&mut self, body: &Body<'_>, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
         let (Symbol::Ports(from), Symbol::Ports(to_ports)) = (from, &to.0) else { return false };
         let is_start = from
             .iter()
             .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
-        let takes = |c: &Candidate| c.kind == PortKind::Slot && c.ty.compare(&Type::unit()) != Match::Different;
+        // Of a generic slot other connections say what it takes, if there are any.
+        let takes = |c: &Candidate| {
+            let decided = matches!(c.ty, Type::Param(_)) && is_fed(body.item, &to.1);
+            c.kind == PortKind::Slot && !decided && c.ty.compare(&Type::unit()) != Match::Different
+        };
         if !is_start || !arrow.active || to.1.contains('.') || to_ports.iter().any(takes) {
             return false;
         }
@@ -316,18 +327,27 @@ impl Builder<'_> {
         }
     }
 
-    fn connect(&mut self, from: &(Symbol, String, Span), to: &(Symbol, String, Span), arrow: &Arrow) {
+    /// Connects two ends of a chain; `open` says for each whether a port can be named behind it: a node that is written
+    /// in place has no name, and one inside the chain would be left by the port that takes.
+    fn connect(
+        &mut self,
+        body: &Body<'_>,
+        from: &(Symbol, String, Span),
+        to: &(Symbol, String, Span),
+        arrow: &Arrow,
+        open: [bool; 2],
+    ) {
         let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
         if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
             return;
         }
-        if self.starts_active(&from.0, to, arrow) {
+        if self.starts_active(body, &from.0, to, arrow) {
             return;
         }
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other side; so do types.
-        let Some((source, target)) = self.choose(sources, targets) else { return self.excuse(&to.0) };
+        let Some((source, target)) = self.choose(sources, targets, open) else { return self.excuse(&to.0) };
         let differs = source.ty.compare(&target.ty) == Match::Different;
         if differs {
             self.mismatch(from, to, &source, &target, arrow.span);
@@ -353,7 +373,7 @@ impl Builder<'_> {
         }
     }
 
-    fn choose(&mut self, from: Meant, to: Meant) -> Option<(Candidate, Candidate)> {
+    fn choose(&mut self, from: Meant, to: Meant, open: [bool; 2]) -> Option<(Candidate, Candidate)> {
         let fits = |a: &Candidate, b: &Candidate| a.ty.compare(&b.ty) != Match::Different;
         let narrow = |side: &Meant, other: &Meant| -> Vec<Candidate> {
             match side.candidates.as_slice() {
@@ -365,24 +385,33 @@ impl Builder<'_> {
         match (sources.as_slice(), targets.as_slice()) {
             ([source], [target]) => Some((source.clone(), target.clone())),
             ([_], _) => {
-                self.ambiguous(&to, &targets, &from, ["takes", "take", "sends"]);
+                self.ambiguous(&to, &targets, &from, ["takes", "take", "sends"], open[1]);
                 None
             }
             _ => {
-                self.ambiguous(&from, &sources, &to, ["sends", "send", "takes"]);
+                self.ambiguous(&from, &sources, &to, ["sends", "send", "takes"], open[0]);
                 None
             }
         }
     }
 
-    fn ambiguous(&mut self, meant: &Meant, fitting: &[Candidate], other: &Meant, [one, many, opposite]: [&str; 3]) {
+    fn ambiguous(
+        &mut self,
+        meant: &Meant,
+        fitting: &[Candidate],
+        other: &Meant,
+        [one, many, opposite]: [&str; 3],
+        open: bool,
+    ) {
         let name = &meant.name;
         let error = match (meant.candidates.len(), fitting.len()) {
-            (0, _) if meant.explicit => Diagnostic::error(
-                "wrong-direction",
-                meant.span,
-                format!("`{name}` {one} no tokens, it {opposite} them"),
-            ),
+            (0, _) if meant.explicit => {
+                let message = format!("`{name}` {one} no tokens, it {opposite} them");
+                let error = Diagnostic::error("wrong-direction", meant.span, message);
+                // Seen from inside, the ports of the graph around are the other way round.
+                let own = "inside a graph its `in` and `slot` ports send, and its `out` and `event` ports take";
+                if name.contains('.') { error } else { error.note(own) }
+            }
             (0, _) => {
                 Diagnostic::error("wrong-direction", meant.span, format!("`{name}` has no port that {one} tokens"))
                     .note(match meant.all.as_str() {
@@ -394,17 +423,25 @@ impl Builder<'_> {
                 let all: Vec<&Candidate> = meant.candidates.iter().collect();
                 let message = format!("no port of `{name}` goes with `{}`", other.name);
                 let others: Vec<&Candidate> = other.candidates.iter().collect();
-                Diagnostic::error("type-mismatch", meant.span, message)
+                let error = Diagnostic::error("type-mismatch", meant.span, message)
                     .also(other.span, format!("has {}", list(&others)))
-                    .note(format!("`{name}` has {}", list(&all)))
+                    .note(format!("`{name}` has {}", list(&all)));
+                let ends = [(all.first(), name), (others.first(), &other.name)];
+                let declared = ends.into_iter().filter_map(|(c, name)| Some(self.declared(c?, &format!("`{name}`"))));
+                declared.fold(error, Diagnostic::note)
             }
             _ => {
                 let message = format!("`{name}` has several ports that could {many} this: name one");
                 let error = Diagnostic::error("ambiguous-port", meant.span, message);
                 let all: Vec<&Candidate> = fitting.iter().collect();
                 let error = error.note(format!("`{name}` has {}", list(&all)));
+                let fitting = if open { fitting } else { &[] };
+                let error = match open {
+                    true => error,
+                    false => error.note("declare it with `node name = …;`, end the chain at `name.port`, and begin another one behind it"),
+                };
                 fitting.iter().take(4).fold(error, |error, c| {
-                    error.fix(format!("use `{}`", c.name), meant.span.after(), format!(".{}", c.name))
+                    error.guess(format!("use `{}`", c.name), meant.span.after(), format!(".{}", c.name))
                 })
             }
         };
@@ -447,11 +484,25 @@ impl Builder<'_> {
                         signature.name
                     )
                 }
+                NodeKind::Start => format!("{name} is where activity begins; every graph has it"),
                 _ => format!("{name} is a port of this graph"),
             },
             Place::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
         }
     }
+}
+
+/// Whether anything but `start` leads to the node `name` in this graph.
+fn is_fed(graph: &GraphItem, name: &str) -> bool {
+    fn names(end: &Endpoint, name: &str) -> bool {
+        match end {
+            Endpoint::Port(reference) => reference.parts.first().is_some_and(|first| first.text == name),
+            Endpoint::List(ends, _) => ends.iter().any(|end| names(end, name)),
+            Endpoint::Instance(_) => false,
+        }
+    }
+    let steps = graph.chains.iter().flat_map(|chain| chain.ends.windows(2));
+    steps.into_iter().any(|step| names(&step[1], name) && !names(&step[0], "start"))
 }
 
 /// The ports on the sending or the taking side that an endpoint may mean. Parameters count only if named.

@@ -351,7 +351,7 @@ impl<'a> Builder<'a> {
         if signature.process.is_none() && !signature.is_function && signature.ports.is_empty() {
             let message = format!("`{}` has neither `process` nor a slot", signature.name);
             let error = Diagnostic::error("no-process", instance.path.span, message).note(format!(
-                "declared at {}:{}; mark its `impl` with `#[node]` too",
+                "declared at {}:{}; mark its `impl` with `#[node]` too; if it is marked, `cargo check` says what is wrong with its signature",
                 signature.file.display(),
                 signature.line
             ));

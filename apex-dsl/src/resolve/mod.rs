@@ -29,18 +29,21 @@ pub use names::{GraphId, Made, Meaning, Texts, suggest};
 pub const MAX_NODES: usize = 50_000;
 /// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
 const MAX_LOOKS: usize = 1_000_000;
-/// What may be wrong only because a broken statement declares something that is not known.
-const UNCERTAIN: [&str; 9] = [
-    "unknown-node",
+/// What may be wrong only because a broken statement is not known.
+const UNCERTAIN: [&str; 10] = [
     "unknown-port",
     "open-input",
     "open-output",
-    "unknown-import",
     "unknown-name",
     "no-state",
     "unknown-state",
     "never-entered",
+    "never-activated",
+    "never-leaves",
+    "never-fires",
 ];
+/// What may be wrong only because a broken item is not known.
+const UNCERTAIN_OUTSIDE: [&str; 2] = ["unknown-node", "unknown-import"];
 /// Most claims of one program.
 const MAX_CLAIMS: usize = 256;
 /// How deep graphs nest in each other.
@@ -65,6 +68,8 @@ pub struct Resolved {
     pub graphs: Vec<Graph>,
     /// The connections of the graphs of the first text, as written.
     pub links: Vec<Link>,
+    /// Whether a text has statements or items that could not be read.
+    pub broken: bool,
     /// The tests of the first text: the graph that is tested, and what is done with it.
     pub tests: Vec<(Graph, Script)>,
 }
@@ -78,7 +83,7 @@ pub fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> Resolved {
     let texts = Texts::load(root, catalog, sources, world, diagnostics);
-    let broken = texts.files.iter().any(|(_, file)| file.broken);
+    let broken = texts.are_broken();
     let used = used(&texts.files[0].1);
     let (mut graphs, mut links) = (vec![], vec![]);
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
@@ -93,6 +98,7 @@ pub fn resolve(
             graphs.extend(resolved);
         }
     }
+    generated_names(&texts.files[0].1, &used, diagnostics);
     let mut tests = vec![];
     for test in &texts.files[0].1.tests {
         if budget.exceeded || broken {
@@ -100,17 +106,40 @@ pub fn resolve(
         }
         tests.extend(testing::test(&texts, catalog, test, sources, &mut budget, diagnostics));
     }
-    if broken {
-        // What a broken statement declares is not known, so that these would be false alarms.
-        diagnostics.retain(|d| !UNCERTAIN.contains(&d.code));
-    } else if texts.files[0].1.is_empty() && !diagnostics.has_errors() {
+    if !broken && texts.files[0].1.is_empty() && !diagnostics.has_errors() {
         let span = crate::source::Span::new(root, 0, 0);
         diagnostics.push(
             Diagnostic::error("no-graph", span, "this text has no `graph`")
                 .note("a smallest graph is `graph Name { }`"),
         );
     }
-    Resolved { texts, graphs, links, tests }
+    Resolved { texts, graphs, broken, links, tests }
+}
+
+/// What the types are called that belong to the program of a graph, behind its name.
+const GENERATED: [&str; 6] = ["Nodes", "State", "Inputs", "Outputs", "Parts", "Events"];
+
+/// Reports graphs and machines that have the name of a type that belongs to another one's program.
+fn generated_names(file: &File, used: &BTreeSet<&str>, diagnostics: &mut Diagnostics) {
+    let programs = || file.graphs.iter().map(|g| &g.name).filter(|name| !used.contains(name.text.as_str()));
+    let made = || programs().chain(file.machines.iter().map(|m| &m.name));
+    for owner in programs() {
+        let is_type = |name: &str| name.strip_prefix(&owner.text).is_some_and(|suffix| GENERATED.contains(&suffix));
+        for name in made().filter(|name| is_type(&name.text)) {
+            let message = format!("`{}` is the name of a type that belongs to `{}` in Rust", name.text, owner.text);
+            let error = Diagnostic::error("duplicate-name", name.span, message).also(owner.span, "this graph");
+            diagnostics.push(error.note("give one of the two another name"));
+        }
+    }
+}
+
+impl Resolved {
+    /// Takes back what may be a false alarm because something that could not be read is not known.
+    pub fn retain_certain(texts: &Texts, diagnostics: &mut Diagnostics) {
+        let items = texts.files.iter().any(|(_, file)| file.broken_items);
+        let uncertain = |code| UNCERTAIN.contains(&code) || (items && UNCERTAIN_OUTSIDE.contains(&code));
+        diagnostics.retain(|d| !uncertain(d.code));
+    }
 }
 
 /// The names of all graphs and nodes that the graphs of a text have instances of.

@@ -4,7 +4,7 @@ use crate::{
     catalog::{Catalog, DefId, SignatureId, Ty, Type},
     machine,
     report::{Diagnostic, Diagnostics, nearest},
-    source::{FileId, Sources, World},
+    source::{FileId, Sources, Span, World},
     syntax::{
         self,
         tree::{File, GraphItem, Ident, PathExpr, PortItem, TypeExpr, TypeKind},
@@ -232,6 +232,11 @@ impl Texts {
         Some(Meaning::Graph(GraphId { file: other, graph: graph? }))
     }
 
+    /// Whether one of them has statements or items that could not be read.
+    pub fn are_broken(&self) -> bool {
+        self.files.iter().any(|(_, file)| file.broken)
+    }
+
     /// The graph with this number.
     pub fn graph(&self, id: GraphId) -> &GraphItem {
         &self.files[id.file].1.graphs[id.graph]
@@ -305,16 +310,15 @@ impl Texts {
         let own =
             catalog.signatures.iter().filter(|s| s.path.first().is_some_and(|p| p == "crate")).map(|s| s.name.as_str());
         let elsewhere: Vec<&_> = catalog.signatures.iter().filter(|s| s.name == last.text).collect();
-        if let Some(signature) = elsewhere.first() {
-            let import = signature.path.join("::");
-            let import = import.trim_start_matches("::");
-            error = error.note(format!("`{import}` exists; import it with `use {import};`"));
-            let start = crate::source::Span::new(self.files[file].0, 0, 0);
-            let at = self.files[file].1.uses.first().and_then(|u| u.path.first()).map_or(start, |p| p.span);
-            if at == start {
-                error = error.fix("import it", start, format!("use {import};\n"));
-            }
-            return error;
+        if !elsewhere.is_empty() {
+            return elsewhere.iter().take(4).fold(error, |error, signature| {
+                let import = signature.path.join("::");
+                let import = import.trim_start_matches("::");
+                let at = self.files[file].1.imports_at.unwrap_or_default();
+                let (title, at) = (format!("import `{import}`"), Span::new(self.files[file].0, at, at));
+                let text = format!("use {import};\n");
+                if elsewhere.len() == 1 { error.fix(title, at, text) } else { error.guess(title, at, text) }
+            });
         }
         error = suggest(error, last, in_text.chain(own));
         if error.fixes.is_empty() {
@@ -355,7 +359,7 @@ impl Texts {
 /// Adds the nearest of `candidates` as a fix for `word`.
 pub fn suggest<'a>(error: Diagnostic, word: &Ident, candidates: impl Iterator<Item = &'a str>) -> Diagnostic {
     match nearest(&word.text, candidates) {
-        Some(near) => error.fix(format!("did you mean `{near}`?"), word.span, near),
+        Some(near) => error.guess(format!("did you mean `{near}`?"), word.span, near),
         None => error,
     }
 }

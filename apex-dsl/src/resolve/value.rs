@@ -273,7 +273,7 @@ impl Wanted<'_> {
         if n.dimension.is_none() {
             let unit = self.unit.unwrap_or_default();
             let message = format!("`{}` is {}: the unit is missing", self.name, wanted.noun());
-            return Err(Box::new(Diagnostic::error("missing-unit", span, message).fix(
+            return Err(Box::new(Diagnostic::error("missing-unit", span, message).guess(
                 format!("write it in `{unit}`"),
                 span.after(),
                 unit,
@@ -349,6 +349,11 @@ impl Wanted<'_> {
 
 /// A time as a duration.
 pub fn duration(n: Number, span: Span) -> Evaluated<Duration> {
+    if n.dimension.is_none() {
+        let missing = Diagnostic::error("missing-unit", span, "a time is wanted here: the unit is missing");
+        let milliseconds = missing.guess("write it in milliseconds", span.after(), "ms");
+        return Err(Box::new(milliseconds.guess("write it in seconds", span.after(), "s")));
+    }
     if n.dimension != Dimension::TIME {
         return error("wrong-unit", span, format!("a time is wanted here, but this is {}", kind(n)));
     }

@@ -85,7 +85,7 @@ impl Builder<'_> {
                 self.diagnostics.push(Diagnostic::error(
                     "each-port",
                     span,
-                    format!("`each` runs synchronously, but `{}` is a {}", node.name, kind.word()),
+                    format!("`each` runs synchronously, but `{}` is {} {}", node.name, kind.article(), kind.word()),
                 ));
                 continue;
             }

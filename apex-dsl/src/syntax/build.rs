@@ -17,14 +17,17 @@ pub struct Builder<'a> {
     text: &'a str,
     diagnostics: &'a mut Diagnostics,
     broken: bool,
+    broken_items: bool,
     /// Operators and values of the expressions that are being built, outermost first.
     open: usize,
+    /// Places where the text was changed so that it can be read: what is wrong around them has been reported.
+    damage: Vec<usize>,
 }
 
 impl<'a> Builder<'a> {
-    /// A builder for `file`.
-    pub fn new(file: FileId, text: &'a str, diagnostics: &'a mut Diagnostics) -> Self {
-        Self { file, text, diagnostics, broken: false, open: 0 }
+    /// A builder for `file`, whose text was changed at the places `damage`.
+    pub fn new(file: FileId, text: &'a str, damage: Vec<usize>, diagnostics: &'a mut Diagnostics) -> Self {
+        Self { file, text, diagnostics, broken: false, broken_items: false, open: 0, damage }
     }
 
     fn span(&self, pair: &Pair<'_, Rule>) -> Span {
@@ -38,6 +41,7 @@ impl<'a> Builder<'a> {
             match pair.as_rule() {
                 Rule::inner_doc => push_doc(&mut file.docs, &pair),
                 Rule::item => {
+                    file.imports_at.get_or_insert(pair.as_span().start());
                     for item in pair.into_inner() {
                         self.item(item, &mut file);
                     }
@@ -46,6 +50,7 @@ impl<'a> Builder<'a> {
             }
         }
         file.broken = self.broken;
+        file.broken_items = self.broken_items;
         file
     }
 
@@ -63,12 +68,8 @@ impl<'a> Builder<'a> {
             Rule::test_item => file.tests.extend(self.test(pair)),
             Rule::fsm_item => file.machines.extend(self.machine(pair)),
             _ => {
-                self.broken = true;
-                if self.diagnostics.is_full() {
-                    return self.diagnostics.leave_out();
-                }
-                let start = pair.as_span().start();
-                self.diagnostics.push(recover::item(self.file, start, &self.text[start..pair.as_span().end()]));
+                self.broken_items = true;
+                self.bad(recover::item, &pair);
             }
         }
     }
@@ -155,7 +156,7 @@ impl<'a> Builder<'a> {
                     let Some(stmt) = part.into_inner().next() else { continue };
                     match stmt.as_rule() {
                         Rule::replace_stmt => replaced.extend(self.replaced(stmt)),
-                        Rule::bad_test => self.bad_in(recover::in_test, &stmt),
+                        Rule::bad_test => self.bad(recover::in_test, &stmt),
                         _ => steps.extend(self.test_step(stmt)),
                     }
                 }
@@ -230,7 +231,7 @@ impl<'a> Builder<'a> {
                 Rule::fsm_stmt => match part.into_inner().next() {
                     Some(stmt) if stmt.as_rule() == Rule::port_stmt => ports.extend(self.port(stmt)),
                     Some(stmt) if stmt.as_rule() == Rule::state_item => states.extend(self.state(stmt)),
-                    Some(stmt) => self.bad_in(recover::in_machine, &stmt),
+                    Some(stmt) => self.bad(recover::in_machine, &stmt),
                     None => {}
                 },
                 _ => {}
@@ -259,7 +260,7 @@ impl<'a> Builder<'a> {
                                 hook.extend(self.actions(actions));
                             }
                         }
-                        _ => self.bad_in(recover::in_machine, &stmt),
+                        _ => self.bad(recover::in_machine, &stmt),
                     }
                 }
                 _ => {}
@@ -299,14 +300,18 @@ impl<'a> Builder<'a> {
         actions.collect()
     }
 
-    /// Explains a statement that could not be read, by the words of `explain`.
-    fn bad_in(&mut self, explain: fn(FileId, usize, &str) -> Diagnostic, pair: &Pair<'_, Rule>) {
+    /// Explains text that could not be read, by the words of `explain`.
+    fn bad(&mut self, explain: fn(FileId, usize, &str) -> Diagnostic, pair: &Pair<'_, Rule>) {
         self.broken = true;
+        let (start, end) = (pair.as_span().start(), pair.as_span().end());
+        let blanks = self.text[..start].trim_end().len();
+        if self.damage.iter().any(|at| (blanks..=end).contains(at)) {
+            return;
+        }
         if self.diagnostics.is_full() {
             return self.diagnostics.leave_out();
         }
-        let start = pair.as_span().start();
-        self.diagnostics.push(explain(self.file, start, &self.text[start..pair.as_span().end()]));
+        self.diagnostics.push(explain(self.file, start, &self.text[start..end]));
     }
 
     fn param(&mut self, pair: Pair<'_, Rule>) -> ParamItem {
@@ -378,12 +383,7 @@ impl<'a> Builder<'a> {
                 graph.chains.push(chain);
             }
             _ => {
-                self.broken = true;
-                if self.diagnostics.is_full() {
-                    return self.diagnostics.leave_out();
-                }
-                let start = pair.as_span().start();
-                self.diagnostics.push(recover::statement(self.file, start, &self.text[start..pair.as_span().end()]));
+                self.bad(recover::statement, &pair);
             }
         }
     }

@@ -37,6 +37,7 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
         angles: 0,
         unknown: 0,
         comments: vec![],
+        long_string: None,
         failed: false,
     };
     scanner.run(text, diagnostics);
@@ -66,6 +67,8 @@ struct Scanner<'a> {
     angles: usize,
     unknown: usize,
     comments: Vec<Span>,
+    /// The first string that goes over the end of its line.
+    long_string: Option<usize>,
     failed: bool,
 }
 
@@ -93,6 +96,7 @@ impl Scanner<'_> {
                 }
                 b';' => {
                     self.angles = 0;
+                    self.statement_ends(text, diagnostics);
                     self.at += 1;
                 }
                 b' ' | b'\t' | b'\r' | b'\n' | b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' => self.at += 1,
@@ -105,12 +109,55 @@ impl Scanner<'_> {
                 return;
             }
         }
-        if let Some((bracket, at)) = self.open.pop().filter(|_| !self.failed) {
+        if !self.failed && !self.open.is_empty() {
+            self.never_closed(text, diagnostics);
+        }
+    }
+
+    /// Says which bracket is open at the end: if an item begins where another one is open, that one is meant.
+    fn never_closed(&mut self, text: &str, diagnostics: &mut Diagnostics) {
+        let Some(&(bracket, at)) = self.open.last() else { return };
+        let never = |bracket: u8, at: usize| {
             let span = Span::new(self.file, at, at + 1);
-            self.fail(
-                diagnostics,
-                Diagnostic::error("unclosed", span, format!("this `{}` is never closed", bracket as char)),
-            );
+            Diagnostic::error("unclosed", span, format!("this `{}` is never closed", bracket as char))
+        };
+        let outer = self.open[0].1;
+        let next = items(text).find(|item| *item > outer).filter(|_| {
+            // The braces of an import are no item.
+            self.open[0].0 == b'{' && bracket == b'{' && !text[..outer].trim_end().ends_with("::")
+        });
+        let error = match next {
+            Some(next) => {
+                let end = code_before(text, next);
+                let word = Span::new(self.file, next, next + word_length(&text[next..]));
+                never(b'{', outer).also(word, "begins before it is closed").guess(
+                    "close it",
+                    Span::new(self.file, end, end),
+                    "\n}",
+                )
+            }
+            None if bracket == b'{' && self.open.len() == 1 && !text[..at].trim_end().ends_with("::") => {
+                let end = Span::new(self.file, text.len(), text.len());
+                never(bracket, at).fix("close it", end, if text.ends_with('\n') { "}\n" } else { "\n}\n" })
+            }
+            None => never(bracket, at),
+        };
+        self.fail(diagnostics, error);
+    }
+
+    /// No statement ends inside of parentheses.
+    fn statement_ends(&mut self, text: &str, diagnostics: &mut Diagnostics) {
+        while let Some((b'(', at)) = self.open.last().copied() {
+            self.open.pop();
+            let span = Span::new(self.file, at, at + 1);
+            // Nor is there an arrow in them.
+            let inside = &text[at..self.at];
+            let end = [inside.find("->"), inside.find("=>")].into_iter().flatten().min().unwrap_or(inside.len());
+            let end = at + inside[..end].trim_end().len();
+            let here = Span::new(self.file, end, end);
+            let error = Diagnostic::error("unclosed", span, "this `(` is never closed");
+            let inner = self.open.last().is_some_and(|(bracket, _)| *bracket == b'(');
+            self.fail(diagnostics, if inner { error } else { error.fix("close it", here, ")") });
         }
     }
 
@@ -172,10 +219,15 @@ impl Scanner<'_> {
         self.at += 1;
         while let Some(&byte) = self.bytes.get(self.at) {
             self.at += if byte == b'\\' { 2 } else { 1 };
+            if byte == b'\n' {
+                self.long_string.get_or_insert(start);
+            }
             if byte == b'"' {
                 return;
             }
         }
+        // Behind a string that is not closed, all others begin where they should end.
+        let start = self.long_string.unwrap_or(start);
         let span = Span::new(self.file, start, start + 1);
         self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this string is never closed"));
     }
@@ -206,7 +258,11 @@ impl Scanner<'_> {
             None => {
                 self.give_up(
                     diagnostics,
-                    Diagnostic::error("unclosed", span, format!("`{}` closes nothing", byte as char)),
+                    Diagnostic::error("unclosed", span, format!("`{}` closes nothing", byte as char)).guess(
+                        "leave it out",
+                        span,
+                        "",
+                    ),
                 );
             }
         }
@@ -219,11 +275,53 @@ impl Scanner<'_> {
         self.unknown += 1;
         let shown = if char.is_control() { char.escape_debug().to_string() } else { char.to_string() };
         let message = format!("`{shown}` means nothing here");
-        let diagnostic = Diagnostic::error("unknown-character", span, message);
+        let diagnostic = explained(char, Diagnostic::error("unknown-character", span, message));
         if self.unknown >= MAX_UNKNOWN {
             self.give_up(diagnostics, diagnostic.note("more follow; is this an `.afg` text"));
         } else {
             self.fail(diagnostics, diagnostic);
         }
     }
+}
+
+/// What somebody means by a character that means nothing, if that is known.
+fn explained(char: char, error: Diagnostic) -> Diagnostic {
+    let span = error.primary.span;
+    let meant = match char {
+        '→' | '⟶' | '➔' => "->",
+        '⇒' | '⟹' => "=>",
+        '“' | '”' | '„' => "\"",
+        '−' | '–' | '—' => "-",
+        '°' => "deg",
+        'µ' | 'μ' => "u",
+        '\u{a0}' => " ",
+        '\'' => return error.note("a string stands in double quotes"),
+        '#' => return error.note("a comment begins with `//`"),
+        c if c.is_alphabetic() => return error.note("a name is made of the letters a to z, digits and `_`"),
+        _ => return error,
+    };
+    error.fix(format!("write `{meant}`"), span, meant)
+}
+
+/// Where lines begin with the word of an item and its name.
+fn items(text: &str) -> impl Iterator<Item = usize> {
+    let words = ["use ", "graph ", "robot ", "fsm ", "test "];
+    let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1));
+    starts.filter(move |at| words.iter().any(|word| text[*at..].starts_with(word)))
+}
+
+/// The end of the code before an item, whose documentation stands directly above it.
+fn code_before(text: &str, item: usize) -> usize {
+    let mut end = text[..item].trim_end().len();
+    loop {
+        let line = text[..end].rfind('\n').map_or(0, |n| n + 1);
+        if !text[line..end].starts_with("//") {
+            return end;
+        }
+        end = text[..line].trim_end().len();
+    }
+}
+
+fn word_length(text: &str) -> usize {
+    text.find(' ').unwrap_or(text.len())
 }

@@ -19,6 +19,12 @@ pub fn mended(text: &str) -> Option<String> {
     String::from_utf8(mender.bytes).ok()
 }
 
+/// Where `mended` differs from `text`.
+pub fn damage(text: &str, mended: &str) -> Vec<usize> {
+    let differ = text.bytes().zip(mended.bytes()).enumerate().filter(|(_, (a, b))| a != b);
+    differ.map(|(at, _)| at).filter(|at| text.is_char_boundary(*at)).collect()
+}
+
 struct Mender<'a> {
     text: &'a str,
     bytes: Vec<u8>,

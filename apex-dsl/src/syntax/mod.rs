@@ -5,6 +5,7 @@ pub(crate) mod concrete;
 mod lexical;
 mod mend;
 mod recover;
+mod slips;
 pub mod tree;
 pub mod words;
 
@@ -30,11 +31,13 @@ mod grammar {
 
 /// Parses one text. Always gives a tree; what could not be read is reported and left out.
 pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::File {
-    let broken = || tree::File { broken: true, ..Default::default() };
-    let Some(lexical) = lexical::scan(file, text, diagnostics) else { return broken() };
+    let broken = || tree::File { broken: true, broken_items: true, ..Default::default() };
+    let Some(lexical) = lexical::scan(file, text, diagnostics) else {
+        return around_damage(file, text, diagnostics).unwrap_or_else(broken);
+    };
     match Grammar::parse(Rule::file, &lexical.text) {
         Ok(mut pairs) => {
-            let builder = build::Builder::new(file, &lexical.text, diagnostics);
+            let builder = build::Builder::new(file, &lexical.text, vec![], diagnostics);
             let mut tree = pairs.next().map_or_else(broken, |pair| builder.file(pair));
             tree.comments = lexical.comments;
             tree
@@ -44,6 +47,25 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::F
             broken()
         }
     }
+}
+
+/// What can be read of a text whose brackets, strings, comments or characters are wrong, which has been reported: it
+/// does not hide the errors elsewhere.
+fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<tree::File> {
+    let mut mended = mend::mended(text)?;
+    let mut damage = mend::damage(text, &mended);
+    // Of what stands behind a comment without an end nobody knows whether it is one.
+    if let Some(at) = damage.iter().copied().find(|at| text[*at..].starts_with("/*")) {
+        let cut = format!("{}{}", &text[..at], " ".repeat(text.len() - at));
+        mended = mend::mended(&cut).unwrap_or(cut);
+        damage = mend::damage(text, &mended);
+    }
+    let lexical = lexical::scan(file, &mended, &mut Diagnostics::default())?;
+    let pair = Grammar::parse(Rule::file, &lexical.text).ok()?.next()?;
+    let tree = build::Builder::new(file, &lexical.text, damage, diagnostics).file(pair);
+    // What was added behind the end is no place in the text.
+    diagnostics.retain(|d| d.primary.span.file != file || d.primary.span.end as usize <= text.len());
+    Some(tree::File { broken: true, comments: lexical.comments, ..tree })
 }
 
 /// Reads a text with all its tokens and comments; nothing if it has errors, which are reported.
@@ -56,7 +78,7 @@ pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostic
             return None;
         }
     };
-    let tree = build::Builder::new(file, &lexical.text, diagnostics).file(pair.clone());
+    let tree = build::Builder::new(file, &lexical.text, vec![], diagnostics).file(pair.clone());
     (!tree.broken && !diagnostics.has_errors()).then(|| concrete::read(text, &lexical, pair))
 }
 

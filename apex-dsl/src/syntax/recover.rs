@@ -1,8 +1,12 @@
 //! What to say about text that fits no rule.
 
-use super::{Grammar, Rule};
+use super::{
+    Grammar, Rule,
+    slips::Slip,
+    words::{self, Place},
+};
 use crate::{
-    report::Diagnostic,
+    report::{Diagnostic, nearest},
     source::{FileId, Span},
 };
 use pest::{
@@ -63,7 +67,15 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
         "use" => again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`"),
         "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ if text.trim_start().starts_with("///") => again(Rule::graph_item, file, start, text, OUTSIDE),
-        _ => Diagnostic::error("syntax", span, format!("`{first}` begins nothing that can stand here")).note(OUTSIDE),
+        _ => {
+            let message = format!("`{first}` begins nothing that can stand here");
+            let error = Diagnostic::error("syntax", span, message).note(OUTSIDE);
+            let known = words::words_at(Place::Item).map(|word| word.text);
+            match if first == "import" { Some("use") } else { nearest(first, known) } {
+                Some(meant) => error.guess(format!("did you mean `{meant}`?"), span, meant),
+                None => error,
+            }
+        }
     }
 }
 
@@ -93,6 +105,10 @@ pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> 
     let ends = text[before..at].contains('\n') || at >= text.trim_end().len() || text[at..].starts_with('}');
     if ends && expected.contains(&"`;`") {
         expected = vec!["`;`"];
+    }
+    let slip = Slip { file, start, text, at, expected: &expected };
+    if let Some(diagnostic) = slip.explained().filter(|_| expected != ["`;`"] || !ends) {
+        return diagnostic;
     }
     let message = match expected.as_slice() {
         [] => "this does not belong here".to_owned(),

@@ -18,6 +18,8 @@ pub struct File {
     pub docs: String,
     /// Imports.
     pub uses: Vec<Use>,
+    /// Where one more import can stand: before the first item.
+    pub imports_at: Option<usize>,
     /// Graphs and robots.
     pub graphs: Vec<GraphItem>,
     /// State machines.
@@ -28,6 +30,8 @@ pub struct File {
     pub comments: Vec<Span>,
     /// Whether something in it could not be read.
     pub broken: bool,
+    /// Whether that is a whole item, so that names of graphs and imports may be missing.
+    pub broken_items: bool,
 }
 
 /// One imported name: groups are flattened.
@@ -125,6 +129,11 @@ impl PortKind {
             Self::Slot => Self::Event,
             Self::Event => Self::Slot,
         }
+    }
+
+    /// What stands before its word.
+    pub fn article(self) -> &'static str {
+        if self == Self::Slot { "a" } else { "an" }
     }
 
     /// The word for it.

@@ -20,7 +20,7 @@ pub fn actions(ready: &Ready<'_>, range: Range) -> Vec<CodeActionOrCommand> {
                 kind: Some(CodeActionKind::QUICKFIX),
                 diagnostics: Some(vec![shown.clone()]),
                 edit: Some(WorkspaceEdit::new(HashMap::from([(location.uri, vec![edit])]))),
-                is_preferred: Some(found.fixes.len() == 1),
+                is_preferred: Some(fix.certain),
                 ..CodeAction::default()
             }));
         }

@@ -1,0 +1,70 @@
+//! `apex check --fix`: makes the changes of which there is no doubt.
+
+use crate::{project::Checker, replace::replace};
+use apex_dsl::{
+    report::{Diagnostic, Diagnostics, Fix, Severity},
+    source::{FileId, Sources},
+};
+use std::{path::Path, sync::Arc};
+
+/// A text in which so many changes were made is one that makes new errors out of changes.
+const MAX_CHANGES: usize = 1000;
+
+/// Mends `file` and says what was changed. A change that mends nothing, or after which there are more
+/// errors, is taken back.
+pub fn file(file: &Path) -> Result<Vec<String>, String> {
+    let mut checker = Checker::new(file)?;
+    let before = checker.read(file)?;
+    let mut text = before.clone();
+    let mut changes = vec![];
+    // Those that made nothing better.
+    let mut useless: Vec<(String, Fix)> = vec![];
+    while changes.len() < MAX_CHANGES {
+        let (sources, diagnostics, _) = checker.check(file, text.clone());
+        let left = diagnostics.sorted().into_iter().filter_map(|d| Some((d.message.clone(), certain(d)?.clone())));
+        let Some((message, fix)) = left.into_iter().find(|candidate| !useless.contains(candidate)) else { break };
+        let mended: Arc<str> = applied(&text, &fix).into();
+        let (_, after, _) = checker.check(file, mended.clone());
+        if is_better(&diagnostics, &after, &message) {
+            changes.push(said(&sources, &message, &fix));
+            text = mended;
+            // The places have moved.
+            useless.clear();
+        } else {
+            useless.push((message, fix));
+        }
+    }
+    if text != before {
+        replace(file, &text).map_err(|e| format!("cannot write `{}`: {e}", file.display()))?;
+    }
+    Ok(changes)
+}
+
+/// The change that mends an error of the text itself without doubt.
+fn certain(diagnostic: &Diagnostic) -> Option<&Fix> {
+    match diagnostic.fixes.as_slice() {
+        [only] if only.certain && only.span.file == FileId(0) => Some(only),
+        _ => None,
+    }
+}
+
+fn applied(text: &str, fix: &Fix) -> String {
+    format!("{}{}{}", &text[..fix.span.start as usize], fix.replacement, &text[fix.span.end as usize..])
+}
+
+/// Whether there are less errors, or as many of which the one with `message` is none: another one was hidden by it.
+fn is_better(before: &Diagnostics, after: &Diagnostics, message: &str) -> bool {
+    let said = |diagnostics: &Diagnostics| diagnostics.sorted().iter().filter(|d| d.message == message).count();
+    errors(after) < errors(before) || (errors(after) == errors(before) && said(after) < said(before))
+}
+
+/// How many errors there are, those included that were too many to be kept.
+fn errors(diagnostics: &Diagnostics) -> usize {
+    diagnostics.sorted().iter().filter(|d| d.severity == Severity::Error).count() + diagnostics.left_out()
+}
+
+/// What was wrong where, and what was done.
+fn said(sources: &Sources, message: &str, fix: &Fix) -> String {
+    let (line, column) = sources.line_column(fix.span.file, fix.span.start);
+    format!("fixed {}:{line}:{column}: {message}: {}", sources.get(fix.span.file).path.display(), fix.title)
+}

@@ -1,0 +1,78 @@
+//! A page about each code: what it means, a text that has it, and one that has not.
+
+/// The codes with their pages, which stand in `docs/errors/`.
+macro_rules! pages {
+    ($($code:literal)*) => {
+        /// All codes with their pages, in order.
+        pub const PAGES: &[(&str, &str)] =
+            &[$(($code, include_str!(concat!("../../../docs/errors/", $code, ".md")))),*];
+    };
+}
+
+pages! {
+    "ambiguous-node"
+    "ambiguous-port"
+    "bad-number"
+    "claim-fails"
+    "claim-undecided"
+    "connected-twice"
+    "cycle"
+    "duplicate-argument"
+    "duplicate-name"
+    "each-asynchronous"
+    "each-port"
+    "each-stateful"
+    "essential-without-hook"
+    "every-on-driven"
+    "fsm-port"
+    "missing-argument"
+    "missing-modifier"
+    "missing-unit"
+    "never-activated"
+    "never-entered"
+    "never-fires"
+    "never-leaves"
+    "never-taken"
+    "no-graph"
+    "no-process"
+    "no-state"
+    "not-replaced"
+    "not-yet"
+    "open-input"
+    "open-output"
+    "out-of-range"
+    "own-event"
+    "rates"
+    "recursion"
+    "robot-port"
+    "syntax"
+    "too-deep"
+    "too-large"
+    "twice"
+    "type-arguments"
+    "type-mismatch"
+    "unclosed"
+    "unknown-argument"
+    "unknown-character"
+    "unknown-claim"
+    "unknown-graph"
+    "unknown-import"
+    "unknown-name"
+    "unknown-node"
+    "unknown-port"
+    "unknown-state"
+    "unknown-type"
+    "unknown-unit"
+    "unnamed-argument"
+    "unreadable"
+    "wrong-claim"
+    "wrong-direction"
+    "wrong-modifier"
+    "wrong-unit"
+    "wrong-value"
+}
+
+/// The page about a code.
+pub fn page(code: &str) -> Option<&'static str> {
+    PAGES.iter().find(|(known, _)| *known == code).map(|(_, page)| *page)
+}

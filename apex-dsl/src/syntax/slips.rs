@@ -1,0 +1,290 @@
+//! What people write by mistake, and what they mean by it: better words than "expected …", and the change that mends it.
+
+use super::words;
+use crate::{
+    report::{Diagnostic, nearest},
+    source::{FileId, Span},
+    units,
+};
+
+/// A place in a statement where the grammar could not go on.
+pub struct Slip<'a> {
+    /// The file.
+    pub file: FileId,
+    /// Where the statement begins in it.
+    pub start: usize,
+    /// The statement.
+    pub text: &'a str,
+    /// The place in the statement.
+    pub at: usize,
+    /// What the grammar would have taken there, in words.
+    pub expected: &'a [&'static str],
+}
+
+/// The words that begin a statement of a graph.
+const STATEMENTS: [&str; 6] = ["node", "in", "out", "slot", "event", "claim"];
+
+impl Slip<'_> {
+    /// What was meant, if it is a slip that many make.
+    pub fn explained(&self) -> Option<Diagnostic> {
+        let slips = [
+            Self::number,
+            Self::unit,
+            Self::reserved,
+            Self::declaration,
+            Self::arrow,
+            Self::argument,
+            Self::parentheses,
+            Self::keyword,
+            Self::modifier,
+        ];
+        slips.iter().find_map(|slip| slip(self))
+    }
+
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    /// What stands before the place, without the blanks in between.
+    fn before(&self) -> &str {
+        self.text[..self.at].trim_end()
+    }
+
+    fn expects(&self, what: &str) -> bool {
+        self.expected.contains(&what)
+    }
+
+    fn span(&self, from: usize, to: usize) -> Span {
+        Span::new(self.file, self.start + from, self.start + to)
+    }
+
+    /// The next `length` bytes.
+    fn here(&self, length: usize) -> Span {
+        self.span(self.at, self.at + length)
+    }
+
+    /// `.5` and `5.`
+    fn number(&self) -> Option<Diagnostic> {
+        let digit = |c: char| c.is_ascii_digit();
+        let behind = self.rest().strip_prefix('.')?;
+        let digits = behind.find(|c: char| !digit(c)).unwrap_or(behind.len());
+        if self.expects("a value") && digits > 0 {
+            let error = Diagnostic::error("syntax", self.here(1 + digits), "a number begins with a digit");
+            return Some(error.fix("write the zero", self.here(0), "0"));
+        }
+        let number = self.text[..self.at].rsplit(|c: char| !digit(c) && c != '_').next().unwrap_or_default();
+        let whole =
+            self.text[..self.at - number.len()].trim_end().ends_with(['=', '(', '[', ',', '+', '*', '<', '>', '-']);
+        if number.starts_with(digit) && whole && digits == 0 && !behind.starts_with('.') {
+            let error = Diagnostic::error("syntax", self.here(1), "a number ends with a digit");
+            return Some(error.fix("write the zero", self.here(1).after(), "0"));
+        }
+        None
+    }
+
+    /// `5 m`
+    fn unit(&self) -> Option<Diagnostic> {
+        let before = self.before();
+        let word = word(self.rest());
+        let number = before.rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '.').next().unwrap_or_default();
+        let names_argument = self.rest()[word.len()..].trim_start().starts_with('=');
+        let is_number =
+            number.starts_with(|c: char| c.is_ascii_digit()) && number.ends_with(|c: char| c.is_ascii_digit());
+        if word.is_empty() || !is_number || names_argument || before.len() == self.at || units::parse(word).is_err() {
+            return None;
+        }
+        let error = Diagnostic::error("syntax", self.here(word.len()), "a unit stands right behind its number");
+        Some(error.fix("leave the blank out", self.span(before.len(), self.at), ""))
+    }
+
+    /// `node in = …`
+    fn reserved(&self) -> Option<Diagnostic> {
+        let word = word(self.rest());
+        if !self.expects("a name") || !words::RESERVED.contains(&word) {
+            return None;
+        }
+        let message = format!("`{word}` is a word of the language: it cannot be a name");
+        Some(Diagnostic::error("syntax", self.here(word.len()), message))
+    }
+
+    /// `node a Ramp()`, `in x u64`, `in x = u64`, `node a = Ramp;`
+    fn declaration(&self) -> Option<Diagnostic> {
+        let first = word(self.text.trim_start());
+        let is_port = matches!(first, "in" | "out" | "slot" | "event");
+        let named = !word(self.rest()).is_empty();
+        if first == "node" && self.expects("`=`") && named {
+            let error = Diagnostic::error("syntax", self.here(word(self.rest()).len()), "expected `=`");
+            return Some(error.note("an instance is written `node name = Type();`").fix(
+                "write it",
+                self.here(0),
+                "= ",
+            ));
+        }
+        if !is_port || !self.expects("`:`") {
+            return None;
+        }
+        const HOW: &str = "a port is written `in name: Type;`";
+        if self.rest().starts_with('=') {
+            let error = Diagnostic::error("syntax", self.here(1), "the type of a port stands behind `:`").note(HOW);
+            let blanks = self.span(self.before().len(), self.at + 1);
+            return Some(error.fix("write `:`", blanks, ":"));
+        }
+        let is_here = !self.text[self.before().len()..self.at].contains('\n');
+        (named && is_here).then(|| {
+            let error =
+                Diagnostic::error("syntax", self.here(word(self.rest()).len()), "expected `:` or `;`").note(HOW);
+            error.fix("write `:`", self.span(self.before().len(), self.before().len()), ":")
+        })
+    }
+
+    /// `a --> b`, `a > b`, `a = b`, `a <- b`, `a -> b, c`, `a = Ramp();`
+    fn arrow(&self) -> Option<Diagnostic> {
+        let signs = |text: &str| text.find(|c: char| !"-=<>~".contains(c)).unwrap_or(text.len());
+        let is_chain = !STATEMENTS.contains(&word(self.text.trim_start())) && !word(self.text.trim_start()).is_empty();
+        if !is_chain {
+            return None;
+        }
+        if self.before().ends_with('<') && self.rest().starts_with('-') {
+            let at = self.before().len() - 1;
+            let error =
+                Diagnostic::error("syntax", self.span(at, self.at + 1), "a connection is written from left to right");
+            return Some(error.note("write `from -> to;`"));
+        }
+        if !self.expects("`->` or `=>`") && !(self.expects("`;`") && self.before().ends_with(')')) {
+            return None;
+        }
+        let length = signs(self.rest());
+        let sign = &self.rest()[..length];
+        let target = self.rest()[length..].trim_start();
+        if sign == "=" && !self.before().contains(['.', '>', '(', '[']) && makes_a_node(target) {
+            let error = Diagnostic::error("syntax", self.span(0, self.before().len()), "`node` is missing");
+            let error = error.note("an instance is written `node name = Type();`");
+            return Some(error.guess("write it", self.span(0, 0), "node "));
+        }
+        if self.rest().starts_with(',') && self.before().contains('>') {
+            let error = Diagnostic::error("syntax", self.here(1), "several ends of a connection stand in brackets");
+            return Some(error.note("write `a -> [b, c];`"));
+        }
+        let means = match sign {
+            "" | "->" | "=>" => return None,
+            _ if sign.contains("=>") => "=>",
+            _ => "->",
+        };
+        let error = Diagnostic::error("syntax", self.here(length), format!("`{sign}` is no arrow"))
+            .note("`->` connects; `=>` connects and lets activity pass");
+        // A sign with a head can only be an arrow; of `a = b` nobody knows whether it goes from left to right.
+        let title = format!("write `{means}`");
+        Some(if sign.ends_with('>') {
+            error.fix(title, self.here(length), means)
+        } else {
+            error.guess(title, self.here(length), means)
+        })
+    }
+
+    /// `Mul(a: 3)`, `Mul(a = 3 b = 4)`, `Mul(a 3)`, `Mul(a = {1, 2})`
+    fn argument(&self) -> Option<Diagnostic> {
+        if self.expects("a value") && self.rest().starts_with('{') {
+            let error = Diagnostic::error("syntax", self.here(1), "expected a value");
+            return Some(error.note("a list is written `[a, b]`"));
+        }
+        if !self.expects("`)`") {
+            return None;
+        }
+        if self.rest().starts_with(':') && !self.rest().starts_with("::") {
+            let error = Diagnostic::error("syntax", self.here(1), "an argument is written `name = value`");
+            return Some(error.fix("write `=`", self.span(self.before().len(), self.at + 1), " ="));
+        }
+        if self.expects("`=`") && self.rest().starts_with(|c: char| c.is_ascii_digit() || c == '"') {
+            let error = Diagnostic::error("syntax", self.here(0), "an argument is written `name = value`");
+            return Some(error.fix("write `=`", self.here(0), "= "));
+        }
+        let name = word(self.rest());
+        let behind = self.rest()[name.len()..].trim_start();
+        let is_argument = !name.is_empty() && behind.starts_with('=') && !behind.starts_with("==");
+        is_argument.then(|| {
+            let place = self.span(self.before().len(), self.before().len());
+            Diagnostic::error("syntax", place, "expected `,` between two arguments").fix("separate them", place, ",")
+        })
+    }
+
+    /// `node a = Ramp;`
+    fn parentheses(&self) -> Option<Diagnostic> {
+        let is_node = word(self.text.trim_start()) == "node";
+        if !is_node || !self.expects("`(`") || !self.rest().starts_with(';') {
+            return None;
+        }
+        let behind = self.span(self.before().len(), self.before().len());
+        let error = Diagnostic::error("syntax", behind, "expected `(`");
+        Some(error.note("parameters stand in the parentheses; without any they are empty").fix(
+            "write them",
+            behind,
+            "()",
+        ))
+    }
+
+    /// `nod a = Ramp();`
+    fn keyword(&self) -> Option<Diagnostic> {
+        let first = word(self.text);
+        let next = word(self.rest());
+        if !self.expects("`->` or `=>`")
+            || first.is_empty()
+            || self.before() != first
+            || next.is_empty()
+            || STATEMENTS.contains(&first)
+        {
+            return None;
+        }
+        let meant = match first {
+            "let" | "var" | "const" => Some("node"),
+            "input" => Some("in"),
+            "output" => Some("out"),
+            _ => nearest(first, STATEMENTS),
+        }?;
+        let error =
+            Diagnostic::error("syntax", self.span(0, first.len()), format!("no statement begins with `{first}`"));
+        Some(error.guess(format!("did you mean `{meant}`?"), self.span(0, first.len()), meant))
+    }
+
+    /// `Ramp() evry 20ms`
+    fn modifier(&self) -> Option<Diagnostic> {
+        let name = word(self.rest());
+        let at = self.before().as_bytes().last();
+        if name.is_empty()
+            || !self.expects("`;`")
+            || !at.is_some_and(|b| b.is_ascii_alphanumeric() || b")]\"".contains(b))
+        {
+            return None;
+        }
+        let is_instance = word(self.text.trim_start()) == "node" || self.before().ends_with(')');
+        let begins_line = self.text[self.before().len()..self.at].contains('\n');
+        let meant = nearest(name, modifiers());
+        if !is_instance || (begins_line && meant.is_none()) {
+            return None;
+        }
+        let error = Diagnostic::error("syntax", self.here(name.len()), format!("there is no modifier `{name}`"));
+        Some(match meant {
+            Some(meant) => error.guess(format!("did you mean `{meant}`?"), self.here(name.len()), meant),
+            None => error.note(format!(
+                "behind an instance stand {}",
+                modifiers().map(|m| format!("`{m}`")).collect::<Vec<_>>().join(", ")
+            )),
+        })
+    }
+}
+
+/// The words that stand behind an instance.
+fn modifiers() -> impl Iterator<Item = &'static str> {
+    words::words_at(words::Place::Modifier).map(|word| word.text)
+}
+
+/// The word at the start of `text`; empty if there is none.
+fn word(text: &str) -> &str {
+    let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
+    if text.starts_with(|c: char| c.is_ascii_digit()) { "" } else { &text[..end] }
+}
+
+/// Whether `text` is `Type(…` or `path::Type<…>(…`.
+fn makes_a_node(text: &str) -> bool {
+    let path = text.find(|c: char| !c.is_ascii_alphanumeric() && !"_:".contains(c)).unwrap_or(text.len());
+    path > 0 && text[path..].trim_start().starts_with(['(', '<'])
+}
