@@ -150,7 +150,7 @@ impl Slip<'_> {
                 Diagnostic::error("syntax", self.span(at, self.at + 1), "a connection is written from left to right");
             return Some(error.note("write `from -> to;`"));
         }
-        if !self.expects("`->` or `=>`") && !(self.expects("`;`") && self.before().ends_with(')')) {
+        if !(self.expects("`->` or `=>`") || self.expects("`;`") && self.before().ends_with(')')) {
             return None;
         }
         let length = signs(self.rest());
