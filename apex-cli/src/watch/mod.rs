@@ -11,7 +11,7 @@ use apex_host::Workspace;
 use files::Files;
 use program::{Built, Running};
 use std::{
-    fs,
+    fs, mem,
     path::{Path, PathBuf},
     process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
@@ -31,45 +31,46 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
         .map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
     let mut folders = folders(wanted.file)?;
     let mut running: Option<Running> = None;
-    let mut first = true;
+    let (mut is_first, mut has_started) = (true, false);
     while !STOPPED.load(Ordering::Relaxed) {
         let files = Files::below(&folders);
         match Built::new(wanted) {
-            Ok(Some(built)) if !STOPPED.load(Ordering::Relaxed) => {
-                running.take().map(Running::end);
-                if first {
+            Ok(Some(_)) if STOPPED.load(Ordering::Relaxed) => break,
+            Ok(Some(built)) => {
+                if let Some(before) = running.take() {
+                    before.end();
+                }
+                if !mem::replace(&mut has_started, true) {
                     built.forget();
                 }
-                first = false;
                 running = Some(built.start(wanted)?);
             }
-            Ok(Some(_)) => break,
-            Ok(None) => print_error(&waiting(running.as_mut())),
-            Err(message) if running.is_none() && first => return Err(message),
-            Err(message) => print_error(&format!("error: {message}\n{}", waiting(running.as_mut()))),
+            Ok(None) => print_error(waiting(running.as_ref())),
+            Err(message) if is_first => return Err(message),
+            Err(message) => print_error(&format!("error: {message}\n{}", waiting(running.as_ref()))),
         }
-        wait(&files, &folders, running.as_mut());
+        is_first = false;
+        wait(&files, &folders, &mut running);
         folders = self::folders(wanted.file).unwrap_or(folders);
     }
-    running.map(Running::end);
+    if let Some(last) = running {
+        last.end();
+    }
     Ok(ExitCode::SUCCESS)
 }
 
 /// What happens until the next change.
-fn waiting(running: Option<&mut Running>) -> String {
-    match running.is_some_and(|program| program.ended().is_none()) {
-        true => "the program from before goes on".to_owned(),
-        false => "waiting for a change".to_owned(),
-    }
+fn waiting(running: Option<&Running>) -> &'static str {
+    running.map_or("waiting for a change", |_| "the program from before goes on")
 }
 
 /// Waits until files have changed and nobody writes any more, or the user wants to end.
-fn wait(files: &Files, folders: &[PathBuf], mut running: Option<&mut Running>) {
+fn wait(files: &Files, folders: &[PathBuf], running: &mut Option<Running>) {
     let mut last = files.clone();
     while !STOPPED.load(Ordering::Relaxed) {
         if let Some(code) = running.as_mut().and_then(|program| program.ended()) {
             print_error(&format!("the program has ended ({code}); waiting for a change"));
-            running = None;
+            *running = None;
         }
         thread::sleep(INTERVAL);
         let now = Files::below(folders);

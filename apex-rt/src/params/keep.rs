@@ -1,12 +1,7 @@
 //! What a program changed while it ran is kept for the next one, which may be another: `apex run --watch`.
 
 use super::{Parameters, load, save};
-use std::{
-    collections::BTreeMap,
-    format, fs,
-    path::Path,
-    string::{String, ToString as _},
-};
+use std::{collections::BTreeMap, format, fs, path::Path, string::String};
 
 /// The parameters as the texts and files said them, and as they were at the end.
 const SAID: &str = "said.toml";
@@ -52,5 +47,5 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
     let file = folder.join(name);
     fs::create_dir_all(folder)
         .and_then(|()| fs::write(&file, text))
-        .map_err(|error| format!("cannot write `{}`: {}", file.display(), error.to_string()))
+        .map_err(|error| format!("cannot write `{}`: {error}", file.display()))
 }
