@@ -3,7 +3,7 @@ use apex_rt::prelude::*;
 /// Passes values on while they change by no more than `step`.
 #[node]
 #[derive(Default)]
-pub struct Steady {
+pub struct SmallSteps {
     /// Largest change.
     #[param(default = 0.1, range = 0.0..=1.0)]
     step: f64,
@@ -11,11 +11,11 @@ pub struct Steady {
 }
 
 #[node]
-impl Steady {
+impl SmallSteps {
     fn process(&mut self, x: &f64) -> Option<f64> {
-        let steady = (x - self.last).abs() <= self.step;
+        let small = (x - self.last).abs() <= self.step;
         self.last = *x;
-        steady.then_some(*x)
+        small.then_some(*x)
     }
 }
 
@@ -24,7 +24,7 @@ graph! {
         in  x: f64;
         out y: f64;
 
-        x -> Steady(step = 0.5) -> y;
+        x -> SmallSteps(step = 0.5) -> y;
     }
 }
 
