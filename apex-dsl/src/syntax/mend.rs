@@ -19,10 +19,12 @@ pub fn mended(text: &str) -> Option<String> {
     String::from_utf8(mender.bytes).ok()
 }
 
-/// Where `mended` differs from `text`.
+/// Where `mended` differs from `text`. If something was added behind the end, the end is such a place: a statement there
+/// may be half of one.
 pub fn damage(text: &str, mended: &str) -> Vec<usize> {
+    let end = (mended.len() > text.len()).then(|| text.trim_end().len());
     let differ = text.bytes().zip(mended.bytes()).enumerate().filter(|(_, (a, b))| a != b);
-    differ.map(|(at, _)| at).filter(|at| text.is_char_boundary(*at)).collect()
+    differ.map(|(at, _)| at).filter(|at| text.is_char_boundary(*at)).chain(end).collect()
 }
 
 struct Mender<'a> {
