@@ -197,8 +197,7 @@ yaml:
     // The camera is a source without end: somebody stands for it who ends the run.
     let runs = written.replace("graph TwoTrees {", "graph TwoTrees {\n    once() -> exit;\n");
     fs::write(&text, runs).unwrap();
-    fs::write(folder.0.join("src/lib.rs"), "pub mod nodes;\n/// One.\n#[apex_rt::node]\npub fn once() -> u8 { 1 }\n")
-        .unwrap();
+    package(&folder, "use apex_rt::prelude::*;\npub mod nodes;\n#[node]\npub fn once() -> u8 { 1 }\n");
     let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut command = apex();
     command.args(["run", "--robot", "TwoTrees"]).arg(&text).env("CARGO_TARGET_DIR", TARGET);

@@ -5,7 +5,6 @@ use crate::{
     common::{Folder, apex, package},
 };
 use std::{
-    fs,
     io::{BufRead, BufReader, Lines},
     path::Path,
     process::{Child, ChildStderr, ChildStdout, Command, Stdio},
@@ -137,10 +136,13 @@ fn a_program_of_its_own_is_restarted() {
 #[test]
 fn what_cannot_be_run_at_all_is_said_at_once() {
     let folder = Folder::new("watch-nothing");
-    for (name, reason) in [("missing.afg", "cannot read `"), ("robot.afg", "is in no cargo package")] {
-        fs::write(folder.0.join("robot.afg"), "graph Robot { }\n").unwrap();
+    let refused = |name: &str, reason: &str| {
         let output = apex().args(["run", "--watch"]).arg(folder.0.join(name)).output().unwrap();
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
         assert!(String::from_utf8(output.stderr).unwrap().contains(reason), "{name}");
-    }
+    };
+    folder.file("robot.afg", "graph Robot { }\n");
+    refused("robot.afg", "is in no cargo package");
+    package(&folder, "");
+    refused("missing.afg", "cannot read `");
 }
