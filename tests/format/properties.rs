@@ -46,6 +46,7 @@ fn comments(text: &str, file: &File) -> Vec<String> {
 /// The tree without places.
 fn shape(mut file: File) -> String {
     file.comments.clear();
+    file.imports_at = None;
     let written = format!("{file:?}");
     let mut parts = written.split("Span { file: FileId(0), start: ");
     let first = parts.next().unwrap_or_default().to_owned();
