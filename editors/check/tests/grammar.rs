@@ -77,7 +77,7 @@ fn the_corpus() {
     let text = fs::read_to_string(grammar().join("test/corpus/items.txt")).unwrap();
     let bar = "==================\n";
     let parts: Vec<&str> = text.split(bar).skip(1).collect();
-    assert!(parts.len() >= 12 && parts.len() % 2 == 0);
+    assert!(parts.len() >= 12 && parts.len().is_multiple_of(2));
     for case in parts.chunks(2) {
         let (source, expected) = case[1].split_once("\n---\n").unwrap();
         let expected: Vec<&str> = expected.split_whitespace().collect();
