@@ -3,7 +3,7 @@
 //! The texts are made by `apex_tests::machines_text` and committed; `APEX_BLESS=1` writes them anew.
 
 use apex_rt::prelude::*;
-use apex_tests::{LETTERS, active, machine, machines_text, oracle::Dice};
+use apex_tests::{Dice, LETTERS, active, machine, machines_text};
 
 /// So many machines there are.
 const COUNT: u64 = 12;

@@ -1,6 +1,9 @@
 //! Nets by themselves: their own runs are legal, spoiled ones are not.
 
-use apex_tests::oracle::{Case, Checked, Checker, Dice, Record, generate, walk};
+use apex_tests::{
+    Dice,
+    oracle::{Case, Checked, Checker, Record, generate, walk},
+};
 
 /// A checked random graph for each seed, if it is a legal one.
 fn checked(checker: &Checker, seed: u64) -> Option<(Case, Checked)> {

@@ -3,6 +3,7 @@
 //! All tokens are `i64` unless a test is about types. A negative number in a script stands for ⊥.
 
 mod compile;
+mod dice;
 mod log;
 mod machines;
 pub mod oracle;
@@ -40,6 +41,7 @@ pub mod nodes {
 }
 
 pub use compile::{Found, check, error, expand};
+pub use dice::Dice;
 pub use log::{Log, active, active_after_each, react, simulate};
 pub use machines::{LETTERS, Machine, machine, machines_text};
 pub use random::{Case, SEED, Trace, cases, text};

@@ -1,6 +1,6 @@
 //! Random finite-state machines: as `fsm`, and translated to activity as in section 7.2.1 of the thesis.
 
-use crate::oracle::Dice;
+use crate::Dice;
 use std::fmt::Write as _;
 
 /// What a machine can be told.

@@ -165,8 +165,7 @@ fn is_single(
     // The slot takes the token away: nobody else may want it.
     let alone = |c: &usize| {
         let from = graph.connections[*c].from;
-        let connections = links.sends[from.node].iter().chain(&links.out_of[from.node]);
-        connections.filter(|other| graph.connections[**other].from == from).count() == 1
+        links.from(from.node).filter(|other| graph.connections[*other].from == from).count() == 1
     };
     let mut by_region: BTreeMap<usize, usize> = BTreeMap::new();
     let mut at_start = 0;
@@ -236,10 +235,5 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: usize) ->
         }
         _ => true,
     };
-    links.sends[to.node]
-        .iter()
-        .chain(&links.out_of[to.node])
-        .copied()
-        .filter(|c| sends(graph.connections[*c].from.port))
-        .collect()
+    links.from(to.node).filter(|c| sends(graph.connections[*c].from.port)).collect()
 }

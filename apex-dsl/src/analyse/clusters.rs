@@ -188,17 +188,11 @@ pub fn clusters(
 /// outputs sent together, so that who takes one of them waits for all that send to that side.
 fn join(graph: &Graph, cluster_of: &[usize], clusters: &mut [Cluster]) {
     let synchronous: Vec<&Connection> = graph.connections.iter().filter(|c| graph.is_synchronous(c)).collect();
-    let mut senders: BTreeMap<Crossing, BTreeSet<usize>> = BTreeMap::new();
+    let mut senders = Sides::new();
     loop {
         let mut changed = false;
         for c in &synchronous {
-            let mut tokens = BTreeSet::from([cluster_of[c.from.node]]);
-            for crossing in &c.crossings {
-                let side = senders.entry(*crossing).or_default();
-                changed |= !tokens.is_subset(side);
-                side.extend(tokens);
-                tokens = side.clone();
-            }
+            pass_sides(&c.crossings, BTreeSet::from([cluster_of[c.from.node]]), &mut senders, &mut changed);
         }
         if !changed {
             break;
@@ -213,6 +207,25 @@ fn join(graph: &Graph, cluster_of: &[usize], clusters: &mut [Cluster]) {
             clusters[b].upstream.insert(a);
         }
     }
+}
+
+/// For each side of a nested graph what comes to it: clusters, or guards.
+type Sides = BTreeMap<Crossing, BTreeSet<usize>>;
+
+/// What comes out behind `crossings` where `tokens` go in: at each side all that comes to it goes on together.
+fn pass_sides(
+    crossings: &[Crossing],
+    mut tokens: BTreeSet<usize>,
+    sides: &mut Sides,
+    changed: &mut bool,
+) -> BTreeSet<usize> {
+    for crossing in crossings {
+        let side = sides.entry(*crossing).or_default();
+        *changed |= !tokens.is_subset(side);
+        side.extend(tokens);
+        tokens = side.clone();
+    }
+    tokens
 }
 
 /// What the functions below look at.
@@ -274,28 +287,18 @@ fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTre
         .filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })
         .collect();
     let mut sets: Vec<BTreeSet<usize>> = own.iter().map(|g| g.iter().copied().collect()).collect();
-    let mut enter: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); graph.scopes.len()];
-    let mut leave: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); graph.scopes.len()];
+    let mut sides = Sides::new();
     loop {
         let mut changed = false;
         for &node in order {
             let mut set = sets[node].clone();
             for &index in &links.inputs[node] {
                 let connection = &graph.connections[index];
-                let mut token = match tokens.get(&index) {
+                let token = match tokens.get(&index) {
                     Some(guard) => BTreeSet::from([*guard]),
                     None => sets[connection.from.node].clone(),
                 };
-                for crossing in &connection.crossings {
-                    let side = match *crossing {
-                        Crossing::Enter(scope) => &mut enter[scope],
-                        Crossing::Leave(scope) => &mut leave[scope],
-                    };
-                    changed |= !token.is_subset(side);
-                    side.extend(token);
-                    token = side.clone();
-                }
-                set.extend(token);
+                set.extend(pass_sides(&connection.crossings, token, &mut sides, &mut changed));
             }
             changed |= set.len() > sets[node].len();
             sets[node] = set;

@@ -19,13 +19,12 @@ pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize
         found: vec![],
     };
     for node in 0..graph.nodes.len() {
-        let sends = links.sends[node].iter().chain(&links.out_of[node]);
         let starts = fires(graph, catalog, links, node) && links.inputs[node].is_empty();
-        let is_first = |c: &&usize| {
-            let from = graph.connections[**c].from;
+        let is_first = |c: &usize| {
+            let from = graph.connections[*c].from;
             begins(graph, from) || starts && is_sent(graph, catalog, from)
         };
-        sends.filter(is_first).for_each(|c| search.find(*c));
+        links.from(node).filter(is_first).for_each(|c| search.find(c));
     }
     while let Some(connection) = search.found.pop() {
         search.follow(catalog, links, connection);
@@ -59,10 +58,9 @@ impl Search<'_> {
         let node = c.to.node;
         self.missing[node] -= 1;
         if self.missing[node] == 0 {
-            let sends = links.sends[node].iter().chain(&links.out_of[node]);
-            sends
-                .filter(|c| is_sent(self.graph, catalog, self.graph.connections[**c].from))
-                .for_each(|c| self.find(*c));
+            let sent = |c: &usize| is_sent(self.graph, catalog, self.graph.connections[*c].from);
+            let sent: Vec<usize> = links.from(node).filter(sent).collect();
+            sent.into_iter().for_each(|c| self.find(c));
         }
     }
 }

@@ -97,6 +97,11 @@ impl Links {
         links
     }
 
+    /// All connections out of `node` that can carry tokens: the asynchronous ones, then the synchronous ones.
+    pub fn from(&self, node: NodeId) -> impl Iterator<Item = usize> + '_ {
+        self.sends[node].iter().chain(&self.out_of[node]).copied()
+    }
+
     /// The nodes that have to come after `node` in an iteration.
     pub fn successors<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
         let held_back = self.held_back.contains(&node);

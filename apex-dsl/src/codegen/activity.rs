@@ -192,8 +192,7 @@ impl Generator<'_> {
         present: &dyn Fn(End) -> Option<TokenStream>,
     ) -> TokenStream {
         let mut code = quote!();
-        let sends = whole.links.sends[node].iter().chain(&whole.links.out_of[node]).copied();
-        let mut active: Vec<usize> = sends.filter(|c| whole.graph.connections[*c].active).collect();
+        let mut active: Vec<usize> = whole.links.from(node).filter(|c| whole.graph.connections[*c].active).collect();
         active.sort_unstable();
         for port in 0..whole.graph.nodes[node].ports.len() {
             let end = End { node, port };

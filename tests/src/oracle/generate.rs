@@ -2,8 +2,9 @@
 
 use super::{
     ALWAYS,
-    case::{Case, Dice, Instance, Link, NODE_TYPES, NodeType, node_type},
+    case::{Case, Instance, Link, NODE_TYPES, NodeType, node_type},
 };
+use crate::Dice;
 
 /// Types that stand in the middle of data flow.
 const MIDDLE: [&str; 7] = ["ScPass", "ScSplit", "ScJoin", "ScMaybe", "ScEvent", "ScFull", "ScFull"];

@@ -7,7 +7,7 @@ mod script;
 mod text;
 mod walk;
 
-pub use case::{Case, Dice, NODE_TYPES};
+pub use case::{Case, NODE_TYPES};
 pub use generate::generate;
 pub use judge::{Checked, Checker, Failure, Record, judge, read, script_of};
 pub use script::{ALWAYS, Now, Parameters, call, note, origin, sends, take_notes, value};

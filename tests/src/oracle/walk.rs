@@ -1,10 +1,10 @@
 //! Runs a net by itself: a random legal run, written down as a program would write it.
 
 use super::{
-    case::Dice,
     judge::{Checked, Record, script_of},
     script,
 };
+use crate::Dice;
 use apex_dsl::{
     catalog::Catalog,
     graph::{End, Graph, NodeId, NodeKind},

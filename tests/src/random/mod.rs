@@ -9,6 +9,7 @@ mod text;
 pub use run::Trace;
 pub use text::text;
 
+use crate::Dice;
 use kinds::{COUNT, Kind, ONE_BASED, OPERATIONS, SINKS, Token};
 use std::ops::Range;
 
@@ -39,26 +40,6 @@ pub struct Case {
     nodes: Vec<Instance>,
     /// The nodes that are also written as a nested graph.
     group: Range<usize>,
-}
-
-/// A small generator of numbers (xorshift64*).
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % n as u64) as usize
-    }
-
-    fn one_in(&mut self, n: usize) -> bool {
-        self.below(n) == 0
-    }
-
-    fn of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
-        &list[self.below(list.len())]
-    }
 }
 
 /// The first `count` graphs that come out of `seed`.
