@@ -77,6 +77,8 @@ pub struct Pin {
     pub span: Span,
     /// Documentation.
     pub docs: String,
+    /// It stands for a port that every node has, of all nodes in the nested graph.
+    pub standard: bool,
 }
 
 /// An end of a connection as written.
@@ -164,7 +166,7 @@ pub enum Standard {
     Failed,
     /// Event: the node was active for as long as its `timeout` says.
     Timeout,
-    /// Event: the node took a token that was older than its `deadline`.
+    /// Event: the node had finished later after the firing of its source than its `deadline` says.
     Late,
 }
 
@@ -193,6 +195,11 @@ impl Standard {
             Self::Timeout => "timeout",
             Self::Late => "late",
         }
+    }
+
+    /// Whether a nested graph has it for all its nodes together.
+    pub fn is_shared(self) -> bool {
+        matches!(self, Self::Enable | Self::Disable | Self::Failed)
     }
 
     /// Whether it is a slot or an event.
@@ -539,7 +546,8 @@ impl Graph {
 
     /// Whether a node can be active. `start` is a moment, not a state; what ends the program or leaves it has none.
     pub fn can_hold_activity(&self, node: NodeId) -> bool {
-        matches!(self.nodes[node].kind, NodeKind::Library(_) | NodeKind::Each(_) | NodeKind::Relay)
+        use NodeKind::{Delay, Each, Library, Relay};
+        matches!(self.nodes[node].kind, Library(_) | Each(_) | Relay | Delay(_))
     }
 
     /// The connection into a port, if there is one.

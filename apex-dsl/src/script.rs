@@ -1,7 +1,7 @@
 //! What a `test` does with a program: the steps of its script, resolved.
 
 use crate::{
-    graph::{NodeId, Value},
+    graph::{NodeId, Subject, Value},
     source::Span,
 };
 use std::time::Duration;
@@ -63,8 +63,8 @@ pub struct Seen {
 /// What a test looks for.
 #[derive(Debug, Clone)]
 pub enum What {
-    /// One of these nodes is active.
-    Active(Vec<NodeId>),
+    /// It is active.
+    Active(Subject),
     /// A token at a probe, for which this condition holds, as Rust.
     Token(NodeId, Option<String>),
 }

@@ -5,6 +5,8 @@ pub struct Info {
     pub name: &'static str,
     /// All nodes in the order of the text.
     pub nodes: &'static [NodeInfo],
+    /// The names of all nested graphs, with those around them: `fast.avoid`.
+    pub graphs: &'static [&'static str],
     /// All connections.
     pub connections: &'static [ConnectionInfo],
     /// The nodes of each cluster in the order in which they fire.

@@ -1,4 +1,7 @@
-use core::fmt::{Debug, Display};
+use core::{
+    fmt::{Debug, Display},
+    time::Duration,
+};
 
 /// Watches a program while it reacts. Every method does nothing unless it is overridden; with `()` a
 /// program is compiled as if nobody watched.
@@ -41,6 +44,20 @@ pub trait Observer {
         let _ = (node, error);
     }
 
+    /// Node `node` had finished only this `age` after the firing of the source that its oldest token descends from, which is
+    /// more than its `deadline`.
+    #[inline(always)]
+    fn late(&mut self, node: usize, age: Duration) {
+        let _ = (node, age);
+    }
+
+    /// How long this reaction has been going on, by the machine's clock: what a deadline counts besides the time that
+    /// tokens waited. Zero, where nobody measures it.
+    #[inline(always)]
+    fn elapsed(&mut self) -> Duration {
+        Duration::ZERO
+    }
+
     /// A token at the parameter port `parameter` of node `node` was out of range; the node keeps the value it has.
     #[inline(always)]
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
@@ -56,39 +73,60 @@ pub trait Observer {
 
 impl Observer for () {}
 
-impl<O: Observer> Observer for &mut O {
-    #[inline(always)]
-    fn handled(&mut self, connection: usize) {
-        (**self).handled(connection);
-    }
-    #[inline(always)]
-    fn activity(&mut self, node: usize, active: bool) {
-        (**self).activity(node, active);
-    }
-    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
-        (**self).endless(nodes, counts);
-    }
-    fn claim_failed(&mut self, claim: usize) {
-        (**self).claim_failed(claim);
-    }
-    fn waits(&mut self, connection: usize) {
-        (**self).waits(connection);
-    }
-    #[inline(always)]
-    fn fired(&mut self, node: usize) {
-        (**self).fired(node);
-    }
-    #[inline(always)]
-    fn failed(&mut self, node: usize, error: &impl Display) {
-        (**self).failed(node, error);
-    }
-    #[inline(always)]
-    fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
-        (**self).refused(node, parameter, value);
-    }
+/// Passes on what an observer is told to others.
+macro_rules! pass_on {
+    ($self:ident, $($to:expr),+) => {
+        #[inline(always)]
+        fn fired(&mut $self, node: usize) {
+            $($to.fired(node);)+
+        }
+        #[inline(always)]
+        fn handled(&mut $self, connection: usize) {
+            $($to.handled(connection);)+
+        }
+        #[inline(always)]
+        fn activity(&mut $self, node: usize, active: bool) {
+            $($to.activity(node, active);)+
+        }
+        fn endless(&mut $self, nodes: &[usize], counts: &[u32]) {
+            $($to.endless(nodes, counts);)+
+        }
+        fn waits(&mut $self, connection: usize) {
+            $($to.waits(connection);)+
+        }
+        #[inline(always)]
+        fn failed(&mut $self, node: usize, error: &impl Display) {
+            $($to.failed(node, error);)+
+        }
+        #[inline(always)]
+        fn late(&mut $self, node: usize, age: Duration) {
+            $($to.late(node, age);)+
+        }
+        #[inline(always)]
+        fn elapsed(&mut $self) -> Duration {
+            Duration::ZERO$(.max($to.elapsed()))+
+        }
+        #[inline(always)]
+        fn refused(&mut $self, node: usize, parameter: &'static str, value: &impl Debug) {
+            $($to.refused(node, parameter, value);)+
+        }
+        fn claim_failed(&mut $self, claim: usize) {
+            $($to.claim_failed(claim);)+
+        }
+    };
 }
 
-/// Writes failures, refused parameter values, endless loops and broken claims to standard error, with the names of the nodes.
+impl<O: Observer> Observer for &mut O {
+    pass_on!(self, (**self));
+}
+
+/// Both are told, the first one first.
+impl<A: Observer, B: Observer> Observer for (A, B) {
+    pass_on!(self, self.0, self.1);
+}
+
+/// Writes failures, late nodes, refused parameter values, endless loops and broken claims to standard error, with the
+/// names of the nodes.
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct StdErr(pub &'static crate::Info);
@@ -97,6 +135,9 @@ pub struct StdErr(pub &'static crate::Info);
 impl Observer for StdErr {
     fn failed(&mut self, node: usize, error: &impl Display) {
         eprintln!("{}: `{}` failed: {error}", self.0.name, self.0.nodes[node].name);
+    }
+    fn late(&mut self, node: usize, age: Duration) {
+        eprintln!("{}: `{}` is late: it had finished after {age:.1?}", self.0.name, self.0.nodes[node].name);
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.0.nodes[node].name;

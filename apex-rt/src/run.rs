@@ -1,4 +1,5 @@
 use crate::{Clock, Info, Observer, Time};
+use core::time::Duration;
 
 /// When a program wants to be called again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +47,13 @@ pub trait Program {
         let _ = node;
         false
     }
+
+    /// Whether nested graph `graph`, by its index in [`Info::graphs`], is active: a node in it is, or activity is under way
+    /// between two of them.
+    fn is_graph_active(&self, graph: usize) -> bool {
+        let _ = graph;
+        false
+    }
 }
 
 impl<P: Program> Program for &mut P {
@@ -58,6 +66,22 @@ impl<P: Program> Program for &mut P {
     fn is_active(&self, node: usize) -> bool {
         (**self).is_active(node)
     }
+
+    fn is_graph_active(&self, graph: usize) -> bool {
+        (**self).is_graph_active(graph)
+    }
+}
+
+/// Measures by the clock that drives a program how long a reaction has been going on.
+struct Stopwatch<'a, C> {
+    clock: &'a mut C,
+    start: Time,
+}
+
+impl<C: Clock> Observer for Stopwatch<'_, C> {
+    fn elapsed(&mut self) -> Duration {
+        self.clock.now().since(self.start)
+    }
 }
 
 /// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
@@ -69,7 +93,8 @@ pub fn drive<P: Program, C: Clock>(mut program: P, mut clock: C) -> u8 {
     let mut observer = ();
     loop {
         let now = clock.now();
-        let wake = match program.react_with(now, &mut observer) {
+        let stopwatch = Stopwatch { clock: &mut clock, start: now };
+        let wake = match program.react_with(now, &mut (&mut observer, stopwatch)) {
             Next::Now => now,
             Next::At(time) => time,
             Next::Input => {

@@ -106,6 +106,16 @@ impl<T, const N: usize> Delay<T, N> {
         self.tokens[(self.at + ahead) % N].take()
     }
 
+    /// Whether it holds a token.
+    pub fn holds_any(&self) -> bool {
+        self.tokens.iter().any(Option::is_some)
+    }
+
+    /// Takes all tokens out.
+    pub fn clear(&mut self) {
+        self.tokens.iter_mut().for_each(|token| *token = None);
+    }
+
     /// Puts the token of this iteration in.
     #[inline(always)]
     pub fn put(&mut self, token: Option<T>) {

@@ -121,3 +121,19 @@ fn activated_hands_it_on_at_once() {
     assert_eq!(active_after_each(&mut program), ["k"; 2]);
     assert_eq!((program.nodes().a.came, program.nodes().a.went, program.nodes().k.count), (1, 1, 1));
 }
+
+#[test]
+fn a_nested_graph_is_active_while_activity_is_under_way_in_it() {
+    let mut program = Carried::new();
+    assert_eq!(Carried::INFO.graphs, ["h"]);
+    program.react(Time::ZERO);
+    assert_eq!((active(&program), program.is_graph_active(0)), (String::new(), true));
+    program.react(Time::from_millis(20));
+    assert_eq!((active(&program), program.is_graph_active(0)), ("k".to_owned(), false));
+}
+
+#[test]
+fn activity_goes_through_a_delay_with_its_token() {
+    let mut program = HeldBack::new();
+    assert_eq!(active_after_each(&mut program), ["", "", "k", "k", "k"]);
+}

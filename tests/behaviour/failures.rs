@@ -210,3 +210,13 @@ fn a_panic_that_nobody_listens_to_is_one() {
     let caught = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| react(&mut program, 5)));
     assert!(caught.is_err());
 }
+
+#[test]
+fn a_nested_graph_is_switched_off_and_fails_as_one() {
+    let mut program = Group::new();
+    let log = react(&mut program, 9);
+    // Of 0, 1, … every fourth passes, the odd ones fail; 2, 3 and 4 meet a graph that is switched off.
+    assert_eq!(program.nodes().k.seen, [0, 8]);
+    assert_eq!(program.nodes().notes.seen, ["odd"; 3], "1, 5 and 7");
+    assert_eq!((log.count("g.f"), log.count("s")), (6, 9));
+}

@@ -140,3 +140,29 @@ fn a_loop_without_a_source_runs_once_per_reaction() {
     assert_eq!(program.nodes().kj.seen, [1, 3, 6, 11]);
     assert_eq!(program.nodes().kf.seen, [1, 3, 9, 27]);
 }
+
+#[test]
+fn a_token_that_waited_is_late() {
+    let mut program = LateBehindJoin::new();
+    let log = simulate(&mut program, Time::ZERO, Time::from_millis(50));
+    assert_eq!(log.late, [("tight", 10), ("take", 10), ("tight", 10), ("take", 10)], "10 ms are still in time");
+    assert_eq!(program.nodes().k.late, [10, 40].map(Time::from_millis));
+    assert_eq!(program.nodes().k.ages, [10, 10], "nodes can ask");
+}
+
+#[test]
+fn a_reaction_that_takes_long_makes_late() {
+    let mut program = LateBehindJoin::new();
+    let mut log = Log::of(&program);
+    log.elapsed = std::time::Duration::from_millis(1);
+    program.react_with(Time::ZERO, &mut log);
+    program.react_with(Time::from_millis(10), &mut log);
+    assert_eq!(log.late, [("tight", 11), ("loose", 11)], "`take` was disabled because `loose` is late");
+}
+
+#[test]
+fn a_slot_that_waited_is_late() {
+    let mut program = LateSlot::new();
+    let log = simulate(&mut program, Time::ZERO, Time::from_millis(40));
+    assert_eq!(log.late, [("p", 15)], "sent at 10 ms, taken when the join had fired at 25 ms");
+}

@@ -85,6 +85,8 @@ fn main() {
 pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("oracle");
+    // Programs of several folders lie side by side in one target folder.
+    let part_name = |part: usize| format!("{folder}-{part}");
     let folder = target.join(folder);
     fs::create_dir_all(folder.join("src/bin")).map_err(|e| e.to_string())?;
     let write = |path: PathBuf, text: &str| match fs::read_to_string(&path) {
@@ -103,7 +105,7 @@ pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
             runs.push_str(&format!("record({module}::{}::new());\n    ", program.name));
         }
         let main = MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs);
-        write(folder.join(format!("src/bin/part{part}.rs")), &main)?;
+        write(folder.join(format!("src/bin/{}.rs", part_name(part))), &main)?;
     }
     write(folder.join("Cargo.toml"), &MANIFEST.replace("ROOT", &root.display().to_string()))?;
     if !folder.join("Cargo.lock").exists() {
@@ -123,7 +125,7 @@ pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
     }
     let mut traces: Vec<String> = vec![];
     for part in 0..PARTS {
-        let ran = Command::new(target.join(format!("target/debug/part{part}")))
+        let ran = Command::new(target.join(format!("target/debug/{}", part_name(part))))
             .output()
             .map_err(|e| format!("cannot run the program: {e}"))?;
         if !ran.status.success() {

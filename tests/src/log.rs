@@ -1,5 +1,8 @@
 use apex_rt::prelude::*;
-use std::fmt::{Debug, Display};
+use std::{
+    fmt::{Debug, Display},
+    time::Duration,
+};
 
 /// What happened while a program reacted.
 #[derive(Debug, Default)]
@@ -17,6 +20,10 @@ pub struct Log {
     pub endless: Vec<(&'static str, u32)>,
     /// Nodes that failed, with what they said.
     pub failed: Vec<(&'static str, String)>,
+    /// Nodes that were late, with the milliseconds since their source fired.
+    pub late: Vec<(&'static str, u128)>,
+    /// How long every reaction seems to have been going on whenever somebody asks.
+    pub elapsed: Duration,
     /// Claims that did not hold, in order.
     pub broken: Vec<&'static str>,
     /// Nodes that refused a value: node, parameter, value.
@@ -65,6 +72,12 @@ impl Observer for Log {
     }
     fn failed(&mut self, node: usize, error: &impl Display) {
         self.failed.push((self.names[node], error.to_string()));
+    }
+    fn late(&mut self, node: usize, age: Duration) {
+        self.late.push((self.names[node], age.as_millis()));
+    }
+    fn elapsed(&mut self) -> Duration {
+        self.elapsed
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         self.refused.push((self.names[node], parameter, format!("{value:?}")));

@@ -1,7 +1,7 @@
 //! What slots, events and hybrid connections mean for the schedule: which connections may stay occupied, and
 //! whether tokens can go round for ever.
 
-use super::{Links, live};
+use super::{Delivery, Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
@@ -25,8 +25,8 @@ pub struct Asynchronous {
     pub tracked: Vec<bool>,
     /// Whether tokens may go round for ever while the time stands still.
     pub endless: bool,
-    /// Whether never more than one token is under way to a slot: then the order of slots needs no queue.
-    pub single: bool,
+    /// How slot tokens are kept in their order.
+    pub delivery: Delivery,
     /// For each connection those on which a token may be sent because of one on it.
     causes: Vec<Vec<usize>>,
 }
@@ -62,18 +62,34 @@ impl Asynchronous {
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
             sent_by_reset(graph).for_each(|c| tracked[c] = true);
         }
-        Self { live, slots, stays, tracked, endless: is_endless(&causes), single, causes }
+        let delivery = if single { Delivery::Single } else { Delivery::Queued };
+        Self { live, slots, stays, tracked, endless: is_endless(&causes), delivery, causes }
+    }
+
+    /// Slots take their tokens in an order that is known: nobody has to look whether they are still there.
+    pub fn order(&mut self) {
+        self.delivery = Delivery::Ordered;
+        self.slots.iter().for_each(|c| self.tracked[*c] = false);
+    }
+
+    /// Whether a connection leads to a slot and can carry tokens.
+    pub fn is_slot(&self, connection: usize) -> bool {
+        self.slots.binary_search(&connection).is_ok()
+    }
+
+    /// The slot tokens that may be sent because of the token on `connection`, in the order in which they are emitted.
+    pub fn caused_slots(&self, connection: usize) -> impl Iterator<Item = usize> + Clone + '_ {
+        self.causes[connection].iter().copied().filter(|c| self.is_slot(*c))
     }
 
     /// The slot tokens that may follow, one after the other, from tokens on `connections`; and whether they can go
     /// round in a circle.
-    pub fn following(&self, connections: impl Iterator<Item = usize>) -> (Vec<usize>, bool) {
-        let is_slot = |c: &usize| self.slots.binary_search(c).is_ok();
-        let mut found: Vec<usize> = connections.filter(is_slot).collect();
+    pub fn following(&self, connections: &[usize]) -> (Vec<usize>, bool) {
+        let mut found: Vec<usize> = connections.iter().copied().filter(|c| self.is_slot(*c)).collect();
         let mut circle = false;
         let mut at = 0;
         while at < found.len() {
-            for next in self.causes[found[at]].iter().copied().filter(is_slot) {
+            for next in self.caused_slots(found[at]) {
                 // With one token under way, every connection has one follower: who was seen before comes again.
                 match found.contains(&next) {
                     true => circle = true,
@@ -113,7 +129,7 @@ impl Asynchronous {
 }
 
 /// The connections of a node's events.
-fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = usize> + 'a {
+pub fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = usize> + 'a {
     links.sends[node].iter().copied().filter(|c| graph.port(graph.connections[*c].from).kind == PortKind::Event)
 }
 

@@ -4,11 +4,13 @@ mod activity;
 mod asynchronous;
 mod clocks;
 mod clusters;
+mod delivery;
 mod live;
 mod order;
 mod pruning;
 mod rates;
 mod schedule;
+mod stamps;
 
 use crate::{
     catalog::Catalog,
@@ -23,8 +25,11 @@ pub use activity::reachable as active_nodes;
 pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
+pub use delivery::{Delivery, at_start, ordered};
+pub use order::Loops;
 pub use pruning::Characteristics;
 pub use schedule::{Block, Step};
+pub use stamps::Stamps;
 
 /// Everything that is known about a graph before it runs.
 #[derive(Debug)]
@@ -47,6 +52,8 @@ pub struct Analysis {
     pub clocks: Vec<Clock>,
     /// Slots, events and hybrid connections.
     pub asynchronous: Asynchronous,
+    /// What keeps the time when the source fired that a token descends from.
+    pub stamps: Stamps,
     /// The nodes that activity can reach.
     pub active: BTreeSet<NodeId>,
     /// How its nodes hang together.
@@ -68,16 +75,16 @@ pub struct Links {
     pub inputs: Vec<Vec<usize>>,
     /// Asynchronous connections out of each node that can carry tokens, in the order of its ports, then of the text.
     pub sends: Vec<Vec<usize>>,
-    /// The delays on loops: what they send is of the iteration before.
-    pub held_back: BTreeSet<NodeId>,
+    /// The loops.
+    pub loops: Loops,
 }
 
 impl Links {
     /// The connections of `graph`.
     pub fn new(graph: &Graph) -> Self {
         let none = vec![vec![]; graph.nodes.len()];
-        let held_back = BTreeSet::new();
-        let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none, held_back };
+        let loops = Loops::default();
+        let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none, loops };
         for (index, connection) in graph.connections.iter().enumerate() {
             let flow = graph.flow(connection);
             if flow == Flow::Synchronous {
@@ -93,7 +100,7 @@ impl Links {
         for sends in &mut links.sends {
             sends.sort_by_key(|c| (graph.connections[*c].from.port, *c));
         }
-        links.held_back = order::delays_on_loops(graph, &links);
+        links.loops = Loops::new(graph, &links);
         links
     }
 
@@ -102,10 +109,16 @@ impl Links {
         self.sends[node].iter().chain(&self.out_of[node]).copied()
     }
 
-    /// The nodes that have to come after `node` in an iteration.
+    /// The nodes that take what `node` sends in the same iteration.
     pub fn successors<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
-        let held_back = self.held_back.contains(&node);
+        let held_back = self.loops.delays.contains(&node);
         self.out_of[node].iter().filter(move |_| !held_back).map(|c| graph.connections[*c].to.node)
+    }
+
+    /// The nodes that have to come after `node` in an iteration.
+    pub fn followers<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
+        let begun = self.loops.begun_by.get(&node);
+        self.successors(graph, node).chain(begun.into_iter().flatten().copied())
     }
 }
 
@@ -140,6 +153,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         characteristics,
         clocks,
         asynchronous,
+        stamps: Stamps::default(),
         active,
         links,
         bodies,
@@ -152,6 +166,10 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         analysis.clusters[cluster].sends =
             order.iter().flat_map(|n| analysis.links.sends[*n].iter().copied()).collect();
     }
+    if delivery::is_ordered(graph, &analysis) {
+        analysis.asynchronous.order();
+    }
+    analysis.stamps = stamps::stamps(graph, catalog, &analysis);
     Some(analysis)
 }
 

@@ -2,12 +2,12 @@
 
 use super::Links;
 use crate::{
-    graph::{Crossing, Graph, NodeId, NodeKind, ScopeId},
+    graph::{Crossing, Graph, NodeId, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
 use std::{
     cmp::Reverse,
-    collections::{BTreeSet, BinaryHeap},
+    collections::{BTreeMap, BTreeSet, BinaryHeap},
 };
 
 /// Something to be ordered: a node, or one of the two sides of a nested graph, which takes all its inputs
@@ -35,7 +35,7 @@ impl Precedence {
         let mut edges = vec![vec![]; vertices.len()];
         for connection in links.into.iter().flatten() {
             let c = &graph.connections[*connection];
-            if links.held_back.contains(&c.from.node) {
+            if links.loops.delays.contains(&c.from.node) {
                 continue;
             }
             let sides = c.crossings.iter().map(|crossing| match crossing {
@@ -52,20 +52,50 @@ impl Precedence {
         for scope in 1..scopes {
             edges[nodes + scope].push((nodes + scopes + scope, None));
         }
+        for (node, begun) in &links.loops.begun_by {
+            edges[*node].extend(begun.iter().map(|next| (*next, None)));
+        }
         Self { vertices, edges }
     }
 }
 
-/// The delays on loops.
-pub fn delays_on_loops(graph: &Graph, links: &Links) -> BTreeSet<NodeId> {
-    let is_delay = |node: &NodeId| matches!(graph.nodes[*node].kind, NodeKind::Delay(_));
-    let mut delays = (0..graph.nodes.len()).filter(is_delay).peekable();
-    if delays.peek().is_none() {
-        return BTreeSet::new();
+/// The loops of a graph, all of which lead through delays.
+#[derive(Debug, Default)]
+pub struct Loops {
+    /// The delays on loops: what they send is of the iteration before.
+    pub delays: BTreeSet<NodeId>,
+    /// What a delay on a loop sends does not wait for the delay, but for what comes into the loop from elsewhere: that is when
+    /// an iteration of the loop begins. For each node that sends into loops, the nodes that these delays send to.
+    pub begun_by: BTreeMap<NodeId, Vec<NodeId>>,
+}
+
+impl Loops {
+    /// Finds them.
+    pub fn new(graph: &Graph, links: &Links) -> Self {
+        let mut delays = (0..graph.nodes.len()).filter(|node| graph.nodes[*node].is_delay()).peekable();
+        if delays.peek().is_none() {
+            return Self::default();
+        }
+        let edges = Precedence::new(graph, links).edges;
+        let part = components(&edges);
+        let is_on_loop = |delay: &NodeId| edges[*delay].iter().any(|(next, _)| part[*next] == part[*delay]);
+        let delays: BTreeSet<NodeId> = delays.filter(is_on_loop).collect();
+        let mut behind: BTreeMap<usize, BTreeSet<NodeId>> = BTreeMap::new();
+        for delay in &delays {
+            let sent = links.out_of[*delay].iter().map(|c| graph.connections[*c].to.node);
+            behind.entry(part[*delay]).or_default().extend(sent);
+        }
+        let mut begun_by = BTreeMap::new();
+        for (node, out) in links.out_of.iter().enumerate() {
+            let ends = out.iter().map(|c| part[graph.connections[*c].to.node]);
+            let entered: BTreeSet<usize> = ends.filter(|p| *p != part[node]).collect();
+            let begun: BTreeSet<NodeId> = entered.iter().filter_map(|p| behind.get(p)).flatten().copied().collect();
+            if !begun.is_empty() {
+                begun_by.insert(node, begun.into_iter().collect());
+            }
+        }
+        Self { delays, begun_by }
     }
-    let edges = Precedence::new(graph, links).edges;
-    let part = components(&edges);
-    delays.filter(|delay| edges[*delay].iter().any(|(next, _)| part[*next] == part[*delay])).collect()
 }
 
 /// The strongly connected component of each vertex (Kosaraju and Sharir).

@@ -50,7 +50,7 @@ pub fn schedule(graph: &Graph, links: &Links, analysis: &Analysis, cluster: usiz
     let rank: BTreeMap<NodeId, usize> = nodes.iter().enumerate().map(|(rank, node)| (*node, rank)).collect();
     let mut waits: BTreeMap<NodeId, usize> = nodes.iter().map(|n| (*n, 0)).collect();
     for &node in nodes {
-        for next in links.successors(graph, node) {
+        for next in links.followers(graph, node) {
             if let Some(count) = waits.get_mut(&next) {
                 *count += 1;
             }
@@ -100,7 +100,7 @@ impl Scheduler<'_> {
     }
 
     fn fired(&mut self, node: NodeId) {
-        let next: Vec<NodeId> = self.links.successors(self.graph, node).collect();
+        let next: Vec<NodeId> = self.links.followers(self.graph, node).collect();
         for next in next {
             let Some(waits) = self.waits.get_mut(&next) else { continue };
             *waits -= 1;

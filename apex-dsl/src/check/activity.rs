@@ -16,7 +16,9 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     }
     let reached = active_nodes(graph);
     let mut named = BTreeSet::new();
-    for c in graph.connections.iter().filter(|c| c.active) {
+    // Activity goes into a delay only because it goes on from there.
+    let is_delay = |node: NodeId| graph.nodes[node].is_delay();
+    for c in graph.connections.iter().filter(|c| c.active && !is_delay(c.to.node)) {
         let node = c.from.node;
         // A node that takes activity away does so without any of its own.
         let takes_away =
@@ -24,6 +26,8 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
         if takes_away || !graph.can_hold_activity(node) || reached.contains(&node) || !named.insert(node) {
             continue;
         }
+        let held = graph.connections.iter().find(|c| c.to.node == node).filter(|_| is_delay(node));
+        let node = held.map_or(node, |c| c.from.node);
         let message = format!("`{}` is never activated: this `=>` never carries activity", graph.path(node));
         let warning = Diagnostic::warning("never-activated", c.span, message).note(match sources(graph, node) {
             Some(from) => format!("activity would have to come from `{from}`, which is never activated either"),

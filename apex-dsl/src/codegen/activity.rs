@@ -62,7 +62,9 @@ impl Generator<'_> {
         let mut flags = vec![];
         let mut bit = |name, value: bool| flags.push((name, quote!(bool), quote!(#value)));
         for &node in &whole.analysis.active {
-            bit(self.flag(Flag::Active, node), false);
+            if !whole.graph.nodes[node].is_delay() {
+                bit(self.flag(Flag::Active, node), false);
+            }
             if self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]) {
                 bit(self.flag(Flag::Gains, node), false);
             }
@@ -80,10 +82,35 @@ impl Generator<'_> {
                 bit(self.flag(Flag::Enabled, node), true);
             }
         }
+        for &node in &whole.analysis.active {
+            if let NodeKind::Delay(initial) = &whole.graph.nodes[node].kind {
+                let (name, count) = (self.flag(Flag::Active, node), initial.len());
+                let make = quote!(::apex_rt::Delay::new([None; #count]));
+                flags.push((name, quote!(::apex_rt::Delay<(), #count>), make));
+            }
+        }
         for &node in whole.analysis.active.iter().filter(|n| whole.graph.nodes[**n].modifiers.timeout.is_some()) {
             flags.push((self.flag(Flag::Timeout, node), quote!(::apex_rt::Timeout), quote!(::apex_rt::Timeout::new())));
         }
         flags
+    }
+
+    /// Whether there is activity in a node.
+    pub fn is_active_now(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        let flag = self.flag(Flag::Active, node);
+        match whole.graph.nodes[node].is_delay() {
+            true => quote!(state.#flag.holds_any()),
+            false => quote!(state.#flag),
+        }
+    }
+
+    /// What a delay holds keeps what it carries: it goes on with the token.
+    pub fn hold_activity(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        if !whole.analysis.active.contains(&node) {
+            return quote!();
+        }
+        let (held, gains) = (self.flag(Flag::Active, node), self.flag(Flag::Gains, node));
+        quote! { state.#held.put(::core::mem::take(&mut state.#gains).then_some(())); }
     }
 
     /// A node becomes active, unless it is already.
@@ -160,7 +187,7 @@ impl Generator<'_> {
 
     /// A1 for the inputs of a node: what its tokens carried counts now.
     pub fn take_activity(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        if !whole.analysis.active.contains(&node) {
+        if !whole.analysis.active.contains(&node) || whole.graph.nodes[node].is_delay() {
             return quote!();
         }
         let gains = self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
@@ -222,7 +249,10 @@ impl Generator<'_> {
                 code.extend(quote! { if #present { #away } });
             }
             let deactivates = matches!(&whole.graph.nodes[node].kind, NodeKind::Library(l) if self.catalog.signatures[l.signature].deactivates);
-            if whole.analysis.active.contains(&node) && !deactivates {
+            if whole.graph.nodes[node].is_delay() {
+                let held = self.flag(Flag::Active, node);
+                code.extend(quote! { if state.#held.take().is_some() { #carry } });
+            } else if whole.analysis.active.contains(&node) && !deactivates {
                 let (active, deactivate) = (self.flag(Flag::Active, node), self.deactivate(whole, node));
                 let check = self.check_claims(whole);
                 code.extend(quote! { if state.#active && #present { #deactivate #carry #check } });

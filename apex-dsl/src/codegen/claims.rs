@@ -1,12 +1,12 @@
-//! Claims that could not be decided: the program looks at them whenever activity has moved. Where all are decided,
-//! nothing is generated.
+//! Where activity is, with what is under way. Claims that could not be decided are looked at by the program whenever activity
+//! has moved; where all are decided, nothing is generated for them.
 
 use super::{
     Flag, Generator,
     activity::{Carries, Whole, carries},
 };
 use crate::{
-    claims::{Checks, FROM, Model, NEARER, Place, PlaceId},
+    claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
     graph::{ClaimKind, Flow},
 };
 use proc_macro2::TokenStream;
@@ -56,7 +56,8 @@ impl Generator<'_> {
                 }
                 ClaimKind::Conserved => {
                     let (all, given) = (flags.keys(), model.given);
-                    quote!([#(state.#all),*].into_iter().filter(|active| *active).count() != #given)
+                    let all = all.map(|expression| expression.parse::<TokenStream>().unwrap_or_default());
+                    quote!([#(#all),*].into_iter().filter(|active| *active).count() != #given)
                 }
             };
             let name = broken(claim);
@@ -74,22 +75,45 @@ impl Generator<'_> {
         }
     }
 
-    /// The flags that say where activity is, with the places that each of them stands for.
-    fn place_flags(&self, whole: Whole<'_>, model: &Model) -> BTreeMap<Ident, BTreeSet<PlaceId>> {
-        let mut flags: BTreeMap<Ident, BTreeSet<PlaceId>> = BTreeMap::new();
+    /// Whether a nested graph is active, by its index.
+    pub fn is_graph_active(&self, whole: Whole<'_>) -> TokenStream {
+        let graph = whole.graph;
+        if whole.analysis.active.is_empty() || graph.scopes.len() == 1 {
+            return quote!();
+        }
+        let model = Model::new(graph, self.catalog);
+        let flags = self.place_flags(whole, &model);
+        let arms = (1..graph.scopes.len()).map(|scope| {
+            let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
+            let inside: Vec<PlaceId> = inside.map(|(id, _)| id).collect();
+            let (index, active) = (scope - 1, any(&flags, &inside));
+            quote! { #index => #active, }
+        });
+        quote! {
+            fn is_graph_active(&self, graph: usize) -> bool {
+                let state = &self.state;
+                match graph { #(#arms)* _ => false }
+            }
+        }
+    }
+
+    /// The expressions that say where activity is, with the places that each of them stands for.
+    fn place_flags(&self, whole: Whole<'_>, model: &Model) -> BTreeMap<String, BTreeSet<PlaceId>> {
+        let mut flags: BTreeMap<String, BTreeSet<PlaceId>> = BTreeMap::new();
         for (place, what) in (0..).zip(&model.places) {
             let flag = match *what {
-                Place::Node(node) => self.flag(Flag::Active, node),
+                Place::Node(node) => self.is_active_now(whole, node),
                 Place::Connection(c) if self.carries(whole, c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
                     let connection = &whole.graph.connections[c];
-                    match whole.graph.flow(connection) {
+                    let flag = match whole.graph.flow(connection) {
                         Flow::ToSlot => carries(whole.analysis.asynchronous.slot(c)),
                         Flow::Synchronous | Flow::ToInput => self.flag(Flag::Gains, connection.to.node),
-                    }
+                    };
+                    quote!(state.#flag)
                 }
             };
-            flags.entry(flag).or_default().insert(place);
+            flags.entry(flag.to_string()).or_default().insert(place);
         }
         flags
     }
@@ -101,7 +125,8 @@ fn broken(claim: usize) -> Ident {
 }
 
 /// Whether there is activity in one of `places`. A flag that also stands for other places says nothing.
-fn any(flags: &BTreeMap<Ident, BTreeSet<PlaceId>>, places: &[PlaceId]) -> TokenStream {
-    let meant = flags.iter().filter(|(_, of)| of.iter().all(|place| places.contains(place))).map(|(flag, _)| flag);
-    quote!(false #(|| state.#meant)*)
+fn any(flags: &BTreeMap<String, BTreeSet<PlaceId>>, places: &[PlaceId]) -> TokenStream {
+    let meant = flags.iter().filter(|(_, of)| of.iter().all(|place| places.contains(place)));
+    let meant = meant.map(|(flag, _)| flag.parse::<TokenStream>().unwrap_or_default());
+    quote!(false #(|| #meant)*)
 }

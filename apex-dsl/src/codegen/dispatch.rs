@@ -2,7 +2,7 @@
 
 use super::{Flag, Generator, activity::Whole, types::ident};
 use crate::{
-    analyse::{Analysis, Guard, Links},
+    analyse::{Analysis, Delivery, Guard, Links, at_start, ordered},
     graph::{Flow, Graph, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
@@ -233,7 +233,7 @@ impl Generator<'_> {
             let make = quote!(::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])));
             field("dispatcher", quote!(::apex_rt::Dispatcher<#words>), make);
         }
-        if slots > 0 && !whole.analysis.asynchronous.single {
+        if slots > 0 && whole.analysis.asynchronous.delivery == Delivery::Queued {
             field("queue", quote!(::apex_rt::Queue<#slots>), quote!(::apex_rt::Queue::new()));
         }
         if whole.analysis.asynchronous.endless {
@@ -278,7 +278,7 @@ impl Generator<'_> {
         }
         if !analysis.asynchronous.slots.is_empty() {
             code.extend(self.slot_functions(whole, bits));
-            if !analysis.asynchronous.single {
+            if analysis.asynchronous.delivery == Delivery::Queued {
                 code.extend(self.serve(whole, bits));
             }
         }
@@ -352,31 +352,46 @@ impl Generator<'_> {
         }
     }
 
-    /// Where one token at most is under way, the slots that it can come to stand in order, and there is no queue.
-    pub fn serve_single(&self, whole: Whole<'_>, sends: impl Iterator<Item = usize>) -> TokenStream {
+    /// Serves the slots that tokens on `sends` can come to, one after the other, where that needs no queue.
+    pub fn deliver(&self, whole: Whole<'_>, sends: &[usize]) -> TokenStream {
         let asynchronous = &whole.analysis.asynchronous;
-        if !asynchronous.single {
-            return quote!();
+        match asynchronous.delivery {
+            Delivery::Queued => quote!(),
+            Delivery::Single => self.deliver_single(whole, sends),
+            Delivery::Ordered => {
+                let connections = ordered(whole.graph, whole.links, asynchronous, sends).unwrap_or_default();
+                let ends = |c: &usize| {
+                    matches!(whole.graph.nodes[whole.graph.connections[*c].to.node].kind, NodeKind::Exit(_))
+                };
+                let last = connections.iter().position(ends).unwrap_or(connections.len());
+                let goes_on = |at: usize| (at > last).then(|| quote!(&&self.state.exit.is_none()));
+                connections.iter().enumerate().map(|(at, c)| self.serve_one(whole, *c, goes_on(at))).collect()
+            }
         }
-        let (connections, circle) = asynchronous.following(sends);
-        let step = |slot: usize| asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
-        let waits: Vec<TokenStream> = connections
-            .iter()
-            .map(|c| {
-                let waits = self.waits(whole.graph, whole.graph.connections[*c].from);
-                quote!(self.#waits)
-            })
-            .collect();
-        let serves = connections.iter().zip(&waits).map(|(c, waits)| {
-            let slot = asynchronous.slot(*c);
-            let (name, step) = (format_ident!("slot_{slot}"), step(slot));
-            let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
-            quote! { if #waits #budget { #step self.#name(ctx, observer); } }
-        });
-        let serves: TokenStream = serves.collect();
+    }
+
+    /// Serves the slot at the end of a connection, if a token waits there and `test` allows it.
+    fn serve_one(&self, whole: Whole<'_>, connection: usize, test: Option<TokenStream>) -> TokenStream {
+        let asynchronous = &whole.analysis.asynchronous;
+        let slot = asynchronous.slot(connection);
+        let waits = self.waits(whole.graph, whole.graph.connections[connection].from);
+        let name = format_ident!("slot_{slot}");
+        let step = asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
+        let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
+        quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }
+    }
+
+    /// Where one token at most is under way, it may go round in a circle.
+    fn deliver_single(&self, whole: Whole<'_>, sends: &[usize]) -> TokenStream {
+        let (connections, circle) = whole.analysis.asynchronous.following(sends);
+        let serves: TokenStream = connections.iter().map(|c| self.serve_one(whole, *c, None)).collect();
         if !circle {
             return serves;
         }
+        let waits = connections.iter().map(|c| {
+            let waits = self.waits(whole.graph, whole.graph.connections[*c].from);
+            quote!(self.#waits)
+        });
         let exit = self.has_exit(whole.graph).then(|| quote!(|| self.state.exit.is_some()));
         quote! {
             while (#(#waits)||*) {
@@ -389,8 +404,8 @@ impl Generator<'_> {
     /// `react_with`.
     pub fn react(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
-        let single = analysis.asynchronous.single;
-        let serves = !analysis.asynchronous.slots.is_empty() && !single;
+        let queued = analysis.asynchronous.delivery == Delivery::Queued;
+        let serves = !analysis.asynchronous.slots.is_empty() && queued;
         let endless = analysis.asynchronous.endless;
         let (raises, wishes) = self.raises(whole, bits);
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
@@ -402,8 +417,8 @@ impl Generator<'_> {
         let next = if has_react { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
         let serve = |quiet: bool| match (serves, quiet) {
             (false, _) => quote!(),
-            (true, true) => quote! { if self.serve(ctx, observer) { quiet = false; } },
-            (true, false) => quote! { self.serve(ctx, observer); },
+            (true, true) => quote! { if !self.state.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } },
+            (true, false) => quote! { if !self.state.queue.is_empty() { self.serve(ctx, observer); } },
         };
         let loops = !bits.dispatched.is_empty() || !raises.is_empty();
         let any_stays = !bits.free.is_empty();
@@ -416,10 +431,10 @@ impl Generator<'_> {
         let fires = firing.iter().map(|&cluster| {
             let name = format_ident!("cluster_{cluster}");
             let c = &analysis.clusters[cluster];
-            let served = match single {
-                true => self.serve_single(whole, c.sends.iter().copied()),
-                false if c.sends.is_empty() && !any_stays => quote!(),
-                false => serve(false),
+            let served = match queued {
+                false => self.deliver(whole, &c.sends),
+                true if c.sends.is_empty() && !any_stays => quote!(),
+                true => serve(false),
             };
             let served = quote! { #served #exit };
             let Some(row) = bits.row(cluster) else {
@@ -457,15 +472,12 @@ impl Generator<'_> {
             firing.into_iter().partition(|c| loops && (is_dispatched(c) || ordered));
         let (before, inside) = (before.iter().map(|c| &fires[c]), inside.iter().map(|c| &fires[c]));
         let start = self.has_start(whole).then(|| {
-            let starts = |c: &usize| matches!(graph.nodes[graph.connections[*c].from.node].kind, NodeKind::Start);
-            let single = self.serve_single(whole, analysis.asynchronous.slots.iter().copied().filter(starts));
-            let queued = serve(false);
-            let serve = quote! { #single #queued };
+            let serve = if queued { serve(false) } else { self.deliver(whole, &at_start(graph, analysis)) };
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
         });
         let begin_steps = endless.then(|| {
             // What the reaction before left when its steps were used up.
-            let serve = self.serve_single(whole, analysis.asynchronous.slots.iter().copied());
+            let serve = self.deliver(whole, &analysis.asynchronous.slots);
             quote! { self.state.steps.begin(); #serve }
         });
         let used_up = endless.then(|| self.used_up(whole, bits));
@@ -602,7 +614,7 @@ impl Generator<'_> {
             self.sent_event(whole, end).filter(|_| sent)
         });
         let emit = self.emit(whole, bits, node, false);
-        let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());
+        let serve = self.deliver(whole, &whole.links.sends[node]);
         quote! {
             if self.state.#timeout.is_due(now) #test {
                 let Self { nodes, state, .. } = self;

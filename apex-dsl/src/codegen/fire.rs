@@ -45,7 +45,8 @@ impl<'a> Emitter<'a> {
         // A node that was skipped because of ⊥ took its tokens all the same (A1).
         let take = order.iter().map(|node| self.generator.take_activity(self.whole, *node));
         let emit = order.iter().map(|node| self.generator.emit(self.whole, bits, *node, true));
-        quote! { #(#clear)* #code #(#take)* #(#emit)* }
+        let stamp = self.generator.stamp_of_firing(self.whole, self.cluster);
+        quote! { #stamp #(#clear)* #code #(#take)* #(#emit)* }
     }
 
     /// Everything that the cluster does.
@@ -65,7 +66,8 @@ impl<'a> Emitter<'a> {
         match self.graph.nodes[node].kind {
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                quote! { let #name = state.#held.take(); }
+                let pass = self.whole.analysis.active.contains(&node).then(|| self.pass(node, 0));
+                quote! { let #name = state.#held.take(); #pass }
             }
             NodeKind::Boundary(_) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
@@ -169,25 +171,34 @@ impl<'a> Emitter<'a> {
     /// A node fires: its tokens' activity counts before, and its own goes with what it sends.
     fn step(&self, node: NodeId, block: BlockId) -> TokenStream {
         let (take, fire) = (self.generator.take_activity(self.whole, node), self.fire(node, block));
-        let pass = self.generator.pass_activity(self.whole, node, &|end| match self.graph.port(end).kind {
+        // A delay has sent its token before it takes one.
+        let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
+        quote! { #take #fire #pass }
+    }
+
+    fn pass(&self, node: NodeId, block: BlockId) -> TokenStream {
+        self.generator.pass_activity(self.whole, node, &|end| match self.graph.port(end).kind {
             PortKind::Output => {
                 let token = self.option(end, block);
                 Some(quote!(#token.is_some()))
             }
             _ => self.generator.sent_event(self.whole, end),
-        });
-        quote! { #take #fire #pass }
+        })
     }
 
     fn fire(&self, node: NodeId, block: BlockId) -> TokenStream {
         match &self.graph.nodes[node].kind {
             NodeKind::Library(library) => self.fire_library(node, library, block),
-            NodeKind::Each(each) => self.fire_each(node, each, block),
+            NodeKind::Each(each) => {
+                let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.whole, node));
+                quote! { #fire #late }
+            }
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
                 let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
                 let token = token.unwrap_or_else(|| quote!(None));
-                quote! { state.#held.put(#token.cloned()); }
+                let activity = self.generator.hold_activity(self.whole, node);
+                quote! { state.#held.put(#token.cloned()); #activity }
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
@@ -241,7 +252,8 @@ impl<'a> Emitter<'a> {
         let call = if told { self.told(node, signature, call, block) } else { call };
         let results = self.results(node, library, signature, call, told);
         let outputs = self.param_outputs(node, library, signature, block);
-        let code = quote! { observer.fired(#index); #params #results #outputs };
+        let late = self.generator.check_late(self.whole, node);
+        let code = quote! { observer.fired(#index); #params #results #outputs #late };
         if self.graph.nodes[node].can_be_disabled() {
             let enabled = self.generator.flag(Flag::Enabled, node);
             let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });

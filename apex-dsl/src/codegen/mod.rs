@@ -12,6 +12,7 @@ mod plan;
 mod program;
 mod rates;
 mod slots;
+mod stamps;
 mod test;
 mod types;
 
@@ -22,7 +23,7 @@ pub use program::camel;
 use crate::{
     analyse::Analysis,
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind, Standard},
+    graph::{End, Graph, NodeId, NodeKind},
     passes::Program,
     report::{Diagnostic, Diagnostics},
     source::{Sources, Span},
@@ -112,8 +113,8 @@ impl Names {
     }
 }
 
-/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, `claim_0` …, and `token_` with the name of a
-/// port.
+/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, `claim_0` …, `stamp_0` …, and `token_` with
+/// the name of a port.
 const OWN: [&str; 19] = [
     "state",
     "nodes",
@@ -139,7 +140,7 @@ const OWN: [&str; 19] = [
 /// `name`, or something like it that is not used yet.
 fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
     if OWN.contains(&name.as_str())
-        || ["param_", "token_", "carries_", "claim_"].iter().any(|own| name.starts_with(own))
+        || ["param_", "token_", "carries_", "claim_", "stamp_"].iter().any(|own| name.starts_with(own))
     {
         name.push('_');
     }
@@ -178,21 +179,12 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
 
 /// What can be written but not run yet.
 pub fn check_supported(graph: &Graph, diagnostics: &mut Diagnostics) {
-    for c in graph.connections.iter().filter(|c| c.active) {
-        if let Some(node) = [c.from.node, c.to.node].map(|n| &graph.nodes[n]).into_iter().find(|n| n.is_delay()) {
-            let message = format!("activity cannot pass the delay `{}` yet", node.name);
-            diagnostics.push(Diagnostic::error("not-yet", c.span, message).note("use `->` here"));
-        }
-    }
     for node in &graph.nodes {
         if let NodeKind::Each(each) = &node.kind {
             check_supported(&each.body, diagnostics);
         }
         let m = &node.modifiers;
-        let late = node.standard(Standard::Late).is_some();
-        for (given, word) in
-            [(m.pipelined, "pipelined"), (m.deadline.is_some() || late, "deadline"), (m.group.is_some(), "on")]
-        {
+        for (given, word) in [(m.pipelined, "pipelined"), (m.group.is_some(), "on")] {
             if given {
                 let message = format!("`{word}` can be checked, but not run yet");
                 diagnostics.push(Diagnostic::error("not-yet", node.span, message));

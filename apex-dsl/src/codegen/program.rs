@@ -76,7 +76,8 @@ impl Generator<'_> {
         let react = self.react(whole, &bits);
         let clusters = self.clusters(whole, &bits);
         let (dispatcher, claims) = (self.dispatcher(whole, &bits), self.claim_function(whole));
-        let (is_active, waiting) = (self.is_active(whole), self.waiting(whole, &bits));
+        let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
+        let waiting = self.waiting(whole, &bits);
         let info = self.info(graph, analysis);
         let links = self.links(graph);
         let parameters = self.parameters(graph, analysis);
@@ -138,6 +139,7 @@ impl Generator<'_> {
                 const INFO: ::apex_rt::Info = #info;
                 #react
                 #is_active
+                #is_graph_active
                 #waiting
             }
             #parameters
@@ -224,7 +226,7 @@ impl Generator<'_> {
                 makes.extend(quote! { #name: ::apex_rt::Timer::new(#first, #period), });
             }
         }
-        let flags = self.flags(whole).into_iter().chain(self.claim_state(whole));
+        let flags = self.flags(whole).into_iter().chain(self.claim_state(whole)).chain(self.stamps(whole));
         for (name, ty, make) in flags.chain(self.dispatcher_state(whole, bits)) {
             fields.extend(quote! { #name: #ty, });
             makes.extend(quote! { #name: #make, });
@@ -237,7 +239,8 @@ impl Generator<'_> {
         if whole.analysis.active.is_empty() {
             return quote!();
         }
-        let arms = whole.analysis.active.iter().map(|node| {
+        let nodes = whole.analysis.active.iter().filter(|n| !whole.graph.nodes[**n].is_delay());
+        let arms = nodes.map(|node| {
             let (index, flag) = (self.names.base + node, self.flag(Flag::Active, *node));
             quote! { #index => self.state.#flag, }
         });
@@ -304,7 +307,9 @@ impl Generator<'_> {
         let functions = firing.map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
             let code = if rates::is_multirate(whole.graph, whole.analysis, cluster) {
-                self.rates(whole.graph, whole.analysis, whole.links, cluster)
+                let stamp = self.stamp_of_firing(whole, cluster);
+                let code = self.rates(whole.graph, whole.analysis, whole.links, cluster);
+                quote! { #stamp #code }
             } else {
                 Emitter::new(self, whole, cluster).program_cluster(bits)
             };
@@ -324,12 +329,13 @@ impl Generator<'_> {
         let (mut nodes, mut connections) = (vec![], vec![]);
         self.rows(graph, analysis, "", &mut nodes, &mut connections);
         let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
+        let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
         let clusters = analysis.clusters.iter().map(|c| {
             let nodes = c.schedule().into_iter().map(Literal::usize_unsuffixed);
             quote!(&[#(#nodes),*])
         });
         quote! {
-            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], claims: &[#(#claims),*] }
+            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], graphs: &[#(#graphs),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], claims: &[#(#claims),*] }
         }
     }
 

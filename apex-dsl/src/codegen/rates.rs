@@ -3,6 +3,7 @@
 
 use super::{
     Generator,
+    activity::Whole,
     types::{ident, path},
 };
 use crate::{
@@ -131,7 +132,8 @@ impl Generator<'_> {
             NodeKind::Library(library) => {
                 let signature = &self.catalog.signatures[library.signature];
                 let code = self.call_at_rate(graph, links, node, library, signature, &source);
-                quote! { for i in 0..#count { #code } }
+                let late = self.check_late(Whole { graph, analysis, links }, node);
+                quote! { for i in 0..#count { #code } #late }
             }
             NodeKind::Delay(_) => {
                 let (held, from) = (self.held(node), source(0));

@@ -9,12 +9,21 @@ use super::{
     types::ident,
 };
 use crate::{
+    analyse::Delivery,
     catalog::{ArgSig, Signature},
     graph::{End, Flow, Graph, Library, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
+
+/// Where no queue says which tokens wait, the last slot that a token comes to takes it away.
+fn takes(whole: Whole<'_>, connection: usize) -> bool {
+    let from = whole.graph.connections[connection].from;
+    let same = |c: &&usize| whole.graph.connections[**c].from == from;
+    whole.analysis.asynchronous.delivery != Delivery::Queued
+        && whole.links.sends[from.node].iter().rfind(same) == Some(&connection)
+}
 
 impl Generator<'_> {
     /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
@@ -45,13 +54,14 @@ impl Generator<'_> {
 
     fn sent(&self, whole: Whole<'_>, bits: &Bits, connection: usize) -> TokenStream {
         let occupied = bits.free(connection).map(|bit| quote! { state.dispatcher.clear(#bit); });
+        let stamp = self.stamp_sent(whole, connection);
         match bits.token(connection) {
-            Some(token) => quote! { state.dispatcher.raise(#token); #occupied },
+            Some(token) => quote! { state.dispatcher.raise(#token); #occupied #stamp },
             // The token itself tells that it waits.
-            None if whole.analysis.asynchronous.single => quote!(),
+            None if whole.analysis.asynchronous.delivery != Delivery::Queued => stamp,
             None => {
                 let slot = whole.analysis.asynchronous.slot(connection) as u16;
-                quote! { state.queue.push(#slot); #occupied }
+                quote! { state.queue.push(#slot); #occupied #stamp }
             }
         }
     }
@@ -134,14 +144,15 @@ impl Generator<'_> {
         };
         let check = if activity.is_empty() { quote!() } else { self.check_claims(whole) };
         let call = self.call_slot(whole, connection);
-        let call = if analysis.asynchronous.single { self.taken(graph, c.from, call) } else { call };
+        let call = if takes(whole, connection) { self.taken(graph, c.from, call) } else { call };
         let clear = self.clear_events(whole, node);
         let pass = self.pass_activity(whole, node, &|end| self.sent_event(whole, end));
         let emit = self.emit(whole, bits, node, false);
-        quote! { observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
+        let stamp = self.stamp_of_slot(whole, connection);
+        quote! { #stamp observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
     }
 
-    /// Where no queue says which tokens wait, a slot takes its token away.
+    /// A slot takes its token away.
     fn taken(&self, graph: &Graph, from: End, call: TokenStream) -> TokenStream {
         let name = self.name(from);
         if is_buffer(graph, self.catalog, from) {
@@ -160,13 +171,13 @@ impl Generator<'_> {
             (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => self.set_enabled(node, true),
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
             (NodeKind::Probe, _) => {
-                let (probe, token) = (probe(node), self.token(whole, c.from));
+                let (probe, token) = (probe(node), self.token(whole, connection));
                 quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
             }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
-                let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, c.from));
+                let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, connection));
                 let room = Bits::room_name(node);
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(::core::clone::Clone::clone(token)); }
@@ -183,11 +194,12 @@ impl Generator<'_> {
     }
 
     /// The token of a connection, where it lies: `Option<&T>`.
-    fn token(&self, whole: Whole<'_>, from: End) -> TokenStream {
+    fn token(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
+        let from = whole.graph.connections[connection].from;
         let name = self.name(from);
         match is_buffer(whole.graph, self.catalog, from) {
             true => quote!(state.#name.get()),
-            false if whole.analysis.asynchronous.single => quote!(#name.as_ref()),
+            false if takes(whole, connection) => quote!(#name.as_ref()),
             false => quote!(state.#name.as_ref()),
         }
     }
@@ -213,11 +225,12 @@ impl Generator<'_> {
         let (place, method) = (self.node_place(graph, node), ident(&signature.ports[slot.port].name));
         let call = quote!(#place.#method(#(#args),*));
         let call = self.contained(graph, node, library, call, slot.fallible);
+        let late = self.check_late(whole, node);
         let call = if takes {
-            let token = self.token(whole, c.from);
-            quote! { if let Some(token) = #token { #call; } }
+            let token = self.token(whole, connection);
+            quote! { if let Some(token) = #token { #call; } #late }
         } else {
-            quote! { #call; }
+            quote! { #call; #late }
         };
         if graph.nodes[node].can_be_disabled() {
             let flag = self.flag(Flag::Enabled, node);
@@ -283,7 +296,7 @@ impl Generator<'_> {
         let free: Vec<usize> = whole.links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
         let test = self.allows(whole, &free);
         let emit = self.emit(whole, bits, node, false);
-        let serve = self.serve_single(whole, whole.links.sends[node].iter().copied());
+        let serve = self.deliver(whole, &whole.links.sends[node]);
         quote! {
             if self.inputs.#port.is_full() #test {
                 let Self { state, inputs, .. } = self;
@@ -330,6 +343,10 @@ impl Generator<'_> {
     pub fn reset(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
         // Those that `start` makes active again say both at once.
         let deactivates = whole.analysis.active.iter().map(|&node| {
+            if whole.graph.nodes[node].is_delay() {
+                let held = self.flag(Flag::Active, node);
+                return quote! { state.#held.clear(); };
+            }
             let ports = 0..whole.graph.nodes[node].ports.len();
             let told = ports.map(|port| End { node, port }).filter(|end| whole.graph.port(*end).tells_of_activity());
             let names = told.filter(|end| self.is_sent_event(whole, *end)).map(|end| self.name(end));

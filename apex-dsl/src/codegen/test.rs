@@ -5,7 +5,7 @@ use super::{
     types::{constant, duration, ident},
 };
 use crate::{
-    graph::{End, Graph, NodeId},
+    graph::{End, Graph, NodeId, Subject},
     script::{Script, Seen, Step, Until, What},
 };
 use proc_macro2::TokenStream;
@@ -95,8 +95,10 @@ impl Generator<'_> {
 
     fn seen<'s>(&self, seen: &'s Seen) -> (TokenStream, &'s str, String) {
         let test = match &seen.what {
-            What::Active(nodes) => {
-                quote!([#(#nodes),*].iter().any(|node| ::apex_rt::Program::is_active(program, *node)))
+            What::Active(Subject::Node(node)) => quote!(::apex_rt::Program::is_active(program, #node)),
+            What::Active(Subject::Scope(scope)) => {
+                let graph = scope - 1;
+                quote!(::apex_rt::Program::is_graph_active(program, #graph))
             }
             What::Token(node, None) => {
                 let field = probe(*node);

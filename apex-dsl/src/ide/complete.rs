@@ -251,8 +251,9 @@ impl Completer<'_> {
             Some(NodeType::Graph(inside)) if named == Named::Tested => {
                 found.extend(self.names(Some(inside), Named::Node, None))
             }
-            Some(NodeType::Graph(_)) | None => {}
-            _ => found.extend(standard_ports(named)),
+            Some(NodeType::Graph(_)) => found.extend(standard_ports(named, Standard::is_shared)),
+            Some(_) => found.extend(standard_ports(named, |_| true)),
+            None => {}
         }
         found
     }
@@ -478,9 +479,9 @@ fn is_sure(ty: &Type, types: Option<&[Type]>) -> bool {
     types.is_some_and(|types| types.iter().any(|t| t.compare(ty) == Match::Same))
 }
 
-/// The ports that every node has.
-fn standard_ports(named: Named) -> impl Iterator<Item = Completion> {
-    let fitting = Standard::ALL.into_iter().filter(move |s| fits(s.kind(), &s.ty(), named, None));
+/// The ports that every node has, as far as this one has them.
+fn standard_ports(named: Named, has: impl Fn(Standard) -> bool) -> impl Iterator<Item = Completion> {
+    let fitting = Standard::ALL.into_iter().filter(move |s| has(*s) && fits(s.kind(), &s.ty(), named, None));
     fitting.map(|s| {
         let detail = format!("{} {}: {}", s.kind().word(), s.name(), s.ty());
         Completion::new(s.name(), CompletionKind::Port, detail, standard_docs(s))

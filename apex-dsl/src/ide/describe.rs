@@ -172,6 +172,6 @@ pub fn standard_docs(standard: Standard) -> &'static str {
         Standard::Processed => "`process` was called; not if it was skipped because of ⊥.",
         Standard::Failed => "`process` or a slot failed; the token says why.",
         Standard::Timeout => "It has been active for as long as its modifier `timeout` says.",
-        Standard::Late => "It took a token that was older than its `deadline`.",
+        Standard::Late => "It had finished later after the firing of its source than its `deadline` says.",
     }
 }

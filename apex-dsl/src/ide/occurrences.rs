@@ -199,7 +199,8 @@ impl<'a> Walker<'a, '_> {
         let ports = self.view.ports(node).into_iter().filter(|p| p.name == name).map(|p| p.definition).next();
         let is_library = !matches!(node, NodeType::Graph(_));
         let param = || is_library.then(|| self.param(node, name)).flatten();
-        let standard = || Standard::ALL.into_iter().find(|s| is_library && s.name() == name).map(Definition::Standard);
+        let is_there = |s: &Standard| (is_library || s.is_shared()) && s.name() == name;
+        let standard = || Standard::ALL.into_iter().find(is_there).map(Definition::Standard);
         ports.or_else(param).or_else(standard)
     }
 

@@ -95,11 +95,11 @@ impl Builder<'_> {
         let text = &first.text;
         let error = match (table.get(text), &name.parts[1..]) {
             (Some((Symbol::Broken, _)), _) => return None,
-            (Some((Symbol::Ports(_), _)), []) => match subjects.get(text) {
+            (Some((Symbol::Ports(..), _)), []) => match subjects.get(text) {
                 Some(subject) => return Some(*subject),
                 None => return None,
             },
-            (Some((Symbol::Ports(_), _)), [rest, ..]) => {
+            (Some((Symbol::Ports(..), _)), [rest, ..]) => {
                 let message = format!("a claim names nodes of its own graph, not what is in them: `{}`", rest.text);
                 Diagnostic::error("wrong-claim", name.span, message).note(format!(
                     "name `{text}`, which is active while anything in it is, or write the claim in its graph"

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{End, Node, NodeId, NodeKind, Place, Port, Standard, Wire},
+    graph::{End, Node, NodeId, NodeKind, Pin, Place, Port, ScopeId, Standard, Wire},
     report::{Diagnostic, Diagnostics, nearest},
     source::Span,
     syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef},
@@ -24,11 +24,20 @@ pub struct Candidate {
     pub parameter: bool,
 }
 
+/// Whose ports they are.
+#[derive(Debug, Clone, Copy)]
+pub enum Owner {
+    /// A node.
+    Node(NodeId),
+    /// A nested graph.
+    Scope(ScopeId),
+}
+
 /// What a name in a graph stands for.
 #[derive(Debug, Clone)]
 pub enum Symbol {
     /// A node or nested graph with its ports.
-    Ports(Vec<Candidate>),
+    Ports(Owner, Vec<Candidate>),
     /// A port of the graph around.
     Own(Candidate),
     /// Something that could not be made; said already.
@@ -52,12 +61,13 @@ impl Symbol {
             place: Place::Port(End { node: id, port }),
             parameter: p.parameter.is_some(),
         });
-        Self::Ports(ports.collect())
+        Self::Ports(Owner::Node(id), ports.collect())
     }
 
     /// A nested graph with its pins.
-    pub fn of_graph(pins: Vec<(String, PortKind, Type, Place)>) -> Self {
+    pub fn of_graph(scope: ScopeId, pins: Vec<(String, PortKind, Type, Place)>) -> Self {
         Self::Ports(
+            Owner::Scope(scope),
             pins.into_iter()
                 .map(|(name, kind, ty, place)| Candidate { name, kind, ty, place, parameter: false })
                 .collect(),
@@ -67,7 +77,7 @@ impl Symbol {
     /// The outputs of a node or nested graph.
     pub fn outputs(&mut self) -> Vec<&mut Candidate> {
         match self {
-            Self::Ports(ports) => ports.iter_mut().filter(|p| p.kind == PortKind::Output && !p.parameter).collect(),
+            Self::Ports(_, ports) => ports.iter_mut().filter(|p| p.kind == PortKind::Output && !p.parameter).collect(),
             _ => vec![],
         }
     }
@@ -225,22 +235,22 @@ impl Builder<'_> {
         };
         match symbol {
             Symbol::Broken => return None,
-            Symbol::Ports(ports) => self.look(ports.len(), reference.span)?,
+            Symbol::Ports(_, ports) => self.look(ports.len(), reference.span)?,
             Symbol::Own(_) => {}
         }
         match (symbol, &reference.parts[1..]) {
             (symbol, []) => Some((symbol.clone(), text, reference.span)),
-            (Symbol::Ports(ports), [port]) => {
+            (Symbol::Ports(owner, ports), [port]) => {
                 let mut named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
                 if named.is_empty() {
-                    named.extend(self.standard_port(ports, port));
+                    named.extend(self.standard_port(*owner, port));
                 }
                 if named.is_empty() {
                     self.unknown_port(&first.text, port, ports);
                     self.excuse(symbol);
                     return None;
                 }
-                Some((Symbol::Ports(named), text, reference.span))
+                Some((Symbol::Ports(*owner, named), text, reference.span))
             }
             (_, rest) => {
                 let message = if matches!(symbol, Symbol::Own(_)) {
@@ -282,31 +292,56 @@ impl Builder<'_> {
     }
 
     /// A port that every node has; it is added when somebody names it.
-    fn standard_port(&mut self, ports: &[Candidate], port: &Ident) -> Option<Candidate> {
+    fn standard_port(&mut self, owner: Owner, port: &Ident) -> Option<Candidate> {
         let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text)?;
-        let Place::Port(End { node, .. }) = ports.first()?.place else { return None };
+        let place = match owner {
+            Owner::Node(node) => Place::Port(self.standard_end(node, standard)?),
+            Owner::Scope(scope) if standard.is_shared() => self.shared_port(scope, standard, port.span),
+            Owner::Scope(_) => return None,
+        };
+        let (name, kind, ty) = (port.text.clone(), standard.kind(), standard.ty());
+        Some(Candidate { name, kind, ty, place, parameter: false })
+    }
+
+    fn standard_end(&mut self, node: NodeId, standard: Standard) -> Option<End> {
         if !matches!(self.nodes[node].kind, NodeKind::Library(_)) {
             return None;
         }
-        let known = self.nodes[node].ports.iter().position(|p| p.standard == Some(standard));
-        let index = known.unwrap_or_else(|| {
+        let port = self.nodes[node].standard(standard).unwrap_or_else(|| {
             let made = Port::new(standard.name(), standard.kind(), standard.ty());
             self.nodes[node].ports.push(Port { standard: Some(standard), ..made });
             self.nodes[node].ports.len() - 1
         });
-        Some(Candidate {
-            name: port.text.clone(),
-            kind: standard.kind(),
-            ty: standard.ty(),
-            place: Place::Port(End { node, port: index }),
-            parameter: false,
-        })
+        Some(End { node, port })
+    }
+
+    /// A port of a nested graph that stands for the ports of the same name of all nodes in it.
+    fn shared_port(&mut self, scope: ScopeId, standard: Standard, span: Span) -> Place {
+        let (name, kind) = (standard.name(), standard.kind());
+        let is_it = |p: &Pin| p.scope == scope && p.name == name && p.kind == kind && p.standard;
+        if let Some(pin) = self.pins.iter().position(is_it) {
+            return Place::Pin(pin);
+        }
+        let docs = String::new();
+        self.pins.push(Pin { name: name.to_owned(), kind, scope, span, docs, standard: true });
+        let place = Place::Pin(self.pins.len() - 1);
+        let nodes: Vec<NodeId> = (0..self.nodes.len()).filter(|n| self.nodes[*n].scope == scope).collect();
+        let nested: Vec<ScopeId> = (1..self.scopes.len()).filter(|s| self.scopes[*s].parent == scope).collect();
+        let mut inner: Vec<Place> =
+            nodes.into_iter().filter_map(|n| Some(Place::Port(self.standard_end(n, standard)?))).collect();
+        inner.extend(nested.into_iter().map(|s| self.shared_port(s, standard, span)));
+        for inner in inner {
+            let (from, to) = if kind == PortKind::Slot { (place, inner) } else { (inner, place) };
+            // Who fails may pass its activity on; who is told to pause has no use for any.
+            self.wires.push(Wire { from, to, active: kind == PortKind::Event, differs: false, span });
+        }
+        place
     }
 
     /// `start => node`: nothing is sent, the node is active from the beginning. A node with a slot for it is sent
     /// a token as by any other event.
     fn starts_active(&mut self, body: &Body<'_>, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
-        let (Symbol::Ports(from), Symbol::Ports(to_ports)) = (from, &to.0) else { return false };
+        let (Symbol::Ports(_, from), Symbol::Ports(_, to_ports)) = (from, &to.0) else { return false };
         let is_start = from
             .iter()
             .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
@@ -337,7 +372,7 @@ impl Builder<'_> {
         arrow: &Arrow,
         open: [bool; 2],
     ) {
-        let ends = |symbol: &Symbol| if let Symbol::Ports(ports) = symbol { ports.len() } else { 1 };
+        let ends = |symbol: &Symbol| if let Symbol::Ports(_, ports) = symbol { ports.len() } else { 1 };
         if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
             return;
         }
@@ -367,7 +402,7 @@ impl Builder<'_> {
     /// A connection that leads here could not be made: that it is missing is no error of its own.
     fn excuse(&mut self, to: &Symbol) {
         match to {
-            Symbol::Ports(ports) => self.excused.extend(ports.iter().filter(|p| !p.kind.sends()).map(|p| p.place)),
+            Symbol::Ports(_, ports) => self.excused.extend(ports.iter().filter(|p| !p.kind.sends()).map(|p| p.place)),
             Symbol::Own(own) => self.excused.extend([own.place]),
             Symbol::Broken => {}
         }
@@ -510,7 +545,7 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
     let explicit = name.contains('.');
     let candidates = match symbol {
         Symbol::Own(candidate) if candidate.kind.sends() == sends => vec![candidate.clone()],
-        Symbol::Ports(ports) => {
+        Symbol::Ports(_, ports) => {
             let side: Vec<Candidate> =
                 ports.iter().filter(|p| p.kind.sends() == sends && (explicit || !p.parameter)).cloned().collect();
             // A port hides a parameter of the same name.
@@ -520,7 +555,7 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
     };
     let all = match symbol {
         // Only said where nothing else can be.
-        Symbol::Ports(ports) if candidates.is_empty() => {
+        Symbol::Ports(_, ports) if candidates.is_empty() => {
             list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>())
         }
         _ => String::new(),

@@ -69,26 +69,23 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
 /// where they lead to a slot: there a node of its own takes part in the synchronous flow. Not needed where the port is
 /// the only one of its side, because nobody can see a difference then.
 fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
-    let mut ports: BTreeMap<(ScopeId, PortKind), usize> = BTreeMap::new();
-    for pin in &builder.pins {
-        *ports.entry((pin.scope, pin.kind)).or_default() += 1;
-    }
-    let is_barred = |builder: &Builder<'_>, place| match place {
-        Place::Pin(pin) => {
-            let Pin { scope, kind, .. } = builder.pins[pin];
-            (kind.is_synchronous() && ports[&(scope, kind)] > 1).then_some(pin)
-        }
+    let barred = barred_pins(builder);
+    let is_barred = |place| match place {
+        Place::Pin(pin) => barred.contains(&pin).then_some(pin),
         Place::Port(_) => None,
     };
+    let comes = |w: &Wire| (w.from, w.to);
+    let goes = |w: &Wire| (w.to, w.from);
+    let (comes, goes) = (asynchronous(builder, wires, &barred, comes), asynchronous(builder, wires, &barred, goes));
     let mut behind: BTreeMap<usize, NodeId> = BTreeMap::new();
     for index in 0..wires.len() {
         let Wire { from, to, .. } = wires[index];
-        if let Some(pin) = is_barred(builder, to).filter(|_| !is_synchronous(builder, from)) {
+        if let Some(pin) = is_barred(to).filter(|_| comes.contains(&from)) {
             let Some(relay) = add_relay(builder, pin, false) else { return };
             wires.push(Wire { from: Place::Port(End { node: relay, port: 1 }), ..wires[index] });
             wires[index].to = Place::Port(End { node: relay, port: 0 });
         }
-        if let Some(pin) = is_barred(builder, from).filter(|_| !is_synchronous(builder, to)) {
+        if let Some(pin) = is_barred(from).filter(|_| goes.contains(&to)) {
             let relay = match behind.get(&pin) {
                 Some(relay) => *relay,
                 None => {
@@ -100,6 +97,43 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
             wires[index].from = Place::Port(End { node: relay, port: 1 });
         }
     }
+}
+
+/// The pins that are not the only one of their side.
+fn barred_pins(builder: &Builder<'_>) -> BTreeSet<usize> {
+    let mut ports: BTreeMap<(ScopeId, PortKind), usize> = BTreeMap::new();
+    for pin in &builder.pins {
+        *ports.entry((pin.scope, pin.kind)).or_default() += 1;
+    }
+    let is_barred = |pin: &Pin| pin.kind.is_synchronous() && ports[&(pin.scope, pin.kind)] > 1;
+    (0..builder.pins.len()).filter(|pin| is_barred(&builder.pins[*pin])).collect()
+}
+
+/// The places outside the synchronous flow, and the pins that `next` leads to from there with nothing that takes part in
+/// the flow in between.
+fn asynchronous(
+    builder: &Builder<'_>,
+    wires: &[Wire],
+    barred: &BTreeSet<usize>,
+    next: impl Fn(&Wire) -> (Place, Place),
+) -> BTreeSet<Place> {
+    let mut behind: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+    for (from, to) in wires.iter().map(next) {
+        behind.entry(from).or_default().push(to);
+    }
+    let mut found: BTreeSet<Place> =
+        behind.iter().flat_map(|(from, to)| to.iter().chain([from])).copied().collect();
+    found.retain(|place| !is_synchronous(builder, *place));
+    let mut ends: Vec<Place> = found.iter().copied().collect();
+    while let Some(place) = ends.pop() {
+        for next in behind.get(&place).into_iter().flatten() {
+            let passes = matches!(next, Place::Pin(pin) if !barred.contains(pin));
+            if passes && found.insert(*next) {
+                ends.push(*next);
+            }
+        }
+    }
+    found
 }
 
 /// A node that passes on the tokens of a pin: the one that sends to it, or the one `behind` it.

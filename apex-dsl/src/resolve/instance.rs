@@ -159,6 +159,7 @@ impl<'a> Builder<'a> {
         if self.budget.exceeded {
             return None;
         }
+        super::wrap::let_activity_into_delays(&self.nodes, &mut self.wires);
         let (connections, open_pins) = flatten::wires(&mut self);
         let mut graph = Graph {
             name,
@@ -499,7 +500,7 @@ impl<'a> Builder<'a> {
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             let (name, docs) = (port.name.text.clone(), port.docs.clone());
-            self.pins.push(Pin { name, kind: port.kind, scope, span: port.name.span, docs });
+            self.pins.push(Pin { name, kind: port.kind, scope, span: port.name.span, docs, standard: false });
             let place = Place::Pin(self.pins.len() - 1);
             // What takes tokens outside sends them inside.
             let inner = port.kind.seen_from_inside();
@@ -507,7 +508,7 @@ impl<'a> Builder<'a> {
             symbol.push((port.name.text.clone(), port.kind, ty, place));
         }
         self.body(&Body::new(id, scope, values, item), inside);
-        Some(Symbol::of_graph(symbol))
+        Some(Symbol::of_graph(scope, symbol))
     }
 
     fn may_open(&mut self, id: GraphId, span: Span) -> Option<()> {

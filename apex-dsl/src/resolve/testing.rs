@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, Type},
-    graph::{Connection, End, Graph, NodeId, NodeKind, Port, Value},
+    graph::{Connection, End, Graph, NodeId, NodeKind, Port, Subject, Value},
     report::{Diagnostic, Diagnostics},
     script::{Script, Seen, Step, Until, What},
     source::{Sources, Span},
@@ -187,7 +187,7 @@ impl Writer<'_> {
 
     fn seen(&mut self, condition: &Condition) -> Option<Seen> {
         let what = if condition.active {
-            What::Active(self.scope_or_node(&condition.of)?)
+            What::Active(self.subject(&condition.of)?)
         } else {
             let (probe, ty) = self.probe(&condition.of)?;
             let test = match &condition.compare {
@@ -210,14 +210,17 @@ impl Writer<'_> {
     }
 
     /// The nodes that a name stands for: a node, or all nodes of a nested graph.
-    fn scope_or_node(&mut self, of: &PortRef) -> Option<Vec<NodeId>> {
-        let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
-        let found: Vec<NodeId> = (0..paths.len()).filter(|n| is_or_contains(of, &paths[*n])).collect();
-        if found.is_empty() {
-            self.unknown(of.span, &of.text(), paths.iter().map(String::as_str));
-            return None;
+    /// The node or nested graph of this name.
+    fn subject(&mut self, of: &PortRef) -> Option<Subject> {
+        let path = of.text();
+        let nodes = (0..self.graph.nodes.len()).map(Subject::Node);
+        let all: Vec<Subject> = nodes.chain((1..self.graph.scopes.len()).map(Subject::Scope)).collect();
+        let names: Vec<String> = all.iter().map(|subject| self.graph.subject_name(*subject)).collect();
+        let found = names.iter().position(|name| *name == path);
+        if found.is_none() {
+            self.unknown(of.span, &path, names.iter().map(String::as_str));
         }
-        Some(found)
+        found.map(|i| all[i])
     }
 
     fn unknown<'n>(&mut self, span: Span, path: &str, known: impl Iterator<Item = &'n str>) {

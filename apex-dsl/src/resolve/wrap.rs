@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     catalog::SignatureId,
-    graph::{Each, End, Graph, NodeKind, Place, Port, Scope, Value, Wire},
+    graph::{Each, End, Graph, Node, NodeId, NodeKind, Place, Port, Scope, Value, Wire},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
@@ -173,5 +173,17 @@ impl Builder<'_> {
             out.place = Place::Port(End { node, port: 1 });
         }
         Some(symbol)
+    }
+}
+
+/// Activity goes into a delay if it can go on from there: the text says it only behind the delay.
+pub fn let_activity_into_delays(nodes: &[Node], wires: &mut [Wire]) {
+    let delay = |place: Place| match place {
+        Place::Port(end) if nodes[end.node].is_delay() => Some(end.node),
+        _ => None,
+    };
+    let active: BTreeSet<NodeId> = wires.iter().filter(|w| w.active).filter_map(|w| delay(w.from)).collect();
+    for wire in wires {
+        wire.active |= delay(wire.to).is_some_and(|node| active.contains(&node));
     }
 }

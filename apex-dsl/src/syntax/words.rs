@@ -74,7 +74,11 @@ pub const WORDS: [Word; 49] = [
     word("every", Place::Modifier, "The source fires at 0 and then once per period."),
     word("after", Place::Modifier, "The source fires at that time for the first time; without `every` only then."),
     word("timeout", Place::Modifier, "The node triggers its event `timeout` when it has been active for so long."),
-    word("deadline", Place::Modifier, "How old a token may be when the node takes it."),
+    word(
+        "deadline",
+        Place::Modifier,
+        "How long after the firing of its source the node must have finished; else it triggers `late`.",
+    ),
     word("on", Place::Modifier, "The group of threads that the node runs in."),
     word("each", Place::Modifier, "Runs once per element of a list input; results are collected in order."),
     word(

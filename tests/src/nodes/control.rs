@@ -163,3 +163,25 @@ impl Stamps {
         self.seen.push(ctx.now());
     }
 }
+
+/// Records its events `late`, and how old what it took was.
+#[node]
+#[derive(Default)]
+pub struct Ages {
+    /// When the slot was called.
+    pub late: Vec<Time>,
+    /// The ages of the tokens at the input, in milliseconds.
+    pub ages: Vec<u128>,
+}
+
+#[node]
+impl Ages {
+    fn process(&mut self, x: &i64, y: &i64, ctx: &Ctx) {
+        let _ = (x, y);
+        self.ages.push(ctx.now().since(ctx.stamp()).as_millis());
+    }
+    #[slot]
+    fn late(&mut self, ctx: &Ctx) {
+        self.late.push(ctx.now());
+    }
+}
