@@ -14,6 +14,7 @@ mod project;
 mod replace;
 mod run;
 mod test;
+mod texts;
 mod watch;
 
 use clap::{Parser, Subcommand, ValueEnum};
