@@ -1,6 +1,6 @@
 //! `apex fmt`.
 
-use crate::{project, replace::replace};
+use crate::{project, replace::replace, texts};
 use apex_dsl::{
     report::Diagnostics,
     source::{Sources, World as _},
@@ -8,7 +8,6 @@ use apex_dsl::{
 };
 use apex_host::Disk;
 use std::{
-    fs,
     io::{self, ErrorKind, Read as _, Write as _},
     path::{Path, PathBuf},
     process::ExitCode,
@@ -32,7 +31,7 @@ pub fn run(paths: &[PathBuf], check: bool) -> Result<ExitCode, String> {
             worst = worst.max(told(standard_input(check)));
             continue;
         }
-        match files(path) {
+        match texts::named(path) {
             Ok(files) => files.iter().for_each(|file| worst = worst.max(told(format_file(file, check)))),
             Err(message) => worst = worst.max(told(Err(message))),
         }
@@ -46,39 +45,6 @@ fn told(outcome: Result<Outcome, String>) -> Outcome {
         project::print_error(&format!("error: {message}"));
         Outcome::Failed
     })
-}
-
-/// The file itself, or the texts below a folder.
-fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
-    if !path.is_dir() {
-        return Ok(vec![path.to_owned()]);
-    }
-    let mut found = vec![];
-    collect(path, &mut found).map_err(|(folder, e)| format!("cannot read `{}`: {e}", folder.display()))?;
-    if found.is_empty() {
-        return Err(format!("there is no `.afg` text in `{}`", path.display()));
-    }
-    Ok(found)
-}
-
-/// Adds the texts below `folder` in order. Hidden folders and those that tools mark as their caches are left out.
-fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::Error)> {
-    let at = |e| (folder.to_owned(), e);
-    let entries: io::Result<Vec<_>> = fs::read_dir(folder).and_then(Iterator::collect);
-    let mut entries = entries.map_err(at)?;
-    entries.sort_by_key(fs::DirEntry::file_name);
-    for entry in entries {
-        let path = entry.path();
-        let is_hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
-        if entry.file_type().map_err(at)?.is_dir() {
-            if !is_hidden && !path.join("CACHEDIR.TAG").exists() {
-                collect(&path, found)?;
-            }
-        } else if path.extension().is_some_and(|e| e == "afg") && path.is_file() {
-            found.push(path);
-        }
-    }
-    Ok(())
 }
 
 fn format_file(path: &Path, check: bool) -> Result<Outcome, String> {

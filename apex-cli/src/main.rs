@@ -2,6 +2,7 @@
 
 mod check;
 mod completions;
+mod doc;
 mod expand;
 mod explain;
 mod fix;
@@ -14,6 +15,7 @@ mod project;
 mod replace;
 mod run;
 mod test;
+mod texts;
 mod watch;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -53,6 +55,18 @@ enum Command {
     Completions {
         /// The shell.
         shell: clap_complete::Shell,
+    },
+    /// Write pages about graphs and nodes, with diagrams.
+    #[command(
+        after_help = "Texts that are imported get pages too, and so do the nodes that are used. The pages are HTML and need nothing else.\nA folder with other things in it is refused. If a text has errors, nothing is written.\n\nExample:\n  apex doc robot.afg\n  apex doc robots --output pages"
+    )]
+    Doc {
+        /// The texts; of a folder all `.afg` below it.
+        #[arg(required = true, value_name = "FILE")]
+        paths: Vec<PathBuf>,
+        /// The folder to write to; without it, `apex/doc` below the target folder of the package.
+        #[arg(short, long, value_name = "FOLDER")]
+        output: Option<PathBuf>,
     },
     /// Bring texts into the one style of the language.
     #[command(
@@ -183,6 +197,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check { files, format, fix } => check::run(&files, format, fix),
         Command::Completions { shell } => completions::run(shell),
+        Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
         Command::Explain { what, format, pnml, .. } => explain::run(what.as_deref(), format, pnml),

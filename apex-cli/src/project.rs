@@ -2,6 +2,7 @@
 
 use apex_dsl::{
     catalog::{Catalog, Crates},
+    claims::MAX_STATES,
     passes::{self, Program},
     report::{Diagnostics, Severity, render},
     source::{Sources, World as _},
@@ -36,14 +37,17 @@ pub fn package_of(file: &Path) -> Option<PathBuf> {
 pub fn check(file: &Path) -> Result<Checked, String> {
     let mut checker = Checker::new(file)?;
     let text = checker.read(file)?;
-    let (sources, diagnostics, programs) = checker.check(file, text);
-    checker.disk.save();
-    Ok(Checked { sources, diagnostics, programs, catalog: checker.catalog })
+    let (sources, diagnostics, checked) = checker.check(file, text);
+    checker.save();
+    Ok(Checked { sources, diagnostics, programs: checked.programs, catalog: checker.catalog })
 }
 
 /// Checks texts of one package, also those that are not what stands on the disk.
 pub struct Checker {
-    catalog: Catalog,
+    /// The node types they can use.
+    pub catalog: Catalog,
+    /// The workspace of the package; none outside of any package.
+    pub workspace: Option<Workspace>,
     disk: Disk,
 }
 
@@ -55,7 +59,7 @@ impl Checker {
         let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
         let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
         let catalog = Catalog::load(crates, &mut disk);
-        Ok(Self { catalog, disk })
+        Ok(Self { catalog, workspace, disk })
     }
 
     /// What stands in `file`.
@@ -63,13 +67,19 @@ impl Checker {
         self.disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))
     }
 
+    /// Remembers what was found in Rust files.
+    pub fn save(&mut self) {
+        self.disk.save();
+    }
+
     /// Checks `text` as if it stood in `file`.
-    pub fn check(&mut self, file: &Path, text: Arc<str>) -> (Sources, Diagnostics, Vec<Program>) {
+    pub fn check(&mut self, file: &Path, text: Arc<str>) -> (Sources, Diagnostics, passes::Checked) {
         let mut sources = Sources::default();
         let root = sources.add(file, text);
         let mut diagnostics = Diagnostics::default();
-        let programs = passes::check(root, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
-        (sources, diagnostics, programs)
+        let (catalog, disk) = (&mut self.catalog, &mut self.disk);
+        let checked = passes::check_all(root, catalog, &mut sources, disk, MAX_STATES, &mut diagnostics);
+        (sources, diagnostics, checked)
     }
 }
 

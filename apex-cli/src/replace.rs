@@ -1,13 +1,13 @@
 //! Changes a file as a whole.
 
 use std::{
-    fs,
+    fs::{self, Permissions},
     io::{self, ErrorKind, Write as _},
     path::Path,
     process,
 };
 
-/// Writes a file beside `path` and puts it in its place, so that there is always a whole one.
+/// Changes the file `path`, so that there is always a whole one.
 pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     // What a link leads to is changed, not the link.
     let path = fs::canonicalize(path)?;
@@ -15,14 +15,19 @@ pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     if permissions.readonly() {
         return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
     }
+    put(&path, text, Some(permissions))
+}
+
+/// Writes a file beside `path` and puts it in its place, whether or not there is something.
+pub fn put(path: &Path, text: &str, permissions: Option<Permissions>) -> io::Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".{name}.{}", process::id()));
     let written = fs::File::create_new(&temporary).and_then(|mut file| {
         file.write_all(text.as_bytes())?;
-        file.set_permissions(permissions)?;
+        permissions.map_or(Ok(()), |permissions| file.set_permissions(permissions))?;
         file.sync_all()
     });
-    let result = written.and_then(|()| fs::rename(&temporary, &path));
+    let result = written.and_then(|()| fs::rename(&temporary, path));
     if result.is_err() {
         let _ = fs::remove_file(&temporary);
     }

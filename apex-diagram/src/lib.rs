@@ -14,5 +14,5 @@ mod words;
 pub use build::diagram;
 pub use dot::dot;
 pub use model::{Anchor, Flow, Frame, Item, Line, MAX_ITEMS, Port, Shape, Side};
-pub use states::states;
+pub use states::{machine, states};
 pub use svg::svg;

@@ -30,6 +30,8 @@ pub struct Checked {
     pub links: Vec<Link>,
     /// The programs in it, as far as they are whole.
     pub programs: Vec<Program>,
+    /// The graphs in it that are no programs: used in other ones, or with parameters without a value.
+    pub parts: Vec<Graph>,
 }
 
 /// Checks the text `root` and everything it imports. Programs are given as far as they are whole.
@@ -54,14 +56,16 @@ pub fn check_all(
 ) -> Checked {
     catalog.forget_machines();
     let resolved = resolve::resolve(root, catalog, sources, world, diagnostics);
-    let mut programs = vec![];
+    let (mut programs, mut parts) = (vec![], resolved.nested);
     let graphs = resolved.graphs.into_iter().map(|graph| (graph, None));
     let tests = resolved.tests.into_iter().map(|(graph, script)| (graph, Some(script)));
     for (mut graph, script) in graphs.chain(tests) {
         check::check(&mut graph, catalog, diagnostics);
         if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
             codegen::check_rates(&graph, &analysis, diagnostics);
-            if !graph.is_open {
+            if graph.is_open {
+                parts.push(graph);
+            } else {
                 programs.push(Program { graph, analysis, script });
             }
         }
@@ -75,7 +79,7 @@ pub fn check_all(
             analysis.claims = claims::decide(graph, catalog, states, diagnostics);
         }
     }
-    Checked { texts: resolved.texts, links: resolved.links, programs }
+    Checked { texts: resolved.texts, links: resolved.links, programs, parts }
 }
 
 /// Rust for `programs`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in

@@ -12,8 +12,8 @@ use std::{
     time::UNIX_EPOCH,
 };
 
-/// Changes when the form of the cached items does.
-const VERSION: u32 = 4;
+/// Changes when the cached items do.
+const VERSION: u32 = 5;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {

@@ -3,27 +3,35 @@
 use crate::common::{Folder, apex};
 use std::{fs, path::Path};
 
-/// The first block of the page that is marked with this word.
-fn block(word: &str) -> String {
+/// The first block of the page that begins so.
+fn block(begin: &str) -> String {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/tools.md");
     let page = fs::read_to_string(page).unwrap();
-    let (_, rest) = page.split_once(&format!("```{word}\n")).unwrap();
-    rest.split_once("```").unwrap().0.to_owned()
+    let begin = format!("```{begin}");
+    let (_, rest) = page.split_once(&begin).unwrap();
+    let block = begin + rest.split_once("```").unwrap().0;
+    block.split_once('\n').unwrap().1.to_owned()
+}
+
+/// Runs the command of a block in `folder`, and compares what it says.
+fn runs(begin: &str, folder: &Path) {
+    let console = block(&format!("console\n$ apex {begin}"));
+    let (command, said) = console.split_once('\n').unwrap();
+    let arguments = command.strip_prefix("$ apex ").unwrap().split(' ');
+    let output = apex().args(arguments).current_dir(folder).env_remove("CARGO_TARGET_DIR").output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), said);
 }
 
 #[test]
-fn the_new_project_of_the_page() {
+fn the_new_project_of_the_page_and_its_documentation() {
     let folder = Folder::new("docs-new");
-    let console = block("console");
-    let (command, said) = console.split_once('\n').unwrap();
-    let arguments = command.strip_prefix("$ apex ").unwrap().split(' ');
-    let output = apex().args(arguments).current_dir(&folder.0).output().unwrap();
-    assert_eq!(String::from_utf8(output.stdout).unwrap(), said);
+    runs("new", &folder.0);
+    runs("doc", &folder.0.join("my-robot"));
 }
 
 #[test]
 fn the_import_of_the_page() {
     let folder = Folder::new("docs-import");
-    let output = apex().arg("import").arg(folder.file("robot.apex", block("yaml"))).output().unwrap();
-    assert_eq!(String::from_utf8(output.stdout).unwrap(), block("text"));
+    let output = apex().arg("import").arg(folder.file("robot.apex", block("yaml\n"))).output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), block("text\n"));
 }

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 mod common;
 
 mod completions;
+mod doc;
 mod docs;
 mod import;
 mod new;

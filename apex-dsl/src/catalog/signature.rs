@@ -182,13 +182,18 @@ pub fn docs(attrs: &[Attribute]) -> String {
         .filter(|a| a.path().is_ident("doc"))
         .filter_map(|a| match &a.meta {
             syn::Meta::NameValue(nv) => match &nv.value {
-                Expr::Lit(ExprLit { lit: Lit::Str(s), .. }) => Some(s.value().trim().to_owned()),
+                Expr::Lit(ExprLit { lit: Lit::Str(s), .. }) => Some(unindented(&s.value())),
                 _ => None,
             },
             _ => None,
         })
         .collect();
     lines.join("\n")
+}
+
+/// Without the blank that all lines begin with; further ones mean something in Markdown.
+fn unindented(line: &str) -> String {
+    line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned()
 }
 
 fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {

@@ -14,11 +14,11 @@ use crate::{
 /// What a name means: its declaration, then its documentation.
 pub fn describe(view: &View<'_>, definition: Definition) -> String {
     match definition {
-        Definition::Node(node) => page(&signature(view, node), view.docs_of(node)),
+        Definition::Node(node) => page(&declaration(view, node), view.docs_of(node)),
         Definition::Instance(id, i) => {
             let item = &view.texts.graph(id).nodes[i];
             let made = view.made_of(id, i).0;
-            let declaration = made.map_or_else(String::new, |made| signature(view, made));
+            let declaration = made.map_or_else(String::new, |made| declaration(view, made));
             let docs = match made {
                 Some(made) if item.docs.is_empty() => view.docs_of(made),
                 _ => &item.docs,
@@ -113,7 +113,7 @@ fn page(declaration: &str, docs: &str) -> String {
 }
 
 /// A graph, state machine or node with its parameters and ports, as a text would declare it.
-fn signature(view: &View<'_>, node: NodeType) -> String {
+pub fn declaration(view: &View<'_>, node: NodeType) -> String {
     let word = match node {
         NodeType::Graph(id) if view.texts.graph(id).robot => "robot",
         NodeType::Graph(_) => "graph",

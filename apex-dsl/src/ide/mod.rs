@@ -18,7 +18,7 @@ use crate::{
 
 pub use complete::{Completion, CompletionKind, Siblings, complete};
 pub use definition::{Definition, MachineId, NodeType, Origin, ParamFacts, PortFacts};
-pub use describe::{describe, describe_link, describe_word, flow_word};
+pub use describe::{declaration, describe, describe_link, describe_word, flow_word};
 pub use occurrences::{Occurrence, at, occurrences};
 pub use outline::{Symbol, SymbolKind, outline};
 pub use rename::{may_rename, rename};

@@ -66,6 +66,8 @@ pub struct Resolved {
     /// The graphs that are not used inside another one of the first text: the programs in it, and those that would
     /// be programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
+    /// The graphs that are used inside another one of the first text, by themselves.
+    pub nested: Vec<Graph>,
     /// The connections of the graphs of the first text, as written.
     pub links: Vec<Link>,
     /// Whether a text has statements or items that could not be read.
@@ -85,7 +87,7 @@ pub fn resolve(
     let texts = Texts::load(root, catalog, sources, world, diagnostics);
     let broken = texts.are_broken();
     let used = used(&texts.files[0].1);
-    let (mut graphs, mut links) = (vec![], vec![]);
+    let (mut graphs, mut nested, mut links) = (vec![], vec![], vec![]);
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
@@ -94,9 +96,8 @@ pub fn resolve(
             break;
         }
         let resolved = instance::graph(&texts, catalog, id, &mut budget, &mut links, diagnostics);
-        if !is_nested {
-            graphs.extend(resolved);
-        }
+        let group = if is_nested { &mut nested } else { &mut graphs };
+        group.extend(resolved);
     }
     generated_names(&texts.files[0].1, &used, diagnostics);
     let mut tests = vec![];
@@ -113,7 +114,7 @@ pub fn resolve(
                 .note("a smallest graph is `graph Name { }`"),
         );
     }
-    Resolved { texts, graphs, broken, links, tests }
+    Resolved { texts, graphs, nested, broken, links, tests }
 }
 
 /// What the types are called that belong to the program of a graph, behind its name.

@@ -670,5 +670,7 @@ fn push_doc(docs: &mut String, pair: &Pair<'_, Rule>) {
     if !docs.is_empty() {
         docs.push('\n');
     }
-    docs.push_str(pair.as_str()[3..].trim());
+    // Indentation means something in Markdown, but for the blank that all lines begin with.
+    let line = &pair.as_str()[3..];
+    docs.push_str(line.strip_prefix(' ').unwrap_or(line).trim_end());
 }

@@ -1,0 +1,88 @@
+//! The folder that pages are written to. Files in it that are not pages of ours stay as they are.
+
+use super::names::is_page;
+use crate::replace::put;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    io::{self, ErrorKind},
+    path::{Path, PathBuf},
+};
+
+/// The file that names the pages in a folder.
+const LIST: &str = ".apex-doc";
+/// Its first line.
+const HEAD: &str = "Made by `apex doc`, which writes and removes the files that are named here.";
+
+/// A folder that is empty, or that was made for pages.
+pub struct Folder {
+    path: PathBuf,
+    /// The pages in it.
+    pages: BTreeSet<String>,
+}
+
+impl Folder {
+    /// Looks at a folder, which need not be there. One with other things in it is refused.
+    pub fn open(path: PathBuf) -> Result<Self, String> {
+        let failed = |e: io::Error| format!("cannot write pages to `{}`: {e}", path.display());
+        let list = match fs::read_to_string(path.join(LIST)) {
+            Err(e) if e.kind() == ErrorKind::NotFound => None,
+            list => Some(list.map_err(failed)?),
+        };
+        let is_empty = match fs::read_dir(&path) {
+            Ok(mut entries) => entries.next().is_none(),
+            Err(e) if e.kind() == ErrorKind::NotFound => true,
+            Err(e) => return Err(failed(e)),
+        };
+        if list.is_none() && !is_empty {
+            return Err(format!(
+                "`{}` has things in it that `apex doc` did not make: name another folder with `--output`",
+                path.display()
+            ));
+        }
+        let lines = list.iter().flat_map(|list| list.lines().skip(1));
+        let pages = lines.filter(|name| is_page(name)).map(str::to_owned).collect();
+        Ok(Self { path, pages })
+    }
+
+    /// Writes `pages` and removes those that were there before. What was put there by somebody else is kept.
+    pub fn write(&self, pages: &BTreeMap<String, String>) -> Result<(), String> {
+        let others = |name: &&String| !self.pages.contains(*name) && self.path.join(name).symlink_metadata().is_ok();
+        if let Some(other) = pages.keys().find(others) {
+            let path = self.path.join(other);
+            return Err(format!("`{}` was not made by `apex doc`: move it away", path.display()));
+        }
+        fs::create_dir_all(&self.path).map_err(|e| failed("make", &self.path, &e))?;
+        // Wherever it is broken off, the next run knows what is of ours.
+        self.list(self.pages.iter().chain(pages.keys()).collect())?;
+        for (name, text) in pages {
+            let path = self.path.join(name);
+            put(&path, text, None).map_err(|e| failed("write", &path, &e))?;
+        }
+        for name in self.pages.iter().filter(|name| !pages.contains_key(*name)) {
+            let path = self.path.join(name);
+            match fs::remove_file(&path) {
+                Err(e) if e.kind() != ErrorKind::NotFound => return Err(failed("remove", &path, &e)),
+                _ => {}
+            }
+        }
+        self.list(pages.keys().collect())
+    }
+
+    /// Writes down which pages there are.
+    fn list(&self, names: BTreeSet<&String>) -> Result<(), String> {
+        let text: String =
+            [HEAD].into_iter().chain(names.into_iter().map(String::as_str)).flat_map(|l| [l, "\n"]).collect();
+        let path = self.path.join(LIST);
+        put(&path, &text, None).map_err(|e| failed("write", &path, &e))
+    }
+
+    /// The page to begin with.
+    pub fn index(&self) -> PathBuf {
+        self.path.join(super::names::Names::INDEX)
+    }
+}
+
+fn failed(what: &str, path: &Path, error: &io::Error) -> String {
+    format!("cannot {what} `{}`: {error}", path.display())
+}

@@ -1,0 +1,144 @@
+//! `apex doc`: pages about graphs and nodes. Here texts are read; what the pages say is collected in [`collect`],
+//! turned into HTML in [`pages`] and written by [`folder`].
+
+mod book;
+mod collect;
+mod folder;
+mod html;
+mod markdown;
+mod names;
+mod pages;
+
+use crate::{
+    project::{self, Checker},
+    texts,
+};
+use apex_dsl::{ide::View, report::render};
+use book::{Book, Files, Item, Key, Text};
+use folder::Folder;
+use std::{
+    collections::{BTreeMap, BTreeSet, VecDeque, btree_map::Entry},
+    env, fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+/// Writes pages about texts and all that they import to a folder; without one, below where cargo builds.
+pub fn run(paths: &[PathBuf], output: Option<&Path>) -> Result<ExitCode, String> {
+    let named: Vec<Vec<PathBuf>> = paths.iter().map(|path| texts::named(path)).collect::<Result<_, _>>()?;
+    let mut reader = Reader::new(named.concat());
+    let folder = Folder::open(match output {
+        Some(folder) => folder.to_owned(),
+        None => reader.folder()?,
+    })?;
+    let Some(book) = reader.read()? else { return Ok(ExitCode::from(1)) };
+    let pages = pages::pages(&book);
+    folder.write(&pages)?;
+    let index = folder.index();
+    let here = env::current_dir().unwrap_or_default();
+    let shown = index.strip_prefix(here).unwrap_or(&index);
+    project::print(&format!("wrote {} pages; begin with {}", pages.len(), shown.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Reads texts, and those that they import.
+struct Reader {
+    /// What is still to be read.
+    waiting: VecDeque<PathBuf>,
+    /// One for each package.
+    checkers: BTreeMap<Option<PathBuf>, Checker>,
+    files: Files,
+    /// The texts that are or will be read.
+    known: BTreeSet<PathBuf>,
+    /// What was said: a text that several import is checked with each of them.
+    said: BTreeSet<String>,
+    texts: Vec<Text>,
+    nodes: BTreeMap<Key, Item>,
+}
+
+impl Reader {
+    fn new(paths: Vec<PathBuf>) -> Self {
+        let mut places = BTreeMap::new();
+        let (mut waiting, mut known) = (VecDeque::new(), BTreeSet::new());
+        let mut base: Option<PathBuf> = None;
+        for path in paths {
+            let file = real(&path);
+            let folder = file.parent().unwrap_or(&file);
+            base = Some(base.map_or_else(|| folder.to_owned(), |base| common(&base, folder)));
+            places.insert(path.clone(), file.clone());
+            if known.insert(file) {
+                waiting.push_back(path);
+            }
+        }
+        let files = Files { base: base.unwrap_or_default(), real: places };
+        let (checkers, said, nodes) = (BTreeMap::new(), BTreeSet::new(), BTreeMap::new());
+        Self { waiting, checkers, files, known, said, texts: vec![], nodes }
+    }
+
+    /// Where pages go if nobody says so.
+    fn folder(&mut self) -> Result<PathBuf, String> {
+        let Some(first) = self.waiting.front().cloned() else { return Err("there is no text".to_owned()) };
+        let workspace = &checker(&mut self.checkers, &first)?.workspace;
+        workspace.as_ref().map(|workspace| workspace.cache_folder().join("doc")).ok_or_else(|| {
+            format!("`{}` belongs to no package: say with `--output` where the pages go", first.display())
+        })
+    }
+
+    /// All texts with the nodes that they use; nothing if one has errors, which are printed.
+    fn read(mut self) -> Result<Option<Book>, String> {
+        let mut is_wrong = false;
+        while let Some(path) = self.waiting.pop_front() {
+            is_wrong |= !self.text(&path)?;
+        }
+        self.checkers.values_mut().for_each(Checker::save);
+        self.texts.sort_by(|a, b| (&a.path, &a.key).cmp(&(&b.path, &b.key)));
+        let mut nodes: Vec<Item> = self.nodes.into_values().collect();
+        nodes.sort_by(|a, b| (&a.module, &a.key.name, &a.key).cmp(&(&b.module, &b.key.name, &b.key)));
+        Ok((!is_wrong).then_some(Book { texts: self.texts, nodes }))
+    }
+
+    /// Reads one text; false if it has errors.
+    fn text(&mut self, path: &Path) -> Result<bool, String> {
+        let checker = checker(&mut self.checkers, path)?;
+        let text = checker.read(path)?;
+        let (sources, mut diagnostics, checked) = checker.check(path, text);
+        let is_wrong = diagnostics.has_errors();
+        diagnostics.retain(|diagnostic| self.said.insert(render(diagnostic, &sources, false)));
+        project::print_diagnostics(&diagnostics, &sources);
+        if is_wrong {
+            return Ok(false);
+        }
+        for source in sources.iter() {
+            let file = real(&source.path);
+            self.files.real.insert(source.path.clone(), file.clone());
+            if self.known.insert(file) {
+                self.waiting.push_back(source.path.clone());
+            }
+        }
+        let package = checker.workspace.as_ref().map(|workspace| (workspace.root.as_path(), workspace.binary().0));
+        let (texts, links, catalog) = (&checked.texts, &checked.links[..], &checker.catalog);
+        let view = View { texts, links, sources: &sources, catalog };
+        let (programs, parts, files) = (&checked.programs[..], &checked.parts[..], &self.files);
+        let checked = collect::Checked { view, programs, parts, files, package };
+        self.texts.push(checked.text(&mut self.nodes));
+        Ok(true)
+    }
+}
+
+/// The checker for the package that a text belongs to.
+fn checker<'a>(checkers: &'a mut BTreeMap<Option<PathBuf>, Checker>, file: &Path) -> Result<&'a mut Checker, String> {
+    Ok(match checkers.entry(project::package_of(file)) {
+        Entry::Occupied(known) => known.into_mut(),
+        Entry::Vacant(free) => free.insert(Checker::new(file)?),
+    })
+}
+
+/// The path that tells a text from all others. One that is not there is missed when it is read.
+fn real(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// The folder that both are in.
+fn common(a: &Path, b: &Path) -> PathBuf {
+    a.components().zip(b.components()).take_while(|(a, b)| a == b).map(|(a, _)| a).collect()
+}
