@@ -121,8 +121,7 @@ fn asynchronous(
     for (from, to) in wires.iter().map(next) {
         behind.entry(from).or_default().push(to);
     }
-    let mut found: BTreeSet<Place> =
-        behind.iter().flat_map(|(from, to)| to.iter().chain([from])).copied().collect();
+    let mut found: BTreeSet<Place> = behind.iter().flat_map(|(from, to)| to.iter().chain([from])).copied().collect();
     found.retain(|place| !is_synchronous(builder, *place));
     let mut ends: Vec<Place> = found.iter().copied().collect();
     while let Some(place) = ends.pop() {
