@@ -220,3 +220,12 @@ fn a_nested_graph_is_switched_off_and_fails_as_one() {
     assert_eq!(program.nodes().notes.seen, ["odd"; 3], "1, 5 and 7");
     assert_eq!((log.count("g.f"), log.count("s")), (6, 9));
 }
+
+#[test]
+fn restart_keeps_the_parameters() {
+    let mut program = Restarts::new();
+    apex_rt::params::set_text(&mut program, "f.at", "1").expect("a parameter");
+    react(&mut program, 5);
+    assert_eq!(program.nodes().k.seen, [1, 1, 2, 3]);
+    assert!(apex_rt::params::save(&mut program).contains("at = 1"), "{}", apex_rt::params::save(&mut program));
+}

@@ -44,28 +44,20 @@ pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Di
 /// Reports events that lead to inputs from which tokens flow back to their node: the event is free again only when all
 /// behind it has finished (R7), and the node fires only while it is free (R1).
 fn check_waits(graph: &Graph, diagnostics: &mut Diagnostics) {
-    let is_delay = |node: NodeId| matches!(graph.nodes[node].kind, NodeKind::Delay(_));
-    let (mut all, mut at_once) = (vec![vec![]; graph.nodes.len()], vec![vec![]; graph.nodes.len()]);
+    let mut after = vec![vec![]; graph.nodes.len()];
     for c in graph.connections.iter().filter(|c| graph.flow(c) != Flow::ToSlot) {
-        all[c.from.node].push(c.to.node);
-        if graph.is_synchronous(c) && !is_delay(c.from.node) {
-            at_once[c.from.node].push(c.to.node);
-        }
+        after[c.from.node].push(c.to.node);
     }
     for c in graph.connections.iter().filter(|c| graph.flow(c) == Flow::ToInput) {
-        let (node, event) = (graph.path(c.from.node), graph.end_name(c.from));
-        if is_reached(&at_once, c.to.node, c.from.node) {
+        if is_reached(&after, c.to.node, c.from.node) {
+            let (node, event) = (graph.path(c.from.node), graph.end_name(c.from));
             let message =
                 format!("`{node}` would wait for its own event: what `{event}` triggers leads to `{node}` again");
             diagnostics.push(
                 Diagnostic::error("own-event", c.span, message)
-                    .note("it fires only while its events are free, and this one is free when all behind it has fired")
+                    .note("it fires only while its events are free, and this one is free when all behind it has fired, also behind a `delay`")
                     .note("lead the event to a slot instead"),
             );
-        } else if is_reached(&all, c.to.node, c.from.node) {
-            let message =
-                format!("the event `{event}` cannot lead to an input on a loop through a `delay` to `{node}` yet");
-            diagnostics.push(Diagnostic::error("not-yet", c.span, message).note("lead the event to a slot instead"));
         }
     }
 }

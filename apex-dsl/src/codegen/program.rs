@@ -198,14 +198,18 @@ impl Generator<'_> {
         }
     }
 
-    /// Makes a node anew, unless Rust made it.
+    /// Makes a node anew, unless Rust made it. Its parameters stay as they are: they are settings, not state.
     pub fn remake(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
         if library.handed_in || self.catalog.signatures[library.signature].is_function {
             return quote!();
         }
         let (place, make) =
             (self.node_place(graph, node), self.construct(graph, &self.node_type(graph, library), library));
-        quote! { #place = #make; }
+        let keeps = (0..library.params.len()).map(|param| {
+            quote! { ::core::mem::swap(::apex_rt::ParamField::<#param>::field(&mut #place), ::apex_rt::ParamField::<#param>::field(&mut made)); }
+        });
+        let mutable = (!library.params.is_empty()).then(|| quote!(mut));
+        quote! { let #mutable made = #make; #(#keeps)* #place = made; }
     }
 
     fn construct(&self, graph: &Graph, ty: &TokenStream, library: &Library) -> TokenStream {
