@@ -152,7 +152,7 @@ pub fn clusters(
             add(Guard::Events(id));
         }
     }
-    let view = View { graph, catalog, links, order, regions };
+    let view = View { graph, catalog, links, order, regions, asynchronous };
     add_react_guards(&view, &mut guards, &mut own);
     let accumulated = accumulate(&view, &guards, &own);
     let mut by_guards: BTreeMap<(usize, &BTreeSet<usize>), Vec<NodeId>> = BTreeMap::new();
@@ -235,6 +235,15 @@ struct View<'a> {
     links: &'a Links,
     order: &'a [NodeId],
     regions: &'a [usize],
+    asynchronous: &'a Asynchronous,
+}
+
+impl View<'_> {
+    /// Whether what a node sends to slots may hold back those that feed it.
+    fn sends_what_stays(&self, node: NodeId) -> bool {
+        let is_output = |c: &usize| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
+        self.links.sends[node].iter().any(|c| is_output(c) && self.asynchronous.stays[*c])
+    }
 }
 
 /// Sources without a pace fire once per `react`. Two of them may share a cluster only if the same things
@@ -244,6 +253,10 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut [Vec<usi
     let above = accumulate(view, guards, own);
     let mut holding = above.clone();
     for &node in view.order.iter().rev() {
+        if view.sends_what_stays(node) {
+            // No guard of its own, but told apart like one.
+            holding[node].insert(usize::MAX - node);
+        }
         for &c in &view.links.out_of[node] {
             let next = holding[view.graph.connections[c].to.node].clone();
             holding[node].extend(next);

@@ -26,7 +26,7 @@ pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
 pub use delivery::{Delivery, at_start, ordered};
-pub use order::Loops;
+pub use order::{Loops, events_on_circles};
 pub use pruning::Characteristics;
 pub use schedule::{Block, Step};
 pub use stamps::Stamps;

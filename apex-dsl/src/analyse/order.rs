@@ -2,7 +2,7 @@
 
 use super::Links;
 use crate::{
-    graph::{Crossing, Graph, NodeId, ScopeId},
+    graph::{Crossing, Flow, Graph, NodeId, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
 use std::{
@@ -26,34 +26,39 @@ struct Precedence {
 }
 
 impl Precedence {
+    /// That of one iteration.
     fn new(graph: &Graph, links: &Links) -> Self {
+        let is_taken = |c: &usize| !links.loops.delays.contains(&graph.connections[*c].from.node);
+        let mut precedence = Self::of(graph, links.into.iter().flatten().copied().filter(is_taken));
+        for (node, begun) in &links.loops.begun_by {
+            precedence.edges[*node].extend(begun.iter().map(|next| (*next, None)));
+        }
+        precedence
+    }
+
+    /// That of some connections. One to a slot counts as far as the last side that it passes.
+    fn of(graph: &Graph, connections: impl Iterator<Item = usize>) -> Self {
         let nodes = graph.nodes.len();
         let scopes = graph.scopes.len();
         let mut vertices: Vec<Vertex> = (0..nodes).map(Vertex::Node).collect();
         vertices.extend((0..scopes).map(Vertex::Enter));
         vertices.extend((0..scopes).map(Vertex::Leave));
         let mut edges = vec![vec![]; vertices.len()];
-        for connection in links.into.iter().flatten() {
-            let c = &graph.connections[*connection];
-            if links.loops.delays.contains(&c.from.node) {
-                continue;
-            }
+        for connection in connections {
+            let c = &graph.connections[connection];
             let sides = c.crossings.iter().map(|crossing| match crossing {
                 Crossing::Enter(scope) => nodes + scope,
                 Crossing::Leave(scope) => nodes + scopes + scope,
             });
-            let stations = sides.chain([c.to.node]);
+            let end = (graph.flow(c) != Flow::ToSlot).then_some(c.to.node);
             let mut at = c.from.node;
-            for next in stations {
-                edges[at].push((next, Some(*connection)));
+            for next in sides.chain(end) {
+                edges[at].push((next, Some(connection)));
                 at = next;
             }
         }
         for scope in 1..scopes {
             edges[nodes + scope].push((nodes + scopes + scope, None));
-        }
-        for (node, begun) in &links.loops.begun_by {
-            edges[*node].extend(begun.iter().map(|next| (*next, None)));
         }
         Self { vertices, edges }
     }
@@ -96,6 +101,18 @@ impl Loops {
         }
         Self { delays, begun_by }
     }
+}
+
+/// The events that lead to inputs from which tokens flow back to their nodes, by connection: also by way of delays, and of
+/// nested graphs, which take all their inputs together.
+pub fn events_on_circles(graph: &Graph) -> Vec<usize> {
+    let edges = Precedence::of(graph, 0..graph.connections.len()).edges;
+    let part = components(&edges);
+    let is_on_circle = |c: &usize| {
+        let c = &graph.connections[*c];
+        graph.flow(c) == Flow::ToInput && part[c.from.node] == part[c.to.node]
+    };
+    (0..graph.connections.len()).filter(is_on_circle).collect()
 }
 
 /// The strongly connected component of each vertex (Kosaraju and Sharir).

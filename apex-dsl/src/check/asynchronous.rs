@@ -1,12 +1,12 @@
 //! Slots and events where they cannot work.
 
 use crate::{
+    analyse::events_on_circles,
     catalog::Catalog,
-    graph::{Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{Flow, Graph, NodeKind, Standard},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
-use std::collections::BTreeSet;
 
 /// Reports connections that would never carry a token, and asynchronous ones inside an `each`.
 pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
@@ -44,34 +44,15 @@ pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Di
 /// Reports events that lead to inputs from which tokens flow back to their node: the event is free again only when all
 /// behind it has finished (R7), and the node fires only while it is free (R1).
 fn check_waits(graph: &Graph, diagnostics: &mut Diagnostics) {
-    let mut after = vec![vec![]; graph.nodes.len()];
-    for c in graph.connections.iter().filter(|c| graph.flow(c) != Flow::ToSlot) {
-        after[c.from.node].push(c.to.node);
+    for c in events_on_circles(graph).into_iter().map(|c| &graph.connections[c]) {
+        let (node, event) = (graph.path(c.from.node), graph.end_name(c.from));
+        let message = format!("`{node}` would wait for its own event: what `{event}` triggers leads to `{node}` again");
+        diagnostics.push(
+            Diagnostic::error("own-event", c.span, message)
+                .note("it fires only while its events are free, and this one is free when all behind it has fired, also behind a `delay`")
+                .note("lead the event to a slot instead"),
+        );
     }
-    for c in graph.connections.iter().filter(|c| graph.flow(c) == Flow::ToInput) {
-        if is_reached(&after, c.to.node, c.from.node) {
-            let (node, event) = (graph.path(c.from.node), graph.end_name(c.from));
-            let message =
-                format!("`{node}` would wait for its own event: what `{event}` triggers leads to `{node}` again");
-            diagnostics.push(
-                Diagnostic::error("own-event", c.span, message)
-                    .note("it fires only while its events are free, and this one is free when all behind it has fired, also behind a `delay`")
-                    .note("lead the event to a slot instead"),
-            );
-        }
-    }
-}
-
-fn is_reached(after: &[Vec<NodeId>], from: NodeId, wanted: NodeId) -> bool {
-    let mut seen = BTreeSet::from([from]);
-    let mut ends = vec![from];
-    while let Some(node) = ends.pop() {
-        if node == wanted {
-            return true;
-        }
-        ends.extend(after[node].iter().copied().filter(|n| seen.insert(*n)));
-    }
-    false
 }
 
 /// Ports that every node has, but that need something else to make sense.

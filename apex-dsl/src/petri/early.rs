@@ -60,6 +60,12 @@ impl Early {
         Self { sides, begins }
     }
 
+    /// Where the tokens wait that come to `place` through a side.
+    pub fn before(&self, place: PlaceId) -> Option<PlaceId> {
+        let (side, index) = self.begins.get(&place)?;
+        Some(self.sides.get(side)?.ways[*index].before)
+    }
+
     /// Brings a token to `place`, if only other tokens hold it back. Returns whether it did.
     pub fn advance(&mut self, place: PlaceId, marking: &mut Marking) -> bool {
         let Some((crossing, index)) = self.begins.get(&place).copied() else { return false };

@@ -5,7 +5,7 @@
 //! difference. Only a node that does not run because of ⊥ and takes activity at the same time waits for the record of it.
 
 use super::{
-    Meaning, Net, Origin, Script, State, Token, TransitionId, connection_name, side_name,
+    Meaning, Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, connection_name, side_name,
     state::{Preview, unsupported},
 };
 use crate::{
@@ -276,7 +276,8 @@ impl<'a> Replay<'a> {
             self.hurry();
         }
         if !self.state.is_enabled(transition) {
-            self.state.advance(transition);
+            let missing = self.state.missing(transition);
+            missing.into_iter().for_each(|place| self.bring(place, &mut BTreeSet::new()));
         }
         if self.state.is_enabled(transition) {
             return Ok(());
@@ -284,6 +285,30 @@ impl<'a> Replay<'a> {
         let missing = self.state.missing(transition);
         let places: Vec<&str> = missing.iter().map(|p| self.net.places[*p].name.as_str()).collect();
         Err(self.wrong(what, format!("no token at: {}", places.join("; "))))
+    }
+
+    /// Brings a token to `place`, if only others hold it back at sides of nested graphs: also a ⊥ that nodes in between pass on
+    /// without running.
+    fn bring(&mut self, place: PlaceId, seen: &mut BTreeSet<PlaceId>) {
+        if self.state.is_marked(place) || !seen.insert(place) {
+            return;
+        }
+        if let Some(before) = self.state.before(place) {
+            self.bring(before, seen);
+            self.state.advance(place);
+            return;
+        }
+        let gives = |t: &&Transition| matches!(t.meaning, Meaning::Send(_)) && t.gives.contains(&place);
+        let Some(&Transition { meaning: Meaning::Send(node), .. }) = self.net.transitions.iter().find(gives) else {
+            return;
+        };
+        let take = self.by_meaning[&Meaning::Take(node)];
+        let missing = self.state.missing(take);
+        missing.into_iter().for_each(|place| self.bring(place, seen));
+        if self.state.is_enabled(take) && self.is_silent(take) {
+            self.run(take);
+            self.settle();
+        }
     }
 
     /// Nodes that would take activity without running.

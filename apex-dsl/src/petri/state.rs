@@ -193,11 +193,14 @@ impl<'a> State<'a> {
         takes.iter().copied().filter(|p| self.marking[*p].is_empty()).collect()
     }
 
-    /// Lets tokens that `transition` lacks pass sides of nested graphs before the others are there, if they can.
-    pub fn advance(&mut self, transition: TransitionId) {
-        for place in self.missing(transition) {
-            self.early.advance(place, &mut self.marking);
-        }
+    /// Lets the token that `place` lacks pass a side of a nested graph before the others are there, if it can.
+    pub fn advance(&mut self, place: PlaceId) {
+        self.early.advance(place, &mut self.marking);
+    }
+
+    /// If tokens come to `place` through a side of a nested graph: where they wait before it.
+    pub fn before(&self, place: PlaceId) -> Option<PlaceId> {
+        self.early.before(place)
     }
 
     /// Lets the others follow where all of them are there; the transitions that this is in place of.
