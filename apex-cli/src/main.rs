@@ -177,6 +177,9 @@ enum Command {
         /// Builds and starts it anew whenever its text or the Rust beside it changes; Ctrl-C ends both.
         #[arg(long)]
         watch: bool,
+        /// Measures every node: writes a trace for Perfetto or Chrome into this file, and a table when the run ends, also by Ctrl-C.
+        #[arg(long, value_name = "FILE")]
+        profile: Option<PathBuf>,
         /// Arguments for the program.
         #[arg(last = true)]
         args: Vec<String>,
@@ -208,9 +211,10 @@ fn main() -> ExitCode {
         Command::Lsp => lsp::run(),
         Command::New { folder, path } => new::run(&folder, path.as_deref()),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
-        Command::Run { file, robot, params, save_params, watch, args } => {
+        Command::Run { file, robot, params, save_params, watch, profile, args } => {
             let params = run::Params { load: params, save: save_params };
-            let wanted = run::Wanted { file: &file, robot: robot.as_deref(), params: &params, args: &args, watch };
+            let (robot, profile) = (robot.as_deref(), profile.as_deref());
+            let wanted = run::Wanted { file: &file, robot, params: &params, profile, args: &args, watch };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };

@@ -29,6 +29,8 @@ impl Params {
 const LOAD: &str = "APEX_PARAMS";
 const SAVE: &str = "APEX_SAVE_PARAMS";
 const KEPT: &str = "APEX_KEPT_PARAMS";
+/// The variable by which every program learns where its profile is written (`apex_rt::drive`).
+const PROFILE: &str = "APEX_PROFILE";
 
 /// What is to be run.
 pub struct Wanted<'a> {
@@ -38,6 +40,8 @@ pub struct Wanted<'a> {
     pub robot: Option<&'a str>,
     /// Its parameters.
     pub params: &'a Params,
+    /// Where its profile is written.
+    pub profile: Option<&'a Path>,
     /// Arguments for the program.
     pub args: &'a [String],
     /// Whether it is built again and again, and what it changed in its parameters is kept.
@@ -67,6 +71,10 @@ impl Wanted<'_> {
     /// Gives a program that is about to start what it gets.
     pub fn tell(&self, program: &Found, command: &mut Command) {
         command.args(self.args);
+        match self.profile {
+            Some(path) => command.env(PROFILE, env::current_dir().unwrap_or_default().join(path)),
+            None => command.env_remove(PROFILE),
+        };
         let Some(made) = &program.made else { return };
         let kept = self.watch.then(|| made.join("kept"));
         for (name, path) in [(LOAD, &self.params.load), (SAVE, &self.params.save), (KEPT, &kept)] {
@@ -92,7 +100,10 @@ impl Wanted<'_> {
                 "`--params` and `--save-params` are for programs that are made for the text, but `{binary}` is a program of its own: leave them out, or choose a robot with `--robot`"
             )),
             Some(binary) => {
-                let select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
+                let mut select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
+                if self.profile.is_some() {
+                    select.extend(["--features", "apex-rt/profile"].map(OsString::from));
+                }
                 Ok(Some(Found { select, folder, made: None }))
             }
             None => self.make(choose(&checked.programs, self.robot)?, &workspace).map(Some),
@@ -109,9 +120,15 @@ impl Wanted<'_> {
             ));
         }
         let params = self.watch || self.params.are_wanted();
+        let features: &[&str] = match (params, self.profile.is_some()) {
+            (true, true) => &["params", "ctrl-c", "profile"],
+            (true, false) => &["params", "ctrl-c"],
+            (false, true) => &["profile"],
+            (false, false) => &[],
+        };
         let made = workspace.cache_folder().join("run").join(&graph.name);
         let main = main_file(&absolute(self.file)?, &graph.name, params);
-        let manifest = make_package(&made, workspace, params, "src/main.rs", &main)?;
+        let manifest = make_package(&made, workspace, features, "src/main.rs", &main)?;
         let target = workspace.target.join("apex/run");
         let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.into()].to_vec();
         // Files are named as the user sees them.
@@ -167,11 +184,12 @@ pub fn absolute(file: &Path) -> Result<PathBuf, String> {
     fs::canonicalize(file).map_err(|e| format!("cannot find `{}`: {e}", file.display()))
 }
 
-/// Makes a package in `folder` that depends on everything a text can name, with one file; returns its manifest.
+/// Makes a package in `folder` that depends on everything a text can name, and on the runtime with these features, with
+/// one file; returns its manifest.
 pub fn make_package(
     folder: &Path,
     workspace: &Workspace,
-    params: bool,
+    features: &[&str],
     name: &str,
     code: &str,
 ) -> Result<PathBuf, String> {
@@ -179,7 +197,7 @@ pub fn make_package(
         .libraries()
         .iter()
         .map(|(name, path)| match *name {
-            "apex-rt" if params => format!("{name} = {{ path = {path:?}, features = [\"params\", \"ctrl-c\"] }}\n"),
+            "apex-rt" => format!("{name} = {{ path = {path:?}, features = {features:?} }}\n"),
             _ => format!("{name} = {{ path = {path:?} }}\n"),
         })
         .collect();

@@ -21,7 +21,7 @@ pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
     let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = workspace.cache_folder().join("test").join(name);
     let code = format!("use apex_rt::prelude::*;\n\ngraph!({text:?});\n");
-    let manifest = run::make_package(&folder, &workspace, false, "src/lib.rs", &code)?;
+    let manifest = run::make_package(&folder, &workspace, &[], "src/lib.rs", &code)?;
     let mut command = run::cargo();
     command.args(["test", "--quiet", "--lib", "--manifest-path"]).arg(manifest);
     command.arg("--target-dir").arg(workspace.target.join("apex/test"));

@@ -20,6 +20,8 @@ mod observer;
 mod out;
 mod parallel;
 pub mod params;
+#[cfg(feature = "profile")]
+pub mod profile;
 mod queue;
 mod run;
 #[cfg(feature = "std")]
@@ -51,7 +53,7 @@ pub use out::Out;
 pub use parallel::par_map;
 pub use params::Parameters;
 pub use queue::{Queue, Steps};
-pub use run::{Next, Program, drive, run};
+pub use run::{Next, Program, drive, drive_with, run};
 #[cfg(feature = "std")]
 pub use stop::UntilStopped;
 pub use time::Time;

@@ -15,6 +15,12 @@ pub trait Observer {
         let _ = node;
     }
 
+    /// Node `node` has finished what it began: a firing, or a call of its slot.
+    #[inline(always)]
+    fn finished(&mut self, node: usize) {
+        let _ = node;
+    }
+
     /// The slot at the end of connection `connection` is about to take its token.
     #[inline(always)]
     fn handled(&mut self, connection: usize) {
@@ -79,6 +85,10 @@ macro_rules! pass_on {
         #[inline(always)]
         fn fired(&mut $self, node: usize) {
             $($to.fired(node);)+
+        }
+        #[inline(always)]
+        fn finished(&mut $self, node: usize) {
+            $($to.finished(node);)+
         }
         #[inline(always)]
         fn handled(&mut $self, connection: usize) {

@@ -86,11 +86,24 @@ impl<C: Clock> Observer for Stopwatch<'_, C> {
 
 /// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
 /// token comes to `exit`. Returns the exit code: 0, or 1 after a token came to `abort`.
-pub fn drive<P: Program, C: Clock>(mut program: P, mut clock: C) -> u8 {
+///
+/// With the feature `profile` and a file in the environment variable `APEX_PROFILE`, the trace of a
+/// [`Profile`](crate::profile::Profile) is written there, and its table to standard error; Ctrl-C then ends the program.
+pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
+    #[cfg(feature = "profile")]
+    if let Some(path) = std::env::var_os("APEX_PROFILE") {
+        return crate::profile::drive(program, clock, path.as_ref());
+    }
     #[cfg(feature = "std")]
-    let mut observer = crate::StdErr(const { &P::INFO });
+    let observer = crate::StdErr(const { &P::INFO });
     #[cfg(not(feature = "std"))]
-    let mut observer = ();
+    let observer = ();
+    drive_with(program, clock, observer)
+}
+
+/// As [`drive`], with an observer of one's own. Nothing is written to standard error then: that is what
+/// [`StdErr`](crate::StdErr) does, which can be a part of it.
+pub fn drive_with<P: Program, C: Clock, O: Observer>(mut program: P, mut clock: C, mut observer: O) -> u8 {
     loop {
         let now = clock.now();
         let stopwatch = Stopwatch { clock: &mut clock, start: now };

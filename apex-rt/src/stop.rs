@@ -11,6 +11,10 @@ pub struct UntilStopped<C> {
     stopped: &'static AtomicBool,
 }
 
+/// Set by the signals that ask the process to end.
+#[cfg(feature = "ctrl-c")]
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
 /// How long it may take until the switch is noticed.
 const NOTICED: Duration = Duration::from_millis(20);
 
@@ -27,10 +31,16 @@ impl<C: Clock> UntilStopped<C> {
     /// The signals cannot be handled, or are handled by somebody else.
     #[cfg(feature = "ctrl-c")]
     pub fn ctrl_c(clock: C) -> Result<Self, String> {
-        static STOPPED: AtomicBool = AtomicBool::new(false);
         ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed))
             .map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
         Ok(Self::new(clock, &STOPPED))
+    }
+
+    /// The same, unless somebody else handles the signals, who then has to end the clock.
+    #[cfg(feature = "profile")]
+    pub(crate) fn ctrl_c_if_free(clock: C) -> Self {
+        let _ = ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed));
+        Self::new(clock, &STOPPED)
     }
 }
 

@@ -20,6 +20,7 @@ mod names;
 mod nesting;
 mod parameters;
 mod params;
+mod profile;
 mod random;
 mod rates;
 mod reported;

@@ -166,3 +166,11 @@ fn a_slot_that_waited_is_late() {
     let log = simulate(&mut program, Time::ZERO, Time::from_millis(40));
     assert_eq!(log.late, [("p", 15)], "sent at 10 ms, taken when the join had fired at 25 ms");
 }
+
+#[test]
+fn a_source_that_falls_silent_times_out_once() {
+    let mut program = Frozen::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(100));
+    assert_eq!(program.nodes().k.seen, [1, 2], "at 0 and 10 ms");
+    assert_eq!(program.nodes().said.late, [Time::from_millis(35)]);
+}

@@ -6,11 +6,12 @@ use super::{
     types::{duration, ident},
 };
 use crate::{
-    analyse::{Analysis, Links},
+    analyse::{Analysis, Links, is_source},
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
 };
 use proc_macro2::TokenStream;
 use quote::quote;
+use std::time::Duration;
 
 /// What the code of a program is generated from.
 #[derive(Clone, Copy)]
@@ -89,7 +90,7 @@ impl Generator<'_> {
                 flags.push((name, quote!(::apex_rt::Delay<(), #count>), make));
             }
         }
-        for &node in whole.analysis.active.iter().filter(|n| whole.graph.nodes[**n].modifiers.timeout.is_some()) {
+        for node in (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)) {
             flags.push((self.flag(Flag::Timeout, node), quote!(::apex_rt::Timeout), quote!(::apex_rt::Timeout::new())));
         }
         flags
@@ -111,6 +112,30 @@ impl Generator<'_> {
         }
         let (held, gains) = (self.flag(Flag::Active, node), self.flag(Flag::Gains, node));
         quote! { state.#held.put(::core::mem::take(&mut state.#gains).then_some(())); }
+    }
+
+    /// Whether the `timeout` of a node can come.
+    pub fn has_timeout(&self, whole: Whole<'_>, node: NodeId) -> bool {
+        let timeout = whole.graph.nodes[node].modifiers.timeout;
+        timeout.is_some() && (whole.analysis.active.contains(&node) || self.watches_silence(whole, node).is_some())
+    }
+
+    /// The `timeout` of a source that activity never comes to: so long it may send nothing.
+    pub fn watches_silence(&self, whole: Whole<'_>, node: NodeId) -> Option<Duration> {
+        let is_source = is_source(whole.graph, self.catalog, whole.links, node);
+        let watches = is_source && !whole.analysis.active.contains(&node);
+        whole.graph.nodes[node].modifiers.timeout.filter(|_| watches)
+    }
+
+    /// The time of a source's silence begins.
+    pub fn watch_silence(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        match self.watches_silence(whole, node) {
+            Some(timeout) => {
+                let (name, timeout) = (self.flag(Flag::Timeout, node), duration(timeout));
+                quote! { state.#name.start(ctx.now(), #timeout); }
+            }
+            None => quote!(),
+        }
     }
 
     /// A node becomes active, unless it is already.

@@ -255,7 +255,8 @@ impl Generator<'_> {
 
     fn has_start(&self, whole: Whole<'_>) -> bool {
         let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        whole.graph.nodes.iter().any(started)
+        let watches = |node: NodeId| self.watches_silence(whole, node).is_some();
+        whole.graph.nodes.iter().any(started) || (0..whole.graph.nodes.len()).any(watches)
     }
 
     /// The tables of the dispatcher, and the functions that serve slots.
@@ -283,7 +284,7 @@ impl Generator<'_> {
             }
         }
         if self.has_start(whole) {
-            let begin = self.begin(whole, bits);
+            let begin = self.first(whole, bits);
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, .. } = self;
@@ -582,7 +583,7 @@ impl Generator<'_> {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
                 raises.extend(self.enter(whole, bits, id));
             }
-            if node.modifiers.timeout.is_some() && analysis.active.contains(&id) {
+            if self.has_timeout(whole, id) {
                 raises.extend(self.expire(whole, bits, id));
                 let timeout = self.flag(Flag::Timeout, id);
                 wishes.extend(quote! { next = next.or(self.state.#timeout.wish(now)); });

@@ -92,7 +92,7 @@ impl Emitter<'_> {
                 }
             }
         };
-        quote! { observer.fired(#index); { #bindings #iteration } }
+        quote! { observer.fired(#index); { #bindings #iteration } observer.finished(#index); }
     }
 }
 

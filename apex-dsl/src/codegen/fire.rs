@@ -173,7 +173,26 @@ impl<'a> Emitter<'a> {
         let (take, fire) = (self.generator.take_activity(self.whole, node), self.fire(node, block));
         // A delay has sent its token before it takes one.
         let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
-        quote! { #take #fire #pass }
+        let heard = self.heard(node, block);
+        quote! { #take #fire #heard #pass }
+    }
+
+    /// A source whose silence is watched has sent something.
+    fn heard(&self, node: NodeId, block: BlockId) -> TokenStream {
+        let watch = self.generator.watch_silence(self.whole, node);
+        if watch.is_empty() {
+            return watch;
+        }
+        let ports = (0..self.graph.nodes[node].ports.len()).map(|port| End { node, port });
+        let sent = ports.filter_map(|end| match self.graph.port(end).kind {
+            PortKind::Output if self.plan.is_used(end) => {
+                let token = self.option(end, block);
+                Some(quote!(#token.is_some()))
+            }
+            PortKind::Event if self.graph.port(end).standard.is_none() => self.generator.sent_event(self.whole, end),
+            _ => None,
+        });
+        quote! { if false #(|| #sent)* { #watch } }
     }
 
     fn pass(&self, node: NodeId, block: BlockId) -> TokenStream {
@@ -253,7 +272,7 @@ impl<'a> Emitter<'a> {
         let results = self.results(node, library, signature, call, told);
         let outputs = self.param_outputs(node, library, signature, block);
         let late = self.generator.check_late(self.whole, node);
-        let code = quote! { observer.fired(#index); #params #results #outputs #late };
+        let code = quote! { observer.fired(#index); #params #results #outputs #late observer.finished(#index); };
         if self.graph.nodes[node].can_be_disabled() {
             let enabled = self.generator.flag(Flag::Enabled, node);
             let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });

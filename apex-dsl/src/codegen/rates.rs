@@ -201,13 +201,15 @@ impl Generator<'_> {
         let told = if is_told(graph, self.catalog, node) {
             let (place, method) =
                 (self.node_place(graph, node), ident(signature.no_message.as_deref().unwrap_or_default()));
-            quote! { else { observer.fired(#index); #place.#method(); } }
+            quote! { else { observer.fired(#index); #place.#method(); observer.finished(#index); } }
         } else {
             quote!()
         };
         match names.as_slice() {
-            [] => quote! { observer.fired(#index); #sends },
-            _ => quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { observer.fired(#index); #sends } #told },
+            [] => quote! { observer.fired(#index); #sends observer.finished(#index); },
+            _ => {
+                quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { observer.fired(#index); #sends observer.finished(#index); } #told }
+            }
         }
     }
 

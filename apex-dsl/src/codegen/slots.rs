@@ -148,7 +148,8 @@ impl Generator<'_> {
         let clear = self.clear_events(whole, node);
         let pass = self.pass_activity(whole, node, &|end| self.sent_event(whole, end));
         let emit = self.emit(whole, bits, node, false);
-        let stamp = self.stamp_of_slot(whole, connection);
+        let (stamp, index) = (self.stamp_of_slot(whole, connection), self.names.base + node);
+        let call = quote! { #call observer.finished(#index); };
         quote! { #stamp observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
     }
 
@@ -337,6 +338,13 @@ impl Generator<'_> {
         }
         code.extend(self.check_claims(whole));
         code
+    }
+
+    /// What happens once, before the first reaction.
+    pub fn first(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let watches = (0..whole.graph.nodes.len()).map(|node| self.watch_silence(whole, node));
+        let begin = self.begin(whole, bits);
+        quote! { #(#watches)* #begin }
     }
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.

@@ -1,0 +1,181 @@
+//! Where the time goes: how long every firing and every call of a slot takes, as a table by node and as a trace that
+//! Perfetto and Chrome show (`ui.perfetto.dev`, `chrome://tracing`), active nodes in another colour.
+
+use crate::{Clock, Info, Observer, Program, StdErr, UntilStopped, drive_with};
+use hdrhistogram::Histogram;
+use std::{
+    fmt::Write as _,
+    fs::File,
+    io::{self, BufWriter, Write},
+    path::Path,
+    time::{Duration, Instant},
+};
+
+/// Most calls that the trace shows; the table counts all of them.
+pub const MAX_TRACED: u64 = 1_000_000;
+
+/// An observer that measures.
+pub struct Profile {
+    info: &'static Info,
+    start: Instant,
+    /// The node that runs and since when; those that run it stand before it (`each`).
+    running: Vec<(usize, Instant)>,
+    /// Which nodes are active.
+    active: Vec<bool>,
+    /// Nanoseconds of each node's calls; `None` before the first.
+    calls: Vec<Option<Histogram<u64>>>,
+    /// Nanoseconds of each node, without those that it runs.
+    own: Vec<u64>,
+    /// For each running node, the nanoseconds of those that it ran.
+    inner: Vec<u64>,
+    traced: u64,
+    trace: BufWriter<File>,
+    /// What went wrong with the file, the first time.
+    error: Option<io::Error>,
+}
+
+impl Profile {
+    /// A profile whose trace is written to `path`.
+    ///
+    /// # Errors
+    /// The file cannot be made.
+    pub fn to_file(info: &'static Info, path: &Path) -> io::Result<Self> {
+        let mut trace = BufWriter::new(File::create(path)?);
+        write!(trace, "[{{\"ph\":\"M\",\"pid\":1,\"name\":\"process_name\",\"args\":{{\"name\":\"{}\"}}}}", info.name)?;
+        let nodes = info.nodes.len();
+        Ok(Self {
+            info,
+            start: Instant::now(),
+            running: vec![],
+            active: vec![false; nodes],
+            calls: (0..nodes).map(|_| None).collect(),
+            own: vec![0; nodes],
+            inner: vec![],
+            traced: 0,
+            trace,
+            error: None,
+        })
+    }
+
+    fn begin(&mut self, node: usize) {
+        self.inner.push(0);
+        self.running.push((node, Instant::now()));
+    }
+
+    fn end(&mut self, node: usize) {
+        let end = Instant::now();
+        let Some((running, start)) = self.running.pop() else { return };
+        debug_assert_eq!(running, node, "calls end in the order in which they begin");
+        let took = nanos(end - start);
+        let inner = self.inner.pop().unwrap_or_default();
+        self.own[node] += took.saturating_sub(inner);
+        if let Some(outer) = self.inner.last_mut() {
+            *outer += took;
+        }
+        // Three digits, whatever comes: the counts grow with the longest call.
+        let calls = self.calls[node].get_or_insert_with(|| Histogram::new(3).expect("three digits are allowed"));
+        calls.saturating_record(took);
+        if self.traced < MAX_TRACED && self.error.is_none() {
+            self.traced += 1;
+            self.error = self.write(node, start, took).err();
+        }
+    }
+
+    fn write(&mut self, node: usize, start: Instant, took: u64) -> io::Result<()> {
+        let (name, active) = (self.info.nodes[node].name, self.active[node]);
+        let (at, took) = (nanos(start - self.start) as f64 / 1e3, took as f64 / 1e3);
+        let colour = if active { ",\"cname\":\"thread_state_running\"" } else { "" };
+        write!(
+            self.trace,
+            ",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":1,\"name\":\"{name}\",\"ts\":{at:.3},\"dur\":{took:.3},\"args\":{{\"active\":{active}}}{colour}}}"
+        )
+    }
+
+    /// Ends the trace.
+    ///
+    /// # Errors
+    /// The file could not be written.
+    pub fn finish(&mut self) -> io::Result<()> {
+        if let Some(error) = self.error.take() {
+            return Err(error);
+        }
+        self.trace.write_all(b"]\n")?;
+        self.trace.flush()
+    }
+
+    /// Whether calls are missing in the trace because there were too many.
+    pub fn is_cut(&self) -> bool {
+        self.traced == MAX_TRACED
+    }
+
+    /// A line for each node that ran, those that took most of the time first: how often, mean, median, 99 %, longest, and
+    /// the share of the time of all nodes. The time of an `each` includes its body; its share does not.
+    pub fn table(&self) -> String {
+        let total: u64 = self.own.iter().sum();
+        let mut rows: Vec<(usize, &Histogram<u64>)> =
+            self.calls.iter().enumerate().filter_map(|(node, calls)| Some((node, calls.as_ref()?))).collect();
+        rows.sort_by_key(|(node, _)| (std::cmp::Reverse(self.own[*node]), *node));
+        let width = rows.iter().map(|(node, _)| self.info.nodes[*node].name.chars().count()).max().unwrap_or(0).max(4);
+        let mut text = format!(
+            "{:width$}{:>12}{:>12}{:>12}{:>12}{:>12}{:>9}\n",
+            "node", "count", "mean", "p50", "p99", "max", "share"
+        );
+        for (node, calls) in rows {
+            let share = 100.0 * self.own[node] as f64 / total.max(1) as f64;
+            let time = |ns: u64| format!("{:.2?}", Duration::from_nanos(ns));
+            let _ = writeln!(
+                text,
+                "{:width$}{:>12}{:>12}{:>12}{:>12}{:>12}{share:>7.1} %",
+                self.info.nodes[node].name,
+                calls.len(),
+                time(calls.mean() as u64),
+                time(calls.value_at_quantile(0.5)),
+                time(calls.value_at_quantile(0.99)),
+                time(calls.max()),
+            );
+        }
+        text
+    }
+}
+
+/// Drives a program and says where its time went.
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> u8 {
+    let cannot_write = |error: io::Error| eprintln!("error: cannot write `{}`: {error}", path.display());
+    let info = const { &P::INFO };
+    let mut profile = match Profile::to_file(info, path) {
+        Ok(profile) => profile,
+        Err(error) => {
+            cannot_write(error);
+            return 2;
+        }
+    };
+    let observer = (StdErr(info), &mut profile);
+    let code = drive_with(program, UntilStopped::ctrl_c_if_free(clock), observer);
+    if let Err(error) = profile.finish() {
+        cannot_write(error);
+    }
+    eprint!("{}", profile.table());
+    if profile.is_cut() {
+        eprintln!("the trace ends after {MAX_TRACED} calls; the table counts all");
+    }
+    code
+}
+
+fn nanos(time: Duration) -> u64 {
+    u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
+}
+
+impl Observer for Profile {
+    fn fired(&mut self, node: usize) {
+        self.begin(node);
+    }
+    fn handled(&mut self, connection: usize) {
+        self.begin(self.info.connections[connection].to);
+    }
+    fn finished(&mut self, node: usize) {
+        self.end(node);
+    }
+    fn activity(&mut self, node: usize, active: bool) {
+        self.active[node] = active;
+    }
+}

@@ -1,0 +1,47 @@
+//! Profiles: what is measured, not how long it takes.
+
+use apex_rt::{drive_with, prelude::*, profile::Profile};
+use std::{env, fs};
+
+graph! {
+    use apex_tests::nodes::{Count, Echo, Snk, Take, Watch, mul, pass};
+
+    /// A source, a node in a list, a slot, and activity that moves on.
+    graph Measured {
+        node s = Count(end = 3) every 1ms;
+        node m = mul(k = 2);
+        node e = Echo();
+        node t = Take();
+        node w = Watch();
+        start => s;
+        s   -> m -> e.x;
+        e.e -> t.s;
+        s   => w;
+    }
+}
+
+#[test]
+fn a_profile_counts_every_firing_and_every_slot() {
+    let path = env::temp_dir().join(format!("apex-profile-{}.json", std::process::id()));
+    let mut profile = Profile::to_file(const { &Measured::INFO }, &path).expect("a folder for temporary files");
+    drive_with(Measured::new(), SimClock::until(Time::from_millis(3)), &mut profile);
+    profile.finish().expect("room for the file");
+
+    let table = profile.table();
+    let count = |node: &str| {
+        let line = table.lines().find(|l| l.split_whitespace().next() == Some(node));
+        line.and_then(|l| l.split_whitespace().nth(1)).and_then(|count| count.parse::<u64>().ok())
+    };
+    assert_eq!(["s", "m", "e", "t", "w"].map(count), [Some(3); 5], "{table}");
+
+    let text = fs::read_to_string(&path).expect("the trace");
+    fs::remove_file(&path).expect("it is ours");
+    let trace: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let events: Vec<_> = trace.as_array().expect("a list").iter().filter(|e| e["ph"] == "X").collect();
+    assert_eq!(events.len(), 15);
+    let active = |name: &str| -> Vec<bool> {
+        events.iter().filter(|e| e["name"] == name).filter_map(|e| e["args"]["active"].as_bool()).collect()
+    };
+    assert_eq!((active("s"), active("w")), (vec![true, false, false], vec![true; 3]), "activity goes to `w` at once");
+    assert!(events.iter().all(|e| e["dur"].as_f64().is_some_and(|dur| dur >= 0.0)));
+}
