@@ -3,7 +3,7 @@
 use super::{
     Flag, Generator,
     activity::Whole,
-    dispatch::Bits,
+    bits::Bits,
     plan::{BlockId, Plan, Storage},
     test::probe,
     types::{ident, path, spell},

@@ -1,7 +1,9 @@
 //! Graph + analysis → Rust. The text that comes out is meant to be read (`apex expand`).
 
 mod activity;
+mod bits;
 mod claims;
+mod deliver;
 mod dispatch;
 mod each;
 mod fire;

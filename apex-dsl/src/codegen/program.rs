@@ -3,7 +3,7 @@
 use super::{
     Flag, Generator,
     activity::Whole,
-    dispatch::Bits,
+    bits::Bits,
     fire::Emitter,
     plan::{Storage, is_buffer, storage},
     rates,

@@ -3,7 +3,7 @@
 use super::{
     Flag, Generator,
     activity::{Carries, Whole, carries},
-    dispatch::Bits,
+    bits::Bits,
     plan::is_buffer,
     test::probe,
     types::ident,

@@ -1,0 +1,244 @@
+//! The conditions that decide at run time what is ready, as bits, and the tables over them.
+
+use crate::{
+    analyse::{Analysis, Guard, Links},
+    graph::{Flow, Graph, NodeId, NodeKind},
+    syntax::tree::PortKind,
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::{BTreeMap, BTreeSet};
+use syn::Ident;
+
+/// The conditions of the dispatcher, by number: for each dispatched cluster its guards, "enabled", and for each
+/// connection to another cluster "holds a token" and "free"; for each asynchronous connection that may stay occupied
+/// "free" and, if it leads to an input, "holds a token"; for each event of the program "has room".
+pub struct Bits {
+    dispatched: Vec<usize>,
+    guards: BTreeMap<usize, usize>,
+    enabled: BTreeMap<usize, usize>,
+    edges: BTreeMap<(usize, usize), usize>,
+    free: BTreeMap<usize, usize>,
+    tokens: BTreeMap<usize, usize>,
+    room: BTreeMap<NodeId, usize>,
+    count: usize,
+}
+
+impl Bits {
+    /// Numbers the conditions of a program.
+    pub fn new(graph: &Graph, analysis: &Analysis) -> Self {
+        let clusters = &analysis.clusters;
+        let is_free = |c: &usize| clusters[*c].is_free(graph, analysis);
+        let mut bits = Self {
+            dispatched: (0..clusters.len()).filter(|c| clusters[*c].fires && !is_free(c)).collect(),
+            guards: BTreeMap::new(),
+            enabled: BTreeMap::new(),
+            edges: BTreeMap::new(),
+            free: BTreeMap::new(),
+            tokens: BTreeMap::new(),
+            room: BTreeMap::new(),
+            count: 0,
+        };
+        for cluster in bits.dispatched.clone() {
+            for &guard in &clusters[cluster].own_guards {
+                if !matches!(analysis.guards[guard], Guard::Token(_) | Guard::Events(_)) {
+                    let bit = bits.next();
+                    bits.guards.insert(guard, bit);
+                }
+            }
+            let bit = bits.next();
+            bits.enabled.insert(cluster, bit);
+            for &down in &clusters[cluster].downstream {
+                let bit = bits.next();
+                bits.next();
+                bits.edges.insert((cluster, down), bit);
+            }
+        }
+        for (index, c) in graph.connections.iter().enumerate() {
+            if analysis.asynchronous.tracked[index] {
+                let bit = bits.next();
+                bits.free.insert(index, bit);
+            }
+            if analysis.asynchronous.live[index] && graph.flow(c) == Flow::ToInput {
+                let bit = bits.next();
+                bits.tokens.insert(index, bit);
+            }
+        }
+        for (id, node) in graph.nodes.iter().enumerate() {
+            if matches!(node.kind, NodeKind::Boundary(PortKind::Event)) {
+                let bit = bits.next();
+                bits.room.insert(id, bit);
+            }
+        }
+        bits
+    }
+
+    fn next(&mut self) -> usize {
+        self.count += 1;
+        self.count - 1
+    }
+
+    /// How many words of 64 conditions there are.
+    pub fn words(&self) -> usize {
+        self.count.div_ceil(64)
+    }
+
+    /// The clusters that are dispatched, in the order of their rows.
+    pub fn dispatched(&self) -> &[usize] {
+        &self.dispatched
+    }
+
+    /// The number of a guard.
+    pub fn guard(&self, guard: usize) -> Option<usize> {
+        self.guards.get(&guard).copied()
+    }
+
+    /// "has room" of each event of the program.
+    pub fn room(&self) -> &BTreeMap<NodeId, usize> {
+        &self.room
+    }
+
+    /// Whether no asynchronous connection stays occupied.
+    pub fn is_all_free(&self) -> bool {
+        self.free.is_empty()
+    }
+
+    /// "free" of an asynchronous connection, if it may stay occupied.
+    pub fn free(&self, connection: usize) -> Option<usize> {
+        self.free.get(&connection).copied()
+    }
+
+    /// "holds a token" of an asynchronous connection to an input.
+    pub fn token(&self, connection: usize) -> Option<usize> {
+        self.tokens.get(&connection).copied()
+    }
+
+    /// The row of a cluster in the table.
+    pub fn row(&self, cluster: usize) -> Option<usize> {
+        self.dispatched.iter().position(|c| *c == cluster)
+    }
+
+    /// The constant with the number of the condition that a graph-level event has room.
+    pub fn room_name(node: NodeId) -> Ident {
+        format_ident!("ROOM_{node}")
+    }
+
+    /// At first every cluster is enabled and every connection free.
+    pub fn initial(&self) -> Vec<usize> {
+        let free = self.edges.values().map(|bit| bit + 1);
+        self.enabled.values().copied().chain(free).chain(self.free.values().copied()).collect()
+    }
+
+    /// The table of clusters.
+    pub fn rows(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<TokenStream> {
+        let bit_set = |bits: &[usize]| quote!(::apex_rt::Bits::of(&[#(#bits),*]));
+        let rows = self.dispatched.iter().map(|&index| {
+            let c = &analysis.clusters[index];
+            let mut takes: Vec<usize> = c.own_guards.iter().filter_map(|g| self.guards.get(g).copied()).collect();
+            takes.push(self.enabled[&index]);
+            takes.extend(c.upstream.iter().map(|up| self.edges[&(*up, index)]));
+            let mut waits_for = vec![];
+            let mut notifies = vec![self.enabled[&index]];
+            notifies.extend(c.upstream.iter().map(|up| self.edges[&(*up, index)] + 1));
+            for &guard in &c.own_guards {
+                match analysis.guards[guard] {
+                    Guard::Token(connection) => {
+                        takes.push(self.tokens[&connection]);
+                        notifies.push(self.free[&connection]);
+                    }
+                    Guard::Events(node) => {
+                        let holding = analysis.asynchronous.holding_back(graph, links, node);
+                        waits_for.extend(holding.map(|c| self.free[&c]));
+                    }
+                    _ => {}
+                }
+            }
+            waits_for.extend(&takes);
+            let sends: Vec<usize> = c.downstream.iter().map(|down| self.edges[&(index, *down)]).collect();
+            let occupies: Vec<usize> = sends.iter().map(|bit| bit + 1).collect();
+            let outputs = c.sends.iter().filter(|c| graph.port(graph.connections[**c].from).kind == PortKind::Output);
+            let mut notified_by = occupies.clone();
+            notified_by.extend(outputs.filter_map(|c| self.free(*c)));
+            let above: Vec<usize> = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c)).collect();
+            let (waits_for, takes, sends, occupies) =
+                (bit_set(&waits_for), bit_set(&takes), bit_set(&sends), bit_set(&occupies));
+            let (notified_by, notifies, enabled) =
+                (bit_set(&notified_by), bit_set(&notifies), bit_set(&[self.enabled[&index]]));
+            quote! {
+                ::apex_rt::Cluster {
+                    waits_for: #waits_for,
+                    takes: #takes,
+                    sends: #sends,
+                    occupies: #occupies,
+                    notified_by: #notified_by,
+                    notifies: #notifies,
+                    enabled: #enabled,
+                    above: &[#(#above),*],
+                }
+            }
+        });
+        rows.collect()
+    }
+
+    /// For each token from an event that a cluster needs: the other tokens that it needs.
+    pub fn missing(&self, analysis: &Analysis) -> Vec<TokenStream> {
+        let mut missing = vec![];
+        for &index in &self.dispatched {
+            let c = &analysis.clusters[index];
+            let events: Vec<usize> = c
+                .own_guards
+                .iter()
+                .filter_map(|g| if let Guard::Token(c) = analysis.guards[*g] { Some(c) } else { None })
+                .collect();
+            let edges: Vec<usize> = c.upstream.iter().map(|up| self.edges[&(*up, index)]).collect();
+            for &connection in &events {
+                let others = events.iter().filter(|c| **c != connection).map(|c| self.tokens[c]);
+                let others: Vec<usize> = others.chain(edges.iter().copied()).collect();
+                let token = self.tokens[&connection];
+                if !others.is_empty() {
+                    missing.push(quote! {
+                        ::apex_rt::Missing {
+                            others: ::apex_rt::Bits::of(&[#(#others),*]),
+                            token: #token,
+                            connection: #connection,
+                        }
+                    });
+                }
+            }
+        }
+        missing
+    }
+
+    /// What must hold for each slot to be served: its node can trigger its events (R5).
+    pub fn needs(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<Vec<usize>> {
+        let needs = |connection: &usize| {
+            let node = graph.connections[*connection].to.node;
+            let events = analysis.asynchronous.not_yet_taken(graph, links, *connection);
+            events.into_iter().filter_map(|c| self.free(c)).chain(self.room.get(&node).copied()).collect()
+        };
+        analysis.asynchronous.slots.iter().map(needs).collect()
+    }
+}
+
+/// All clusters from which tokens come to `cluster`; behind each stand those from which its own tokens come.
+fn above(graph: &Graph, analysis: &Analysis, cluster: usize) -> Vec<usize> {
+    fn visit(graph: &Graph, analysis: &Analysis, cluster: usize, seen: &mut BTreeSet<usize>, order: &mut Vec<usize>) {
+        let relayed = analysis.clusters[cluster].own_guards.iter().filter_map(|g| match analysis.guards[*g] {
+            Guard::Token(c) if graph.port(graph.connections[c].from).kind == PortKind::Output => {
+                Some(analysis.cluster_of[graph.connections[c].from.node])
+            }
+            _ => None,
+        });
+        let ups: Vec<usize> = analysis.clusters[cluster].upstream.iter().copied().chain(relayed).collect();
+        for up in ups {
+            if seen.insert(up) {
+                visit(graph, analysis, up, seen, order);
+                order.push(up);
+            }
+        }
+    }
+    let mut order = vec![];
+    visit(graph, analysis, cluster, &mut BTreeSet::new(), &mut order);
+    order.reverse();
+    order
+}

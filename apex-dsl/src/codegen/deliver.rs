@@ -1,0 +1,103 @@
+//! How slot tokens come to their slots: from a queue, or in an order that is known.
+
+use super::{Generator, activity::Whole, bits::Bits};
+use crate::{
+    analyse::{Delivery, ordered},
+    graph::NodeKind,
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+impl Generator<'_> {
+    /// Serves slots until none is ready; says whether there was one.
+    pub fn serve(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let Whole { graph, analysis, links } = whole;
+        let (words, needs) = (bits.words(), bits.needs(graph, analysis, links));
+        let count = needs.len();
+        let arms = (0..count).map(|slot| {
+            let (number, name) = (slot as u16, format_ident!("slot_{slot}"));
+            quote! { #number => self.#name(ctx, observer), }
+        });
+        let ready = if needs.iter().all(Vec::is_empty) {
+            quote!(|_| true)
+        } else {
+            quote!(|slot| self.state.dispatcher.holds(&Self::NEEDS[slot as usize]))
+        };
+        let needs_table = needs.iter().any(|n| !n.is_empty()).then(|| {
+            quote! { const NEEDS: [::apex_rt::Bits<#words>; #count] = [#(::apex_rt::Bits::of(&[#(#needs),*])),*]; }
+        });
+        let (budget, step) = match analysis.asynchronous.endless {
+            true => (
+                quote! { if self.state.steps.is_used_up() { break; } },
+                quote! { self.state.steps.take(slot as usize); },
+            ),
+            false => (quote!(), quote!()),
+        };
+        let exit = self.has_exit(graph).then(|| quote! { if self.state.exit.is_some() { break; } });
+        quote! {
+            #needs_table
+            #[inline]
+            fn serve<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) -> bool {
+                let mut any = false;
+                loop {
+                    #budget
+                    let Some(slot) = self.state.queue.next(#ready) else { break; };
+                    #step
+                    match slot { #(#arms)* _ => {} }
+                    any = true;
+                    #exit
+                }
+                any
+            }
+        }
+    }
+
+    /// Serves the slots that tokens on `sends` can come to, one after the other, where that needs no queue.
+    pub fn deliver(&self, whole: Whole<'_>, sends: &[usize]) -> TokenStream {
+        let asynchronous = &whole.analysis.asynchronous;
+        match asynchronous.delivery {
+            Delivery::Queued => quote!(),
+            Delivery::Single => self.deliver_single(whole, sends),
+            Delivery::Ordered => {
+                let connections = ordered(whole.graph, whole.links, asynchronous, sends).unwrap_or_default();
+                let ends = |c: &usize| {
+                    matches!(whole.graph.nodes[whole.graph.connections[*c].to.node].kind, NodeKind::Exit(_))
+                };
+                let last = connections.iter().position(ends).unwrap_or(connections.len());
+                let goes_on = |at: usize| (at > last).then(|| quote!(&&self.state.exit.is_none()));
+                connections.iter().enumerate().map(|(at, c)| self.serve_one(whole, *c, goes_on(at))).collect()
+            }
+        }
+    }
+
+    /// Serves the slot at the end of a connection, if a token waits there and `test` allows it.
+    fn serve_one(&self, whole: Whole<'_>, connection: usize, test: Option<TokenStream>) -> TokenStream {
+        let asynchronous = &whole.analysis.asynchronous;
+        let slot = asynchronous.slot(connection);
+        let waits = self.waits(whole.graph, whole.graph.connections[connection].from);
+        let name = format_ident!("slot_{slot}");
+        let step = asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
+        let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
+        quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }
+    }
+
+    /// Where one token at most is under way, it may go round in a circle.
+    fn deliver_single(&self, whole: Whole<'_>, sends: &[usize]) -> TokenStream {
+        let (connections, circle) = whole.analysis.asynchronous.following(sends);
+        let serves: TokenStream = connections.iter().map(|c| self.serve_one(whole, *c, None)).collect();
+        if !circle {
+            return serves;
+        }
+        let waits = connections.iter().map(|c| {
+            let waits = self.waits(whole.graph, whole.graph.connections[*c].from);
+            quote!(self.#waits)
+        });
+        let exit = self.has_exit(whole.graph).then(|| quote!(|| self.state.exit.is_some()));
+        quote! {
+            while (#(#waits)||*) {
+                #serves
+                if self.state.steps.is_used_up() #exit { break; }
+            }
+        }
+    }
+}
