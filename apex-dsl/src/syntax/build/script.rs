@@ -1,0 +1,87 @@
+//! `test` items.
+
+use super::{Builder, push_doc};
+use crate::syntax::{Rule, recover, tree::*};
+use pest::iterators::Pair;
+
+impl Builder<'_> {
+    pub(super) fn test(&mut self, pair: Pair<'_, Rule>) -> Option<TestItem> {
+        let extent = self.span(&pair);
+        let (mut docs, mut name, mut graph) = (String::new(), None, None);
+        let (mut args, mut replaced, mut steps) = (vec![], vec![], vec![]);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::doc => push_doc(&mut docs, &part),
+                Rule::ident => name = Some(self.ident(&part)),
+                Rule::path => graph = Some(self.path(part)),
+                Rule::args => {
+                    args = part.into_inner().filter(|p| p.as_rule() == Rule::arg).filter_map(|p| self.arg(p)).collect();
+                }
+                Rule::test_stmt => {
+                    let Some(stmt) = part.into_inner().next() else { continue };
+                    match stmt.as_rule() {
+                        Rule::replace_stmt => replaced.extend(self.replaced(stmt)),
+                        Rule::bad_test => self.bad(recover::in_test, &stmt),
+                        _ => steps.extend(self.test_step(stmt)),
+                    }
+                }
+                _ => {}
+            }
+        }
+        let (name, graph) = (name?, graph?);
+        let span = name.span.to(graph.span);
+        Some(TestItem { docs, name, graph, args, replaced, steps, span, extent })
+    }
+
+    fn replaced(&mut self, pair: Pair<'_, Rule>) -> Option<(PortRef, Instance)> {
+        let (mut of, mut instance) = (None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::port_ref => of = Some(self.port_ref(part)),
+                Rule::instance => instance = Some(self.instance(part)),
+                _ => {}
+            }
+        }
+        Some((of?, instance?))
+    }
+
+    fn test_step(&mut self, pair: Pair<'_, Rule>) -> Option<TestStep> {
+        let rule = pair.as_rule();
+        let (mut port, mut values, mut every, mut condition, mut limit) = (None, vec![], None, None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::ident => port = Some(self.ident(&part)),
+                Rule::expr => values.push(self.expr(part)),
+                Rule::every => every = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)),
+                Rule::condition => condition = self.condition(part),
+                Rule::limit => {
+                    let kind = if part.as_str().starts_with("by") { Limit::By } else { Limit::Within };
+                    limit = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| (kind, self.expr(p)));
+                }
+                _ => {}
+            }
+        }
+        Some(match rule {
+            Rule::feed_stmt => TestStep::Feed(port?, values.pop(), every),
+            Rule::wait_stmt => TestStep::Wait(values.pop()?),
+            Rule::never_stmt => TestStep::Never(condition?),
+            _ => TestStep::Expect(condition?, limit),
+        })
+    }
+
+    fn condition(&mut self, pair: Pair<'_, Rule>) -> Option<Condition> {
+        let span = self.span(&pair);
+        let (mut of, mut active, mut operator, mut value) = (None, false, None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::port_ref => of = Some(self.port_ref(part)),
+                Rule::active_kw => active = true,
+                // White space behind a sign belongs to its pair.
+                Rule::compare => operator = Some(part.as_str().trim_end().to_owned()),
+                Rule::expr => value = Some(self.expr(part)),
+                _ => {}
+            }
+        }
+        Some(Condition { of: of?, active, compare: operator.zip(value), span })
+    }
+}
