@@ -2,7 +2,7 @@
 
 use super::Links;
 use crate::{
-    graph::{Crossing, Flow, Graph, NodeId, ScopeId},
+    graph::{Connection, Crossing, Flow, Graph, NodeId, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
 use std::{
@@ -46,13 +46,8 @@ impl Precedence {
         let mut edges = vec![vec![]; vertices.len()];
         for connection in connections {
             let c = &graph.connections[connection];
-            let sides = c.crossings.iter().map(|crossing| match crossing {
-                Crossing::Enter(scope) => nodes + scope,
-                Crossing::Leave(scope) => nodes + scopes + scope,
-            });
-            let end = (graph.flow(c) != Flow::ToSlot).then_some(c.to.node);
             let mut at = c.from.node;
-            for next in sides.chain(end) {
+            for next in stations(graph, c) {
                 edges[at].push((next, Some(connection)));
                 at = next;
             }
@@ -62,6 +57,16 @@ impl Precedence {
         }
         Self { vertices, edges }
     }
+}
+
+/// The vertices that a connection leads to: the sides that it passes and, unless that is a slot, its end.
+fn stations(graph: &Graph, connection: &Connection) -> impl Iterator<Item = usize> {
+    let (nodes, scopes) = (graph.nodes.len(), graph.scopes.len());
+    let sides = connection.crossings.iter().map(move |crossing| match crossing {
+        Crossing::Enter(scope) => nodes + scope,
+        Crossing::Leave(scope) => nodes + scopes + scope,
+    });
+    sides.chain((graph.flow(connection) != Flow::ToSlot).then_some(connection.to.node))
 }
 
 /// The loops of a graph, all of which lead through delays.
@@ -92,8 +97,9 @@ impl Loops {
         }
         let mut begun_by = BTreeMap::new();
         for (node, out) in links.out_of.iter().enumerate() {
-            let ends = out.iter().map(|c| part[graph.connections[*c].to.node]);
-            let entered: BTreeSet<usize> = ends.filter(|p| *p != part[node]).collect();
+            // A token also enters a loop at a side of a nested graph that the loop leads through.
+            let stations = out.iter().flat_map(|c| stations(graph, &graph.connections[*c]));
+            let entered: BTreeSet<usize> = stations.map(|s| part[s]).filter(|p| *p != part[node]).collect();
             let begun: BTreeSet<NodeId> = entered.iter().filter_map(|p| behind.get(p)).flatten().copied().collect();
             if !begun.is_empty() {
                 begun_by.insert(node, begun.into_iter().collect());

@@ -51,6 +51,8 @@ struct Builder<'a> {
     places: Vec<LegPlaces>,
     /// The places that a delay on a loop waits for.
     loops: BTreeMap<NodeId, Vec<PlaceId>>,
+    /// The legs of the events on its loop.
+    loop_events: BTreeMap<NodeId, Vec<usize>>,
     /// For each delay on a loop and each leg into the loop: what that delay sent for a token on it has finished.
     returns: BTreeMap<(NodeId, usize), PlaceId>,
     /// Where each `start` waits to begin.
@@ -82,9 +84,10 @@ impl<'a> Builder<'a> {
             });
         }
         let mut loops: BTreeMap<NodeId, Vec<PlaceId>> = BTreeMap::new();
-        for (delay, entries) in route::loops(graph, &legs) {
+        let on_loops = route::loops(graph, &legs);
+        for (&delay, on_loop) in &on_loops {
             loops.entry(delay).or_default();
-            for entry in entries {
+            for &entry in &on_loop.entries {
                 let leg = connection_name(graph, legs[entry].connection);
                 let echo = place(format!("{} has seen {leg}", graph.path(delay)), 0);
                 places[entry].echoes.push(echo);
@@ -98,8 +101,10 @@ impl<'a> Builder<'a> {
             }
         }
         let mut returns = BTreeMap::new();
-        for (delay, entries) in route::loops(graph, &legs) {
-            for entry in entries {
+        let mut loop_events = BTreeMap::new();
+        for (delay, on_loop) in on_loops {
+            loop_events.insert(delay, on_loop.events);
+            for entry in on_loop.entries {
                 let leg = connection_name(graph, legs[entry].connection);
                 places[entry].done.get_or_insert_with(|| place(format!("{leg} is done"), 0));
                 let name = format!("{} has finished for {leg}", graph.path(delay));
@@ -111,7 +116,7 @@ impl<'a> Builder<'a> {
             from.entry(leg.from).or_default().push(i);
             to.entry(leg.to).or_default().push(i);
         }
-        Self { graph, net, legs, places, loops, returns, starts, from, to }
+        Self { graph, net, legs, places, loops, loop_events, returns, starts, from, to }
     }
 
     fn place(&mut self, name: String, initial: usize) -> PlaceId {
@@ -294,7 +299,10 @@ impl<'a> Builder<'a> {
         let mut takes = vec![held, enabled];
         takes.extend(self.loops.get(&node).into_iter().flatten());
         takes.extend(self.free(&out));
+        let events = self.free(&self.loop_events[&node]);
+        takes.extend(&events);
         let mut gives = vec![room, waiting];
+        gives.extend(events);
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         gives.extend(self.sent(&synchronous));
         gives.extend(ports.iter().map(|(_, place)| *place));

@@ -43,9 +43,17 @@ pub fn legs(graph: &Graph) -> Vec<Leg> {
     legs
 }
 
-/// For each delay on a loop the legs that lead into that loop from elsewhere. It sends once for each token on each of them; without any, it
-/// sets the pace of the loop itself.
-pub fn loops(graph: &Graph, legs: &[Leg]) -> BTreeMap<NodeId, Vec<usize>> {
+/// What decides when a delay on a loop sends.
+pub struct Loop {
+    /// The legs that lead into the loop from elsewhere. The delay sends once for each token on each of them; without any, it sets the
+    /// pace of the loop itself.
+    pub entries: Vec<usize>,
+    /// The legs of the events of all nodes on the loop: an iteration begins only when it can come to its end.
+    pub events: Vec<usize>,
+}
+
+/// For each delay on a loop what decides when it sends.
+pub fn loops(graph: &Graph, legs: &[Leg]) -> BTreeMap<NodeId, Loop> {
     let to_inputs: Vec<(usize, &Leg)> =
         legs.iter().enumerate().filter(|(_, l)| graph.flow(&graph.connections[l.connection]) != Flow::ToSlot).collect();
     let mut after: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
@@ -63,7 +71,10 @@ pub fn loops(graph: &Graph, legs: &[Leg]) -> BTreeMap<NodeId, Vec<usize>> {
         if below.contains(&Stop::Node(node)) {
             let inside = |stop: &Stop| below.contains(stop) && above.contains(stop);
             let entries = to_inputs.iter().filter(|(_, l)| !inside(&l.from) && inside(&l.to)).map(|(i, _)| *i);
-            loops.insert(node, entries.collect());
+            let is_event =
+                |l: &Leg| matches!(l.from, Stop::Node(_)) && inside(&l.from) && from_event(graph, l.connection);
+            let events = legs.iter().enumerate().filter(|(_, l)| is_event(l)).map(|(i, _)| i);
+            loops.insert(node, Loop { entries: entries.collect(), events: events.collect() });
         }
     }
     loops

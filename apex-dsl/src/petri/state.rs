@@ -141,7 +141,7 @@ impl<'a> State<'a> {
         let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
         let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
         let loops = route::loops(graph, &route::legs(graph));
-        sources.extend(loops.into_iter().filter(|(_, entries)| entries.is_empty()).map(|(delay, _)| delay));
+        sources.extend(loops.into_iter().filter(|(_, on_loop)| on_loop.entries.is_empty()).map(|(delay, _)| delay));
         Self {
             graph,
             net,
