@@ -322,7 +322,11 @@ impl Wanted<'_> {
                 };
                 let (low, high) = limits(ty.name());
                 if integer < low || integer > high {
-                    return error("out-of-range", expr.span, format!("{integer} does not fit into `{ty}` ({low}..={high})"));
+                    return error(
+                        "out-of-range",
+                        expr.span,
+                        format!("{integer} does not fit into `{ty}` ({low}..={high})"),
+                    );
                 }
                 Ok(value)
             }
@@ -365,9 +369,9 @@ fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: 
         }
         ExprKind::Unary("-", inner) if !is_number(inner) => error.note(NO_PART_HAS_A_UNIT),
         ExprKind::Binary(..) => error.note(NO_PART_HAS_A_UNIT),
-        _ => units.iter().fold(error, |error, (words, unit)| {
-            error.guess(format!("write it in {words}"), expr.span.after(), *unit)
-        }),
+        _ => units
+            .iter()
+            .fold(error, |error, (words, unit)| error.guess(format!("write it in {words}"), expr.span.after(), *unit)),
     }
 }
 
