@@ -1,8 +1,8 @@
 //! `apex run`: the package's own program, or one that is made for the text.
 
-use crate::project;
-use apex_dsl::{graph::NodeKind, passes::Program, report::nearest};
-use apex_host::Workspace;
+use crate::{project, replace::is_same};
+use apex_dsl::{graph::NodeKind, passes::Program, report::nearest, syntax::MAX_BYTES};
+use apex_host::{Workspace, cargo, no_cargo, read_text};
 use std::{
     env,
     ffi::OsString,
@@ -22,6 +22,22 @@ pub struct Params {
 impl Params {
     fn are_wanted(&self) -> bool {
         self.load.is_some() || self.save.is_some()
+    }
+
+    /// Says before a build what would be wrong after it.
+    fn look(&self, text: &Path) -> Result<(), String> {
+        let shown = |path: &Path| path.display().to_string();
+        if let Some(load) = &self.load {
+            read_text(load, MAX_BYTES).map_err(|reason| format!("cannot read `{}`: {reason}", shown(load)))?;
+        }
+        let Some(save) = &self.save else { return Ok(()) };
+        if is_same(save, text) {
+            return Err(format!("the parameters would overwrite the text `{}`: name another file", shown(save)));
+        }
+        match save.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+            Some(folder) => Err(format!("cannot write `{}`: there is no folder `{}`", shown(save), shown(folder))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -50,6 +66,8 @@ pub struct Found {
     select: Vec<OsString>,
     /// Where cargo is called.
     folder: PathBuf,
+    /// Where cargo builds it.
+    target: PathBuf,
     /// The folder of the package, if it was made for the text.
     pub made: Option<PathBuf>,
 }
@@ -57,6 +75,7 @@ pub struct Found {
 impl Found {
     /// `cargo run` or `cargo build`.
     pub fn cargo(&self, verb: &str) -> Command {
+        say_if_first(&self.target.join("release"));
         let mut command = cargo();
         command.args([verb, "--release", "--quiet"]).args(&self.select).current_dir(&self.folder);
         command
@@ -84,6 +103,7 @@ impl Wanted<'_> {
         if checked.diagnostics.has_errors() {
             return Ok(None);
         }
+        self.params.look(self.file)?;
         let folder = package(self.file)?;
         let workspace = Workspace::load(&folder)?;
         let (package, binary) = workspace.binary();
@@ -93,7 +113,7 @@ impl Wanted<'_> {
             )),
             Some(binary) => {
                 let select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
-                Ok(Some(Found { select, folder, made: None }))
+                Ok(Some(Found { select, folder, target: workspace.target, made: None }))
             }
             None => self.make(choose(&checked.programs, self.robot)?, &workspace).map(Some),
         }
@@ -113,10 +133,10 @@ impl Wanted<'_> {
         let main = main_file(&absolute(self.file)?, &graph.name, params);
         let manifest = make_package(&made, workspace, params, "src/main.rs", &main)?;
         let target = workspace.target.join("apex/run");
-        let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.into()].to_vec();
+        let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.clone().into()].to_vec();
         // Files are named as the user sees them.
         let folder = env::current_dir().map_err(|e| format!("cannot see the current folder: {e}"))?;
-        Ok(Found { select, folder, made: Some(made) })
+        Ok(Found { select, folder, target, made: Some(made) })
     }
 }
 
@@ -126,7 +146,7 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     let mut command = program.cargo("run");
     command.arg("--");
     wanted.tell(&program, &mut command);
-    let status = command.status().map_err(|e| format!("cannot run cargo: {e}"))?;
+    let status = command.status().map_err(|e| no_cargo(&e))?;
     Ok(status.code().and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from))
 }
 
@@ -135,11 +155,6 @@ pub fn package(file: &Path) -> Result<PathBuf, String> {
     project::package_of(file).ok_or_else(|| {
         format!("`{}` is in no cargo package, so that its nodes cannot be found; put it beside a Cargo.toml that depends on `apex-rt`", file.display())
     })
-}
-
-/// The cargo that started this, or the one that is found.
-pub fn cargo() -> Command {
-    Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// The program that is meant: the named one, the only robot, or the only graph.
@@ -159,6 +174,13 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
         ([only], _) => Ok(*only),
         ([], [only]) => Ok(*only),
         _ => Err(format!("which one is to run? choose with `--robot`: {}", names())),
+    }
+}
+
+/// Where nothing has been built yet, cargo, which is quiet, seems to hang.
+pub fn say_if_first(target: &Path) {
+    if !target.exists() {
+        project::print_error("building for the first time, which takes a minute or two");
     }
 }
 

@@ -1,7 +1,7 @@
 //! `apex test`: the tests of a text, as Rust tests.
 
 use crate::{project, run};
-use apex_host::Workspace;
+use apex_host::{Workspace, cargo, no_cargo};
 use std::{path::Path, process::ExitCode};
 
 /// Checks, builds and runs the tests whose names contain `filter`.
@@ -13,7 +13,7 @@ pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
     }
     let count = checked.programs.iter().filter(|p| p.script.is_some()).count();
     if count == 0 {
-        println!("`{}` has no `test`", file.display());
+        project::print(&format!("`{}` has no `test`", file.display()))?;
         return Ok(ExitCode::SUCCESS);
     }
     let workspace = Workspace::load(&run::package(file)?)?;
@@ -22,10 +22,12 @@ pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
     let folder = workspace.cache_folder().join("test").join(name);
     let code = format!("use apex_rt::prelude::*;\n\ngraph!({text:?});\n");
     let manifest = run::make_package(&folder, &workspace, false, "src/lib.rs", &code)?;
-    let mut command = run::cargo();
+    let target = workspace.target.join("apex/test");
+    run::say_if_first(&target);
+    let mut command = cargo();
     command.args(["test", "--quiet", "--lib", "--manifest-path"]).arg(manifest);
-    command.arg("--target-dir").arg(workspace.target.join("apex/test"));
+    command.arg("--target-dir").arg(target);
     command.args(filter).env("RUST_BACKTRACE", "0");
-    let status = command.status().map_err(|e| format!("cannot run cargo: {e}"))?;
+    let status = command.status().map_err(|e| no_cargo(&e))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
