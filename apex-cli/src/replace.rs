@@ -27,7 +27,11 @@ pub fn is_same(a: &Path, b: &Path) -> bool {
 pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     // What a link leads to is changed, not the link.
     let path = fs::canonicalize(path)?;
-    let permissions = fs::metadata(&path)?.permissions();
+    let metadata = fs::metadata(&path)?;
+    if !metadata.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is a device or a pipe, which cannot be replaced"));
+    }
+    let permissions = metadata.permissions();
     if permissions.readonly() {
         return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
     }

@@ -34,6 +34,9 @@ impl Params {
         if is_same(save, text) {
             return Err(format!("the parameters would overwrite the text `{}`: name another file", shown(save)));
         }
+        if save.exists() && !save.is_file() {
+            return Err(format!("cannot write `{}`: it is no file, which could be replaced", shown(save)));
+        }
         match save.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
             Some(folder) => Err(format!("cannot write `{}`: there is no folder `{}`", shown(save), shown(folder))),
             None => Ok(()),

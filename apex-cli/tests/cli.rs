@@ -458,6 +458,25 @@ fn graphs_that_cannot_be_drawn() {
     assert!(stderr(&output).contains("unknown-node") && !picture.exists(), "{}", stderr(&output));
 }
 
+/// What is no file is not replaced by one.
+#[cfg(unix)]
+#[test]
+fn a_pipe_stays_a_pipe() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let folder = Folder::new("fifo");
+    let pipe = folder.0.join("pipe.afg");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let writer = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::write(pipe, UGLY).unwrap()
+    });
+    let output = apex().arg("fmt").arg(&pipe).output().unwrap();
+    writer.join().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(stderr(&output).contains("it is a device or a pipe"), "{}", stderr(&output));
+    assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
+}
+
 /// A file without an end, and one that cannot be written to.
 #[cfg(target_os = "linux")]
 #[test]
@@ -511,6 +530,7 @@ fn files_of_a_run() {
     for (option, path, reason) in [
         ("--params", &missing, "such.toml`: there is no such file"),
         ("--save-params", &missing, "such.toml`: there is no folder `"),
+        ("--save-params", &folder.0, "it is no file, which could be replaced"),
         ("--save-params", &file, "the parameters would overwrite the text `"),
     ] {
         let output = apex().arg("run").arg(&file).arg(option).arg(path).output().unwrap();
