@@ -109,6 +109,7 @@ impl Wanted<'_> {
         self.params.look(self.file)?;
         let folder = package(self.file)?;
         let workspace = Workspace::load(&folder)?;
+        has_runtime(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
         match binary.filter(|_| self.robot.is_none()) {
             Some(binary) if self.params.are_wanted() => Err(format!(
@@ -185,6 +186,15 @@ pub fn say_if_first(target: &Path) {
     if !target.exists() {
         project::print_error("building for the first time, which takes a minute or two");
     }
+}
+
+/// Refuses a package whose texts cannot be compiled.
+pub fn has_runtime(folder: &Path, workspace: &Workspace) -> Result<(), String> {
+    if workspace.libraries().iter().any(|(name, _)| *name == "apex-rt") {
+        return Ok(());
+    }
+    let manifest = folder.join("Cargo.toml");
+    Err(format!("the package in `{}` does not depend on `apex-rt`: add it to `[dependencies]`", manifest.display()))
 }
 
 /// The whole path of a text, as a made package names it.

@@ -16,7 +16,9 @@ pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
         project::print(&format!("`{}` has no `test`", file.display()))?;
         return Ok(ExitCode::SUCCESS);
     }
-    let workspace = Workspace::load(&run::package(file)?)?;
+    let folder = run::package(file)?;
+    let workspace = Workspace::load(&folder)?;
+    run::has_runtime(&folder, &workspace)?;
     let text = run::absolute(file)?;
     let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = workspace.cache_folder().join("test").join(name);

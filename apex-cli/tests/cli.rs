@@ -520,6 +520,34 @@ fn a_machine_without_cargo() {
     }
 }
 
+/// Without the runtime a text can be checked, but not run.
+#[test]
+fn a_package_without_the_runtime() {
+    let folder = Folder::new("no_runtime");
+    folder.file("Cargo.toml", "[package]\nname = \"plain\"\nedition = \"2024\"\n[workspace]\n");
+    fs::create_dir(folder.0.join("src")).unwrap();
+    folder.file("src/lib.rs", "");
+    let file = folder.file("a.afg", BELL.to_owned() + "test a: House { feed push; }\n");
+    for (command, code) in [("check", 0), ("run", 2), ("test", 2)] {
+        let output = apex().arg(command).arg(&file).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{command}: {}", stderr(&output));
+        assert_eq!(stderr(&output).contains("does not depend on `apex-rt`: add it"), code == 2, "{}", stderr(&output));
+    }
+}
+
+/// Nodes are missing because the Rust around them is broken: that is what has to be mended.
+#[test]
+fn nodes_in_broken_rust() {
+    let folder = Folder::new("broken_rust");
+    package(&folder, "#[node]\npub fn ramp() -> u64 { 1 }\nfn broken( {\n");
+    let file = folder.file("a.afg", "use crate::ramp;\ngraph A {\n    out y: u64;\n    ramp() -> y;\n}\n");
+    for _ in 0..2 {
+        let said = stderr(&check(&[], &file));
+        let reason = "note: the nodes in src/lib.rs are not known, as its line 3 is no Rust: ";
+        assert_eq!(said.matches(reason).count(), 2, "{said}");
+    }
+}
+
 /// What is wrong with the files of a run is said before anything is built.
 #[test]
 fn files_of_a_run() {

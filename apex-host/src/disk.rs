@@ -14,7 +14,7 @@ use std::{
 };
 
 /// Changes when the cached items do.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {
