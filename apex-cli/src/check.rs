@@ -1,14 +1,15 @@
 //! `apex check`.
 
-use crate::{Format, fix, project};
+use crate::{Format, fix, project, texts};
 use apex_dsl::report::json;
 use std::{path::PathBuf, process::ExitCode};
 
-/// Checks each file, with `mend` after what can be mended; 1 if one has errors.
-pub fn run(files: &[PathBuf], format: Format, mend: bool) -> Result<ExitCode, String> {
+/// Checks texts and all texts in folders, with `mend` after what can be mended; 1 if one has errors.
+pub fn run(paths: &[PathBuf], format: Format, mend: bool) -> Result<ExitCode, String> {
     let mut failed = false;
     let mut messages = vec![];
-    for file in files {
+    let files: Vec<Vec<PathBuf>> = paths.iter().map(|path| texts::named(path)).collect::<Result<_, _>>()?;
+    for file in files.iter().flatten() {
         if mend {
             fix::file(file)?.iter().for_each(|change| project::print_error(change));
         }
@@ -23,7 +24,7 @@ pub fn run(files: &[PathBuf], format: Format, mend: bool) -> Result<ExitCode, St
     }
     if format == Format::Json {
         let text = serde_json::to_string_pretty(&messages).map_err(|e| e.to_string())?;
-        project::print(&text);
+        project::print(&text)?;
     }
     Ok(if failed { ExitCode::from(1) } else { ExitCode::SUCCESS })
 }

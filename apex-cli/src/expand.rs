@@ -15,6 +15,6 @@ pub fn run(file: &Path) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     let parsed = syn::parse2(code).map_err(|e| format!("the generated code is not Rust: {e}; please report this"))?;
-    project::print(prettyplease::unparse(&parsed).trim_end());
+    project::print(prettyplease::unparse(&parsed).trim_end())?;
     Ok(ExitCode::SUCCESS)
 }

@@ -10,7 +10,8 @@ use std::{path::Path, process::ExitCode};
 /// Explains a text or a code; without either, lists the codes.
 pub fn run(what: Option<&Path>, format: Format, pnml: bool) -> Result<ExitCode, String> {
     let Some(what) = what else {
-        PAGES.iter().for_each(|(code, page)| project::print(&format!("{code:<24}{}", first_sentence(page))));
+        let lines: Vec<_> = PAGES.iter().map(|(code, page)| format!("{code:<24}{}", first_sentence(page))).collect();
+        project::print(&lines.join("\n"))?;
         return Ok(ExitCode::SUCCESS);
     };
     let is_word = what.extension().is_none() && what.components().count() == 1 && !what.exists();
@@ -29,7 +30,7 @@ fn code(code: &str) -> Result<ExitCode, String> {
             near.map_or("`apex explain --list` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
         return Err(format!("`{code}` is neither a text nor the code of a message; {hint}"));
     };
-    project::print(page.trim_end());
+    project::print(page.trim_end())?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -47,10 +48,10 @@ fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     match format {
-        Format::Text => checked.programs.iter().for_each(|p| project::print(&explain(p, &checked.catalog))),
+        Format::Text => checked.programs.iter().try_for_each(|p| project::print(&explain(p, &checked.catalog)))?,
         Format::Json => {
             let programs: Vec<_> = checked.programs.iter().map(|p| explain_json(p, &checked.catalog)).collect();
-            project::print(&serde_json::to_string_pretty(&programs).map_err(|e| e.to_string())?);
+            project::print(&serde_json::to_string_pretty(&programs).map_err(|e| e.to_string())?)?;
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -65,7 +66,7 @@ fn net(file: &Path) -> Result<ExitCode, String> {
     }
     for program in &checked.programs {
         let net = petri::net(&program.graph, &checked.catalog).map_err(|e| e.to_string())?;
-        project::print(&petri::pnml(&net));
+        project::print(&petri::pnml(&net))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -6,9 +6,9 @@ use apex_dsl::{
     source::{Sources, World as _},
     syntax::MAX_BYTES,
 };
-use apex_host::Disk;
+use apex_host::{Disk, read_from};
 use std::{
-    io::{self, ErrorKind, Read as _, Write as _},
+    io,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -54,7 +54,7 @@ fn format_file(path: &Path, check: bool) -> Result<Outcome, String> {
         return Ok(Outcome::Fine);
     }
     if check {
-        project::print(&hint(path, &text, &formatted));
+        project::print(&hint(path, &text, &formatted))?;
         return Ok(Outcome::Wrong);
     }
     replace(path, &formatted).map_err(|e| format!("cannot write `{}`: {e}", path.display()))?;
@@ -63,31 +63,17 @@ fn format_file(path: &Path, check: bool) -> Result<Outcome, String> {
 
 fn standard_input(check: bool) -> Result<Outcome, String> {
     let path = Path::new("<stdin>");
-    let text = read_input().map_err(|reason| format!("cannot read standard input: {reason}"))?;
+    let text =
+        read_from(io::stdin().lock(), MAX_BYTES).map_err(|reason| format!("cannot read standard input: {reason}"))?;
     let Some(formatted) = formatted(path, &text) else { return Ok(Outcome::Wrong) };
     if check && formatted != text {
-        project::print(&hint(path, &text, &formatted));
+        project::print(&hint(path, &text, &formatted))?;
         return Ok(Outcome::Wrong);
     }
     if !check {
-        let mut output = io::stdout().lock();
-        match output.write_all(formatted.as_bytes()).and_then(|()| output.flush()) {
-            // A reader that has gone away is no error.
-            Err(e) if e.kind() != ErrorKind::BrokenPipe => return Err(format!("cannot write to standard output: {e}")),
-            _ => {}
-        }
+        project::write(&formatted)?;
     }
     Ok(Outcome::Fine)
-}
-
-fn read_input() -> Result<String, String> {
-    let mut bytes = vec![];
-    // One byte more than is allowed is enough to know.
-    io::stdin().lock().take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
-    if bytes.len() > MAX_BYTES {
-        return Err(format!("at most {MAX_BYTES} bytes are read"));
-    }
-    String::from_utf8(bytes).map_err(|e| format!("byte {} is not UTF-8", e.utf8_error().valid_up_to()))
 }
 
 /// The text in the style of the language; nothing if it has errors, which are printed.

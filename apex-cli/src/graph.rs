@@ -1,11 +1,13 @@
 //! `apex graph`.
 
-use crate::project;
+use crate::{
+    project::{self, Checked},
+    replace::{self, is_same},
+};
 use apex_diagram::{MAX_ITEMS, diagram, dot, states, svg};
-use apex_dsl::passes::Program;
+use apex_dsl::{graph::Graph, report::nearest};
 use clap::ValueEnum;
 use std::{
-    fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -39,17 +41,17 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let program = choose(&checked.programs, wanted.graph.as_deref())?;
-    let mut item = diagram(&program.graph, &checked.catalog);
+    let graph = choose(&checked, wanted.graph.as_deref())?;
+    let mut item = diagram(graph, &checked.catalog);
     if wanted.activity {
         item = states(&item).ok_or_else(|| {
-            format!("no activity comes to a node of `{}`: it has no `=>` and no state machine", program.graph.name)
+            format!("no activity comes to a node of `{}`: it has no `=>` and no state machine", graph.name)
         })?;
     }
     if item.count() > MAX_ITEMS {
-        let name = &program.graph.name;
         return Err(format!(
-            "a picture of `{name}` would have {} boxes, more than {MAX_ITEMS}: draw the graphs in it one by one",
+            "a picture of `{}` would have {} boxes, more than {MAX_ITEMS}: draw the graphs in it one by one",
+            graph.name,
             item.count()
         ));
     }
@@ -58,8 +60,11 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
         Picture::Dot => dot(&item),
     };
     match &wanted.output {
-        Some(path) => fs::write(path, text).map_err(|e| format!("cannot write `{}`: {e}", path.display()))?,
-        None => project::print(text.trim_end()),
+        Some(path) if is_same(path, file) => {
+            return Err(format!("the picture would overwrite its text `{}`: name another file", path.display()));
+        }
+        Some(path) => replace::write(path, &text)?,
+        None => project::print(text.trim_end())?,
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -78,18 +83,25 @@ fn format(wanted: &Wanted) -> Result<Picture, String> {
     }
 }
 
-/// The named graph, the only robot, or the last graph.
-fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program, String> {
-    let programs: Vec<&Program> = programs.iter().filter(|p| p.script.is_none()).collect();
-    let robots: Vec<&&Program> = programs.iter().filter(|p| p.graph.robot).collect();
+/// The named graph, the only robot, or the last graph that stands in no other one.
+fn choose<'a>(checked: &'a Checked, name: Option<&str>) -> Result<&'a Graph, String> {
+    let programs = checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let graphs: Vec<&Graph> = checked.parts.iter().chain(programs).collect();
+    let robots: Vec<&&Graph> = graphs.iter().filter(|graph| graph.robot).collect();
     let chosen = match (name, robots.as_slice()) {
-        (Some(name), _) => programs.iter().find(|p| p.graph.name == name),
+        (Some(name), _) => graphs.iter().find(|graph| graph.name == name),
         (None, [only]) => Some(*only),
-        (None, _) => programs.last(),
+        (None, _) => graphs.last(),
     };
-    let names: Vec<String> = programs.iter().map(|p| format!("`{}`", p.graph.name)).collect();
-    chosen.copied().ok_or_else(|| match name {
-        Some(name) => format!("there is no graph `{name}` to draw; there are {}", names.join(", ")),
-        None => "there is no graph to draw: parameters of the graphs have no value".to_owned(),
+    chosen.copied().ok_or_else(|| {
+        let Some(name) = name else { return "there is no graph to draw".to_owned() };
+        let names = || graphs.iter().map(|graph| graph.name.as_str());
+        match nearest(name, names()) {
+            Some(near) => format!("there is no graph `{name}` to draw; did you mean `{near}`?"),
+            None => {
+                let known: Vec<String> = names().map(|name| format!("`{name}`")).collect();
+                format!("there is no graph `{name}` to draw; there are {}", known.join(", "))
+            }
+        }
     })
 }

@@ -40,9 +40,9 @@ enum Command {
         after_help = "--fix makes the changes of which there is no doubt, and says which; those that are guesses are shown as ever.\nExit code 0: no error is left.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
     )]
     Check {
-        /// The texts.
-        #[arg(required = true)]
-        files: Vec<PathBuf>,
+        /// The texts; of a folder all `.afg` below it.
+        #[arg(required = true, value_name = "FILE")]
+        paths: Vec<PathBuf>,
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
@@ -198,7 +198,7 @@ enum Format {
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
-        Command::Check { files, format, fix } => check::run(&files, format, fix),
+        Command::Check { paths, format, fix } => check::run(&paths, format, fix),
         Command::Completions { shell } => completions::run(shell),
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),

@@ -3,6 +3,7 @@
 use apex_dsl::{
     catalog::{Catalog, Crates},
     claims::MAX_STATES,
+    graph::Graph,
     passes::{self, Program},
     report::{Diagnostics, Severity, render},
     source::{Sources, World as _},
@@ -10,7 +11,7 @@ use apex_dsl::{
 use apex_host::{Disk, Seen, Workspace};
 use std::{
     env,
-    io::{self, IsTerminal as _, Write as _},
+    io::{self, ErrorKind, IsTerminal as _, Write as _},
     path::{Path, PathBuf},
     sync::{Arc, OnceLock},
 };
@@ -23,6 +24,8 @@ pub struct Checked {
     pub diagnostics: Diagnostics,
     /// The programs in it.
     pub programs: Vec<Program>,
+    /// The graphs in it that are no programs.
+    pub parts: Vec<Graph>,
     /// The node types it can use.
     pub catalog: Catalog,
 }
@@ -39,7 +42,8 @@ pub fn check(file: &Path) -> Result<Checked, String> {
     let text = checker.read(file)?;
     let (sources, diagnostics, checked) = checker.check(file, text);
     checker.save();
-    Ok(Checked { sources, diagnostics, programs: checked.programs, catalog: checker.catalog })
+    let passes::Checked { programs, parts, .. } = checked;
+    Ok(Checked { sources, diagnostics, programs, parts, catalog: checker.catalog })
 }
 
 /// Checks texts of one package, also those that are not what stands on the disk.
@@ -114,9 +118,18 @@ pub fn print_where_to_read_on() {
     }
 }
 
-/// Prints a line to standard output. A reader that has gone away is no error.
-pub fn print(text: &str) {
-    let _ = writeln!(io::stdout().lock(), "{text}");
+/// Prints a line to standard output.
+pub fn print(text: &str) -> Result<(), String> {
+    write(&format!("{text}\n"))
+}
+
+/// Writes to standard output. A reader that has gone away is no error.
+pub fn write(text: &str) -> Result<(), String> {
+    let mut output = io::stdout().lock();
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(format!("cannot write to standard output: {e}")),
+        _ => Ok(()),
+    }
 }
 
 /// Prints a line to standard error.

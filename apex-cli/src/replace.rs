@@ -1,4 +1,4 @@
-//! Changes a file as a whole.
+//! Writes files.
 
 use std::{
     fs::{self, Permissions},
@@ -7,11 +7,31 @@ use std::{
     process,
 };
 
+/// Writes a file that is new or can be made again.
+pub fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|e| {
+        let shown = path.display();
+        match path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists()) {
+            Some(folder) => format!("cannot write `{shown}`: there is no folder `{}`", folder.display()),
+            None => format!("cannot write `{shown}`: {e}"),
+        }
+    })
+}
+
+/// Whether both are there, and the same.
+pub fn is_same(a: &Path, b: &Path) -> bool {
+    fs::canonicalize(a).is_ok_and(|a| fs::canonicalize(b).is_ok_and(|b| a == b))
+}
+
 /// Changes the file `path`, so that there is always a whole one.
 pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     // What a link leads to is changed, not the link.
     let path = fs::canonicalize(path)?;
-    let permissions = fs::metadata(&path)?.permissions();
+    let metadata = fs::metadata(&path)?;
+    if !metadata.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is a device or a pipe, which cannot be replaced"));
+    }
+    let permissions = metadata.permissions();
     if permissions.readonly() {
         return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
     }

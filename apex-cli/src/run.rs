@@ -1,8 +1,8 @@
 //! `apex run`: the package's own program, or one that is made for the text.
 
-use crate::project;
-use apex_dsl::{graph::NodeKind, passes::Program, report::nearest};
-use apex_host::Workspace;
+use crate::{project, replace::is_same};
+use apex_dsl::{graph::NodeKind, passes::Program, report::nearest, syntax::MAX_BYTES};
+use apex_host::{Workspace, cargo, no_cargo, read_text};
 use std::{
     env,
     ffi::OsString,
@@ -22,6 +22,25 @@ pub struct Params {
 impl Params {
     fn are_wanted(&self) -> bool {
         self.load.is_some() || self.save.is_some()
+    }
+
+    /// Says before a build what would be wrong after it.
+    fn look(&self, text: &Path) -> Result<(), String> {
+        let shown = |path: &Path| path.display().to_string();
+        if let Some(load) = &self.load {
+            read_text(load, MAX_BYTES).map_err(|reason| format!("cannot read `{}`: {reason}", shown(load)))?;
+        }
+        let Some(save) = &self.save else { return Ok(()) };
+        if is_same(save, text) {
+            return Err(format!("the parameters would overwrite the text `{}`: name another file", shown(save)));
+        }
+        if save.exists() && !save.is_file() {
+            return Err(format!("cannot write `{}`: it is no file, which could be replaced", shown(save)));
+        }
+        match save.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+            Some(folder) => Err(format!("cannot write `{}`: there is no folder `{}`", shown(save), shown(folder))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -54,6 +73,8 @@ pub struct Found {
     select: Vec<OsString>,
     /// Where cargo is called.
     folder: PathBuf,
+    /// Where cargo builds it.
+    target: PathBuf,
     /// The folder of the package, if it was made for the text.
     pub made: Option<PathBuf>,
 }
@@ -61,6 +82,7 @@ pub struct Found {
 impl Found {
     /// `cargo run` or `cargo build`.
     pub fn cargo(&self, verb: &str) -> Command {
+        say_if_first(&self.target.join("release"));
         let mut command = cargo();
         command.args([verb, "--release", "--quiet"]).args(&self.select).current_dir(&self.folder);
         command
@@ -92,8 +114,10 @@ impl Wanted<'_> {
         if checked.diagnostics.has_errors() {
             return Ok(None);
         }
+        self.params.look(self.file)?;
         let folder = package(self.file)?;
         let workspace = Workspace::load(&folder)?;
+        has_runtime(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
         match binary.filter(|_| self.robot.is_none()) {
             Some(binary) if self.params.are_wanted() => Err(format!(
@@ -104,7 +128,7 @@ impl Wanted<'_> {
                 if self.profile.is_some() {
                     select.extend(["--features", "apex-rt/profile"].map(OsString::from));
                 }
-                Ok(Some(Found { select, folder, made: None }))
+                Ok(Some(Found { select, folder, target: workspace.target, made: None }))
             }
             None => self.make(choose(&checked.programs, self.robot)?, &workspace).map(Some),
         }
@@ -130,10 +154,10 @@ impl Wanted<'_> {
         let main = main_file(&absolute(self.file)?, &graph.name, params);
         let manifest = make_package(&made, workspace, features, "src/main.rs", &main)?;
         let target = workspace.target.join("apex/run");
-        let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.into()].to_vec();
+        let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.clone().into()].to_vec();
         // Files are named as the user sees them.
         let folder = env::current_dir().map_err(|e| format!("cannot see the current folder: {e}"))?;
-        Ok(Found { select, folder, made: Some(made) })
+        Ok(Found { select, folder, target, made: Some(made) })
     }
 }
 
@@ -143,7 +167,7 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     let mut command = program.cargo("run");
     command.arg("--");
     wanted.tell(&program, &mut command);
-    let status = command.status().map_err(|e| format!("cannot run cargo: {e}"))?;
+    let status = command.status().map_err(|e| no_cargo(&e))?;
     Ok(status.code().and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from))
 }
 
@@ -152,11 +176,6 @@ pub fn package(file: &Path) -> Result<PathBuf, String> {
     project::package_of(file).ok_or_else(|| {
         format!("`{}` is in no cargo package, so that its nodes cannot be found; put it beside a Cargo.toml that depends on `apex-rt`", file.display())
     })
-}
-
-/// The cargo that started this, or the one that is found.
-pub fn cargo() -> Command {
-    Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// The program that is meant: the named one, the only robot, or the only graph.
@@ -177,6 +196,22 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
         ([], [only]) => Ok(*only),
         _ => Err(format!("which one is to run? choose with `--robot`: {}", names())),
     }
+}
+
+/// Where nothing has been built yet, cargo, which is quiet, seems to hang.
+pub fn say_if_first(target: &Path) {
+    if !target.exists() {
+        project::print_error("building for the first time, which takes a minute or two");
+    }
+}
+
+/// Refuses a package whose texts cannot be compiled.
+pub fn has_runtime(folder: &Path, workspace: &Workspace) -> Result<(), String> {
+    if workspace.libraries().iter().any(|(name, _)| *name == "apex-rt") {
+        return Ok(());
+    }
+    let manifest = folder.join("Cargo.toml");
+    Err(format!("the package in `{}` does not depend on `apex-rt`: add it to `[dependencies]`", manifest.display()))
 }
 
 /// The whole path of a text, as a made package names it.

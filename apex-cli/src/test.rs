@@ -1,7 +1,7 @@
 //! `apex test`: the tests of a text, as Rust tests.
 
 use crate::{project, run};
-use apex_host::Workspace;
+use apex_host::{Workspace, cargo, no_cargo};
 use std::{path::Path, process::ExitCode};
 
 /// Checks, builds and runs the tests whose names contain `filter`.
@@ -13,19 +13,23 @@ pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
     }
     let count = checked.programs.iter().filter(|p| p.script.is_some()).count();
     if count == 0 {
-        println!("`{}` has no `test`", file.display());
+        project::print(&format!("`{}` has no `test`", file.display()))?;
         return Ok(ExitCode::SUCCESS);
     }
-    let workspace = Workspace::load(&run::package(file)?)?;
+    let folder = run::package(file)?;
+    let workspace = Workspace::load(&folder)?;
+    run::has_runtime(&folder, &workspace)?;
     let text = run::absolute(file)?;
     let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = workspace.cache_folder().join("test").join(name);
     let code = format!("use apex_rt::prelude::*;\n\ngraph!({text:?});\n");
     let manifest = run::make_package(&folder, &workspace, &[], "src/lib.rs", &code)?;
-    let mut command = run::cargo();
+    let target = workspace.target.join("apex/test");
+    run::say_if_first(&target);
+    let mut command = cargo();
     command.args(["test", "--quiet", "--lib", "--manifest-path"]).arg(manifest);
-    command.arg("--target-dir").arg(workspace.target.join("apex/test"));
+    command.arg("--target-dir").arg(target);
     command.args(filter).env("RUST_BACKTRACE", "0");
-    let status = command.status().map_err(|e| format!("cannot run cargo: {e}"))?;
+    let status = command.status().map_err(|e| no_cargo(&e))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

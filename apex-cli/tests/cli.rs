@@ -55,14 +55,18 @@ fn several_files_are_all_checked() {
     assert_eq!(output.status.code(), Some(1));
     let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(messages.as_array().unwrap().len(), 2);
+    let output = check(&["--format", "json"], &folder.0);
+    let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((output.status.code(), messages.as_array().unwrap().len()), (Some(1), 1));
 }
 
 #[test]
 fn what_cannot_be_read_is_two() {
     let folder = Folder::new("unreadable");
+    fs::create_dir(folder.0.join("empty")).unwrap();
     for (path, reason) in [
         (folder.0.join("missing.afg"), "there is no such file"),
-        (folder.0.clone(), "it is a folder"),
+        (folder.0.join("empty"), "there is no `.afg` text in"),
         (folder.file("latin1.afg", b"graph \xfc { }"), "byte 6 is not UTF-8"),
         (folder.file("large.afg", " ".repeat(5 << 20)), "bytes; at most"),
     ] {
@@ -70,7 +74,7 @@ fn what_cannot_be_read_is_two() {
             let output = check(&["--format", format], &path);
             assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{}", path.display());
             let text = stderr(&output);
-            assert!(text.starts_with("error: cannot read `") && text.contains(reason), "{text}");
+            assert!(text.starts_with("error: ") && text.contains(reason), "{text}");
         }
     }
 }
@@ -416,6 +420,16 @@ fn graphs_are_drawn() {
     let named = folder.0.join("bell.dot");
     assert_eq!(graph(&["-o", named.to_str().unwrap()], &file).status.code(), Some(0));
     assert!(fs::read_to_string(&named).unwrap().starts_with("digraph {"));
+    // Also those that are no programs: used in others, or with a parameter without a value.
+    let file = folder.file(
+        "parts.afg",
+        "graph Open(n: u8) {\n    in  x: u8;\n    out y: u8;\n    x -> y;\n}\ngraph All {\n    slot push;\n    node house = House();\n    push -> house.push;\n}\n".to_owned() + BELL,
+    );
+    for name in ["Open", "House", "All"] {
+        let drawn = graph(&["--graph", name], &file);
+        assert_eq!((drawn.status.code(), stderr(&drawn)), (Some(0), String::new()));
+        assert!(String::from_utf8(drawn.stdout).unwrap().contains(&format!("<title>{name}")), "{name}");
+    }
 }
 
 #[test]
@@ -430,12 +444,126 @@ fn graphs_that_cannot_be_drawn() {
     fails(&[], &folder.0.join("none.afg"), "cannot read");
     fails(&["-o", "bell.png"], &file, "ends neither in .svg nor in .dot: say which with `--format`");
     fails(&["-o", "bell"], &file, "ends neither in .svg nor in .dot");
-    fails(&["-o", folder.0.join("no/such/folder.svg").to_str().unwrap()], &file, "cannot write");
-    fails(&["--graph", "Hose"], &file, "there is no graph `Hose` to draw; there are `House`");
+    fails(&["-o", folder.0.join("no/such/folder.svg").to_str().unwrap()], &file, "there is no folder `");
+    fails(&["--graph", "Hose"], &file, "there is no graph `Hose` to draw; did you mean `House`?");
+    fails(&["--graph", "Bath"], &file, "there is no graph `Bath` to draw; there are `House`");
+    fails(&["-o", file.to_str().unwrap(), "--format", "svg"], &file, "would overwrite its text");
+    assert_eq!(fs::read_to_string(&file).unwrap(), BELL);
+    fails(&[], &folder.file("fsm.afg", &BELL[..BELL.find("graph").unwrap()]), "there is no graph to draw");
     fails(&["--activity"], &folder.file("still.afg", "graph Still { }\n"), "no activity comes to a node of `Still`");
     let wrong = folder.file("wrong.afg", "graph A {\n    node a = Nothing();\n}\n");
     let picture = folder.0.join("wrong.svg");
     let output = graph(&["-o", picture.to_str().unwrap()], &wrong);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("unknown-node") && !picture.exists(), "{}", stderr(&output));
+}
+
+/// What is no file is not replaced by one.
+#[cfg(unix)]
+#[test]
+fn a_pipe_stays_a_pipe() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let folder = Folder::new("fifo");
+    let pipe = folder.0.join("pipe.afg");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let writer = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::write(pipe, UGLY).unwrap()
+    });
+    let output = apex().arg("fmt").arg(&pipe).output().unwrap();
+    writer.join().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(stderr(&output).contains("it is a device or a pipe"), "{}", stderr(&output));
+    assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
+}
+
+/// A file without an end, and one that cannot be written to.
+#[cfg(target_os = "linux")]
+#[test]
+fn devices() {
+    let folder = Folder::new("devices");
+    for command in ["check", "import"] {
+        let output = apex().args([command, "/dev/zero"]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).starts_with("error: cannot read `/dev/zero`: at most "), "{}", stderr(&output));
+    }
+    let file = folder.file("a.afg", BELL).display().to_string();
+    for arguments in [&["explain", "--list"][..], &["expand", &file], &["graph", &file], &["test", &file]] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = apex().args(arguments).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).starts_with("error: cannot write to standard output: "), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn nobody_reads_what_is_printed() {
+    let folder = Folder::new("unread");
+    let file = folder.file("a.afg", BELL).display().to_string();
+    for arguments in [&["explain", "--list"][..], &["expand", &file], &["test", &file], &["completions", "zsh"]] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = apex().args(arguments).stdout(writer).output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_machine_without_cargo() {
+    let folder = Folder::new("no_cargo");
+    package(&folder, "");
+    let file = folder.file("a.afg", BELL);
+    for command in ["check", "run", "test", "doc"] {
+        let output = apex().arg(command).arg(&file).env("CARGO", folder.0.join("cargo")).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        assert!(stderr(&output).starts_with("error: there is no `cargo`: install Rust"), "{}", stderr(&output));
+    }
+}
+
+/// Without the runtime a text can be checked, but not run.
+#[test]
+fn a_package_without_the_runtime() {
+    let folder = Folder::new("no_runtime");
+    folder.file("Cargo.toml", "[package]\nname = \"plain\"\nedition = \"2024\"\n[workspace]\n");
+    fs::create_dir(folder.0.join("src")).unwrap();
+    folder.file("src/lib.rs", "");
+    let file = folder.file("a.afg", BELL.to_owned() + "test a: House { feed push; }\n");
+    for (command, code) in [("check", 0), ("run", 2), ("test", 2)] {
+        let output = apex().arg(command).arg(&file).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{command}: {}", stderr(&output));
+        assert_eq!(stderr(&output).contains("does not depend on `apex-rt`: add it"), code == 2, "{}", stderr(&output));
+    }
+}
+
+/// Nodes are missing because the Rust around them is broken: that is what has to be mended.
+#[test]
+fn nodes_in_broken_rust() {
+    let folder = Folder::new("broken_rust");
+    package(&folder, "#[node]\npub fn ramp() -> u64 { 1 }\nfn broken( {\n");
+    let file = folder.file("a.afg", "use crate::ramp;\ngraph A {\n    out y: u64;\n    ramp() -> y;\n}\n");
+    for _ in 0..2 {
+        let said = stderr(&check(&[], &file));
+        let reason = "note: the nodes in src/lib.rs are not known, as its line 3 is no Rust: ";
+        assert_eq!(said.matches(reason).count(), 2, "{said}");
+    }
+}
+
+/// What is wrong with the files of a run is said before anything is built.
+#[test]
+fn files_of_a_run() {
+    let folder = Folder::new("files");
+    package(&folder, "");
+    let file = folder.file("a.afg", BELL);
+    let missing = folder.0.join("no/such.toml");
+    for (option, path, reason) in [
+        ("--params", &missing, "such.toml`: there is no such file"),
+        ("--save-params", &missing, "such.toml`: there is no folder `"),
+        ("--save-params", &folder.0, "it is no file, which could be replaced"),
+        ("--save-params", &file, "the parameters would overwrite the text `"),
+    ] {
+        let output = apex().arg("run").arg(&file).arg(option).arg(path).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{option}");
+        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), BELL);
 }

@@ -6,14 +6,15 @@ use apex_dsl::{
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
-    fs, io,
+    fs,
+    io::{self, Read},
     path::{Path, PathBuf},
     sync::Arc,
     time::UNIX_EPOCH,
 };
 
 /// Changes when the cached items do.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {
@@ -69,19 +70,39 @@ pub(crate) fn stamp(path: &Path) -> Option<(u128, u64)> {
     Some((modified.as_nanos(), metadata.len()))
 }
 
+/// The text in the file `path`, if it has at most `most` bytes.
+///
+/// # Errors
+/// Says why it cannot be read.
+pub fn read_text(path: &Path, most: usize) -> Result<String, String> {
+    let metadata = fs::metadata(path).map_err(|e| reason(&e))?;
+    if metadata.is_dir() {
+        return Err("it is a folder".to_owned());
+    }
+    if metadata.len() > most as u64 {
+        return Err(format!("it has {} bytes; at most {most} are read", metadata.len()));
+    }
+    read_from(fs::File::open(path).map_err(|e| reason(&e))?, most)
+}
+
+/// The text that comes from `source`, if it has at most `most` bytes. How much will come is not known before: what looks
+/// like an empty file may have no end.
+///
+/// # Errors
+/// Says why it cannot be read.
+pub fn read_from(source: impl Read, most: usize) -> Result<String, String> {
+    let mut bytes = vec![];
+    // One byte more than is allowed is enough to know.
+    source.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|e| reason(&e))?;
+    if bytes.len() > most {
+        return Err(format!("at most {most} bytes are read"));
+    }
+    String::from_utf8(bytes).map_err(|e| format!("byte {} is not UTF-8", e.utf8_error().valid_up_to()))
+}
+
 impl World for Disk {
     fn read(&mut self, path: &Path) -> Result<Arc<str>, String> {
-        let metadata = fs::metadata(path).map_err(|e| reason(&e))?;
-        if metadata.is_dir() {
-            return Err("it is a folder".to_owned());
-        }
-        if metadata.len() > MAX_BYTES as u64 {
-            return Err(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len()));
-        }
-        let bytes = fs::read(path).map_err(|e| reason(&e))?;
-        let text =
-            String::from_utf8(bytes).map_err(|e| format!("byte {} is not UTF-8", e.utf8_error().valid_up_to()))?;
-        Ok(text.into())
+        Ok(read_text(path, MAX_BYTES)?.into())
     }
 
     fn exists(&mut self, path: &Path) -> bool {

@@ -4,5 +4,5 @@
 mod disk;
 mod workspace;
 
-pub use disk::Disk;
-pub use workspace::{Seen, Workspace};
+pub use disk::{Disk, read_from, read_text};
+pub use workspace::{Seen, Workspace, cargo, no_cargo};

@@ -5,6 +5,7 @@ use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
     env, fs,
+    io::{self, ErrorKind},
     path::{Path, PathBuf},
     process::Command,
 };
@@ -271,25 +272,39 @@ fn cache_name(manifest: &Path) -> String {
 /// `cargo metadata`, without network if that is possible: a build of one package downloads only what that package
 /// needs, but the metadata speaks of the whole workspace. `--locked` is left out if there is no lock file yet.
 fn metadata(manifest: &Path) -> Result<Value, String> {
-    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     // Without the filter cargo wants crates of platforms that were never downloaded.
     let host = host_triple();
     let filter = host.iter().flat_map(|h| ["--filter-platform", h]);
     let mut reason = String::new();
     for extra in [&["--locked", "--offline"][..], &["--locked"], &[]] {
-        let mut command = Command::new(&cargo);
+        let mut command = cargo();
         command
             .args(["metadata", "--quiet", "--format-version", "1", "--manifest-path"])
             .arg(manifest)
             .args(filter.clone())
             .args(extra);
-        let output = command.output().map_err(|e| format!("cannot run `{}`: {e}", cargo.to_string_lossy()))?;
+        let output = command.output().map_err(|e| no_cargo(&e))?;
         if output.status.success() {
             return serde_json::from_slice(&output.stdout).map_err(|e| format!("cargo's answer cannot be read: {e}"));
         }
         reason = String::from_utf8_lossy(&output.stderr).trim().to_owned();
     }
     Err(format!("cargo does not know the package: {reason}"))
+}
+
+/// The cargo that started this, or the one that is found.
+pub fn cargo() -> Command {
+    Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Says why cargo could not be run.
+pub fn no_cargo(reason: &io::Error) -> String {
+    match reason.kind() {
+        ErrorKind::NotFound => {
+            "there is no `cargo`: install Rust from https://rustup.rs, or put it on the PATH".to_owned()
+        }
+        _ => format!("cannot run `cargo`: {reason}"),
+    }
 }
 
 fn host_triple() -> Option<String> {

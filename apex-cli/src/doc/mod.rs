@@ -37,7 +37,7 @@ pub fn run(paths: &[PathBuf], output: Option<&Path>) -> Result<ExitCode, String>
     let index = folder.index();
     let here = env::current_dir().unwrap_or_default();
     let shown = index.strip_prefix(here).unwrap_or(&index);
-    project::print(&format!("wrote {} pages; begin with {}", pages.len(), shown.display()));
+    project::print(&format!("wrote {} pages; begin with {}", pages.len(), shown.display()))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -78,8 +78,10 @@ impl Reader {
     /// Where pages go if nobody says so.
     fn folder(&mut self) -> Result<PathBuf, String> {
         let Some(first) = self.waiting.front().cloned() else { return Err("there is no text".to_owned()) };
-        let workspace = &checker(&mut self.checkers, &first)?.workspace;
-        workspace.as_ref().map(|workspace| workspace.cache_folder().join("doc")).ok_or_else(|| {
+        let checker = checker(&mut self.checkers, &first)?;
+        // That a text is not there is to be said before all else.
+        checker.read(&first)?;
+        checker.workspace.as_ref().map(|workspace| workspace.cache_folder().join("doc")).ok_or_else(|| {
             format!("`{}` belongs to no package: say with `--output` where the pages go", first.display())
         })
     }

@@ -8,15 +8,12 @@ mod skeletons;
 mod text;
 mod yaml;
 
-use crate::project;
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use crate::{project, replace};
+use apex_host::read_text;
+use std::{path::Path, process::ExitCode};
 
 /// Most bytes of a file that is read.
-const MAX_BYTES: u64 = 16 << 20;
+const MAX_BYTES: usize = 16 << 20;
 
 /// Something that is wrong with a graph file.
 #[derive(Debug, PartialEq)]
@@ -41,7 +38,10 @@ pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<E
             return Err(format!("`{}` is there already: remove it first, or take another name", path.display()));
         }
     }
-    let yaml = read(file)?;
+    if output.is_some() && output == nodes {
+        return Err("the text and its nodes need files of their own: `--output` and `--nodes` name the same".to_owned());
+    }
+    let yaml = read_text(file, MAX_BYTES).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let imported = yaml::read(&yaml).and_then(|yaml| graph::read(&yaml, &name));
     let imported = match imported {
@@ -56,11 +56,11 @@ pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<E
         .map_err(|errors| format!("this graph cannot be written as a text: {}", errors.sorted()[0].message))?;
     let skeletons = nodes.map(|path| Ok::<_, String>((path, skeletons::write(&imported)?))).transpose()?;
     match output {
-        Some(path) => write(path, &text)?,
-        None => project::print(text.trim_end()),
+        Some(path) => replace::write(path, &text)?,
+        None => project::print(text.trim_end())?,
     }
     if let Some((path, rust)) = skeletons {
-        write(path, &rust)?;
+        replace::write(path, &rust)?;
     }
     let unknown = skeletons::types(&imported);
     if !unknown.is_empty() {
@@ -70,23 +70,8 @@ pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<E
     Ok(ExitCode::SUCCESS)
 }
 
-fn read(file: &Path) -> Result<String, String> {
-    let fail = |reason: String| format!("cannot read `{}`: {reason}", file.display());
-    let metadata = fs::metadata(file).map_err(|e| fail(e.to_string()))?;
-    if metadata.len() > MAX_BYTES {
-        return Err(fail(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len())));
-    }
-    let bytes = fs::read(file).map_err(|e| fail(e.to_string()))?;
-    String::from_utf8(bytes).map_err(|e| fail(format!("byte {} is not UTF-8", e.utf8_error().valid_up_to())))
-}
-
 /// The module that a Rust file of a package is, if it stands in `src`.
 fn module(file: &Path) -> String {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     if ["lib", "main"].contains(&&*stem) { "crate".to_owned() } else { format!("crate::{}", names::snake(&stem)) }
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    let path = PathBuf::from(path);
-    fs::write(&path, text).map_err(|e| format!("cannot write `{}`: {e}", path.display()))
 }

@@ -35,7 +35,7 @@ pub fn run(folder: &Path, checkout: Option<&Path>) -> Result<ExitCode, String> {
             .replace("{nodes}", &nodes);
         write(&folder.join(file), &text)?;
     }
-    project::print(&format!("made `{name}`; next\n  cd {}\n  cargo run", shell_word(folder)));
+    project::print(&format!("made `{name}`; next\n  cd {}\n  cargo run", shell_word(folder)))?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,4 +1,5 @@
 use crate::run::{Found, Wanted};
+use apex_host::no_cargo;
 use serde_json::Value;
 use std::{
     fs,
@@ -20,7 +21,7 @@ impl Built {
         let Some(program) = wanted.find()? else { return Ok(None) };
         let mut command = program.cargo("build");
         command.arg("--message-format=json-render-diagnostics").stderr(Stdio::inherit());
-        let output = command.output().map_err(|e| format!("cannot run cargo: {e}"))?;
+        let output = command.output().map_err(|e| no_cargo(&e))?;
         if !output.status.success() {
             return Ok(None);
         }

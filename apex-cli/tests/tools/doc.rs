@@ -245,6 +245,8 @@ fn without_a_folder_pages_go_where_cargo_builds() {
     let output = doc(&outside, &["a.afg"]);
     assert_eq!((output.status.code(), files(&outside.0).len()), (Some(2), 1));
     assert_eq!(stderr(&output), "error: `a.afg` belongs to no package: say with `--output` where the pages go\n");
+    let output = doc(&outside, &["missing.afg"]);
+    assert_eq!(stderr(&output), "error: cannot read `missing.afg`: there is no such file\n");
 }
 
 #[test]

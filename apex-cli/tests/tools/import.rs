@@ -270,7 +270,7 @@ fn what_cannot_be_read_is_two() {
     let large = folder.0.join("large.apex");
     fs::File::create(&large).unwrap().set_len((16 << 20) + 1).unwrap();
     for (file, reason) in [
-        (folder.0.join("missing.apex"), "cannot read `"),
+        (folder.0.join("missing.apex"), "missing.apex`: there is no such file"),
         (large, "at most 16777216 are read"),
         (folder.file("latin1.apex", b"nodes: \xfc"), "byte 7 is not UTF-8"),
     ] {
@@ -278,4 +278,13 @@ fn what_cannot_be_read_is_two() {
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
         assert!(stderr(&output).contains(reason), "{}", stderr(&output));
     }
+}
+
+#[test]
+fn a_text_and_its_nodes_are_two_files() {
+    let folder = Folder::new("import-one-file");
+    let one = folder.0.join("one.rs").display().to_string();
+    let output = import(&folder.file("a.apex", "nodes: []\n"), &["-o", &one, "--nodes", &one]);
+    assert_eq!((output.status.code(), Path::new(&one).exists()), (Some(2), false));
+    assert!(stderr(&output).contains("need files of their own"), "{}", stderr(&output));
 }

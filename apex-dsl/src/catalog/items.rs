@@ -42,6 +42,8 @@ pub enum ItemKind {
     Methods(NodeMethods),
     /// A macro call whose tokens hold `#[node]`: its nodes cannot be seen.
     Hidden,
+    /// What is wrong with a file that is no Rust: nothing in it can be seen.
+    Broken(String),
 }
 
 /// A field of a `#[derive(Outputs)]` struct.
@@ -184,9 +186,15 @@ pub enum Literal {
     Text(String),
 }
 
-/// Reads the items of one file. A file that is not Rust gives none: rustc will say so.
+/// Reads the items of one file.
 pub fn read(text: &str) -> Vec<Item> {
-    syn::parse_file(text).map(|file| items(&file.items)).unwrap_or_default()
+    match syn::parse_file(text) {
+        Ok(file) => items(&file.items),
+        Err(error) => {
+            let kind = ItemKind::Broken(error.to_string());
+            vec![entry(String::new(), &Visibility::Inherited, &[], error.span(), kind)]
+        }
+    }
 }
 
 fn items(syntax: &[Syn]) -> Vec<Item> {

@@ -403,6 +403,14 @@ impl Catalog {
         &self.tree.hidden
     }
 
+    /// What is wrong with the Rust files that cannot be read, each as a sentence.
+    pub fn broken(&self) -> impl Iterator<Item = String> {
+        self.tree.broken.iter().map(|(file, line, reason)| {
+            let file = file.strip_prefix(&self.crates.root).unwrap_or(file).display();
+            format!("the nodes in {file} are not known, as its line {line} is no Rust: {reason}")
+        })
+    }
+
     /// The name of a definition.
     pub fn name(&self, def: DefId) -> &str {
         &self.tree.defs[def].name

@@ -70,6 +70,8 @@ pub struct Tree {
     pub defs: Vec<Def>,
     /// Files in which a macro hides nodes.
     pub hidden: Vec<PathBuf>,
+    /// Files that are no Rust: the line of what is wrong, and what.
+    pub broken: Vec<(PathBuf, usize, String)>,
     names: Vec<String>,
     dependencies: Vec<BTreeMap<String, usize>>,
 }
@@ -152,6 +154,10 @@ impl Tree {
                 }
                 ItemKind::Hidden => {
                     self.hidden.push(file.to_owned());
+                    continue;
+                }
+                ItemKind::Broken(reason) => {
+                    self.broken.push((file.to_owned(), item.line, reason.clone()));
                     continue;
                 }
                 kind => {

@@ -193,7 +193,11 @@ impl<'a> Opener<'a> {
         let known: Vec<&str> =
             self.item.ports.iter().filter(|p| p.kind == kind).map(|p| p.name.text.as_str()).collect();
         let message = format!("`{}` has no {word} `{}`", self.item.name.text, name.text);
-        suggest(Diagnostic::error("unknown-port", name.span, message), name, known.iter().copied())
+        let error = Diagnostic::error("unknown-port", name.span, message);
+        if kind == PortKind::Event && self.states.iter().any(|state| state.item.name.text == name.text) {
+            return error.note(format!("`{0}` is a state: what leads to it is `=> {0}`", name.text));
+        }
+        suggest(error, name, known.iter().copied())
     }
 
     fn arm(&mut self, number: usize, leaf: usize, transition: &'a Transition, leaves: &[usize]) -> Arm {

@@ -2,7 +2,7 @@
 
 use super::{
     names::suggest,
-    value::{Evaluated, Scope, Wanted, duration, evaluate, scaled},
+    value::{Evaluated, Scope, Wanted, duration, evaluate, scaled, seconds},
 };
 use crate::{
     catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
@@ -78,7 +78,7 @@ pub fn of_node(
     let mut values = vec![];
     for param in &signature.params {
         let value = match given.get(param.name.as_str()) {
-            Some(expr) => evaluate(expr, scope).and_then(|value| wanted(signature, param).fit(value, expr.span)),
+            Some(expr) => evaluate(expr, scope).and_then(|value| wanted(signature, param).fit(value, expr)),
             // The argument with a wrong name may be this one.
             None if !whole && param.default.is_none() => Ok(Value::RustDefault),
             None => default(signature, param, at, fed),
@@ -108,7 +108,7 @@ fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str)
     };
     match &param.default {
         Some(DefaultValue::Literal(Literal::Number(value, _))) if param.ty.name() == "Duration" => {
-            duration(Number { dimension: Dimension::TIME, ..number(*value, false) }, at).map(Value::Duration)
+            seconds(*value, at).map(Value::Duration)
         }
         Some(DefaultValue::Literal(Literal::Number(value, integer))) => {
             let is_float = matches!(param.ty.name(), "f32" | "f64");
@@ -147,7 +147,7 @@ pub fn of_graph(
     for (param, ty) in params {
         let value = match (exprs.get(param.name.text.as_str()), given) {
             (Some(expr), Some((_, scope))) => {
-                graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr.span))
+                graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr))
             }
             _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
             // As long as a graph is not used, its parameters need no value.
@@ -225,7 +225,7 @@ fn graph_default(
 ) -> Evaluated<Value> {
     let wanted = graph_param(param, ty, before)?;
     match &param.default {
-        Some(expr) => wanted.fit(declared(param, expr, before)?, expr.span),
+        Some(expr) => wanted.fit(declared(param, expr, before)?, expr),
         None if !is_used => Ok(Value::RustDefault),
         None => {
             let message = format!("`{}` needs a value for `{}`", name.text, param.name.text);
@@ -242,7 +242,7 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnos
     let mut modifiers = Modifiers::default();
     let mut time = |expr: &Expr| -> Option<Duration> {
         let value = evaluate(expr, scope).and_then(|value| match value {
-            Value::Number(n) => duration(n, expr.span),
+            Value::Number(n) => duration(n, expr),
             Value::Duration(d) => Ok(d),
             // Not known yet: any time will do for the checks.
             Value::RustDefault => Ok(Duration::from_secs(1)),

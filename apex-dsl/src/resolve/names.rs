@@ -327,6 +327,7 @@ impl Texts {
                 error = error.note(format!("there is a node with a similar name, `{near}`, that is not imported here"));
             }
         }
+        error = catalog.broken().fold(error, Diagnostic::note);
         for hidden in catalog.hidden() {
             error = error.note(format!(
                 "a macro in {} makes nodes that the compiler cannot see; write `#[node]` outside of macros",
@@ -373,5 +374,5 @@ fn unknown_import(words: &[String], last: &Ident, catalog: &Catalog) -> Diagnost
     for def in elsewhere.into_iter().filter_map(|def| catalog.path(def)).take(3) {
         error = error.note(format!("there is `{}`", def.join("::").trim_start_matches("::")));
     }
-    error
+    catalog.broken().fold(error, Diagnostic::note)
 }

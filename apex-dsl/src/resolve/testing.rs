@@ -5,7 +5,7 @@ use super::{
     args,
     instance::{Builder, Purpose},
     names::{GraphId, Made, Texts, suggest},
-    value::{Scope, Wanted, as_rust, duration, evaluate},
+    value::{Scope, Wanted, as_rust, duration, element_of, evaluate},
 };
 use crate::{
     catalog::{Catalog, Type},
@@ -154,20 +154,22 @@ impl Writer<'_> {
             }
             Some(expr) => {
                 let values = match self.value(expr)? {
-                    Value::List(values) if every.is_some() => values,
-                    value => vec![value],
+                    Value::List(values) if every.is_some() => {
+                        values.into_iter().enumerate().map(|(i, value)| (value, element_of(expr, i))).collect()
+                    }
+                    value => vec![(value, expr)],
                 };
-                values.into_iter().map(|value| self.fit(port, &ty, value, expr.span)).collect::<Option<_>>()?
+                values.into_iter().map(|(value, expr)| self.fit(port, &ty, value, expr)).collect::<Option<_>>()?
             }
         };
         Some(Step::Feed { port: node, values, every })
     }
 
     /// A token for a port, if it has the type of the port.
-    fn fit(&mut self, port: &Ident, ty: &Type, value: Value, span: Span) -> Option<Value> {
+    fn fit(&mut self, port: &Ident, ty: &Type, value: Value, expr: &Expr) -> Option<Value> {
         let declared = format!("`{}` takes `{ty}`", port.text);
         let wanted = Wanted { name: &port.text, ty, unit: None, range: None, declared };
-        wanted.fit(value, span).map_err(|error| self.diagnostics.push(*error)).ok()
+        wanted.fit(value, expr).map_err(|error| self.diagnostics.push(*error)).ok()
     }
 
     fn value(&mut self, expr: &Expr) -> Option<Value> {
@@ -177,7 +179,7 @@ impl Writer<'_> {
     fn time(&mut self, expr: &Expr) -> Option<Duration> {
         let time = match self.value(expr)? {
             Value::Duration(time) => Ok(time),
-            Value::Number(n) => duration(n, expr.span),
+            Value::Number(n) => duration(n, expr),
             _ => {
                 Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a time is wanted here, for example `50ms`")))
             }

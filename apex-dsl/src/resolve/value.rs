@@ -212,8 +212,8 @@ pub struct Wanted<'a> {
 
 impl Wanted<'_> {
     /// Whether `value` can be given to the parameter, and what it is then.
-    pub fn fit(&self, value: Value, span: Span) -> Evaluated<Value> {
-        self.fit_type(value, self.ty, span).map_err(|error| Box::new(error.note(self.declared.clone())))
+    pub fn fit(&self, value: Value, expr: &Expr) -> Evaluated<Value> {
+        self.fit_type(value, self.ty, expr).map_err(|error| Box::new(error.note(self.declared.clone())))
     }
 
     fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
@@ -222,18 +222,18 @@ impl Wanted<'_> {
         error("wrong-value", span, message)
     }
 
-    fn fit_type(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+    fn fit_type(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
         match ty.name() {
-            "Duration" => return self.fit_duration(value, ty, span),
-            "f32" | "f64" => return self.fit_number(value, ty, span),
+            "Duration" => return self.fit_duration(value, ty, expr),
+            "f32" | "f64" => return self.fit_number(value, ty, expr),
             "u8" | "u16" | "u32" | "u64" | "u128" | "usize" | "i8" | "i16" | "i32" | "i64" | "i128" | "isize" => {
-                return self.fit_integer(value, ty, span);
+                return self.fit_integer(value, ty, expr);
             }
             _ => {}
         }
         match (ty, &value) {
             (_, Value::Path(_) | Value::RustDefault) => Ok(value),
-            (Type::Ref(inner), _) => self.fit_type(value, inner, span),
+            (Type::Ref(inner), _) => self.fit_type(value, inner, expr),
             (Type::Primitive(name), Value::Bool(_)) if name == "bool" => Ok(value),
             (Type::Primitive(name), Value::Text(_)) if name == "str" => Ok(value),
             (Type::Named(name, _), Value::Text(_)) if name == "String" => Ok(value),
@@ -243,14 +243,14 @@ impl Wanted<'_> {
                 {
                     return error(
                         "wrong-value",
-                        span,
+                        expr.span,
                         format!("`{}` takes {len} values, not {}", self.name, items.len()),
                     );
                 }
                 items
                     .iter()
-                    .cloned()
-                    .map(|item| self.fit_type(item, element, span))
+                    .enumerate()
+                    .map(|(i, item)| self.fit_type(item.clone(), element, element_of(expr, i)))
                     .collect::<Evaluated<_>>()
                     .map(Value::List)
             }
@@ -260,11 +260,11 @@ impl Wanted<'_> {
             {
                 Ok(value)
             }
-            _ => self.wrong(&value, ty, span),
+            _ => self.wrong(&value, ty, expr.span),
         }
     }
 
-    fn check_unit(&self, n: Number, span: Span) -> Evaluated<()> {
+    fn check_unit(&self, n: Number, expr: &Expr) -> Evaluated<()> {
         let unit = self.unit.and_then(|u| units::parse(u).ok());
         let wanted = unit.map_or(Dimension::NONE, |u| u.dimension);
         if n.dimension == wanted {
@@ -273,15 +273,13 @@ impl Wanted<'_> {
         if n.dimension.is_none() {
             let unit = self.unit.unwrap_or_default();
             let message = format!("`{}` is {}: the unit is missing", self.name, wanted.noun());
-            return Err(Box::new(Diagnostic::error("missing-unit", span, message).guess(
-                format!("write it in `{unit}`"),
-                span.after(),
-                unit,
-            )));
+            let ty = self.ty.to_string().replace("core::time::", "");
+            let declared = if ty.contains("Duration") { ty } else { format!("{ty}[{unit}]") };
+            return Err(Box::new(missing_unit(message, expr, &declared, &[(&format!("`{unit}`"), unit)])));
         }
         error(
             "wrong-unit",
-            span,
+            expr.span,
             format!("`{}` is {}, but this is {}", self.name, kind(Number { dimension: wanted, ..n }), kind(n)),
         )
     }
@@ -302,62 +300,100 @@ impl Wanted<'_> {
         error("out-of-range", span, message)
     }
 
-    fn fit_number(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+    fn fit_number(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
         match value {
             Value::Number(n) => {
-                self.check_unit(n, span)?;
-                self.check_range(n.value, span)?;
+                self.check_unit(n, expr)?;
+                self.check_range(n.value, expr.span)?;
                 Ok(Value::Number(Number { integer: None, ..n }))
             }
             Value::Path(_) | Value::RustDefault => Ok(value),
-            _ => self.wrong(&value, ty, span),
+            _ => self.wrong(&value, ty, expr.span),
         }
     }
 
-    fn fit_integer(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+    fn fit_integer(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
         match value {
             Value::Number(n) => {
-                self.check_unit(n, span)?;
-                self.check_range(n.value, span)?;
+                self.check_unit(n, expr)?;
+                self.check_range(n.value, expr.span)?;
                 let Some(integer) = n.integer else {
-                    return error("wrong-value", span, format!("`{}` is a whole number (`{ty}`)", self.name));
+                    return error("wrong-value", expr.span, format!("`{}` is a whole number (`{ty}`)", self.name));
                 };
                 let (low, high) = limits(ty.name());
                 if integer < low || integer > high {
-                    return error("out-of-range", span, format!("{integer} does not fit into `{ty}` ({low}..={high})"));
+                    return error(
+                        "out-of-range",
+                        expr.span,
+                        format!("{integer} does not fit into `{ty}` ({low}..={high})"),
+                    );
                 }
                 Ok(value)
             }
             Value::Path(_) | Value::RustDefault => Ok(value),
-            _ => self.wrong(&value, ty, span),
+            _ => self.wrong(&value, ty, expr.span),
         }
     }
 
-    fn fit_duration(&self, value: Value, ty: &Type, span: Span) -> Evaluated<Value> {
+    fn fit_duration(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
         match value {
             Value::Number(n) => {
                 let seconds = Wanted { unit: Some("s"), ..Self { declared: String::new(), ..*self } };
-                seconds.check_unit(n, span)?;
-                seconds.check_range(n.value, span)?;
-                duration(n, span).map(Value::Duration)
+                seconds.check_unit(n, expr)?;
+                seconds.check_range(n.value, expr.span)?;
+                duration(n, expr).map(Value::Duration)
             }
             Value::Duration(_) | Value::Path(_) | Value::RustDefault => Ok(value),
-            _ => self.wrong(&value, ty, span),
+            _ => self.wrong(&value, ty, expr.span),
         }
     }
 }
 
+/// The element of a list, if it is written as one.
+pub fn element_of(list: &Expr, index: usize) -> &Expr {
+    match &list.kind {
+        ExprKind::List(items) => items.get(index).unwrap_or(list),
+        _ => list,
+    }
+}
+
+/// A value without a unit where one of `units`, in words and as written, is wanted. Only behind a number it can be
+/// written at once; a parameter must be declared as `declared`.
+fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: &[(&str, &str)]) -> Diagnostic {
+    let error = Diagnostic::error("missing-unit", expr.span, message);
+    let is_number = |expr: &Expr| matches!(expr.kind, ExprKind::Number(..));
+    match &expr.kind {
+        ExprKind::Path(path) => {
+            let name = path.text();
+            error.note(format!("the parameter `{name}` of the graph has no unit: declare it as `{name}: {declared}`"))
+        }
+        ExprKind::Unary("-", inner) if !is_number(inner) => error.note(NO_PART_HAS_A_UNIT),
+        ExprKind::Binary(..) => error.note(NO_PART_HAS_A_UNIT),
+        _ => units
+            .iter()
+            .fold(error, |error, (words, unit)| error.guess(format!("write it in {words}"), expr.span.after(), *unit)),
+    }
+}
+
+const NO_PART_HAS_A_UNIT: &str =
+    "nothing in it has a unit: write one behind a number, or declare a parameter in it with one";
+
 /// A time as a duration.
-pub fn duration(n: Number, span: Span) -> Evaluated<Duration> {
+pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
     if n.dimension.is_none() {
-        let missing = Diagnostic::error("missing-unit", span, "a time is wanted here: the unit is missing");
-        let milliseconds = missing.guess("write it in milliseconds", span.after(), "ms");
-        return Err(Box::new(milliseconds.guess("write it in seconds", span.after(), "s")));
+        let message = "a time is wanted here: the unit is missing";
+        let units = [("milliseconds", "ms"), ("seconds", "s")];
+        return Err(Box::new(missing_unit(message, expr, "Duration", &units)));
     }
     if n.dimension != Dimension::TIME {
-        return error("wrong-unit", span, format!("a time is wanted here, but this is {}", kind(n)));
+        return error("wrong-unit", expr.span, format!("a time is wanted here, but this is {}", kind(n)));
     }
-    let nanos = (n.value * 1e9).round();
+    seconds(n.value, expr.span)
+}
+
+/// So many seconds as a duration.
+pub fn seconds(value: f64, span: Span) -> Evaluated<Duration> {
+    let nanos = (value * 1e9).round();
     if !(0.0..=i64::MAX as f64).contains(&nanos) {
         return error("out-of-range", span, "this time is negative or longer than 292 years");
     }

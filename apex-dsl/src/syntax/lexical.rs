@@ -273,7 +273,11 @@ impl Scanner<'_> {
         let span = Span::new(self.file, self.at, self.at + char.len_utf8());
         self.at = span.end as usize;
         self.unknown += 1;
-        let shown = if char.is_control() { char.escape_debug().to_string() } else { char.to_string() };
+        let shown = match char {
+            _ if is_invisible(char) => format!("U+{:04X}", char as u32),
+            _ if char.is_control() => char.escape_debug().to_string(),
+            _ => char.to_string(),
+        };
         let message = format!("`{shown}` means nothing here");
         let diagnostic = explained(char, Diagnostic::error("unknown-character", span, message));
         if self.unknown >= MAX_UNKNOWN {
@@ -282,6 +286,11 @@ impl Scanner<'_> {
             self.fail(diagnostics, diagnostic);
         }
     }
+}
+
+/// Marks of byte order, widths of zero and directions of writing: what other programs leave in a text unseen.
+fn is_invisible(char: char) -> bool {
+    matches!(char, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }
 
 /// What somebody means by a character that means nothing, if that is known.
@@ -297,6 +306,7 @@ fn explained(char: char, error: Diagnostic) -> Diagnostic {
         '\u{a0}' => " ",
         '\'' => return error.note("a string stands in double quotes"),
         '#' => return error.note("a comment begins with `//`"),
+        c if is_invisible(c) => return error.fix("leave out this character, which cannot be seen", span, ""),
         c if c.is_alphabetic() => return error.note("a name is made of the letters a to z, digits and `_`"),
         _ => return error,
     };
