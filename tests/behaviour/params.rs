@@ -330,6 +330,12 @@ fn files_that_cannot_be_read_or_written() {
     );
     assert!(save_file(&mut tuned(), folder.0.join("no/folder.toml")).is_err());
     assert!(save_file(&mut tuned(), folder.0.join("..")).is_err());
+    #[cfg(unix)]
+    {
+        let socket = folder.0.join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        assert!(save_file(&mut tuned(), &socket).is_err(), "what is no file is not replaced by one");
+    }
     fs::write(&wrong, b"\xff").unwrap();
     assert!(load_file(&mut tuned(), &wrong).unwrap_err().to_string().ends_with("byte 0 is not UTF-8"));
 }

@@ -28,11 +28,14 @@ pub fn load_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> Resu
 /// it meanwhile sees the old one or the new one.
 ///
 /// # Errors
-/// The file cannot be written; then the old one is left as it is.
+/// The file cannot be written, or is no file (a device, a pipe); then the old one is left as it is.
 pub fn save_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> io::Result<()> {
     let text = save(program);
     // A link is kept, and what it leads to is replaced.
     let path = fs::canonicalize(path.as_ref()).unwrap_or_else(|_| path.as_ref().to_owned());
+    if fs::metadata(&path).is_ok_and(|old| !old.is_file()) {
+        return Err(io::Error::other("it is no file that could be replaced"));
+    }
     let beside = beside(&path)?;
     let result = write(&path, &beside, &text);
     if result.is_err() {
@@ -46,6 +49,9 @@ fn read(path: &Path) -> Result<String, String> {
     let metadata = fs::metadata(path).map_err(|error| reason(&error))?;
     if metadata.is_dir() {
         return Err("it is a folder".to_owned());
+    }
+    if !metadata.is_file() {
+        return Err("it is no file".to_owned());
     }
     if metadata.len() > MAX_BYTES {
         return Err(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len()));
