@@ -18,7 +18,7 @@ impl<const N: usize> Queue<N> {
     /// The token for `slot` was emitted.
     #[inline(always)]
     pub fn push(&mut self, slot: u16) {
-        self.waiting[self.place(self.len)] = slot;
+        self.waiting[(self.start + self.len) % N] = slot;
         self.len += 1;
     }
 
@@ -31,39 +31,18 @@ impl<const N: usize> Queue<N> {
     /// Takes the first token out whose slot `is_ready`; the others keep their places.
     #[inline(always)]
     pub fn next(&mut self, is_ready: impl Fn(u16) -> bool) -> Option<u16> {
-        if self.len == 0 {
-            return None;
+        for at in 0..self.len {
+            let slot = self.waiting[(self.start + at) % N];
+            if is_ready(slot) {
+                for i in (0..at).rev() {
+                    self.waiting[(self.start + i + 1) % N] = self.waiting[(self.start + i) % N];
+                }
+                self.start = (self.start + 1) % N;
+                self.len -= 1;
+                return Some(slot);
+            }
         }
-        // Mostly it is the first of all.
-        let first = self.waiting[self.start];
-        if is_ready(first) {
-            self.drop_first();
-            return Some(first);
-        }
-        self.next_behind(is_ready)
-    }
-
-    /// The same when the first token's slot is not ready.
-    fn next_behind(&mut self, is_ready: impl Fn(u16) -> bool) -> Option<u16> {
-        let at = (1..self.len).find(|at| is_ready(self.waiting[self.place(*at)]))?;
-        let slot = self.waiting[self.place(at)];
-        for i in (0..at).rev() {
-            self.waiting[self.place(i + 1)] = self.waiting[self.place(i)];
-        }
-        self.drop_first();
-        Some(slot)
-    }
-
-    #[inline(always)]
-    fn drop_first(&mut self) {
-        self.start = self.place(1);
-        self.len -= 1;
-    }
-
-    /// Where the token lies that has `at` others in front of it.
-    #[inline(always)]
-    const fn place(&self, at: usize) -> usize {
-        (self.start + at) % N
+        None
     }
 }
 
