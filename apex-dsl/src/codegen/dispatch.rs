@@ -1,6 +1,11 @@
 //! `react`: which cluster fires and which slot is served, and when.
 
-use super::{Flag, Generator, activity::Whole, types::ident};
+use super::{
+    Flag, Generator,
+    activity::Whole,
+    state::{Kept, Kind},
+    types::ident,
+};
 use crate::{
     analyse::{Analysis, Delivery, Guard, Links, at_start, ordered},
     graph::{Flow, Graph, NodeId, NodeKind, Standard},
@@ -224,9 +229,11 @@ fn above(graph: &Graph, analysis: &Analysis, cluster: usize) -> Vec<usize> {
 
 impl Generator<'_> {
     /// Fields of the program's state that the dispatcher needs, with what they start as.
-    pub fn dispatcher_state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<(Ident, TokenStream, TokenStream)> {
+    pub fn dispatcher_state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<Kept> {
         let mut fields = vec![];
-        let mut field = |name: &str, ty, make| fields.push((ident(name), ty, make));
+        let mut field = |name: &str, ty, make| {
+            fields.push(Kept::new(Kind::Dispatcher, name.to_owned(), ident(name), ty, make));
+        };
         let (words, slots) = (bits.words(), whole.analysis.asynchronous.slots.len());
         if words > 0 {
             let initial = bits.initial();
