@@ -1,24 +1,35 @@
 //! `apex explain`.
 
-use crate::{Format, project};
+use crate::{Format, memory, project};
 use apex_dsl::{
     petri,
     report::{PAGES, explain, explain_json, nearest, page},
 };
 use std::{path::Path, process::ExitCode};
 
+/// What is shown of a text.
+pub enum Shown {
+    /// What the compiler has decided.
+    Decisions,
+    /// The Petri net.
+    Net,
+    /// How many bytes there are of what.
+    Memory,
+}
+
 /// Explains a text or a code; without either, lists the codes.
-pub fn run(what: Option<&Path>, format: Format, pnml: bool) -> Result<ExitCode, String> {
+pub fn run(what: Option<&Path>, format: Format, shown: Shown) -> Result<ExitCode, String> {
     let Some(what) = what else {
         let lines: Vec<_> = PAGES.iter().map(|(code, page)| format!("{code:<24}{}", first_sentence(page))).collect();
         project::print(&lines.join("\n"))?;
         return Ok(ExitCode::SUCCESS);
     };
     let is_word = what.extension().is_none() && what.components().count() == 1 && !what.exists();
-    match what.to_str().filter(|_| is_word) {
-        Some(code) => self::code(code),
-        None if pnml => net(what),
-        None => text(what, format),
+    match (what.to_str().filter(|_| is_word), shown) {
+        (Some(code), _) => self::code(code),
+        (None, Shown::Net) => net(what),
+        (None, Shown::Memory) => memory::run(what, format),
+        (None, Shown::Decisions) => text(what, format),
     }
 }
 

@@ -10,6 +10,7 @@ mod fmt;
 mod graph;
 mod import;
 mod lsp;
+mod memory;
 mod new;
 mod project;
 mod replace;
@@ -87,7 +88,7 @@ enum Command {
     },
     /// Print what the compiler has decided about a text, or what the code of a message means.
     #[command(
-        after_help = "Of a text: regions, guards, clusters, schedule, rates, pruning, memory, claims. Of a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain missing-unit\n  apex explain --list"
+        after_help = "Of a text: regions, guards, clusters, schedule, rates, pruning, memory, claims. Of a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain --memory robots/firmware/firmware.afg\n  apex explain missing-unit\n  apex explain --list"
     )]
     Explain {
         /// The text, or a code such as `missing-unit`.
@@ -102,6 +103,9 @@ enum Command {
         /// Print the Petri net of each program instead, as PNML.
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
+        /// Print how many bytes each program has in memory instead, by node and by buffer. Builds it.
+        #[arg(long, conflicts_with = "pnml")]
+        memory: bool,
     },
     /// Draw a graph.
     #[command(
@@ -203,7 +207,14 @@ fn main() -> ExitCode {
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { what, format, pnml, .. } => explain::run(what.as_deref(), format, pnml),
+        Command::Explain { what, format, pnml, memory, .. } => {
+            let shown = match (pnml, memory) {
+                (true, _) => explain::Shown::Net,
+                (_, true) => explain::Shown::Memory,
+                _ => explain::Shown::Decisions,
+            };
+            explain::run(what.as_deref(), format, shown)
+        }
         Command::Graph { file, graph, activity, output, format } => {
             graph::run(&file, &graph::Wanted { graph, activity, output, format })
         }

@@ -533,6 +533,13 @@ impl Graph {
         }
     }
 
+    /// A connection as a person would write it.
+    pub fn connection_text(&self, connection: usize) -> String {
+        let c = &self.connections[connection];
+        let arrow = if c.active { "=>" } else { "->" };
+        format!("{} {arrow} {}", self.end_name(c.from), self.end_name(c.to))
+    }
+
     /// The scopes around a node, innermost first, without scope 0.
     pub fn scopes_of(&self, node: NodeId) -> Vec<ScopeId> {
         let mut scopes = vec![];

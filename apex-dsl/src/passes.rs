@@ -82,6 +82,21 @@ pub fn check_all(
     Checked { texts: resolved.texts, links: resolved.links, programs, parts }
 }
 
+/// What each of `programs` consists of in memory; nothing if `diagnostics` has errors then.
+pub fn memory<'a>(
+    programs: impl Iterator<Item = &'a Program>,
+    catalog: &Catalog,
+    sources: &Sources,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Vec<codegen::Piece>> {
+    let pieces = programs.map(|program| {
+        codegen::check_supported(&program.graph, diagnostics);
+        codegen::memory(program, catalog, sources)
+    });
+    let pieces = pieces.collect();
+    if diagnostics.has_errors() { vec![] } else { pieces }
+}
+
 /// Rust for `programs`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in
 /// the code that called `graph!`.
 pub fn generate(

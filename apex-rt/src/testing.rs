@@ -182,10 +182,11 @@ impl<P: Program + 'static> Test<P> {
     /// finds no room is put in as soon as there is some.
     pub fn feed<T: Clone + 'static>(
         &mut self,
-        tokens: Vec<T>,
+        tokens: impl IntoIterator<Item = T>,
         period: Option<Duration>,
         put: fn(&mut P, T) -> Result<(), T>,
     ) {
+        let tokens: Vec<T> = tokens.into_iter().collect();
         let mut at = 0;
         let feed = move |program: &mut P, due: Time| {
             if put(program, tokens[at].clone()).is_err() {

@@ -1,6 +1,9 @@
 //! The examples of `docs/tools.md` are what the command does.
 
-use crate::common::{Folder, apex};
+use crate::{
+    MADE, TARGET,
+    common::{Folder, apex},
+};
 use std::{fs, path::Path};
 
 /// The first block of the page that begins so.
@@ -27,6 +30,18 @@ fn the_new_project_of_the_page_and_its_documentation() {
     let folder = Folder::new("docs-new");
     runs("new", &folder.0);
     runs("doc", &folder.0.join("my-robot"));
+}
+
+#[test]
+fn the_memory_of_the_page() {
+    let _one_at_a_time = MADE.lock().unwrap_or_else(|broken| broken.into_inner());
+    let console = block("console\n$ apex explain --memory");
+    let (command, said) = console.split_once('\n').unwrap();
+    let arguments = command.strip_prefix("$ apex ").unwrap().split(' ');
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut apex = apex();
+    apex.args(arguments).current_dir(root).env("CARGO_TARGET_DIR", TARGET).env("CARGO_NET_OFFLINE", "true");
+    assert_eq!(String::from_utf8(apex.output().unwrap().stdout).unwrap(), said);
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod completions;
 mod doc;
 mod docs;
 mod import;
+mod memory;
 mod new;
 mod watch;
 

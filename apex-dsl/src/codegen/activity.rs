@@ -3,6 +3,7 @@
 
 use super::{
     Flag, Generator,
+    state::{Kept, Kind},
     types::{duration, ident},
 };
 use crate::{
@@ -59,39 +60,42 @@ impl Generator<'_> {
     }
 
     /// The flags of a program, with what they start as.
-    pub fn flags(&self, whole: Whole<'_>) -> Vec<(syn::Ident, TokenStream, TokenStream)> {
+    pub fn flags(&self, whole: Whole<'_>) -> Vec<Kept> {
         let mut flags = vec![];
-        let mut bit = |name, value: bool| flags.push((name, quote!(bool), quote!(#value)));
+        let of = |node| whole.graph.path(node);
+        let mut bit =
+            |of, name, value: bool| flags.push(Kept::new(Kind::Activity, of, name, quote!(bool), quote!(#value)));
         for &node in &whole.analysis.active {
             if !whole.graph.nodes[node].is_delay() {
-                bit(self.flag(Flag::Active, node), false);
+                bit(of(node), self.flag(Flag::Active, node), false);
             }
             if self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]) {
-                bit(self.flag(Flag::Gains, node), false);
+                bit(of(node), self.flag(Flag::Gains, node), false);
             }
             if self.inputs_carry(whole, node, &[Carries::Away]) {
-                bit(self.flag(Flag::Loses, node), false);
+                bit(of(node), self.flag(Flag::Loses, node), false);
             }
         }
         for (slot, &connection) in whole.analysis.asynchronous.slots.iter().enumerate() {
             if self.carries(whole, connection) == Carries::Sometimes {
-                bit(carries(slot), false);
+                bit(whole.graph.connection_text(connection), carries(slot), false);
             }
         }
         for (node, n) in whole.graph.nodes.iter().enumerate() {
             if n.can_be_disabled() {
-                bit(self.flag(Flag::Enabled, node), true);
+                bit(of(node), self.flag(Flag::Enabled, node), true);
             }
         }
         for &node in &whole.analysis.active {
             if let NodeKind::Delay(initial) = &whole.graph.nodes[node].kind {
                 let (name, count) = (self.flag(Flag::Active, node), initial.len());
                 let make = quote!(::apex_rt::Delay::new([None; #count]));
-                flags.push((name, quote!(::apex_rt::Delay<(), #count>), make));
+                flags.push(Kept::new(Kind::Activity, of(node), name, quote!(::apex_rt::Delay<(), #count>), make));
             }
         }
         for node in (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)) {
-            flags.push((self.flag(Flag::Timeout, node), quote!(::apex_rt::Timeout), quote!(::apex_rt::Timeout::new())));
+            let (name, ty) = (self.flag(Flag::Timeout, node), quote!(::apex_rt::Timeout));
+            flags.push(Kept::new(Kind::Timer, of(node), name, ty, quote!(::apex_rt::Timeout::new())));
         }
         flags
     }

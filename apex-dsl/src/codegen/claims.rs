@@ -4,6 +4,7 @@
 use super::{
     Flag, Generator,
     activity::{Carries, Whole, carries},
+    state::{Kept, Kind},
 };
 use crate::{
     claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
@@ -30,9 +31,10 @@ impl Generator<'_> {
     }
 
     /// For each claim that the program looks at, whether it is broken now.
-    pub fn claim_state(&self, whole: Whole<'_>) -> Vec<(Ident, TokenStream, TokenStream)> {
+    pub fn claim_state(&self, whole: Whole<'_>) -> Vec<Kept> {
         let undecided = whole.analysis.claims.undecided().into_iter();
-        undecided.map(|claim| (broken(claim), quote!(bool), quote!(false))).collect()
+        let text = |claim: usize| whole.graph.claim_text(&whole.graph.claims[claim]);
+        undecided.map(|claim| Kept::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false))).collect()
     }
 
     /// The function that looks at them.

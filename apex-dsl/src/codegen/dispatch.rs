@@ -1,6 +1,12 @@
 //! `react`: which cluster fires and which slot is served, and when.
 
-use super::{Flag, Generator, activity::Whole, bits::Bits, types::ident};
+use super::{
+    Flag, Generator,
+    activity::Whole,
+    bits::Bits,
+    state::{Kept, Kind},
+    types::ident,
+};
 use crate::{
     analyse::{Delivery, Guard, at_start},
     graph::{Graph, NodeId, NodeKind, Standard},
@@ -9,13 +15,14 @@ use crate::{
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
-use syn::Ident;
 
 impl Generator<'_> {
     /// Fields of the program's state that the dispatcher needs, with what they start as.
-    pub fn dispatcher_state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<(Ident, TokenStream, TokenStream)> {
+    pub fn dispatcher_state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<Kept> {
         let mut fields = vec![];
-        let mut field = |name: &str, ty, make| fields.push((ident(name), ty, make));
+        let mut field = |name: &str, ty, make| {
+            fields.push(Kept::new(Kind::Dispatcher, name.to_owned(), ident(name), ty, make));
+        };
         let (words, slots) = (bits.words(), whole.analysis.asynchronous.slots.len());
         if words > 0 {
             let initial = bits.initial();

@@ -8,6 +8,7 @@ mod dispatch;
 mod each;
 mod fire;
 mod machine;
+mod memory;
 mod parallel;
 mod params;
 mod plan;
@@ -15,10 +16,12 @@ mod program;
 mod rates;
 mod slots;
 mod stamps;
+mod state;
 mod test;
 mod types;
 
 pub use machine::machines;
+pub use memory::{Piece, memory};
 pub use plan::{Storage, storage};
 pub use program::camel;
 

@@ -3,6 +3,7 @@
 use super::{
     Generator,
     program::{Field, insert, node_structs},
+    state,
 };
 use crate::{
     analyse::Analysis,
@@ -23,8 +24,7 @@ pub struct Local {
 impl Generator<'_> {
     /// What a thread needs to run `body`, for which this is the generator.
     pub fn local(&self, body: &Graph, analysis: &Analysis) -> Local {
-        let (mut fields, mut makes) = (quote!(), quote!());
-        self.token_state(body, analysis, &mut fields, &mut makes);
+        let (fields, makes) = state::fields(&self.token_state(body, analysis));
         let (mut nodes, mut params) = (BTreeMap::new(), vec![]);
         self.local_nodes(body, analysis, &mut nodes, &mut params);
         let (node_items, nodes_make) = node_structs("LocalNodes", &nodes);

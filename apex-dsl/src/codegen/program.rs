@@ -1,17 +1,8 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
-use super::{
-    Flag, Generator,
-    activity::Whole,
-    bits::Bits,
-    fire::Emitter,
-    plan::{Storage, is_buffer, storage},
-    rates,
-    test::probe,
-    types::{constant, duration, ident},
-};
+use super::{Flag, Generator, activity::Whole, bits::Bits, fire::Emitter, rates, state, test::probe, types::ident};
 use crate::{
-    analyse::{Analysis, Guard},
+    analyse::Analysis,
     catalog::Match,
     check::compare_types,
     graph::{End, Graph, Library, NodeId, NodeKind},
@@ -20,7 +11,7 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::{collections::BTreeMap, time::Duration};
+use std::collections::BTreeMap;
 use syn::Ident;
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
@@ -39,7 +30,7 @@ impl Generator<'_> {
         let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields);
         let whole = Whole { graph, analysis, links: &analysis.links };
         let bits = Bits::new(graph, analysis);
-        let (state_fields, state_make) = self.state(whole, &bits);
+        let (state_fields, state_make) = state::fields(&self.state(whole, &bits));
         let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
         let inputs = boundaries(graph, comes_in);
         let outputs = boundaries(graph, |kind| kind == PortKind::Output);
@@ -168,7 +159,8 @@ impl Generator<'_> {
         segments
     }
 
-    fn node_fields(
+    /// The fields of nodes, and those nodes that Rust makes.
+    pub fn node_fields(
         &self,
         graph: &Graph,
         analysis: &Analysis,
@@ -217,27 +209,6 @@ impl Generator<'_> {
         quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*)))
     }
 
-    /// Fields of the program's state, with what they start as.
-    fn state(&self, whole: Whole<'_>, bits: &Bits) -> (TokenStream, TokenStream) {
-        let (mut fields, mut makes) = (quote!(), quote!());
-        self.token_state(whole.graph, whole.analysis, &mut fields, &mut makes);
-        for guard in &whole.analysis.guards {
-            if let Guard::Timer(node) = guard {
-                let (name, modifiers) = (self.timer(*node), &whole.graph.nodes[*node].modifiers);
-                let [first, period] =
-                    [modifiers.after.unwrap_or_default(), modifiers.every.unwrap_or(Duration::MAX)].map(duration);
-                fields.extend(quote! { #name: ::apex_rt::Timer, });
-                makes.extend(quote! { #name: ::apex_rt::Timer::new(#first, #period), });
-            }
-        }
-        let flags = self.flags(whole).into_iter().chain(self.claim_state(whole)).chain(self.stamps(whole));
-        for (name, ty, make) in flags.chain(self.dispatcher_state(whole, bits)) {
-            fields.extend(quote! { #name: #ty, });
-            makes.extend(quote! { #name: #make, });
-        }
-        (fields, makes)
-    }
-
     /// Whether a node is active, by its index.
     fn is_active(&self, whole: Whole<'_>) -> TokenStream {
         if whole.analysis.active.is_empty() {
@@ -253,57 +224,6 @@ impl Generator<'_> {
                 match node { #(#arms)* _ => false }
             }
         }
-    }
-
-    /// Tokens that are kept in the state of the program, or of a parallel body.
-    pub fn token_state(&self, graph: &Graph, analysis: &Analysis, fields: &mut TokenStream, makes: &mut TokenStream) {
-        for (node, n) in graph.nodes.iter().enumerate() {
-            for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
-                let end = End { node, port };
-                let name = self.name(end);
-                let is_sent = graph.connections.iter().any(|c| c.from == end && !graph.is_synchronous(c));
-                if p.kind == PortKind::Event && !is_sent {
-                    continue;
-                }
-                if is_buffer(graph, self.catalog, end) {
-                    let ty = self.buffer_type(graph, end);
-                    fields.extend(quote! { #name: ::apex_rt::Out<#ty>, });
-                    makes.extend(quote! { #name: ::apex_rt::Out::new(), });
-                } else if is_sent
-                    || graph
-                        .connections
-                        .iter()
-                        .any(|c| c.from == end && analysis.cluster_of[c.to.node] != analysis.cluster_of[node])
-                {
-                    debug_assert_ne!(storage(graph, self.catalog, end), Storage::Argument);
-                    let ty = self.token_type(graph, end);
-                    fields.extend(quote! { #name: ::core::option::Option<#ty>, });
-                    makes.extend(quote! { #name: None, });
-                }
-            }
-            if let NodeKind::Delay(initial) = &n.kind {
-                let (held, end) = (self.held(node), End { node, port: 1 });
-                let (ty, count) = (self.token_type(graph, end), initial.len());
-                let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
-                let values = initial.iter().map(|value| match value {
-                    Some(value) => constant(value, port_ty),
-                    None => quote!(::core::default::Default::default()),
-                });
-                fields.extend(quote! { #held: ::apex_rt::Delay<#ty, #count>, });
-                makes.extend(quote! { #held: ::apex_rt::Delay::new([#(Some(#values)),*]), });
-            }
-            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node))
-                && !each.parallel
-            {
-                self.inside(graph, node).token_state(&each.body, body, fields, makes);
-            }
-        }
-    }
-
-    /// What a node writes in place: one token, or an array of those of a firing.
-    fn buffer_type(&self, graph: &Graph, end: End) -> TokenStream {
-        let (ty, rate) = (self.token_type(graph, end), graph.port(end).rate);
-        if rate > 1 { quote!([#ty; #rate]) } else { ty }
     }
 
     fn clusters(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
@@ -426,7 +346,8 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
     }
 }
 
-fn boundaries(graph: &Graph, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId> {
+/// The ports of the graph itself that are meant.
+pub fn boundaries(graph: &Graph, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId> {
     (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
 }
 

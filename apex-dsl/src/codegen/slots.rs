@@ -362,11 +362,11 @@ impl Generator<'_> {
             let tell = (!whole.graph.nodes[node].starts_active).then(|| self.tell(whole, bits, node));
             quote! { #(state.#names = None;)* #deactivate #tell }
         });
-        let modifiers = self.flags(whole).into_iter().filter(|(name, ..)| {
+        let modifiers = self.flags(whole).into_iter().map(|flag| flag.name).filter(|name| {
             let name = name.to_string();
             ["gains_", "loses_", "carries_"].iter().any(|prefix| name.starts_with(prefix))
         });
-        let clears = modifiers.map(|(name, ..)| quote! { state.#name = false; });
+        let clears = modifiers.map(|name| quote! { state.#name = false; });
         let begin = self.begin(whole, bits);
         quote! { #(#deactivates)* #(#clears)* #begin }
     }

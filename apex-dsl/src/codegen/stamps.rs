@@ -1,6 +1,11 @@
 //! When the source fired that a token descends from, kept where somebody asks; and nodes that are late.
 
-use super::{Generator, activity::Whole, types::duration};
+use super::{
+    Generator,
+    activity::Whole,
+    state::{Kept, Kind},
+    types::duration,
+};
 use crate::{
     analyse::Guard,
     graph::{NodeId, Standard},
@@ -11,10 +16,13 @@ use syn::Ident;
 
 impl Generator<'_> {
     /// The stamps that a program keeps, with what they start as.
-    pub fn stamps(&self, whole: Whole<'_>) -> Vec<(Ident, TokenStream, TokenStream)> {
-        let sent = whole.analysis.stamps.connections.iter().map(|c| of_connection(*c));
-        let fired = whole.analysis.stamps.clusters.iter().filter(|c| is_left(whole, **c)).map(|c| of_cluster(*c));
-        sent.chain(fired).map(|name| (name, quote!(::apex_rt::Time), quote!(::apex_rt::Time::ZERO))).collect()
+    pub fn stamps(&self, whole: Whole<'_>) -> Vec<Kept> {
+        let sent = whole.analysis.stamps.connections.iter();
+        let sent = sent.map(|c| (of_connection(*c), whole.graph.connection_text(*c)));
+        let fired = whole.analysis.stamps.clusters.iter().filter(|c| is_left(whole, **c));
+        let fired = fired.map(|c| (of_cluster(*c), format!("cluster {c}")));
+        let (ty, make) = (quote!(::apex_rt::Time), quote!(::apex_rt::Time::ZERO));
+        sent.chain(fired).map(|(name, of)| Kept::new(Kind::Stamp, of, name, ty.clone(), make.clone())).collect()
     }
 
     /// A firing of a cluster is as old as the oldest token that it takes.

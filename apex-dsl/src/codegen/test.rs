@@ -65,7 +65,7 @@ impl Generator<'_> {
                     }
                     None => quote!(None),
                 };
-                quote! { test.feed::<#token>(vec![#(#values),*], #every, |program, token| program.inputs.#name.put(token)); }
+                quote! { test.feed::<#token>([#(#values),*], #every, |program, token| program.inputs.#name.put(token)); }
             }
             Step::Wait(time) => {
                 let time = duration(*time);

@@ -32,13 +32,12 @@ fn signature(node: &Node) -> Option<usize> {
 /// Slots in the order of the text, and which connections can hold back who sends on them.
 fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
     for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
-        let arrow = if c.active { "=>" } else { "->" };
         let how = match (graph.flow(c), analysis.asynchronous.stays[index]) {
             (Flow::ToInput, _) => "occupied until the region behind it has finished",
             (_, true) => "occupied until the slot can be served",
             (_, false) => "served at once",
         };
-        let _ = writeln!(text, "{pad}  {} {arrow} {}: {how}", graph.end_name(c.from), graph.end_name(c.to));
+        let _ = writeln!(text, "{pad}  {}: {how}", graph.connection_text(index));
     }
 }
 

@@ -1,0 +1,135 @@
+//! `apex explain --memory`: how many bytes the pieces of a program have. Only rustc knows how large a type is, so that a
+//! program is made that says it.
+
+use crate::{Format, project, run};
+use apex_dsl::{
+    codegen::Piece,
+    passes::{self, Program},
+};
+use apex_host::Workspace;
+use serde_json::{Value, json};
+use std::{
+    fmt::Write as _,
+    path::Path,
+    process::{ExitCode, Stdio},
+};
+
+/// A program with the sizes of its pieces.
+struct Measured<'a> {
+    program: &'a Program,
+    bytes: usize,
+    /// What for, of what, and how many bytes.
+    pieces: Vec<(&'static str, String, usize)>,
+}
+
+/// Prints how many bytes each program of a text has, piece by piece.
+pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
+    let mut checked = project::check(file)?;
+    let programs: Vec<&Program> = checked.programs.iter().filter(|p| p.script.is_none()).collect();
+    let of_all = passes::memory(programs.iter().copied(), &checked.catalog, &checked.sources, &mut checked.diagnostics);
+    project::print_diagnostics(&checked.diagnostics, &checked.sources);
+    if checked.diagnostics.has_errors() {
+        return Ok(ExitCode::from(1));
+    }
+    if programs.is_empty() && format == Format::Text {
+        project::print(&format!("`{}` has no graph whose parameters all have values", file.display()));
+    }
+    let measured = if programs.is_empty() { vec![] } else { measure(file, &programs, of_all)? };
+    match format {
+        Format::Text => measured.iter().for_each(|m| project::print(m.text().trim_end())),
+        Format::Json => {
+            let values: Vec<Value> = measured.iter().map(Measured::json).collect();
+            project::print(&serde_json::to_string_pretty(&values).map_err(|e| e.to_string())?);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Asks rustc, by way of a program that prints one size a line: for each graph its own, then those of its pieces.
+fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -> Result<Vec<Measured<'a>>, String> {
+    let workspace = Workspace::load(&run::package(file)?)?;
+    let text = run::absolute(file)?;
+    let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let folder = workspace.cache_folder().join("memory").join(name);
+    let code = main_file(&text, programs, &of_all);
+    let manifest = run::make_package(&folder, &workspace, false, "src/main.rs", &code)?;
+    let mut command = run::cargo();
+    command.args(["run", "--quiet", "--manifest-path"]).arg(manifest);
+    // What `apex test` has built is of use here.
+    command.arg("--target-dir").arg(workspace.target.join("apex/test"));
+    let output = command.stderr(Stdio::inherit()).output().map_err(|e| format!("cannot run cargo: {e}"))?;
+    if !output.status.success() {
+        return Err(format!("rustc does not take the program of `{}`: sizes are not known", file.display()));
+    }
+    let said = String::from_utf8_lossy(&output.stdout);
+    let mut sizes = said.lines().map_while(|line| line.parse().ok());
+    let measured = programs.iter().zip(of_all).map(|(program, pieces)| {
+        let mut measured = Measured { program, bytes: sizes.next()?, pieces: vec![] };
+        for piece in pieces {
+            measured.add(piece.what, piece.of, sizes.next()?);
+        }
+        Some(measured)
+    });
+    let measured: Option<Vec<Measured<'_>>> = measured.collect();
+    measured.ok_or_else(|| format!("the program of `{}` did not say all sizes", file.display()))
+}
+
+/// The program: it stands where the graphs do, and sees what is private in them.
+fn main_file(file: &Path, programs: &[&Program], of_all: &[Vec<Piece>]) -> String {
+    let mut lines = String::new();
+    for (program, pieces) in programs.iter().zip(of_all) {
+        let name = &program.graph.name;
+        let _ = writeln!(lines, "    println!(\"{{}}\", size_of::<{name}>());");
+        for piece in pieces {
+            let _ = writeln!(lines, "    println!(\"{{}}\", size::<{name}, _>(|program| &program.{}));", piece.place);
+        }
+    }
+    format!(
+        r"#![allow(dead_code)]
+use apex_rt::prelude::*;
+
+graph!({file:?});
+
+fn main() {{
+    fn size<P, T>(_: fn(&P) -> &T) -> usize {{
+        size_of::<T>()
+    }}
+{lines}}}
+"
+    )
+}
+
+impl Measured<'_> {
+    /// What belongs to one thing is one piece.
+    fn add(&mut self, what: &'static str, of: String, bytes: usize) {
+        match self.pieces.iter_mut().find(|piece| (piece.0, &piece.1) == (what, &of)) {
+            Some(piece) => piece.2 += bytes,
+            None => self.pieces.push((what, of, bytes)),
+        }
+    }
+
+    /// Bytes between pieces, which are there so that each lies where the machine wants it.
+    fn padding(&self) -> usize {
+        self.bytes.saturating_sub(self.pieces.iter().map(|piece| piece.2).sum())
+    }
+
+    fn text(&self) -> String {
+        let kind = if self.program.graph.robot { "robot" } else { "graph" };
+        let mut text = format!("{kind} {}: {} bytes\n", self.program.graph.name, self.bytes);
+        for group in self.pieces.chunk_by(|a, b| a.0 == b.0) {
+            let sum: usize = group.iter().map(|piece| piece.2).sum();
+            let _ = writeln!(text, "{sum:>8}  {}", group[0].0);
+            for (_, of, bytes) in group {
+                let _ = writeln!(text, "{bytes:>12}  {of}");
+            }
+        }
+        let _ = writeln!(text, "{:>8}  padding", self.padding());
+        text
+    }
+
+    fn json(&self) -> Value {
+        let pieces: Vec<Value> =
+            self.pieces.iter().map(|(what, of, bytes)| json!({ "what": what, "of": of, "bytes": bytes })).collect();
+        json!({ "name": self.program.graph.name, "bytes": self.bytes, "pieces": pieces, "padding": self.padding() })
+    }
+}

@@ -1,0 +1,153 @@
+//! What a program keeps besides its nodes and ports: the fields of its state.
+
+use super::{
+    Generator,
+    activity::Whole,
+    bits::Bits,
+    plan::{Storage, is_buffer, storage},
+    types::{constant, duration},
+};
+use crate::{
+    analyse::{Analysis, Guard},
+    graph::{End, Graph, NodeId, NodeKind},
+    syntax::tree::PortKind,
+};
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::time::Duration;
+use syn::Ident;
+
+/// A field of the state of a program.
+pub struct Kept {
+    /// What it is there for.
+    pub kind: Kind,
+    /// To what of the text it belongs.
+    pub of: String,
+    /// Its name in the struct.
+    pub name: Ident,
+    ty: TokenStream,
+    make: TokenStream,
+}
+
+/// What a field is there for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// Tokens that outlive a firing, or that a node writes in place.
+    Token,
+    /// When a source fires, and how long a node has been active.
+    Timer,
+    /// Where activity is and goes, and which nodes are enabled.
+    Activity,
+    /// When the sources of tokens fired.
+    Stamp,
+    /// Which claims are broken.
+    Claim,
+    /// What decides at run time: bits, the queue of slots.
+    Dispatcher,
+}
+
+impl Kept {
+    /// A field of type `ty` that starts as `make`.
+    pub const fn new(kind: Kind, of: String, name: Ident, ty: TokenStream, make: TokenStream) -> Self {
+        Self { kind, of, name, ty, make }
+    }
+}
+
+/// Fields as they stand in the struct, and in the expression that makes it.
+pub fn fields(kept: &[Kept]) -> (TokenStream, TokenStream) {
+    let declared = kept.iter().map(|Kept { name, ty, .. }| quote! { #name: #ty, });
+    let made = kept.iter().map(|Kept { name, make, .. }| quote! { #name: #make, });
+    (declared.collect(), made.collect())
+}
+
+impl Generator<'_> {
+    /// The state of a program.
+    pub fn state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<Kept> {
+        let mut kept = self.token_state(whole.graph, whole.analysis);
+        let timers = whole.analysis.guards.iter().filter_map(|guard| match guard {
+            Guard::Timer(node) => Some(self.kept_timer(whole.graph, *node)),
+            _ => None,
+        });
+        kept.extend(timers);
+        kept.extend(self.flags(whole));
+        kept.extend(self.claim_state(whole));
+        kept.extend(self.stamps(whole));
+        kept.extend(self.dispatcher_state(whole, bits));
+        kept
+    }
+
+    fn kept_timer(&self, graph: &Graph, node: NodeId) -> Kept {
+        let modifiers = &graph.nodes[node].modifiers;
+        let [first, period] =
+            [modifiers.after.unwrap_or_default(), modifiers.every.unwrap_or(Duration::MAX)].map(duration);
+        let make = quote!(::apex_rt::Timer::new(#first, #period));
+        Kept::new(Kind::Timer, graph.path(node), self.timer(node), quote!(::apex_rt::Timer), make)
+    }
+
+    /// Tokens that are kept in the state of the program, or of a parallel body.
+    pub fn token_state(&self, graph: &Graph, analysis: &Analysis) -> Vec<Kept> {
+        let mut kept = vec![];
+        for (node, n) in graph.nodes.iter().enumerate() {
+            let ports = (0..n.ports.len()).filter(|port| n.ports[*port].kind.sends());
+            kept.extend(ports.filter_map(|port| self.kept_token(graph, analysis, End { node, port })));
+            kept.extend(self.kept_delay(graph, node));
+            if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node))
+                && !each.parallel
+            {
+                kept.extend(self.inside(graph, node).token_state(&each.body, body));
+            }
+        }
+        kept
+    }
+
+    /// What is kept of a token: nothing, if it is gone when its cluster has fired.
+    fn kept_token(&self, graph: &Graph, analysis: &Analysis, end: End) -> Option<Kept> {
+        let from_here = || graph.connections.iter().filter(|c| c.from == end);
+        let is_sent = from_here().any(|c| !graph.is_synchronous(c));
+        if graph.port(end).kind == PortKind::Event && !is_sent {
+            return None;
+        }
+        let (of, name) = (self.token_name(graph, end), self.name(end));
+        if is_buffer(graph, self.catalog, end) {
+            let ty = self.buffer_type(graph, end);
+            return Some(Kept::new(Kind::Token, of, name, quote!(::apex_rt::Out<#ty>), quote!(::apex_rt::Out::new())));
+        }
+        let crosses = || from_here().any(|c| analysis.cluster_of[c.to.node] != analysis.cluster_of[end.node]);
+        if !is_sent && !crosses() {
+            return None;
+        }
+        debug_assert_ne!(storage(graph, self.catalog, end), Storage::Argument);
+        let ty = self.token_type(graph, end);
+        Some(Kept::new(Kind::Token, of, name, quote!(::core::option::Option<#ty>), quote!(None)))
+    }
+
+    /// The tokens that a delay holds back.
+    fn kept_delay(&self, graph: &Graph, node: NodeId) -> Option<Kept> {
+        let NodeKind::Delay(initial) = &graph.nodes[node].kind else { return None };
+        let end = End { node, port: 1 };
+        let (ty, count) = (self.token_type(graph, end), initial.len());
+        let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
+        let values = initial.iter().map(|value| match value {
+            Some(value) => constant(value, port_ty),
+            None => quote!(::core::default::Default::default()),
+        });
+        let make = quote!(::apex_rt::Delay::new([#(Some(#values)),*]));
+        let of = self.node_path(graph, node).join(".");
+        Some(Kept::new(Kind::Token, of, self.held(node), quote!(::apex_rt::Delay<#ty, #count>), make))
+    }
+
+    /// A token as a person would name it, also inside of an `each`.
+    fn token_name(&self, graph: &Graph, end: End) -> String {
+        let node = self.node_path(graph, end.node).join(".");
+        match graph.nodes[end.node].kind {
+            NodeKind::Boundary(_) => node,
+            _ => format!("{node}.{}", graph.port(end).name),
+        }
+    }
+
+    /// What a node writes in place: one token, or an array of those of a firing.
+    fn buffer_type(&self, graph: &Graph, end: End) -> TokenStream {
+        let (ty, rate) = (self.token_type(graph, end), graph.port(end).rate);
+        if rate > 1 { quote!([#ty; #rate]) } else { ty }
+    }
+}

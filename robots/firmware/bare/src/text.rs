@@ -1,0 +1,42 @@
+//! Lines of text, without what `core::fmt` needs.
+
+use crate::machine;
+
+/// A line that is being made. What does not fit is left out.
+pub struct Line {
+    bytes: [u8; 64],
+    length: usize,
+}
+
+impl Line {
+    /// An empty line.
+    pub const fn new() -> Self {
+        Self { bytes: [0; 64], length: 0 }
+    }
+
+    /// Adds a text.
+    pub fn text(mut self, text: &str) -> Self {
+        text.bytes().for_each(|byte| self.push(byte));
+        self
+    }
+
+    /// Adds a number, in decimal.
+    pub fn number(mut self, number: u32) -> Self {
+        let digits = number.checked_ilog10().unwrap_or(0);
+        (0..=digits).rev().for_each(|digit| self.push(b'0' + (number / 10_u32.pow(digit) % 10) as u8));
+        self
+    }
+
+    /// Writes it, with its end.
+    pub fn write(mut self) {
+        self.push(b'\n');
+        machine::write(self.bytes.get(..self.length).unwrap_or_default());
+    }
+
+    fn push(&mut self, byte: u8) {
+        if let Some(place) = self.bytes.get_mut(self.length) {
+            *place = byte;
+            self.length += 1;
+        }
+    }
+}
