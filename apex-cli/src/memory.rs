@@ -6,7 +6,7 @@ use apex_dsl::{
     codegen::Piece,
     passes::{self, Program},
 };
-use apex_host::Workspace;
+use apex_host::{Workspace, cargo, no_cargo};
 use serde_json::{Value, json};
 use std::{
     fmt::Write as _,
@@ -32,14 +32,14 @@ pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     if programs.is_empty() && format == Format::Text {
-        project::print(&format!("`{}` has no graph whose parameters all have values", file.display()));
+        project::print(&format!("`{}` has no graph whose parameters all have values", file.display()))?;
     }
     let measured = if programs.is_empty() { vec![] } else { measure(file, &programs, of_all)? };
     match format {
-        Format::Text => measured.iter().for_each(|m| project::print(m.text().trim_end())),
+        Format::Text => measured.iter().try_for_each(|m| project::print(m.text().trim_end()))?,
         Format::Json => {
             let values: Vec<Value> = measured.iter().map(Measured::json).collect();
-            project::print(&serde_json::to_string_pretty(&values).map_err(|e| e.to_string())?);
+            project::print(&serde_json::to_string_pretty(&values).map_err(|e| e.to_string())?)?;
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -52,12 +52,14 @@ fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -
     let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = workspace.cache_folder().join("memory").join(name);
     let code = main_file(&text, programs, &of_all);
-    let manifest = run::make_package(&folder, &workspace, false, "src/main.rs", &code)?;
-    let mut command = run::cargo();
-    command.args(["run", "--quiet", "--manifest-path"]).arg(manifest);
+    let manifest = run::make_package(&folder, &workspace, &[], "src/main.rs", &code)?;
     // What `apex test` has built is of use here.
-    command.arg("--target-dir").arg(workspace.target.join("apex/test"));
-    let output = command.stderr(Stdio::inherit()).output().map_err(|e| format!("cannot run cargo: {e}"))?;
+    let target = workspace.target.join("apex/test");
+    run::say_if_first(&target);
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--manifest-path"]).arg(manifest);
+    command.arg("--target-dir").arg(target);
+    let output = command.stderr(Stdio::inherit()).output().map_err(|e| no_cargo(&e))?;
     if !output.status.success() {
         return Err(format!("rustc does not take the program of `{}`: sizes are not known", file.display()));
     }
