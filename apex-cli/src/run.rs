@@ -7,6 +7,7 @@ use std::{
     env,
     ffi::OsString,
     fs,
+    io::{self, IsTerminal},
     path::{Path, PathBuf},
     process::{Command, ExitCode},
 };
@@ -198,9 +199,9 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
     }
 }
 
-/// Where nothing has been built yet, cargo, which is quiet, seems to hang.
+/// Where nothing has been built yet, cargo, which is quiet, seems to hang: a person is told.
 pub fn say_if_first(target: &Path) {
-    if !target.exists() {
+    if !target.exists() && io::stderr().is_terminal() {
         project::print_error("building for the first time, which takes a minute or two");
     }
 }
