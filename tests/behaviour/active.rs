@@ -137,3 +137,10 @@ fn activity_goes_through_a_delay_with_its_token() {
     let mut program = HeldBack::new();
     assert_eq!(active_after_each(&mut program), ["", "", "k", "k", "k"]);
 }
+
+#[test]
+fn a_nested_graph_that_no_token_reaches_is_never_active() {
+    let mut program = Asleep::new();
+    program.react(Time::ZERO);
+    assert_eq!((active(&program), program.is_graph_active(0)), ("a".to_owned(), false));
+}

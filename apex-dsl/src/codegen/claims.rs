@@ -105,6 +105,8 @@ impl Generator<'_> {
         for (place, what) in (0..).zip(&model.places) {
             let flag = match *what {
                 Place::Node(node) => self.is_active_now(whole, node),
+                // Nothing is kept for connections that never carry a token.
+                Place::Connection(c) if !whole.analysis.asynchronous.live[c] => continue,
                 Place::Connection(c) if self.carries(whole, c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
                     let connection = &whole.graph.connections[c];

@@ -251,8 +251,8 @@ impl Completer<'_> {
             Some(NodeType::Graph(inside)) if named == Named::Tested => {
                 found.extend(self.names(Some(inside), Named::Node, None))
             }
-            Some(NodeType::Graph(_)) => found.extend(standard_ports(named, Standard::is_shared)),
-            Some(_) => found.extend(standard_ports(named, |_| true)),
+            Some(NodeType::Graph(_)) => found.extend(standard_ports(named, types.as_deref(), Standard::is_shared)),
+            Some(_) => found.extend(standard_ports(named, types.as_deref(), |_| true)),
             None => {}
         }
         found
@@ -480,8 +480,12 @@ fn is_sure(ty: &Type, types: Option<&[Type]>) -> bool {
 }
 
 /// The ports that every node has, as far as this one has them.
-fn standard_ports(named: Named, has: impl Fn(Standard) -> bool) -> impl Iterator<Item = Completion> {
-    let fitting = Standard::ALL.into_iter().filter(move |s| has(*s) && fits(s.kind(), &s.ty(), named, None));
+fn standard_ports(
+    named: Named,
+    types: Option<&[Type]>,
+    has: impl Fn(Standard) -> bool,
+) -> impl Iterator<Item = Completion> {
+    let fitting = Standard::ALL.into_iter().filter(move |s| has(*s) && fits(s.kind(), &s.ty(), named, types));
     fitting.map(|s| {
         let detail = format!("{} {}: {}", s.kind().word(), s.name(), s.ty());
         Completion::new(s.name(), CompletionKind::Port, detail, standard_docs(s))

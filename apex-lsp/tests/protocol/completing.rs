@@ -76,7 +76,7 @@ fn only_ports_that_fit() {
         assert_eq!(found[0], "fast");
     }
     assert_eq!(at("speed -> inner.|"), ["a", "c"]);
-    assert_eq!(at("inner.|"), ["d"]);
+    assert_eq!(at("inner.|"), ["d", "failed"]);
     assert_eq!(at("inner.d -> inner.|"), ["b"]);
     // Only one port of it fits: its name is enough.
     has(&at("inner -> |"), &["inner"]);
