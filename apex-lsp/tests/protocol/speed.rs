@@ -22,7 +22,7 @@ fn a_thousand_nodes() {
     let mut client = Client::start();
     let opening = Instant::now();
     client.open(&path, &text);
-    assert_eq!(client.diagnostics(&path), Vec::<serde_json::Value>::new());
+    assert!(client.diagnostics(&path).iter().all(|d| d["severity"] != 1), "no errors");
     println!("{} lines; opened in {:.1?}", text.lines().count(), opening.elapsed());
 
     let mut times: [(&str, Vec<Duration>); 4] = ["diagnostics", "completion", "hints", "hover"].map(|n| (n, vec![]));
