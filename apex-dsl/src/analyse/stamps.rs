@@ -6,7 +6,7 @@ use crate::{
     catalog::{ArgSig, Catalog},
     graph::{Graph, NodeId, NodeKind},
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What keeps stamps.
 #[derive(Debug, Default)]
@@ -17,15 +17,47 @@ pub struct Stamps {
     pub connections: BTreeSet<usize>,
 }
 
+/// Something whose tokens are followed to where they come from.
+enum Asks {
+    Node(NodeId),
+    Cluster(usize),
+}
+
 /// Follows from those who ask to where their tokens come from.
 pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
-    let mut search = Search { graph, analysis, found: Stamps::default() };
-    for (node, n) in graph.nodes.iter().enumerate() {
-        if n.modifiers.deadline.is_some() || asks(graph, catalog, node) {
-            search.node(node);
-        }
+    let mut slots_of: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
+    for &slot in &analysis.asynchronous.slots {
+        slots_of.entry(graph.connections[slot].to.node).or_default().push(slot);
     }
-    search.found
+    let first = |node: &NodeId| graph.nodes[*node].modifiers.deadline.is_some() || asks(graph, catalog, *node);
+    let mut open: Vec<Asks> = (0..graph.nodes.len()).filter(first).map(Asks::Node).collect();
+    let mut found = Stamps::default();
+    while let Some(next) = open.pop() {
+        let mut sent_on: Vec<usize> = vec![];
+        match next {
+            Asks::Node(node) => {
+                let cluster = analysis.cluster_of[node];
+                // A node that only has slots is in no cluster.
+                if analysis.clusters.get(cluster).is_some_and(|c| c.nodes.contains(&node)) {
+                    open.push(Asks::Cluster(cluster));
+                }
+                sent_on.extend(slots_of.get(&node).into_iter().flatten());
+            }
+            Asks::Cluster(cluster) if found.clusters.insert(cluster) => {
+                let c = &analysis.clusters[cluster];
+                open.extend(c.upstream.iter().copied().map(Asks::Cluster));
+                let tokens = c.own_guards.iter().filter_map(|guard| match analysis.guards[*guard] {
+                    Guard::Token(connection) => Some(connection),
+                    _ => None,
+                });
+                sent_on.extend(tokens);
+            }
+            Asks::Cluster(_) => {}
+        }
+        sent_on.retain(|connection| found.connections.insert(*connection));
+        open.extend(sent_on.into_iter().map(|connection| Asks::Node(graph.connections[connection].from.node)));
+    }
+    found
 }
 
 /// Whether a node can ask for the stamp.
@@ -38,45 +70,5 @@ fn asks(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
         }
         NodeKind::Each(each) => (0..each.body.nodes.len()).any(|inner| asks(&each.body, catalog, inner)),
         _ => false,
-    }
-}
-
-struct Search<'a> {
-    graph: &'a Graph,
-    analysis: &'a Analysis,
-    found: Stamps,
-}
-
-impl Search<'_> {
-    fn node(&mut self, node: NodeId) {
-        let cluster = self.analysis.cluster_of[node];
-        // A node that only has slots is in no cluster.
-        if self.analysis.clusters.get(cluster).is_some_and(|c| c.nodes.contains(&node)) {
-            self.cluster(cluster);
-        }
-        for &slot in &self.analysis.asynchronous.slots {
-            if self.graph.connections[slot].to.node == node {
-                self.connection(slot);
-            }
-        }
-    }
-
-    fn cluster(&mut self, cluster: usize) {
-        if !self.found.clusters.insert(cluster) {
-            return;
-        }
-        let c = &self.analysis.clusters[cluster];
-        c.upstream.iter().for_each(|up| self.cluster(*up));
-        for guard in &c.own_guards {
-            if let Guard::Token(connection) = self.analysis.guards[*guard] {
-                self.connection(connection);
-            }
-        }
-    }
-
-    fn connection(&mut self, connection: usize) {
-        if self.found.connections.insert(connection) {
-            self.node(self.graph.connections[connection].from.node);
-        }
     }
 }
