@@ -160,7 +160,7 @@ impl<'a> Builder<'a> {
             NodeKind::Start => Item::new(Shape::Start, "start"),
             NodeKind::Exit(_) => Item::new(Shape::End, &node.name),
             NodeKind::Reset => Item::new(Shape::Reset, &node.name),
-            NodeKind::Boundary(_) | NodeKind::Relay | NodeKind::Probe => unreachable!("these are no members"),
+            _ => unreachable!("these are no members"),
         };
         item.active = self.active.contains(&id);
         let ports = 0..node.ports.len();

@@ -14,6 +14,9 @@ pub type NodeId = usize;
 /// A scope, by number in [`Graph::scopes`].
 pub type ScopeId = usize;
 
+/// The thread group of nodes that the text puts in no other.
+pub const MAIN_GROUP: &str = "main";
+
 /// A resolved graph.
 #[derive(Debug, Clone)]
 pub struct Graph {
@@ -41,6 +44,8 @@ pub struct Graph {
     pub wires: Vec<Wire>,
     /// Claims.
     pub claims: Vec<Claim>,
+    /// What the text says about the threads of groups.
+    pub threads: Vec<ThreadSettings>,
     /// Nodes with an input that hangs on an unconnected port of the nested graph around them; reported there.
     pub open_pins: BTreeSet<NodeId>,
     /// Inputs whose connection could not be made, which has been reported.
@@ -56,6 +61,8 @@ pub struct Scope {
     pub graph: String,
     /// The scope around it; itself for scope 0.
     pub parent: ScopeId,
+    /// The thread group of its nodes, unless they have one of their own.
+    pub group: Option<String>,
     /// The arguments of the instance.
     pub args: Vec<(String, Value)>,
     /// Documentation: of the instance if it has one, else of the graph.
@@ -147,6 +154,22 @@ pub enum NodeKind {
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
     Reset,
+    /// Where tokens go to another thread group: only in the graph of a group. Its input is occupied until they are
+    /// taken there, or until what they cause there has finished.
+    Sender(Far),
+    /// Where tokens come from another thread group: only in the graph of a group.
+    Receiver(Far),
+}
+
+/// One end of the cell that tokens pass on their way from one thread group to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Far {
+    /// Number of the cell.
+    pub cell: usize,
+    /// The tokens take activity away.
+    pub takes_activity: bool,
+    /// Somebody on the other side asks when the source fired that a token descends from.
+    pub stamped: bool,
 }
 
 /// Ports that every node has, besides those that it declares.
@@ -345,6 +368,21 @@ pub struct Modifiers {
     pub restart: bool,
 }
 
+/// What the text says about the thread of a group.
+#[derive(Debug, Clone, Default)]
+pub struct ThreadSettings {
+    /// The group.
+    pub group: String,
+    /// The cores that the thread may run on; all, if none is named.
+    pub cores: Vec<usize>,
+    /// Its real-time priority, 1 (lowest) to 99.
+    pub priority: Option<u8>,
+    /// `policy = rr`: threads of the same priority run in turn. Else (`fifo`) each runs until it sleeps.
+    pub round_robin: bool,
+    /// `rights = strict`: without the right to that the program ends.
+    pub strict: bool,
+}
+
 /// A claim about activity.
 #[derive(Debug, Clone)]
 pub struct Claim {
@@ -433,7 +471,7 @@ impl Scope {
     /// The scope of the graph itself.
     pub fn top(graph: &str, span: Span) -> Self {
         let name = String::new();
-        Self { name, graph: graph.to_owned(), parent: 0, args: vec![], docs: String::new(), span }
+        Self { name, graph: graph.to_owned(), parent: 0, group: None, args: vec![], docs: String::new(), span }
     }
 }
 
@@ -551,10 +589,17 @@ impl Graph {
         scopes
     }
 
+    /// The thread group of a node: its own, or that of the nested graph around it.
+    pub fn group(&self, node: NodeId) -> &str {
+        let own = self.nodes[node].modifiers.group.as_deref();
+        let around = || self.scopes_of(node).into_iter().find_map(|scope| self.scopes[scope].group.as_deref());
+        own.or_else(around).unwrap_or(MAIN_GROUP)
+    }
+
     /// Whether a node can be active. `start` is a moment, not a state; what ends the program or leaves it has none.
     pub fn can_hold_activity(&self, node: NodeId) -> bool {
-        use NodeKind::{Delay, Each, Library, Relay};
-        matches!(self.nodes[node].kind, Library(_) | Each(_) | Relay | Delay(_))
+        use NodeKind::{Delay, Each, Library, Receiver, Relay, Sender};
+        matches!(self.nodes[node].kind, Library(_) | Each(_) | Relay | Delay(_) | Sender(_) | Receiver(_))
     }
 
     /// The connection into a port, if there is one.

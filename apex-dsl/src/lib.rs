@@ -22,6 +22,7 @@ pub mod resolve;
 pub mod script;
 pub mod source;
 pub mod syntax;
+pub mod threads;
 pub mod units;
 
 pub use format::format;

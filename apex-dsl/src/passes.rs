@@ -9,6 +9,7 @@ use crate::{
     resolve::{self, Link, Texts},
     script::Script,
     source::{FileId, Sources, Span, World},
+    threads::{self, Split},
 };
 use proc_macro2::TokenStream;
 
@@ -18,6 +19,8 @@ pub struct Program {
     pub graph: Graph,
     /// What is known about it before it runs.
     pub analysis: Analysis,
+    /// If it runs on several threads: what runs on which.
+    pub split: Option<Split>,
     /// If it is made for a test: what the test does with it.
     pub script: Option<Script>,
 }
@@ -63,10 +66,11 @@ pub fn check_all(
         check::check(&mut graph, catalog, diagnostics);
         if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
             codegen::check_rates(&graph, &analysis, diagnostics);
+            threads::check(&graph, &analysis, diagnostics);
             if graph.is_open {
                 parts.push(graph);
             } else {
-                programs.push(Program { graph, analysis, script });
+                programs.push(Program { graph, analysis, split: None, script });
             }
         }
     }
@@ -79,6 +83,11 @@ pub fn check_all(
             analysis.claims = claims::decide(graph, catalog, states, diagnostics);
         }
     }
+    if !diagnostics.has_errors() {
+        for program in &mut programs {
+            program.split = threads::split(&program.graph, &program.analysis, catalog);
+        }
+    }
     Checked { texts: resolved.texts, links: resolved.links, programs, parts }
 }
 
@@ -89,12 +98,7 @@ pub fn memory<'a>(
     sources: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Vec<codegen::Piece>> {
-    let pieces = programs.map(|program| {
-        codegen::check_supported(&program.graph, diagnostics);
-        codegen::memory(program, catalog, sources)
-    });
-    let pieces = pieces.collect();
-    if diagnostics.has_errors() { vec![] } else { pieces }
+    if diagnostics.has_errors() { vec![] } else { programs.map(|p| codegen::memory(p, catalog, sources)).collect() }
 }
 
 /// Rust for `programs`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in
@@ -106,9 +110,6 @@ pub fn generate(
     place: &dyn Fn(Span) -> proc_macro2::Span,
     diagnostics: &mut Diagnostics,
 ) -> TokenStream {
-    for program in programs {
-        codegen::check_supported(&program.graph, diagnostics);
-    }
     if diagnostics.has_errors() {
         return TokenStream::new();
     }

@@ -7,6 +7,12 @@ pub trait Clock {
 
     /// Lets the time pass until `time`; returns `false` if the clock ends before.
     fn wait_until(&mut self, time: Time) -> bool;
+
+    /// What sets the pace of threads, if this is the machine's clock.
+    #[cfg(feature = "std")]
+    fn pace(&self) -> Option<crate::threads::Pace> {
+        None
+    }
 }
 
 /// Simulated time: jumps to where the program wants to be called next, and ends at a given time.
@@ -77,5 +83,9 @@ impl Clock for WallClock {
             std::thread::sleep(left);
         }
         true
+    }
+
+    fn pace(&self) -> Option<crate::threads::Pace> {
+        Some(crate::threads::Pace { clock: *self, stopped: None })
     }
 }

@@ -11,6 +11,8 @@ pub struct Info {
     pub connections: &'static [ConnectionInfo],
     /// The nodes of each cluster in the order in which they fire.
     pub clusters: &'static [&'static [usize]],
+    /// The thread groups, if there are several: the main group first.
+    pub groups: &'static [GroupInfo],
     /// All claims, as they stand in the text with full names: `exclusive(fast, slow)`.
     pub claims: &'static [&'static str],
 }
@@ -39,6 +41,21 @@ pub struct ConnectionInfo {
     pub to: usize,
     /// Name of the receiving port.
     pub input: &'static str,
+}
+
+/// A thread group of a compiled graph.
+#[derive(Debug)]
+pub struct GroupInfo {
+    /// Its name.
+    pub name: &'static str,
+    /// The cores that its thread may run on; all, if none is named.
+    pub cores: &'static [usize],
+    /// Its real-time priority, 1 (lowest) to 99.
+    pub priority: Option<u8>,
+    /// Threads of the same priority run in turn, instead of each until it sleeps.
+    pub round_robin: bool,
+    /// Without the right to that the program ends; else it says so and goes on.
+    pub strict: bool,
 }
 
 impl NodeInfo {

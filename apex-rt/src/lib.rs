@@ -1,12 +1,13 @@
 //! The runtime of Apex: everything that a compiled graph calls.
 //!
-//! `no_std`, without a heap and without `unsafe`. The feature `std` adds a wall clock, a runner that sleeps
+//! `no_std`, without a heap, and without `unsafe` but in the cell between two threads. The feature `std` adds a wall clock, a runner that sleeps
 //! between reactions, and messages on standard error.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+mod cell;
 mod clock;
 mod ctx;
 mod dispatch;
@@ -26,15 +27,18 @@ mod queue;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
+mod sync;
 #[cfg(feature = "std")]
 #[doc(hidden)]
 pub mod testing;
+pub mod threads;
 mod time;
 mod timer;
 mod token;
 
 pub use apex_macros::{Outputs, graph, node};
 
+pub use cell::{CellReceiver, CellSender, TokenCell};
 #[cfg(feature = "std")]
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
@@ -42,7 +46,7 @@ pub use ctx::Ctx;
 pub use dispatch::{Bits, Cluster, Dispatcher, Missing};
 pub use event::Event;
 pub use failure::{Failure, contain, contain_fallible};
-pub use info::{ConnectionInfo, Info, NodeInfo};
+pub use info::{ConnectionInfo, GroupInfo, Info, NodeInfo};
 pub use list::List;
 pub use mailbox::Mailbox;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};

@@ -1,4 +1,7 @@
-use crate::{Clock, Info, Observer, Time};
+use crate::{
+    Clock, Info, Observer, Time,
+    threads::{Spawn, Wake},
+};
 use core::time::Duration;
 
 /// When a program wants to be called again.
@@ -48,6 +51,12 @@ pub trait Program {
         false
     }
 
+    /// Hands out the thread groups of a program that has several, the main group last. `wake` is told when one of them has
+    /// something to look at.
+    fn on_threads<'a, W: Wake + Copy + Send + 'a, S: Spawn<'a>>(&'a mut self, wake: W, spawn: &mut S) {
+        let _ = (wake, spawn);
+    }
+
     /// Whether nested graph `graph`, by its index in [`Info::graphs`], is active: a node in it is, or activity is under way
     /// between two of them.
     fn is_graph_active(&self, graph: usize) -> bool {
@@ -63,6 +72,10 @@ impl<P: Program> Program for &mut P {
         (**self).react_with(now, observer)
     }
 
+    fn on_threads<'a, W: Wake + Copy + Send + 'a, S: Spawn<'a>>(&'a mut self, wake: W, spawn: &mut S) {
+        (**self).on_threads(wake, spawn);
+    }
+
     fn is_active(&self, node: usize) -> bool {
         (**self).is_active(node)
     }
@@ -73,9 +86,9 @@ impl<P: Program> Program for &mut P {
 }
 
 /// Measures by the clock that drives a program how long a reaction has been going on.
-struct Stopwatch<'a, C> {
-    clock: &'a mut C,
-    start: Time,
+pub struct Stopwatch<'a, C> {
+    pub clock: &'a mut C,
+    pub start: Time,
 }
 
 impl<C: Clock> Observer for Stopwatch<'_, C> {
@@ -87,12 +100,20 @@ impl<C: Clock> Observer for Stopwatch<'_, C> {
 /// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
 /// token comes to `exit`. Returns the exit code: 0, or 1 after a token came to `abort`.
 ///
+/// The thread groups of a program each run on a thread of their own if the clock is the machine's
+/// ([`Clock::pace`]); in simulated time they run in turn, so that the result is always the same.
+///
 /// With the feature `profile` and a file in the environment variable `APEX_PROFILE`, the trace of a
 /// [`Profile`](crate::profile::Profile) is written there, and its table to standard error; Ctrl-C then ends the program.
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
     #[cfg(feature = "profile")]
     if let Some(path) = std::env::var_os("APEX_PROFILE") {
         return crate::profile::drive(program, clock, path.as_ref());
+    }
+    #[cfg(feature = "std")]
+    if let Some(pace) = clock.pace().filter(|_| !P::INFO.groups.is_empty()) {
+        let mut program = program;
+        return crate::threads::drive_on_threads(&mut program, pace, |_| crate::StdErr(const { &P::INFO }));
     }
     #[cfg(feature = "std")]
     let observer = crate::StdErr(const { &P::INFO });

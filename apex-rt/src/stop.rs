@@ -63,4 +63,8 @@ impl<C: Clock> Clock for UntilStopped<C> {
             }
         }
     }
+
+    fn pace(&self) -> Option<crate::threads::Pace> {
+        Some(crate::threads::Pace { stopped: Some(self.stopped), ..self.clock.pace()? })
+    }
 }

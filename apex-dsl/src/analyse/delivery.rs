@@ -43,7 +43,7 @@ fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<usize>> {
     let firings = analysis.clusters.iter().map(|c| c.sends.clone());
     let alone = |node: &usize| {
         let n = &graph.nodes[*node];
-        matches!(n.kind, NodeKind::Boundary(_)) || n.modifiers.timeout.is_some()
+        matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Receiver(_)) || n.modifiers.timeout.is_some()
     };
     let nodes = (0..graph.nodes.len()).filter(alone).map(|node| analysis.links.sends[node].clone());
     firings.chain(nodes).chain([at_start(graph, analysis)]).collect()

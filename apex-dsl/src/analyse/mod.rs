@@ -26,7 +26,7 @@ pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
 pub use delivery::{Delivery, at_start, ordered};
-pub use order::{Loops, events_on_circles};
+pub use order::{Loops, circles, events_on_circles};
 pub use pruning::Characteristics;
 pub use schedule::{Block, Step};
 pub use stamps::Stamps;
@@ -193,7 +193,8 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
         // What waits in the program itself is looked up where it lies.
         NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
         NodeKind::Boundary(_) => !graph.is_body,
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Probe => false,
+        NodeKind::Receiver(_) => graph.port(from).optional,
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Probe | NodeKind::Sender(_) => false,
     }
 }
 
@@ -208,6 +209,15 @@ fn refuses(signature: &crate::catalog::Signature, node: &crate::graph::Node) -> 
             .any(|p| p.parameter.is_some_and(|i| signature.params[i].range.is_some()))
 }
 
+/// Whether the tokens of a node take activity away.
+pub fn takes_activity(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
+    match &graph.nodes[node].kind {
+        NodeKind::Library(library) => catalog.signatures[library.signature].deactivates,
+        NodeKind::Receiver(far) => far.takes_activity,
+        _ => false,
+    }
+}
+
 /// Whether a node fires, so that it belongs to a cluster. A node that only has slots does not.
 pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> bool {
     match &graph.nodes[node].kind {
@@ -217,7 +227,7 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
         NodeKind::Boundary(kind) => kind.is_synchronous(),
         NodeKind::Probe => !links.inputs[node].is_empty(),
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => false,
+        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Sender(_) | NodeKind::Receiver(_) => false,
     }
 }
 

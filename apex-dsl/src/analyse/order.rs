@@ -109,6 +109,14 @@ impl Loops {
     }
 }
 
+/// A number for each node; nodes between which tokens flow in a circle have the same one.
+pub fn circles(graph: &Graph) -> Vec<usize> {
+    let synchronous = (0..graph.connections.len()).filter(|c| graph.is_synchronous(&graph.connections[*c]));
+    let mut part = components(&Precedence::of(graph, synchronous).edges);
+    part.truncate(graph.nodes.len());
+    part
+}
+
 /// The events that lead to inputs from which tokens flow back to their nodes, by connection: also by way of delays, and of
 /// nested graphs, which take all their inputs together.
 pub fn events_on_circles(graph: &Graph) -> Vec<usize> {

@@ -42,6 +42,9 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
                     open.push(Asks::Cluster(cluster));
                 }
                 sent_on.extend(slots_of.get(&node).into_iter().flatten());
+                if let NodeKind::Sender(_) = graph.nodes[node].kind {
+                    sent_on.extend(&analysis.links.inputs[node]);
+                }
             }
             Asks::Cluster(cluster) if found.clusters.insert(cluster) => {
                 let c = &analysis.clusters[cluster];
@@ -69,6 +72,7 @@ fn asks(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
             signature.process.iter().flatten().chain(slots).any(|arg| *arg == ArgSig::Ctx)
         }
         NodeKind::Each(each) => (0..each.body.nodes.len()).any(|inner| asks(&each.body, catalog, inner)),
+        NodeKind::Sender(far) => far.stamped,
         _ => false,
     }
 }

@@ -2,7 +2,7 @@
 //! and how it can move. What the program does is among the runs of this model.
 
 use crate::{
-    analyse::active_nodes,
+    analyse::{active_nodes, takes_activity},
     catalog::Catalog,
     graph::{End, Graph, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
@@ -148,7 +148,7 @@ impl Model {
     fn add_removers(&mut self, graph: &Graph, catalog: &Catalog, number: &BTreeMap<Place, PlaceId>) {
         for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| c.active) {
             if let Some(place) = number.get(&Place::Node(c.to.node))
-                && takes_away(graph, catalog, c.from.node)
+                && takes_activity(graph, catalog, c.from.node)
                 && can_fire(graph, catalog, c.from.node)
             {
                 self.removers[*place as usize].push(index);
@@ -214,12 +214,7 @@ fn with(state: impl Iterator<Item = PlaceId>, more: &[PlaceId]) -> State {
 
 /// Whether activity can leave a node through a port. `deactivated` is sent when it has gone already.
 fn gives_away(graph: &Graph, catalog: &Catalog, from: End) -> bool {
-    graph.port(from).standard != Some(Standard::Deactivated) && !takes_away(graph, catalog, from.node)
-}
-
-/// Whether the tokens of a node take activity away.
-fn takes_away(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
-    matches!(&graph.nodes[node].kind, NodeKind::Library(l) if catalog.signatures[l.signature].deactivates)
+    graph.port(from).standard != Some(Standard::Deactivated) && !takes_activity(graph, catalog, from.node)
 }
 
 /// Whether a node can ever send something: it is a source, or something leads to it.

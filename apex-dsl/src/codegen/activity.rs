@@ -7,7 +7,7 @@ use super::{
     types::{duration, ident},
 };
 use crate::{
-    analyse::{Analysis, Links, is_source},
+    analyse::{Analysis, Links, is_source, takes_activity},
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
 };
 use proc_macro2::TokenStream;
@@ -48,7 +48,7 @@ impl Generator<'_> {
         match &whole.graph.nodes[c.from.node].kind {
             NodeKind::Start if checked => Carries::Sometimes,
             NodeKind::Start => Carries::Always,
-            NodeKind::Library(library) if self.catalog.signatures[library.signature].deactivates => Carries::Away,
+            _ if takes_activity(whole.graph, self.catalog, c.from.node) => Carries::Away,
             _ if whole.analysis.active.contains(&c.from.node) => Carries::Sometimes,
             _ => Carries::Nothing,
         }
@@ -180,9 +180,9 @@ impl Generator<'_> {
 
     /// Tells the observer; not of a node that only passes tokens on.
     fn observed(&self, whole: Whole<'_>, node: NodeId, active: bool) -> TokenStream {
-        let index = self.names.base + node;
+        let index = self.index(node);
         match whole.graph.nodes[node].kind {
-            NodeKind::Relay => quote!(),
+            NodeKind::Relay | NodeKind::Sender(_) | NodeKind::Receiver(_) => quote!(),
             _ => quote! { observer.activity(#index, #active); },
         }
     }
@@ -277,7 +277,7 @@ impl Generator<'_> {
             if !away.is_empty() {
                 code.extend(quote! { if #present { #away } });
             }
-            let deactivates = matches!(&whole.graph.nodes[node].kind, NodeKind::Library(l) if self.catalog.signatures[l.signature].deactivates);
+            let deactivates = takes_activity(whole.graph, self.catalog, node);
             if whole.graph.nodes[node].is_delay() {
                 let held = self.flag(Flag::Active, node);
                 code.extend(quote! { if state.#held.take().is_some() { #carry } });

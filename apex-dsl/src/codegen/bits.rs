@@ -156,9 +156,17 @@ impl Bits {
             waits_for.extend(&takes);
             let sends: Vec<usize> = c.downstream.iter().map(|down| self.edges[&(index, *down)]).collect();
             let occupies: Vec<usize> = sends.iter().map(|bit| bit + 1).collect();
-            let outputs = c.sends.iter().filter(|c| graph.port(graph.connections[**c].from).kind == PortKind::Output);
-            let mut notified_by = occupies.clone();
-            notified_by.extend(outputs.filter_map(|c| self.free(*c)));
+            let mut notified_by = vec![];
+            // What a pipelined node sends must be free when it fires (R1), but nobody waits for it afterwards.
+            for &down in &c.downstream {
+                let free = self.edges[&(index, down)] + 1;
+                if is_pipelined(graph, analysis, index, down) { &mut waits_for } else { &mut notified_by }.push(free);
+            }
+            let outputs = c.sends.iter().map(|c| (*c, graph.connections[*c].from));
+            for (connection, from) in outputs.filter(|(_, from)| graph.port(*from).kind == PortKind::Output) {
+                let pipelined = graph.nodes[from.node].modifiers.pipelined;
+                if pipelined { &mut waits_for } else { &mut notified_by }.extend(self.free(connection));
+            }
             let above: Vec<usize> = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c)).collect();
             let (waits_for, takes, sends, occupies) =
                 (bit_set(&waits_for), bit_set(&takes), bit_set(&sends), bit_set(&occupies));
@@ -181,7 +189,7 @@ impl Bits {
     }
 
     /// For each token from an event that a cluster needs: the other tokens that it needs.
-    pub fn missing(&self, analysis: &Analysis) -> Vec<TokenStream> {
+    pub fn missing(&self, analysis: &Analysis, number: &dyn Fn(usize) -> Option<usize>) -> Vec<TokenStream> {
         let mut missing = vec![];
         for &index in &self.dispatched {
             let c = &analysis.clusters[index];
@@ -195,7 +203,7 @@ impl Bits {
                 let others = events.iter().filter(|c| **c != connection).map(|c| self.tokens[c]);
                 let others: Vec<usize> = others.chain(edges.iter().copied()).collect();
                 let token = self.tokens[&connection];
-                if !others.is_empty() {
+                if let (false, Some(connection)) = (others.is_empty(), number(connection)) {
                     missing.push(quote! {
                         ::apex_rt::Missing {
                             others: ::apex_rt::Bits::of(&[#(#others),*]),
@@ -218,6 +226,14 @@ impl Bits {
         };
         analysis.asynchronous.slots.iter().map(needs).collect()
     }
+}
+
+/// Whether all that a cluster sends to another comes from nodes that are done as soon as they have fired.
+fn is_pipelined(graph: &Graph, analysis: &Analysis, cluster: usize, down: usize) -> bool {
+    let of = |node: NodeId| analysis.cluster_of[node];
+    let synchronous = graph.connections.iter().filter(|c| graph.is_synchronous(c));
+    let mut between = synchronous.filter(|c| of(c.from.node) == cluster && of(c.to.node) == down).peekable();
+    between.peek().is_some() && between.all(|c| graph.nodes[c.from.node].modifiers.pipelined && c.crossings.is_empty())
 }
 
 /// All clusters from which tokens come to `cluster`; behind each stand those from which its own tokens come.

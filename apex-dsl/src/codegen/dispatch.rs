@@ -5,6 +5,7 @@ use super::{
     activity::Whole,
     bits::Bits,
     state::{Kept, Kind},
+    threads::{ends_name, receivers},
     types::ident,
 };
 use crate::{
@@ -42,6 +43,10 @@ impl Generator<'_> {
         if self.has_start(whole) {
             field("started", quote!(bool), quote!(false));
         }
+        for (cell, _) in receivers(whole.graph) {
+            let name = Self::holding(cell).to_string();
+            field(&name, quote!(bool), quote!(false));
+        }
         fields
     }
 
@@ -65,7 +70,7 @@ impl Generator<'_> {
             let count = rows.len();
             code.extend(quote! { const CLUSTERS: [::apex_rt::Cluster<#words>; #count] = [#(#rows),*]; });
         }
-        let missing = bits.missing(analysis);
+        let missing = bits.missing(analysis, &|c| self.connection(c));
         if !missing.is_empty() {
             let count = missing.len();
             code.extend(quote! { const MISSING: [::apex_rt::Missing<#words>; #count] = [#(#missing),*]; });
@@ -118,9 +123,7 @@ impl Generator<'_> {
             let bit = bits.guard(i)?;
             Some(quote! { self.state.dispatcher.raise(#bit); })
         });
-        let has_react =
-            analysis.clusters.iter().flat_map(|c| &c.own_guards).any(|g| analysis.guards[*g] == Guard::React);
-        let next = if has_react { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
+        let next = self.next(whole, bits);
         let serve = |quiet: bool| match (serves, quiet) {
             (false, _) => quote!(),
             (true, true) => quote! { if !self.state.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } },
@@ -198,9 +201,10 @@ impl Generator<'_> {
         };
         let stop = endless.then(|| quote! { if self.state.steps.is_used_up() { break; } });
         let serve_first = serve(true);
+        let begins = if self.part.is_some() { quote!(begins) } else { quote!(true) };
         let body = loops.then(|| {
             quote! {
-                let mut first = true;
+                let mut first = #begins;
                 loop {
                     let mut quiet = true;
                     #raises
@@ -212,14 +216,18 @@ impl Generator<'_> {
                 }
             }
         });
+        let signature = self.signature(graph);
+        let begin = match self.part {
+            Some(_) => quote! { if begins { #(#once)* #(#before)* } },
+            None => quote! { #(#once)* #(#before)* },
+        };
         quote! {
-            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+            #signature {
                 let ctx = &::apex_rt::Ctx::new(now);
                 #exit
                 #begin_steps
                 #start
-                #(#once)*
-                #(#before)*
+                #begin
                 #body
                 #exit
                 #used_up
@@ -231,9 +239,46 @@ impl Generator<'_> {
         }
     }
 
+    /// The head of the function that reacts. A part of a program has ends of cells besides, and goes on with a reaction
+    /// when other parts did something meanwhile.
+    fn signature(&self, graph: &Graph) -> TokenStream {
+        match self.part {
+            Some(_) => {
+                let ends = ends_name(graph);
+                quote! {
+                    fn react_part<O: ::apex_rt::Observer, W: ::apex_rt::threads::Wake>(
+                        &mut self,
+                        now: ::apex_rt::Time,
+                        begins: bool,
+                        ends: &mut #ends<'_>,
+                        wake: &W,
+                        observer: &mut O,
+                    ) -> ::apex_rt::Next
+                }
+            }
+            None => quote! {
+                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next
+            },
+        }
+    }
+
+    /// When a program wants to be called because of sources without a pace. If it waits for other thread groups, they wake it.
+    fn next(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let guards = &whole.analysis.guards;
+        let mut plain = whole.analysis.clusters.iter().flat_map(|c| &c.own_guards).filter(|g| guards[**g] == Guard::React);
+        if self.part.is_none() {
+            return if plain.next().is_some() { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
+        }
+        let fired = plain.map(|guard| match bits.guard(*guard) {
+            Some(bit) => quote!(!self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#bit]))),
+            None => quote!(true),
+        });
+        quote!(if false #(|| #fired)* { ::apex_rt::Next::Now } else { ::apex_rt::Next::Input })
+    }
+
     /// What clusters wait for, to tell a deadlock.
     pub fn waiting(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        if bits.missing(whole.analysis).is_empty() {
+        if bits.missing(whole.analysis, &|c| self.connection(c)).is_empty() {
             return quote!();
         }
         quote! {
@@ -251,7 +296,7 @@ impl Generator<'_> {
         let slots = whole.analysis.asynchronous.slots.iter().map(|c| graph.connections[*c].to.node);
         let clusters =
             bits.dispatched().iter().map(|c| whole.analysis.clusters[*c].nodes.first().copied().unwrap_or(0));
-        let nodes = slots.chain(clusters).map(|n| n + self.names.base);
+        let nodes = slots.chain(clusters).map(|n| self.index(n));
         quote! {
             if self.state.steps.is_used_up() {
                 let counts = self.state.steps.counts();
@@ -288,6 +333,11 @@ impl Generator<'_> {
         for (id, node) in graph.nodes.iter().enumerate() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
                 raises.extend(self.enter(whole, bits, id));
+            }
+            match node.kind {
+                NodeKind::Sender(far) => raises.extend(self.send_far(whole, bits, id, far)),
+                NodeKind::Receiver(far) => raises.extend(self.receive_far(whole, bits, id, far)),
+                _ => {}
             }
             if self.has_timeout(whole, id) {
                 raises.extend(self.expire(whole, bits, id));

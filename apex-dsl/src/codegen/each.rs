@@ -16,7 +16,7 @@ use quote::{format_ident, quote};
 impl Emitter<'_> {
     /// Fires an `each`: the results are collected in order, ⊥ is dropped.
     pub fn fire_each(&self, node: NodeId, each: &Each, block: BlockId) -> TokenStream {
-        let index = self.generator.names.base + node;
+        let index = self.generator.index(node);
         let generator = self.generator.inside(self.graph, node);
         let body = &*each.body;
         let Some(analysis) = self.analysis.bodies.get(&node) else { return quote!() };

@@ -236,7 +236,7 @@ impl<'a> Emitter<'a> {
                     .map(|token| quote! { if let Some(token) = #token { outputs.#probe.saw(token); } })
                     .unwrap_or_default()
             }
-            NodeKind::Boundary(_) | NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => quote!(),
+            _ => quote!(),
         }
     }
 
@@ -251,7 +251,7 @@ impl<'a> Emitter<'a> {
 
     fn fire_library(&self, node: NodeId, library: &Library, block: BlockId) -> TokenStream {
         let signature = &self.generator.catalog.signatures[library.signature];
-        let index = self.generator.names.base + node;
+        let index = self.generator.index(node);
         let params = self.set_params(node, signature, block);
         // Tokens at its parameters are all that a node without `process` takes.
         let Some(args) = &signature.process else { return params };
@@ -361,7 +361,7 @@ impl<'a> Emitter<'a> {
         if signature.is_function {
             return quote!();
         }
-        let (index, place) = (self.generator.names.base + node, self.generator.node_place(self.graph, node));
+        let (index, place) = (self.generator.index(node), self.generator.node_place(self.graph, node));
         let sets = (0..signature.params.len()).filter_map(|param| {
             let (token, name) = (self.option(self.param_source(node, param)?, block), &signature.params[param].name);
             Some(quote! { if let Some(value) = #token { ::apex_rt::set_param::<#param, _, _>(&mut #place, value, #index, #name, observer); } })
@@ -381,7 +381,7 @@ impl<'a> Emitter<'a> {
         if !signature.is_function {
             return call;
         }
-        let index = self.generator.names.base + node;
+        let index = self.generator.index(node);
         let checked: Vec<usize> = (0..signature.params.len())
             .filter(|p| signature.params[*p].range.is_some() && self.param_source(node, *p).is_some())
             .collect();

@@ -18,6 +18,7 @@ mod slots;
 mod stamps;
 mod state;
 mod test;
+mod threads;
 mod types;
 
 pub use machine::machines;
@@ -28,10 +29,11 @@ pub use program::camel;
 use crate::{
     analyse::Analysis,
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{End, Graph, Node, NodeId, NodeKind},
     passes::Program,
-    report::{Diagnostic, Diagnostics},
+    report::Diagnostics,
     source::{Sources, Span},
+    threads::{Cell, Origin, Part},
 };
 use proc_macro2::TokenStream;
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,15 +48,19 @@ pub struct Generator<'a> {
     place: &'a dyn Fn(Span) -> proc_macro2::Span,
     /// The graph around the body of an `each`, and the node that the body belongs to.
     outer: Option<(&'a Graph, NodeId, &'a Generator<'a>)>,
+    /// The graph of all thread groups, and which of its parts this is.
+    part: Option<(&'a Graph, &'a Part)>,
+    /// What is between the parts.
+    cells: &'a [Cell],
 }
 
 /// Names of locals and fields: those of the text, made unique.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Names {
     /// The program, and the nodes around the body of an `each`.
     prefix: String,
-    /// The number of the first node in the table of all nodes.
-    base: usize,
+    /// The number of each node in the table of all nodes.
+    numbers: Vec<usize>,
     tokens: BTreeMap<End, String>,
     /// Where delays hold tokens back.
     held: BTreeMap<NodeId, String>,
@@ -92,27 +98,55 @@ impl Flag {
 
 impl Names {
     fn new(graph: &Graph, program: &str, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
-        let mut names = Self { prefix: format!("{program}_{prefix}"), base: *count, ..Self::default() };
+        let mut names = Self { prefix: format!("{program}_{prefix}"), ..Self::default() };
+        names.numbers = (*count..*count + graph.nodes.len()).collect();
         *count += graph.nodes.len();
         for (node, n) in graph.nodes.iter().enumerate() {
             let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
-            for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
-                let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
-                let name = if plain { path.clone() } else { format!("{path}_{}", p.name) };
-                names.tokens.insert(End { node, port }, unique(name, used));
-            }
-            if let NodeKind::Delay(_) = &n.kind {
-                names.held.insert(node, unique(format!("{path}_held"), used));
-            }
-            for (flag, word) in Flag::ALL {
-                names.flags.insert((flag, node), unique(format!("{word}_{path}"), used));
-            }
-            if n.modifiers.has_pace() {
-                names.timers.insert(node, unique(format!("timer_{path}"), used));
-            }
+            names.add(node, n, &path, used);
             if let NodeKind::Each(each) = &n.kind {
                 names.inner.insert(node, Self::new(&each.body, program, &format!("{path}_"), count, used));
             }
+        }
+        names
+    }
+
+    /// The names of a node and its tokens.
+    fn add(&mut self, node: NodeId, n: &Node, path: &str, used: &mut BTreeSet<String>) {
+        for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
+            let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
+            let name = if plain { path.to_owned() } else { format!("{path}_{}", p.name) };
+            self.tokens.insert(End { node, port }, unique(name, used));
+        }
+        if let NodeKind::Delay(_) = &n.kind {
+            self.held.insert(node, unique(format!("{path}_held"), used));
+        }
+        for (flag, word) in Flag::ALL {
+            self.flags.insert((flag, node), unique(format!("{word}_{path}"), used));
+        }
+        if n.modifiers.has_pace() {
+            self.timers.insert(node, unique(format!("timer_{path}"), used));
+        }
+    }
+
+    /// The names of a thread group's part of the program with these names.
+    fn of_part(&self, part: &Part, used: &mut BTreeSet<String>) -> Self {
+        let mut names = Self { prefix: part.graph.name.clone(), ..Self::default() };
+        for (node, n) in part.graph.nodes.iter().enumerate() {
+            let Origin::Node(origin) = part.origins[node] else {
+                // It is no node of the program: nobody is told of it.
+                names.numbers.push(usize::MAX);
+                names.add(node, n, &format!("cell_{node}"), used);
+                continue;
+            };
+            names.numbers.push(self.numbers[origin]);
+            let tokens = self.tokens.range(End { node: origin, port: 0 }..).take_while(|(end, _)| end.node == origin);
+            names.tokens.extend(tokens.map(|(end, name)| (End { node, port: end.port }, name.clone())));
+            names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
+            names.timers.extend(self.timers.get(&origin).map(|name| (node, name.clone())));
+            let flags = Flag::ALL.iter().filter_map(|(flag, _)| Some((*flag, self.flags.get(&(*flag, origin))?)));
+            names.flags.extend(flags.map(|(flag, name)| ((flag, node), name.clone())));
+            names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
         }
         names
     }
@@ -163,9 +197,14 @@ pub fn generate(
     place: &dyn Fn(Span) -> proc_macro2::Span,
 ) -> TokenStream {
     let graph = &program.graph;
-    let names = Names::new(graph, &graph.name, "", &mut 0, &mut BTreeSet::new());
-    let generator = Generator { catalog, sources, names: &names, place, outer: None };
-    let code = generator.program(graph, &program.analysis);
+    let mut used = BTreeSet::new();
+    let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
+    let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
+    let generator = Generator { catalog, sources, names: &names, place, outer: None, part: None, cells };
+    let code = match &program.split {
+        Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
+        None => generator.program(graph, &program.analysis),
+    };
     match &program.script {
         Some(script) => generator.test(graph, script, &code),
         None => code,
@@ -182,27 +221,29 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
     }
 }
 
-/// What can be written but not run yet.
-pub fn check_supported(graph: &Graph, diagnostics: &mut Diagnostics) {
-    for node in &graph.nodes {
-        if let NodeKind::Each(each) = &node.kind {
-            check_supported(&each.body, diagnostics);
-        }
-        let m = &node.modifiers;
-        for (given, word) in [(m.pipelined, "pipelined"), (m.group.is_some(), "on")] {
-            if given {
-                let message = format!("`{word}` can be checked, but not run yet");
-                diagnostics.push(Diagnostic::error("not-yet", node.span, message));
-            }
-        }
-    }
-}
-
 impl<'a> Generator<'a> {
     /// The generator for the body of the `each` node `node` of `graph`.
     fn inside(&'a self, graph: &'a Graph, node: NodeId) -> Generator<'a> {
         let names = self.names.inner.get(&node).unwrap_or(self.names);
-        Generator { names, outer: Some((graph, node, self)), ..*self }
+        Generator { names, outer: Some((graph, node, self)), part: None, ..*self }
+    }
+
+    /// For types: the generator of the graph of all thread groups. A type may depend on a node of another group.
+    fn of_all(&self) -> Self {
+        Self { part: None, ..*self }
+    }
+
+    /// The number of a node in the table of all nodes.
+    fn index(&self, node: NodeId) -> usize {
+        self.names.numbers[node]
+    }
+
+    /// The number of a connection in the table of all connections, unless it leads to another thread group.
+    fn connection(&self, connection: usize) -> Option<usize> {
+        match self.part {
+            Some((_, part)) => part.connections[connection],
+            None => Some(connection),
+        }
     }
 
     /// The name of a token.

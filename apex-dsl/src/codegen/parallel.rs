@@ -27,7 +27,7 @@ impl Generator<'_> {
         let (fields, makes) = state::fields(&self.token_state(body, analysis));
         let (mut nodes, mut params) = (BTreeMap::new(), vec![]);
         self.local_nodes(body, analysis, &mut nodes, &mut params);
-        let (node_items, nodes_make) = node_structs("LocalNodes", &nodes);
+        let (node_items, nodes_make) = node_structs("LocalNodes", &nodes, false);
         Local {
             items: quote! { struct LocalState { #fields } #node_items #(#params)* },
             make: quote!((LocalState { #makes }, #nodes_make)),

@@ -4,7 +4,7 @@ use super::Generator;
 use crate::{
     analyse::Analysis,
     catalog::ParamSig,
-    graph::{Graph, Library, NodeKind},
+    graph::{Graph, Library, NodeId, NodeKind},
     units,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -18,11 +18,16 @@ struct Rows {
 }
 
 impl Generator<'_> {
-    /// The implementation of `Parameters` for a program.
-    pub fn parameters(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+    /// The implementation of `Parameters` for a program; `nodes` says where the nodes are kept that stand beside a node.
+    pub fn parameters(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        nodes: &dyn Fn(NodeId) -> TokenStream,
+    ) -> TokenStream {
         let name = super::types::ident(&graph.name);
         let mut rows = Rows::default();
-        self.param_rows(graph, analysis, &mut rows);
+        self.param_rows(graph, analysis, &nodes, &mut rows);
         let Rows { table, visits } = rows;
         quote! {
             #[allow(unused, clippy::all)]
@@ -30,29 +35,37 @@ impl Generator<'_> {
                 const PARAMS: &'static [::apex_rt::params::ParamInfo] = &[#(#table),*];
                 fn visit_params<V: ::apex_rt::params::ParamVisitor>(&mut self, visitor: &mut V) {
                     use ::apex_rt::params::{Known as _, Opaque as _};
-                    let nodes = &mut self.nodes;
                     #(#visits)*
                 }
             }
         }
     }
 
-    fn param_rows(&self, graph: &Graph, analysis: &Analysis, rows: &mut Rows) {
+    fn param_rows(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        nodes: &dyn Fn(NodeId) -> TokenStream,
+        rows: &mut Rows,
+    ) {
         for (id, node) in graph.nodes.iter().enumerate() {
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
                     let (path, place) = (self.node_path(graph, id).join("."), self.node_place(graph, id));
+                    let nodes = nodes(id);
                     for (param, declared) in self.catalog.signatures[library.signature].params.iter().enumerate() {
                         let row = rows.table.len();
                         rows.table.push(self.param_row(library, param, declared, &path));
                         rows.visits.push(quote! {
+                            let nodes = &mut #nodes;
                             ::apex_rt::params::Probe::<_, #param>::new(&mut #place).visit(&Self::PARAMS[#row], visitor);
                         });
                     }
                 }
                 NodeKind::Each(each) => {
                     if let Some(body) = analysis.bodies.get(&id) {
-                        self.inside(graph, id).param_rows(&each.body, body, rows);
+                        let around = nodes(id);
+                        self.inside(graph, id).param_rows(&each.body, body, &|_| around.clone(), rows);
                     }
                 }
                 _ => {}
@@ -79,7 +92,7 @@ impl Generator<'_> {
     }
 }
 
-fn option(value: Option<TokenStream>) -> TokenStream {
+pub fn option(value: Option<TokenStream>) -> TokenStream {
     value.map_or(quote!(None), |value| quote!(Some(#value)))
 }
 

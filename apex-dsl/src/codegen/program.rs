@@ -2,7 +2,7 @@
 
 use super::{Flag, Generator, activity::Whole, bits::Bits, fire::Emitter, rates, state, test::probe, types::ident};
 use crate::{
-    analyse::Analysis,
+    analyse::{Analysis, Cluster},
     catalog::Match,
     check::compare_types,
     graph::{End, Graph, Library, NodeId, NodeKind},
@@ -21,16 +21,47 @@ pub enum Field {
 }
 
 impl Generator<'_> {
-    /// All items of a program.
+    /// All items of a program on one thread.
     pub fn program(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+        let name = ident(&graph.name);
+        let whole = Whole { graph, analysis, links: &analysis.links };
+        let bits = Bits::new(graph, analysis);
+        let (items, react) = (self.items(whole, &bits), self.react(whole, &bits));
+        let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
+        let waiting = self.waiting(whole, &bits);
+        let clusters: Vec<Vec<NodeId>> = analysis.clusters.iter().map(Cluster::schedule).collect();
+        let info = self.info(graph, analysis, &clusters, &[]);
+        let parameters = self.parameters(graph, analysis, &|_| quote!(self.nodes));
+        quote! {
+            #items
+            #[allow(unused, clippy::all)]
+            impl #name {
+                /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
+                #[inline]
+                pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
+            }
+            #[allow(unused, clippy::all)]
+            impl ::apex_rt::Program for #name {
+                const INFO: ::apex_rt::Info = #info;
+                #react
+                #is_active
+                #is_graph_active
+                #waiting
+            }
+            #parameters
+        }
+    }
+
+    /// The struct of a program or of a part of one, with all that it consists of, and the functions that fire its clusters and
+    /// serve its slots.
+    pub fn items(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let Whole { graph, analysis, .. } = whole;
         let name = ident(&graph.name);
         let mut fields = BTreeMap::new();
         let mut handed_in = vec![];
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
-        let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields);
-        let whole = Whole { graph, analysis, links: &analysis.links };
-        let bits = Bits::new(graph, analysis);
-        let (state_fields, state_make) = state::fields(&self.state(whole, &bits));
+        let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields, false);
+        let (state_fields, state_make) = state::fields(&self.state(whole, bits));
         let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
         let inputs = boundaries(graph, comes_in);
         let outputs = boundaries(graph, |kind| kind == PortKind::Output);
@@ -64,14 +95,9 @@ impl Generator<'_> {
             };
             (quote!(parts: #parts_name), item, quote!())
         };
-        let react = self.react(whole, &bits);
-        let clusters = self.clusters(whole, &bits);
-        let (dispatcher, claims) = (self.dispatcher(whole, &bits), self.claim_function(whole));
-        let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
-        let waiting = self.waiting(whole, &bits);
-        let info = self.info(graph, analysis);
+        let clusters = self.clusters(whole, bits);
+        let (dispatcher, claims) = (self.dispatcher(whole, bits), self.claim_function(whole));
         let links = self.links(graph);
-        let parameters = self.parameters(graph, analysis);
         quote! {
             #[doc = #docs]
             pub struct #name {
@@ -109,9 +135,6 @@ impl Generator<'_> {
                         events: #events_name { #(#event_names: ::apex_rt::Mailbox::new(),)* },
                     }
                 }
-                /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
-                #[inline]
-                pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
                 /// The nodes, by instance name.
                 pub fn nodes(&self) -> &#nodes_name { &self.nodes }
                 /// The graph-level inputs and slots.
@@ -125,15 +148,6 @@ impl Generator<'_> {
                 #claims
             }
             #default
-            #[allow(unused, clippy::all)]
-            impl ::apex_rt::Program for #name {
-                const INFO: ::apex_rt::Info = #info;
-                #react
-                #is_active
-                #is_graph_active
-                #waiting
-            }
-            #parameters
         }
     }
 
@@ -210,13 +224,17 @@ impl Generator<'_> {
     }
 
     /// Whether a node is active, by its index.
-    fn is_active(&self, whole: Whole<'_>) -> TokenStream {
+    pub fn is_active(&self, whole: Whole<'_>) -> TokenStream {
         if whole.analysis.active.is_empty() {
             return quote!();
         }
-        let nodes = whole.analysis.active.iter().filter(|n| !whole.graph.nodes[**n].is_delay());
+        let is_node = |n: &&NodeId| {
+            !matches!(whole.graph.nodes[**n].kind, NodeKind::Delay(_) | NodeKind::Sender(_) | NodeKind::Receiver(_))
+                && self.index(**n) != usize::MAX
+        };
+        let nodes = whole.analysis.active.iter().filter(is_node);
         let arms = nodes.map(|node| {
-            let (index, flag) = (self.names.base + node, self.flag(Flag::Active, *node));
+            let (index, flag) = (self.index(*node), self.flag(Flag::Active, *node));
             quote! { #index => self.state.#flag, }
         });
         quote! {
@@ -248,18 +266,25 @@ impl Generator<'_> {
         quote! { #(#functions)* }
     }
 
-    fn info(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
+    /// The table that describes a program. `clusters` has the numbers of their nodes.
+    pub fn info(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        clusters: &[Vec<NodeId>],
+        groups: &[TokenStream],
+    ) -> TokenStream {
         let name = &graph.name;
         let (mut nodes, mut connections) = (vec![], vec![]);
         self.rows(graph, analysis, "", &mut nodes, &mut connections);
         let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
         let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
-        let clusters = analysis.clusters.iter().map(|c| {
-            let nodes = c.schedule().into_iter().map(Literal::usize_unsuffixed);
+        let clusters = clusters.iter().map(|nodes| {
+            let nodes = nodes.iter().copied().map(Literal::usize_unsuffixed);
             quote!(&[#(#nodes),*])
         });
         quote! {
-            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], graphs: &[#(#graphs),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], claims: &[#(#claims),*] }
+            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], graphs: &[#(#graphs),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], groups: &[#(#groups),*], claims: &[#(#claims),*] }
         }
     }
 
@@ -271,7 +296,6 @@ impl Generator<'_> {
         nodes: &mut Vec<TokenStream>,
         connections: &mut Vec<TokenStream>,
     ) {
-        let base = self.names.base;
         for (id, node) in graph.nodes.iter().enumerate() {
             let (name, kind) = (format!("{prefix}{}", graph.path(id)), kind(self, node));
             let c = analysis.characteristics[id];
@@ -280,7 +304,7 @@ impl Generator<'_> {
         }
         for c in &graph.connections {
             let (from, to) =
-                (Literal::usize_unsuffixed(base + c.from.node), Literal::usize_unsuffixed(base + c.to.node));
+                (Literal::usize_unsuffixed(self.index(c.from.node)), Literal::usize_unsuffixed(self.index(c.to.node)));
             let (output, input) = (&graph.port(c.from).name, &graph.port(c.to).name);
             connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
         }
@@ -343,6 +367,7 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
         NodeKind::Start => "start".to_owned(),
         NodeKind::Exit(_) => "exit".to_owned(),
         NodeKind::Reset => "reset".to_owned(),
+        NodeKind::Sender(_) | NodeKind::Receiver(_) => "cell".to_owned(),
     }
 }
 
@@ -368,9 +393,15 @@ pub fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Fiel
 }
 
 /// The struct of a level of nodes with all below it, and the expression that makes it.
-pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStream, TokenStream) {
+///
+/// If `borrowed`, it has references to nodes that are kept elsewhere.
+pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>, borrowed: bool) -> (TokenStream, TokenStream) {
     let struct_name = ident(name);
     let (mut items, mut declared, mut made) = (quote!(), quote!(), quote!());
+    let life = borrowed.then(|| quote!(<'a>));
+    // There may be no node.
+    let phantom = borrowed.then(|| quote! { life: ::core::marker::PhantomData<&'a ()>, });
+    let phantom_made = borrowed.then(|| quote! { life: ::core::marker::PhantomData, });
     for (field, content) in fields {
         let field_name = ident(field);
         match content {
@@ -380,20 +411,20 @@ pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>) -> (TokenStrea
             }
             Field::Nested(inner) => {
                 let inner_name = format!("{name}{}", camel(field));
-                let (inner_items, inner_make) = node_structs(&inner_name, inner);
+                let (inner_items, inner_make) = node_structs(&inner_name, inner, borrowed);
                 let inner_type = ident(&inner_name);
                 items.extend(inner_items);
-                declared.extend(quote! { pub #field_name: #inner_type, });
+                declared.extend(quote! { pub #field_name: #inner_type #life, });
                 made.extend(quote! { #field_name: #inner_make, });
             }
         }
     }
     let item = quote! {
         #[allow(private_interfaces, missing_docs)]
-        pub struct #struct_name { #declared }
+        pub struct #struct_name #life { #declared #phantom }
         #items
     };
-    (item, quote!(#struct_name { #made }))
+    (item, quote!(#struct_name { #made #phantom_made }))
 }
 
 /// `fetch_cube` → `FetchCube`

@@ -158,7 +158,7 @@ impl Generator<'_> {
         source: &dyn Fn(usize) -> Option<syn::Ident>,
     ) -> TokenStream {
         let Some(args) = &signature.process else { return quote!() };
-        let index = self.names.base + node;
+        let index = self.index(node);
         let (mut names, mut tokens) = (vec![], vec![]);
         let args: Vec<TokenStream> = args
             .iter()

@@ -6,6 +6,7 @@ use super::{
     bits::Bits,
     plan::is_buffer,
     test::probe,
+    threads::carries_missing,
     types::ident,
 };
 use crate::{
@@ -41,13 +42,13 @@ impl Generator<'_> {
         let from = |c: usize| whole.graph.connections[c].from;
         let sends: Vec<usize> = whole.links.sends[node].iter().copied().filter(|c| wanted(from(*c))).collect();
         let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
-            let sent: TokenStream = connections.iter().map(|c| self.sent(whole, bits, *c)).collect();
+            let (missing, connections_of_values): (Vec<usize>, Vec<usize>) =
+                connections.iter().partition(|c| carries_missing(whole.graph, **c));
+            let sent: TokenStream = connections_of_values.iter().map(|c| self.sent(whole, bits, *c)).collect();
             let present = self.waits(whole.graph, from(connections[0]));
-            if sent.is_empty() {
-                quote!()
-            } else {
-                quote! { if #present { #sent } }
-            }
+            let missing = missing.iter().map(|c| self.sent(whole, bits, *c));
+            let sent = if sent.is_empty() { quote!() } else { quote! { if #present { #sent } } };
+            quote! { #(#missing)* #sent }
         });
         ports.collect()
     }
@@ -148,9 +149,10 @@ impl Generator<'_> {
         let clear = self.clear_events(whole, node);
         let pass = self.pass_activity(whole, node, &|end| self.sent_event(whole, end));
         let emit = self.emit(whole, bits, node, false);
-        let (stamp, index) = (self.stamp_of_slot(whole, connection), self.names.base + node);
+        let (stamp, index) = (self.stamp_of_slot(whole, connection), self.index(node));
+        let handled = self.connection(connection).map(|number| quote! { observer.handled(#number); });
         let call = quote! { #call observer.finished(#index); };
-        quote! { #stamp observer.handled(#connection); #free #clear #activity #check #call #pass #emit #settle }
+        quote! { #stamp #handled #free #clear #activity #check #call #pass #emit #settle }
     }
 
     /// A slot takes its token away.
@@ -260,7 +262,7 @@ impl Generator<'_> {
         call: TokenStream,
         fallible: bool,
     ) -> TokenStream {
-        let index = self.names.base + node;
+        let index = self.index(node);
         let n = &graph.nodes[node];
         if !n.is_contained() {
             return if fallible { quote!(::apex_rt::sent(#call, #index, observer)) } else { call };

@@ -66,7 +66,7 @@ impl Generator<'_> {
     /// What a node with a `deadline` does when it has finished: it looks whether that was in time.
     pub fn check_late(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         let Some(deadline) = whole.graph.nodes[node].modifiers.deadline else { return quote!() };
-        let (index, deadline) = (self.names.base + node, duration(deadline));
+        let (index, deadline) = (self.index(node), duration(deadline));
         let trigger = self.trigger(whole.graph, node, Standard::Late);
         quote! { if ctx.is_late(#index, #deadline, observer) { #trigger } }
     }
@@ -78,7 +78,7 @@ fn is_left(whole: Whole<'_>, cluster: usize) -> bool {
     down.iter().any(|c| whole.analysis.stamps.clusters.contains(c))
 }
 
-fn of_connection(connection: usize) -> Ident {
+pub fn of_connection(connection: usize) -> Ident {
     format_ident!("stamp_{connection}")
 }
 

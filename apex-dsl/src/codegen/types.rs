@@ -52,6 +52,9 @@ pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
 impl Generator<'_> {
     /// The type of a node of the catalog.
     pub fn node_type(&self, graph: &Graph, library: &Library) -> TokenStream {
+        if let Some((whole, _)) = self.part {
+            return self.of_all().node_type(whole, library);
+        }
         let signature = &self.catalog.signatures[library.signature];
         let head = path(&signature.path);
         if library.types.is_empty() {
@@ -72,6 +75,9 @@ impl Generator<'_> {
 
     /// The type of the tokens that leave a port.
     pub fn token_type(&self, graph: &Graph, end: End) -> TokenStream {
+        if let Some((whole, part)) = self.part {
+            return self.of_all().token_type(whole, part.origin(end));
+        }
         let port = graph.port(end);
         match &graph.nodes[end.node].kind {
             NodeKind::Each(_) => self.each_type(graph, end),
@@ -88,7 +94,7 @@ impl Generator<'_> {
                 Some(ty) => ty,
                 None => self.projection(graph, library, end),
             },
-            NodeKind::Boundary(_) | NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset => {
+            _ => {
                 spell(&port.ty, self.catalog).unwrap_or_else(|| port.ty.to_string().parse().unwrap_or_default())
             }
         }

@@ -174,6 +174,7 @@ impl<'a> Builder<'a> {
             pins: self.pins,
             wires: self.wires,
             claims: self.claims,
+            threads: vec![],
             open_pins,
             excused: ports(&self.excused),
         };
@@ -304,12 +305,12 @@ impl<'a> Builder<'a> {
             (Made::Graph(id), None) => self.nested(body, name, id, instance, docs)?,
             (Made::Node(signature), Some(each)) => {
                 let inner = self.each_of_node(body, name, signature, instance)?;
-                self.each(body, name, inner, each, docs)?
+                self.each(body, name, inner, each, instance, docs)?
             }
             (Made::Graph(id), Some(each)) => {
                 let values = self.graph_args(body, id, instance);
                 let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Purpose::Body(values)))?;
-                self.each(body, name, inner, each, docs)?
+                self.each(body, name, inner, each, instance, docs)?
             }
         };
         self.delayed(body, name, symbol, &instance.modifiers)
@@ -470,16 +471,15 @@ impl<'a> Builder<'a> {
                 ModifierKind::After(_) => "after",
                 ModifierKind::Timeout(_) => "timeout",
                 ModifierKind::Deadline(_) => "deadline",
-                ModifierKind::On(_) => "on",
                 ModifierKind::Pipelined => "pipelined",
                 ModifierKind::Essential => "essential",
                 ModifierKind::Restart => "restart",
-                ModifierKind::Each { .. } | ModifierKind::Delay(_) => continue,
+                ModifierKind::Each { .. } | ModifierKind::Delay(_) | ModifierKind::On(_) => continue,
             };
             let message = format!("`{word}` is for a single node, but `{}` is a graph", instance.path.text());
             self.diagnostics.push(
                 Diagnostic::error("wrong-modifier", modifier.span, message)
-                    .note("a nested graph takes `each` and `delay`; put the others behind a node inside"),
+                    .note("a nested graph takes `each`, `delay` and `on`; put the others behind a node inside"),
             );
         }
         let values = self.graph_args(body, id, instance);
@@ -490,6 +490,7 @@ impl<'a> Builder<'a> {
             name: name.text.clone(),
             graph: item.name.text.clone(),
             parent: body.scope,
+            group: instance.modifiers.iter().find_map(Modifier::group),
             args: given.iter().filter_map(|name| Some((name.clone(), values.get(name)?.clone()))).collect(),
             docs: if docs.is_empty() { item.docs.clone() } else { docs.to_owned() },
             span: name.span,

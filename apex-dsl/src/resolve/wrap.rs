@@ -33,6 +33,8 @@ impl Builder<'_> {
                 ..*body
             };
             builder.library(&inside, name, id, instance, "")?;
+            // The body runs where its `each` does.
+            builder.nodes[0].modifiers.group = None;
             let ports: Vec<Port> = builder.nodes[0].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
             for (port, inner) in ports.into_iter().enumerate() {
                 let span = name.span;
@@ -62,6 +64,7 @@ impl Builder<'_> {
                 pins: builder.pins,
                 wires: builder.wires,
                 claims: vec![],
+                threads: vec![],
                 open_pins,
                 excused: BTreeSet::new(),
             };
@@ -76,6 +79,7 @@ impl Builder<'_> {
         name: &Ident,
         inner: Graph,
         (parallel, port, span): (bool, Option<&Ident>, Span),
+        instance: &Instance,
         docs: &str,
     ) -> Option<Symbol> {
         let mut ports: Vec<Port> = vec![];
@@ -123,6 +127,7 @@ impl Builder<'_> {
         };
         let kind = NodeKind::Each(Each { body: Box::new(inner), list, parallel });
         let node = self.node(name, body.scope, kind, ports, docs)?;
+        self.nodes[node].modifiers.group = instance.modifiers.iter().find_map(Modifier::group);
         Some(Symbol::of_node(node, &self.nodes[node]))
     }
 
@@ -163,6 +168,7 @@ impl Builder<'_> {
                 Port::new("out", PortKind::Output, out.ty.clone()),
             ];
             let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
+            self.nodes[node].modifiers.group = modifiers.iter().find_map(Modifier::group);
             self.wires.push(Wire {
                 from: out.place,
                 to: Place::Port(End { node, port: 0 }),

@@ -259,6 +259,13 @@ pub enum ModifierKind {
     Restart,
 }
 
+impl Modifier {
+    /// The thread group that it names.
+    pub fn group(&self) -> Option<String> {
+        if let ModifierKind::On(group) = &self.kind { Some(group.text.clone()) } else { None }
+    }
+}
+
 impl File {
     /// Whether it declares nothing.
     pub fn is_empty(&self) -> bool {

@@ -1,0 +1,511 @@
+//! A program that runs on several threads: a part for each thread group, the cells between them, and how all of it reacts on
+//! one thread or is handed out to several.
+
+use super::{
+    Flag, Generator, Names,
+    activity::Whole,
+    bits::Bits,
+    plan::is_buffer,
+    program::{Field, node_structs},
+    types::ident,
+};
+use crate::{
+    analyse::Analysis,
+    graph::{End, Far, Flow, Graph, NodeId, NodeKind},
+    syntax::tree::PortKind,
+    threads::{Origin, Part, Split},
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::{BTreeMap, BTreeSet};
+use syn::Ident;
+
+/// The struct with a part's ends of cells.
+pub fn ends_name(graph: &Graph) -> Ident {
+    format_ident!("{}Ends", graph.name)
+}
+
+/// The field of a part in the whole program.
+pub fn part_name(part: &Part) -> Ident {
+    format_ident!("on_{}", part.group)
+}
+
+/// The cells that a part takes tokens from, with the nodes where they come in.
+pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
+    graph.nodes.iter().enumerate().filter_map(|(id, node)| match node.kind {
+        NodeKind::Receiver(far) => Some((far.cell, id)),
+        _ => None,
+    })
+}
+
+/// Whether ⊥ goes over an asynchronous connection of a part: it belongs to synchronous data flow between two groups.
+pub fn carries_missing(graph: &Graph, connection: usize) -> bool {
+    let c = &graph.connections[connection];
+    match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
+        (_, NodeKind::Sender(_)) => graph.port(c.to).optional,
+        (NodeKind::Receiver(_), _) => graph.port(c.from).optional && graph.flow(c) == Flow::ToInput && !c.relayed,
+        _ => false,
+    }
+}
+
+fn cell_name(cell: usize) -> Ident {
+    format_ident!("cell_{cell}")
+}
+
+impl Generator<'_> {
+    /// The flag that says that a token from a cell is not done with.
+    pub fn holding(cell: usize) -> Ident {
+        format_ident!("holding_{cell}")
+    }
+
+    /// All items of a program on several threads.
+    pub fn threads(&self, graph: &Graph, analysis: &Analysis, split: &Split, used: &mut BTreeSet<String>) -> TokenStream {
+        let names: Vec<Names> = split.parts.iter().map(|part| self.names.of_part(part, used)).collect();
+        let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
+        let all = Program { generator: self, graph, split };
+        let mut code = quote!();
+        let mut views = vec![];
+        for (number, part) in split.parts.iter().enumerate() {
+            let generator = of_part(number);
+            let whole = Whole { graph: &part.graph, analysis: &part.analysis, links: &part.analysis.links };
+            let bits = Bits::new(&part.graph, &part.analysis);
+            let (items, react) = (generator.items(whole, &bits), generator.react(whole, &bits));
+            let view = View {
+                is_active: generator.is_active(whole),
+                is_graph_active: generator.is_graph_active(whole),
+                waiting: generator.waiting(whole, &bits),
+                fields: generator.fields(&part.graph, &part.analysis),
+            };
+            let View { is_active, is_graph_active, waiting, .. } = &view;
+            let name = ident(&part.graph.name);
+            let handle = all.handle(number);
+            code.extend(quote! {
+                #items
+                #[allow(unused, clippy::all)]
+                impl #name { #react #is_active #is_graph_active #waiting }
+                #handle
+            });
+            views.push(view);
+        }
+        let (structs, program) = (all.structs(&views), all.program(analysis, &views));
+        quote! { #code #structs #program }
+    }
+
+    fn fields(&self, graph: &Graph, analysis: &Analysis) -> Fields {
+        let mut fields = Fields::default();
+        self.node_fields(graph, analysis, &mut fields.nodes, &mut fields.handed_in);
+        fields
+    }
+
+    /// A token goes into its cell, or the other side is done with it.
+    pub fn send_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
+        let Whole { graph, analysis, links } = whole;
+        let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else { return quote!() };
+        let (Some(free), Some(token)) = (bits.free(index), bits.token(index)) else { return quote!() };
+        let (cell, name) = (cell_name(far.cell), self.name(c.from));
+        let value = match is_buffer(graph, self.catalog, c.from) {
+            true => quote!(state.#name.get()),
+            false => quote!(state.#name.as_ref()),
+        };
+        let active = analysis.active.contains(&node);
+        let carries = active.then(|| {
+            let (gains, here) = (self.flag(Flag::Gains, node), self.flag(Flag::Active, node));
+            quote! { parcel.active = ::core::mem::take(&mut state.#gains); state.#here = parcel.active; }
+        });
+        let carries = carries.filter(|_| !far.takes_activity);
+        let left = carries.is_some().then(|| {
+            let here = self.flag(Flag::Active, node);
+            quote! { state.#here = false; }
+        });
+        let stamp = analysis.stamps.connections.contains(&index).then(|| {
+            let stamp = super::stamps::of_connection(index);
+            quote! { parcel.stamp = state.#stamp; }
+        });
+        let settle = (graph.port(c.from).kind == PortKind::Output)
+            .then(|| bits.row(analysis.cluster_of[c.from.node]))
+            .flatten()
+            .map(|row| quote! { self.state.dispatcher.settle(&Self::CLUSTERS, #row); });
+        let receiver = self.cell(far).1;
+        quote! {
+            if !self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#free])) && ends.#cell.is_free() {
+                if self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#token])) {
+                    let state = &mut self.state;
+                    state.dispatcher.clear(#token);
+                    ends.#cell.put(|parcel| {
+                        ::apex_rt::store(&mut parcel.token, #value);
+                        #carries
+                        #stamp
+                    });
+                    wake.wake(#receiver);
+                } else {
+                    self.state.dispatcher.raise(#free);
+                    #settle
+                    let state = &mut self.state;
+                    #left
+                    quiet = false;
+                }
+            }
+        }
+    }
+
+    /// A token comes out of its cell, or all that it caused has finished.
+    pub fn receive_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
+        let Whole { graph, analysis, links } = whole;
+        let end = End { node, port: 0 };
+        let (cell, holding, name, sender) = (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
+        let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
+        let all_free = match free.is_empty() {
+            true => quote!(true),
+            false => quote!(self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*]))),
+        };
+        let test = self.allows(whole, &[]);
+        let carries = (analysis.active.contains(&node) && !far.takes_activity).then(|| {
+            let flag = self.flag(Flag::Active, node);
+            quote! { state.#flag = ::core::mem::take(&mut parcel.active); }
+        });
+        let stamped = links.sends[node].iter().any(|c| analysis.stamps.connections.contains(c));
+        let since = stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
+        let pass = self.pass_activity(whole, node, &|end| Some(self.waits(graph, end)));
+        let emit = self.emit(whole, bits, node, false);
+        let serve = self.deliver(whole, &links.sends[node]);
+        quote! {
+            if self.state.#holding && #all_free {
+                self.state.#holding = false;
+                ends.#cell.release();
+                wake.wake(#sender);
+            }
+            if !self.state.#holding && ends.#cell.is_full() #test {
+                let Self { nodes, state, .. } = self;
+                let mut stamp = now;
+                ends.#cell.take(|parcel| {
+                    ::core::mem::swap(&mut state.#name, &mut parcel.token);
+                    stamp = parcel.stamp;
+                    #carries
+                });
+                state.#holding = true;
+                #since
+                #pass
+                #emit
+                #serve
+                quiet = false;
+            }
+        }
+    }
+
+    /// The groups at both ends of a cell.
+    fn cell(&self, far: Far) -> (usize, usize) {
+        self.cells.get(far.cell).map_or((0, 0), |cell| (cell.sender, cell.receiver))
+    }
+}
+
+/// The nodes of a part: their fields, and those that Rust makes.
+#[derive(Default)]
+struct Fields {
+    nodes: BTreeMap<String, Field>,
+    handed_in: Vec<(Ident, TokenStream)>,
+}
+
+/// What the whole program has to know about the code of a part.
+struct View {
+    is_active: TokenStream,
+    is_graph_active: TokenStream,
+    waiting: TokenStream,
+    fields: Fields,
+}
+
+/// The program around its parts.
+struct Program<'a> {
+    generator: &'a Generator<'a>,
+    graph: &'a Graph,
+    split: &'a Split,
+}
+
+impl Program<'_> {
+    fn name(&self) -> Ident {
+        ident(&self.graph.name)
+    }
+
+    /// What a thread group is to whoever runs it: the part with its ends of cells.
+    fn handle(&self, number: usize) -> TokenStream {
+        let part = &self.split.parts[number];
+        let (program, name) = (self.name(), ident(&part.graph.name));
+        let (ends, handle) = (ends_name(&part.graph), format_ident!("{}Group", part.graph.name));
+        let fields = self.split.cells.iter().enumerate().flat_map(|(cell, c)| {
+            let (field, ty) = (cell_name(cell), self.generator.token_type(self.graph, c.from));
+            let sends = (c.sender == number).then(|| quote!(CellSender));
+            let takes = (c.receiver == number).then(|| quote!(CellReceiver));
+            let end = sends.into_iter().chain(takes);
+            end.map(move |end| quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, }).collect::<Vec<_>>()
+        });
+        quote! {
+            #[allow(private_interfaces)]
+            struct #ends<'a> { #(#fields)* life: ::core::marker::PhantomData<&'a ()> }
+            #[allow(private_interfaces)]
+            struct #handle<'a, W> { part: &'a mut #name, ends: #ends<'a>, wake: W }
+            #[allow(unused, clippy::all)]
+            impl<W: ::apex_rt::threads::Wake> ::apex_rt::Program for #handle<'_, W> {
+                const INFO: ::apex_rt::Info = <#program as ::apex_rt::Program>::INFO;
+                #[inline]
+                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+                    self.part.react_part(now, true, &mut self.ends, &self.wake, observer)
+                }
+            }
+            #[allow(unused, clippy::all)]
+            impl<W: ::apex_rt::threads::Wake> ::apex_rt::threads::Group for #handle<'_, W> {
+                #[inline]
+                fn react_part<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, begins: bool, observer: &mut O) -> ::apex_rt::Next {
+                    self.part.react_part(now, begins, &mut self.ends, &self.wake, observer)
+                }
+            }
+        }
+    }
+
+    /// The struct of the program, its cells, and the views on its nodes.
+    fn structs(&self, views: &[View]) -> TokenStream {
+        let (graph, name) = (self.graph, self.name());
+        let (parts, part_types): (Vec<Ident>, Vec<Ident>) =
+            self.split.parts.iter().map(|part| (part_name(part), ident(&part.graph.name))).unzip();
+        let (cells, cell_types): (Vec<Ident>, Vec<TokenStream>) = self
+            .split
+            .cells
+            .iter()
+            .enumerate()
+            .map(|(cell, c)| (cell_name(cell), self.generator.token_type(graph, c.from)))
+            .unzip();
+        let cells_name = format_ident!("{}Cells", graph.name);
+        let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
+        let mut nodes = BTreeMap::new();
+        for (part, view) in parts.iter().zip(views) {
+            view_nodes(&view.fields.nodes, &quote!(self.#part.nodes), &mut nodes);
+        }
+        let nodes_name = format!("{}Nodes", graph.name);
+        let (node_items, nodes_make) = node_structs(&nodes_name, &nodes, true);
+        let nodes_name = ident(&nodes_name);
+        let handed_in: Vec<&(Ident, TokenStream)> = views.iter().flat_map(|v| &v.fields.handed_in).collect();
+        let makes = self.split.parts.iter().zip(views).map(|(part, view)| {
+            let name = ident(&part.graph.name);
+            let (given, fields) = (format_ident!("{}Parts", part.graph.name), view.fields.handed_in.iter().map(|(f, _)| f));
+            match view.fields.handed_in.is_empty() {
+                true => quote!(#name::new()),
+                false => quote!(#name::new(#given { #(#fields: parts.#fields),* })),
+            }
+        });
+        let (argument, item, default) = match handed_in.is_empty() {
+            true => (
+                quote!(),
+                quote!(),
+                quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } },
+            ),
+            false => {
+                let (given, doc) =
+                    (format_ident!("{}Parts", graph.name), format!("The nodes of [`{}`] that are made in Rust.", graph.name));
+                let (fields, types) = (handed_in.iter().map(|(f, _)| f), handed_in.iter().map(|(_, ty)| ty));
+                let item = quote! {
+                    #[doc = #doc]
+                    #[allow(private_interfaces, missing_docs)]
+                    pub struct #given { #(pub #fields: #types,)* }
+                };
+                (quote!(parts: #given), item, quote!())
+            }
+        };
+        let ports = self.ports();
+        quote! {
+            #[doc = #docs]
+            pub struct #name { #(#parts: #part_types,)* cells: #cells_name }
+            #[allow(private_interfaces)]
+            struct #cells_name { #(#cells: ::apex_rt::TokenCell<::apex_rt::threads::Parcel<#cell_types>>,)* }
+            #node_items
+            #item
+            #[allow(unused, clippy::all, private_interfaces)]
+            impl #name {
+                /// The program before its first reaction.
+                pub fn new(#argument) -> Self {
+                    Self {
+                        #(#parts: #makes,)*
+                        cells: #cells_name { #(#cells: ::apex_rt::TokenCell::new(::apex_rt::threads::Parcel::new()),)* },
+                    }
+                }
+                /// The nodes, by instance name.
+                pub fn nodes(&self) -> #nodes_name<'_> { #nodes_make }
+                #ports
+            }
+            #default
+        }
+    }
+
+    /// The way to the ports of the program: they belong to the main group.
+    fn ports(&self) -> TokenStream {
+        let main = &self.split.parts[0];
+        let part = part_name(main);
+        let [inputs, outputs, events] = ["Inputs", "Outputs", "Events"].map(|kind| format_ident!("{}{kind}", main.graph.name));
+        quote! {
+            /// The graph-level inputs and slots.
+            pub fn inputs(&mut self) -> &mut #inputs { &mut self.#part.inputs }
+            /// The graph-level outputs.
+            pub fn outputs(&self) -> &#outputs { &self.#part.outputs }
+            /// The graph-level events.
+            pub fn events(&mut self) -> &mut #events { &mut self.#part.events }
+        }
+    }
+
+    /// How the program reacts.
+    fn program(&self, analysis: &Analysis, views: &[View]) -> TokenStream {
+        let (name, parts) = (self.name(), &self.split.parts);
+        let count = parts.len();
+        let fields: Vec<Ident> = parts.iter().map(part_name).collect();
+        let handles: Vec<Ident> = parts.iter().map(|p| format_ident!("{}Group", p.graph.name)).collect();
+        let numbers: Vec<syn::Index> = (0..count).map(syn::Index::from).collect();
+        let (groups, receiving) = (self.groups(), self.receiving());
+        let last = (1..count).map(|i| {
+            let (number, index) = (&numbers[i], i);
+            quote! { spawn.spawn(#index, groups.#number); }
+        });
+        let any = |tokens: &dyn Fn(&View) -> &TokenStream, call: TokenStream| {
+            let has = fields.iter().zip(views).filter(|(_, view)| !tokens(view).is_empty());
+            let calls = has.map(|(field, _)| quote!(|| self.#field.#call));
+            quote!(false #(#calls)*)
+        };
+        let is_active = any(&|v| &v.is_active, quote!(is_active(node)));
+        let is_graph_active = any(&|v| &v.is_graph_active, quote!(is_graph_active(graph)));
+        let waiting = fields.iter().zip(views).filter(|(_, v)| !v.waiting.is_empty()).map(|(field, _)| field);
+        let info = self.info(analysis);
+        let place = |node: NodeId| {
+            let group = self.graph.group(node);
+            let field = parts.iter().find(|p| p.group == group).map(part_name);
+            quote!(self.#field.nodes)
+        };
+        let parameters = self.generator.parameters(self.graph, analysis, &place);
+        let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
+        quote! {
+            #[allow(unused, clippy::all)]
+            impl #name {
+                /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to be called next.
+                #[inline]
+                pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
+                /// Sets how many steps a reaction of a thread group may take before it is reported as an endless loop.
+                pub fn set_budget(&mut self, steps: u32) { #(self.#endless.set_budget(steps);)* }
+                #groups
+            }
+            #[allow(unused, clippy::all)]
+            impl ::apex_rt::Program for #name {
+                const INFO: ::apex_rt::Info = #info;
+                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+                    let woken = ::apex_rt::threads::Woken::all(#count);
+                    let mut groups = self.groups(&woken);
+                    let mut next = [::apex_rt::Next::Input; #count];
+                    let mut counts = [0u32; #count];
+                    for round in 0..::apex_rt::threads::MAX_ROUNDS {
+                        #(
+                            if woken.take(#numbers) {
+                                next[#numbers] = ::apex_rt::threads::Group::react_part(&mut groups.#numbers, now, round == 0, observer);
+                                counts[#numbers] += 1;
+                                if let ::apex_rt::Next::Exit(code) = next[#numbers] { return ::apex_rt::Next::Exit(code); }
+                            }
+                        )*
+                        if woken.is_none() {
+                            return next.into_iter().fold(::apex_rt::Next::Input, ::apex_rt::Next::or);
+                        }
+                    }
+                    observer.endless(&[#(#receiving),*], &counts);
+                    ::apex_rt::Next::Now
+                }
+                fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
+                where
+                    W: ::apex_rt::threads::Wake + ::core::marker::Copy + ::core::marker::Send + 'a,
+                    S: ::apex_rt::threads::Spawn<'a>,
+                {
+                    let groups = self.groups(wake);
+                    #(#last)*
+                    spawn.stay(0, groups.0);
+                }
+                fn is_active(&self, node: usize) -> bool { #is_active }
+                fn is_graph_active(&self, graph: usize) -> bool { #is_graph_active }
+                fn waiting(&self, mut found: impl FnMut(usize)) { #(self.#waiting.waiting(&mut found);)* }
+            }
+            #parameters
+            const _: () = { fn _handles<'a, W>(#(_: #handles<'a, W>),*) {} };
+        }
+    }
+
+    /// The function that hands out the groups with their ends of all cells.
+    fn groups(&self) -> TokenStream {
+        let cells = (0..self.split.cells.len()).map(|cell| {
+            let (field, sender, receiver) = (cell_name(cell), format_ident!("sender_{cell}"), format_ident!("receiver_{cell}"));
+            quote! { let (#sender, #receiver) = self.cells.#field.ends(); }
+        });
+        let (mut types, mut makes) = (vec![], vec![]);
+        for (number, part) in self.split.parts.iter().enumerate() {
+            let (handle, ends, field) =
+                (format_ident!("{}Group", part.graph.name), ends_name(&part.graph), part_name(part));
+            let own = self.split.cells.iter().enumerate().filter_map(|(cell, c)| {
+                let name = cell_name(cell);
+                let end = match number {
+                    n if n == c.sender => format_ident!("sender_{cell}"),
+                    n if n == c.receiver => format_ident!("receiver_{cell}"),
+                    _ => return None,
+                };
+                Some(quote! { #name: #end, })
+            });
+            types.push(quote!(#handle<'_, W>));
+            makes.push(quote! {
+                #handle { part: &mut self.#field, ends: #ends { #(#own)* life: ::core::marker::PhantomData }, wake }
+            });
+        }
+        quote! {
+            fn groups<W: ::apex_rt::threads::Wake + ::core::marker::Copy>(&mut self, wake: W) -> (#(#types,)*) {
+                #(#cells)*
+                (#(#makes,)*)
+            }
+        }
+    }
+
+    /// For each group the first node that takes something from another group: what tokens go round through.
+    fn receiving(&self) -> Vec<usize> {
+        let first = |group: usize| {
+            let cell = self.split.cells.iter().find(|cell| cell.receiver == group || cell.sender == group)?;
+            let nodes = self.graph.connections.iter().filter(|c| c.from == cell.from).map(|c| c.to.node);
+            nodes.chain([cell.from.node]).find(|node| self.graph.group(*node) == self.split.parts[group].group)
+        };
+        (0..self.split.parts.len()).map(|group| first(group).unwrap_or(0)).collect()
+    }
+
+    fn info(&self, analysis: &Analysis) -> TokenStream {
+        let groups: Vec<TokenStream> = self.split.parts.iter().map(|part| self.group_info(&part.group)).collect();
+        let of_part = |part: &Part, nodes: Vec<NodeId>| {
+            let is_node = |node: NodeId| if let Origin::Node(node) = part.origins[node] { Some(node) } else { None };
+            nodes.into_iter().filter_map(is_node).collect::<Vec<NodeId>>()
+        };
+        let clusters = self.split.parts.iter().flat_map(|p| p.analysis.clusters.iter().map(move |c| of_part(p, c.schedule())));
+        let clusters: Vec<Vec<NodeId>> = clusters.filter(|nodes| !nodes.is_empty()).collect();
+        self.generator.info(self.graph, analysis, &clusters, &groups)
+    }
+
+    /// What the text says about the thread of a group.
+    fn group_info(&self, group: &str) -> TokenStream {
+        let settings = self.graph.threads.iter().find(|t| t.group == group).cloned().unwrap_or_default();
+        let (cores, priority) = (&settings.cores, super::params::option(settings.priority.map(|p| quote!(#p))));
+        let (round_robin, strict) = (settings.round_robin, settings.strict);
+        quote! {
+            ::apex_rt::GroupInfo { name: #group, cores: &[#(#cores),*], priority: #priority, round_robin: #round_robin, strict: #strict }
+        }
+    }
+}
+
+/// The nodes of a part as references, in `into`.
+fn view_nodes(fields: &BTreeMap<String, Field>, place: &TokenStream, into: &mut BTreeMap<String, Field>) {
+    for (name, field) in fields {
+        let field_name = ident(name);
+        match field {
+            Field::Node { ty, .. } => {
+                let view = Field::Node { ty: quote!(&'a #ty), make: quote!(&#place.#field_name) };
+                into.insert(name.clone(), view);
+            }
+            Field::Nested(inner) => {
+                let nested = into.entry(name.clone()).or_insert_with(|| Field::Nested(BTreeMap::new()));
+                if let Field::Nested(nested) = nested {
+                    view_nodes(inner, &quote!(#place.#field_name), nested);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! What has to run on one thread.
+
+use crate::{
+    analyse::{Analysis, circles},
+    graph::{Connection, Crossing, Graph, NodeId, NodeKind, ScopeId},
+    report::{Diagnostic, Diagnostics},
+};
+use std::collections::BTreeMap;
+
+/// Reports what is split over several thread groups and cannot be.
+pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    for node in &graph.nodes {
+        if let NodeKind::Each(each) = &node.kind {
+            check_body(&each.body, diagnostics);
+        }
+    }
+    check_loops(graph, diagnostics);
+    check_rates(graph, analysis, diagnostics);
+    check_reset(graph, analysis, diagnostics);
+    check_sides(graph, diagnostics);
+}
+
+/// The body of an `each` runs where its `each` does.
+fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
+    for node in body.nodes.iter().filter(|n| n.modifiers.group.is_some()) {
+        let message = format!("`{}` stands in the body of an `each`, which runs on the thread of the `each`", node.name);
+        let error = Diagnostic::error("threads", node.span, message);
+        diagnostics.push(error.note("put `on` behind the instance with `each`"));
+    }
+}
+
+/// Connections between groups that are part of synchronous data flow.
+fn synchronous(graph: &Graph) -> impl Iterator<Item = &Connection> {
+    let crosses = |c: &&Connection| graph.group(c.from.node) != graph.group(c.to.node);
+    graph.connections.iter().filter(|c| graph.is_synchronous(c)).filter(crosses)
+}
+
+fn groups(graph: &Graph, from: NodeId, to: NodeId) -> String {
+    let (a, b) = (graph.group(from), graph.group(to));
+    format!("`{}` runs on thread `{a}`, `{}` on `{b}`", graph.path(from), graph.path(to))
+}
+
+/// The delays of a loop send when an iteration begins, which one thread has to decide.
+fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
+    if synchronous(graph).next().is_none() {
+        return;
+    }
+    let circle = circles(graph);
+    for c in synchronous(graph).filter(|c| circle[c.from.node] == circle[c.to.node]) {
+        let message = "a loop of synchronous connections cannot lead through two threads";
+        let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
+        diagnostics.push(error.note("put the nodes of the loop on one thread, or lead it through a slot"));
+    }
+}
+
+fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    let single = |node: NodeId| analysis.repetitions[node] == 1;
+    for c in synchronous(graph) {
+        let plain = graph.port(c.from).rate == 1 && graph.port(c.to).rate == 1;
+        if !plain || !single(c.from.node) || !single(c.to.node) {
+            let message = "nodes that fire several times in an iteration run on one thread with all that they send to";
+            let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
+            diagnostics.push(error.note("gather the tokens into a list first: one token per iteration may change threads"));
+        }
+    }
+}
+
+/// `reset` takes all activity away, in one moment.
+fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    let Some(reset) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Reset)) else { return };
+    let own = graph.group(reset);
+    for &node in analysis.active.iter().filter(|n| graph.group(**n) != own) {
+        let message = format!(
+            "`reset` takes all activity away in one moment, but `{}` runs on thread `{}`, and `reset` on `{own}`",
+            graph.path(node),
+            graph.group(node)
+        );
+        let error = Diagnostic::error("threads", graph.nodes[node].span, message);
+        diagnostics.push(error.note("put all nodes that activity can come to on one thread"));
+    }
+}
+
+/// The inputs of a nested graph are taken together, and its outputs sent together: by one thread.
+fn check_sides(graph: &Graph, diagnostics: &mut Diagnostics) {
+    let mut first: BTreeMap<(ScopeId, bool), NodeId> = BTreeMap::new();
+    for c in graph.connections.iter().filter(|c| graph.is_synchronous(c)) {
+        let sides = c.crossings.iter().map(|side| match side {
+            Crossing::Enter(scope) => (*scope, true, c.to.node),
+            Crossing::Leave(scope) => (*scope, false, c.from.node),
+        });
+        for (scope, enters, node) in sides {
+            let before = *first.entry((scope, enters)).or_insert(node);
+            if graph.group(before) == graph.group(node) {
+                continue;
+            }
+            let what = if enters { "takes all its inputs" } else { "sends all its outputs" };
+            let message = format!("`{}` {what} together, which two threads cannot", graph.scope_path(scope));
+            let error = Diagnostic::error("threads", c.span, message).note(groups(graph, before, node));
+            diagnostics.push(error.note("put the nodes at its ports on one thread"));
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! One graph → one for each thread group.
+
+use super::{Cell, Origin, Part, Split};
+use crate::{
+    analyse::{self, Analysis},
+    catalog::Catalog,
+    graph::{Connection, Crossing, End, Far, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port},
+    report::Diagnostics,
+    syntax::tree::PortKind,
+};
+use std::collections::BTreeMap;
+
+/// Splits a checked graph; `None` if all of it is one group.
+pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Split> {
+    let groups = groups(whole);
+    if groups.len() < 2 {
+        return None;
+    }
+    let of_node = |node: NodeId| groups.iter().position(|g| *g == whole.group(node)).unwrap_or(0);
+    let mut splitter = Splitter {
+        whole,
+        analysis,
+        catalog,
+        group_of: (0..whole.nodes.len()).map(of_node).collect(),
+        drafts: groups.iter().map(|group| Draft::new(whole, group)).collect(),
+        placed: vec![0; whole.nodes.len()],
+        cells: vec![],
+        ends: BTreeMap::new(),
+    };
+    splitter.place_nodes();
+    for index in 0..whole.connections.len() {
+        splitter.place_connection(index);
+    }
+    let Splitter { drafts, cells, .. } = splitter;
+    let parts = groups.iter().zip(drafts).map(|(group, draft)| draft.analysed(group, catalog)).collect::<Option<_>>()?;
+    Some(Split { parts, cells })
+}
+
+/// The thread groups of a graph: the main group, then the others in the order of the text.
+pub fn groups(graph: &Graph) -> Vec<&str> {
+    let mut groups = vec![MAIN_GROUP];
+    for node in 0..graph.nodes.len() {
+        let group = graph.group(node);
+        if !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    groups
+}
+
+/// A part that is being made.
+struct Draft {
+    graph: Graph,
+    origins: Vec<Origin>,
+    connections: Vec<Option<usize>>,
+}
+
+impl Draft {
+    fn new(whole: &Graph, group: &str) -> Self {
+        let graph = Graph {
+            name: format!("{}On{}", whole.name, crate::codegen::camel(group)),
+            nodes: vec![],
+            connections: vec![],
+            wires: vec![],
+            claims: vec![],
+            ..whole.clone()
+        };
+        Self { graph, origins: vec![], connections: vec![] }
+    }
+
+    fn add(&mut self, node: Node, origin: Origin) -> NodeId {
+        self.graph.nodes.push(node);
+        self.origins.push(origin);
+        self.graph.nodes.len() - 1
+    }
+
+    fn connect(&mut self, connection: Connection, number: Option<usize>) {
+        self.graph.connections.push(connection);
+        self.connections.push(number);
+    }
+
+    /// What was wrong with the whole graph has been reported.
+    fn analysed(self, group: &str, catalog: &Catalog) -> Option<Part> {
+        let Self { graph, origins, connections } = self;
+        let analysis = analyse::analyse(&graph, catalog, &mut Diagnostics::default())?;
+        Some(Part { group: group.to_owned(), graph, analysis, origins, connections })
+    }
+}
+
+struct Splitter<'a> {
+    whole: &'a Graph,
+    analysis: &'a Analysis,
+    catalog: &'a Catalog,
+    group_of: Vec<usize>,
+    drafts: Vec<Draft>,
+    /// The number of each node in its part.
+    placed: Vec<NodeId>,
+    cells: Vec<Cell>,
+    /// For each cell, by the port that it takes tokens from and the group that they go to: its number, and its end there.
+    ends: BTreeMap<(End, usize), (usize, NodeId)>,
+}
+
+impl Splitter<'_> {
+    fn place_nodes(&mut self) {
+        for (id, node) in self.whole.nodes.iter().enumerate() {
+            self.placed[id] = self.drafts[self.group_of[id]].add(node.clone(), Origin::Node(id));
+        }
+    }
+
+    fn place(&self, end: End) -> End {
+        End { node: self.placed[end.node], port: end.port }
+    }
+
+    fn place_connection(&mut self, index: usize) {
+        let c = &self.whole.connections[index];
+        let (sender, receiver) = (self.group_of[c.from.node], self.group_of[c.to.node]);
+        let to = self.place(c.to);
+        if sender == receiver {
+            let connection = Connection { from: self.place(c.from), to, ..c.clone() };
+            self.drafts[sender].connect(connection, Some(index));
+            return;
+        }
+        // What leaves a nested graph does so in the sender's group, what enters one in the receiver's.
+        let enters = c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
+        let (leaving, entering) = c.crossings.split_at(enters);
+        let node = match self.ends.get(&(c.from, receiver)) {
+            Some((_, node)) => *node,
+            None => self.add_cell(index, leaving.to_vec()),
+        };
+        let connection = Connection {
+            from: End { node, port: 0 },
+            to,
+            crossings: entering.to_vec(),
+            ..c.clone()
+        };
+        self.drafts[receiver].connect(connection, Some(index));
+    }
+
+    /// Makes a cell for connection `index`, and all others that it serves; gives its end in the receiver's group.
+    fn add_cell(&mut self, index: usize, leaving: Vec<Crossing>) -> NodeId {
+        let first = self.whole.connections[index].clone();
+        let (sender, receiver) = (self.group_of[first.from.node], self.group_of[first.to.node]);
+        let shared: Vec<usize> = (0..self.whole.connections.len())
+            .filter(|c| {
+                let c = &self.whole.connections[*c];
+                c.from == first.from && self.group_of[c.to.node] == receiver
+            })
+            .collect();
+        let cell = self.cells.len();
+        self.cells.push(Cell { from: first.from, sender, receiver });
+        let far = Far {
+            cell,
+            takes_activity: analyse::takes_activity(self.whole, self.catalog, first.from.node),
+            stamped: shared.iter().any(|c| self.is_stamped(*c)),
+        };
+        let token = self.whole.port(first.from);
+        let is_synchronous = |c: &usize| self.whole.is_synchronous(&self.whole.connections[*c]);
+        let keeps_missing = shared.iter().any(is_synchronous);
+        let active = shared.iter().any(|c| self.whole.connections[*c].active);
+        let name = format!("{} to {}", self.whole.end_name(first.from), self.whole.group(first.to.node));
+        let port = |kind, optional| Port { optional, ..Port::new("token", kind, token.ty.clone()) };
+        let (input, output) = (port(PortKind::Input, keeps_missing), port(PortKind::Event, keeps_missing));
+        let end = |kind, port| node(&self.whole.nodes[first.from.node], &name, kind, vec![port]);
+        let (from, to) = (end(NodeKind::Sender(far), input), end(NodeKind::Receiver(far), output));
+        let from_end = self.place(first.from);
+        let draft = &mut self.drafts[sender];
+        let mut connection = Connection { from: from_end, crossings: leaving, active, ..first.clone() };
+        if keeps_missing && !connection.crossings.is_empty() {
+            // The outputs of a nested graph are sent together: a node of its own waits for that.
+            connection.to = relay(draft, &connection, first.from, token);
+            draft.connect(connection.clone(), None);
+            connection.from = End { node: connection.to.node, port: 1 };
+        }
+        let taker = draft.add(from, Origin::Token(first.from));
+        let to_cell = End { node: taker, port: 0 };
+        draft.connect(Connection { to: to_cell, crossings: vec![], relayed: true, ..connection }, None);
+        let giver = self.drafts[receiver].add(to, Origin::Token(first.from));
+        self.ends.insert((first.from, receiver), (cell, giver));
+        giver
+    }
+
+    /// Whether a node at the end of a connection, or further on, asks for stamps.
+    fn is_stamped(&self, connection: usize) -> bool {
+        let (stamps, to) = (&self.analysis.stamps, self.whole.connections[connection].to.node);
+        stamps.connections.contains(&connection)
+            || self.whole.is_synchronous(&self.whole.connections[connection])
+                && stamps.clusters.contains(&self.analysis.cluster_of[to])
+    }
+}
+
+/// A node that passes on what comes over `connection`; its input.
+fn relay(draft: &mut Draft, connection: &Connection, from: End, token: &Port) -> End {
+    let beside = &draft.graph.nodes[connection.from.node];
+    let ports = vec![
+        Port::new("in", PortKind::Input, token.ty.clone()),
+        Port::new("out", PortKind::Output, token.ty.clone()),
+    ];
+    let relay = node(beside, &format!("{}.{} relay", beside.name, token.name), NodeKind::Relay, ports);
+    End { node: draft.add(relay, Origin::Token(from)), port: 0 }
+}
+
+fn node(beside: &Node, name: &str, kind: NodeKind, ports: Vec<Port>) -> Node {
+    Node {
+        name: name.to_owned(),
+        // It stands in no nested graph.
+        scope: 0,
+        kind,
+        ports,
+        modifiers: Modifiers::default(),
+        span: beside.span,
+        docs: String::new(),
+        starts_active: false,
+    }
+}

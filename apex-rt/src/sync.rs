@@ -1,0 +1,18 @@
+//! What is shared between threads is built on: the model checker of the tests puts its own in this place.
+
+pub use core::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
+
+/// A place that several threads can reach.
+#[derive(Debug, Default)]
+pub struct UnsafeCell<T>(core::cell::UnsafeCell<T>);
+
+impl<T> UnsafeCell<T> {
+    pub const fn new(value: T) -> Self {
+        Self(core::cell::UnsafeCell::new(value))
+    }
+
+    #[inline(always)]
+    pub fn with_mut<R>(&self, look: impl FnOnce(*mut T) -> R) -> R {
+        look(self.0.get())
+    }
+}

@@ -1,0 +1,186 @@
+//! One thread for each group.
+
+use super::{
+    Group, Spawn, Wake,
+    idle::{Alarm, Shared},
+    settings,
+};
+use crate::{Clock, Next, Observer, Program, Time, WallClock};
+use std::{
+    panic::resume_unwind,
+    sync::{
+        OnceLock,
+        atomic::{AtomicBool, AtomicU8, Ordering},
+    },
+    thread::{self, Scope, ScopedJoinHandle, Thread},
+    time::Duration,
+};
+
+/// What sets the pace of threads: the machine's clock, until somebody ends it.
+#[derive(Debug, Clone, Copy)]
+pub struct Pace {
+    /// The clock.
+    pub clock: WallClock,
+    /// The program ends when this is set.
+    pub stopped: Option<&'static AtomicBool>,
+}
+
+/// How long it may take until [`Pace::stopped`] is noticed.
+const NOTICED: Duration = Duration::from_millis(20);
+
+/// What all threads of a program share.
+struct Run {
+    sleep: Shared<Sleeping>,
+    pace: Pace,
+    /// The exit code, once a group has one.
+    code: AtomicU8,
+    /// The program ends by itself, and not because somebody said so.
+    strict_failed: AtomicBool,
+}
+
+/// A thread, once it runs.
+#[derive(Default)]
+struct Sleeping(OnceLock<Thread>);
+
+impl Alarm for Sleeping {
+    fn ring(&self) {
+        if let Some(thread) = self.0.get() {
+            thread.unpark();
+        }
+    }
+}
+
+impl Wake for Run {
+    fn wake(&self, group: usize) {
+        self.sleep.wake(group);
+    }
+}
+
+/// Runs every thread group of `program` on a thread of its own, the main group on this one, until nothing can happen any
+/// more, the pace ends, or a token comes to `exit`. Returns the exit code. `observer` makes an observer for each group.
+///
+/// While a group has nothing to do its thread sleeps. A panic in one group ends the others after what they are doing, and goes
+/// on here.
+pub fn drive_on_threads<P: Program, O: Observer + Send>(
+    program: &mut P,
+    pace: Pace,
+    observer: impl Fn(usize) -> O,
+) -> u8 {
+    let groups = P::INFO.groups.len().max(1);
+    let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
+    let run = Run { sleep, pace, code: AtomicU8::new(0), strict_failed: AtomicBool::new(false) };
+    let panicked = thread::scope(|scope| {
+        let mut spawner = Spawner { scope, run: &run, observer, info: const { &P::INFO }, threads: vec![] };
+        program.on_threads(&run, &mut spawner);
+        let ends = spawner.threads.into_iter().map(ScopedJoinHandle::join);
+        ends.fold(None, |first, end| first.or(end.err()))
+    });
+    if let Some(panic) = panicked {
+        resume_unwind(panic);
+    }
+    run.code.load(Ordering::Acquire)
+}
+
+struct Spawner<'scope, 'env, F> {
+    scope: &'scope Scope<'scope, 'env>,
+    run: &'env Run,
+    observer: F,
+    info: &'static crate::Info,
+    threads: Vec<ScopedJoinHandle<'scope, ()>>,
+}
+
+impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner<'_, 'env, F> {
+    fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
+        let (run, observer, info) = (self.run, (self.observer)(group), self.info);
+        let name = info.groups[group].name.to_owned();
+        let body = move || run.group(group, part, observer, info);
+        match thread::Builder::new().name(name).spawn_scoped(self.scope, body) {
+            Ok(thread) => self.threads.push(thread),
+            Err(error) => {
+                eprintln!("{}: no thread for `{}` could be made: {error}", info.name, info.groups[group].name);
+                run.end(1);
+            }
+        }
+    }
+
+    fn stay<G: Group + 'env>(&mut self, group: usize, part: G) {
+        let observer = (self.observer)(group);
+        self.run.group(group, part, observer, self.info);
+    }
+}
+
+/// Ends the program if its thread panics.
+struct EndOnPanic<'a>(&'a Run);
+
+impl Drop for EndOnPanic<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.0.end(101);
+        }
+    }
+}
+
+impl Run {
+    fn end(&self, code: u8) {
+        let _ = self.code.compare_exchange(0, code, Ordering::AcqRel, Ordering::Relaxed);
+        self.sleep.stop();
+    }
+
+    /// What the thread of a group does.
+    fn group<G: Group, O: Observer>(&self, group: usize, mut part: G, observer: O, info: &'static crate::Info) {
+        let _guard = EndOnPanic(self);
+        let _ = self.sleep.alarm(group).0.set(thread::current());
+        if let Err(reason) = settings::apply(info, &info.groups[group]) {
+            eprintln!("{reason}");
+            self.strict_failed.store(true, Ordering::Relaxed);
+            self.end(1);
+        }
+        let mut clock = self.pace.clock;
+        let mut observer = (observer, crate::run::Stopwatch { clock: &mut clock.clone(), start: Time::ZERO });
+        while !self.sleep.is_stopped() {
+            self.sleep.begin(group);
+            let now = clock.now();
+            observer.1.start = now;
+            match part.react_with(now, &mut observer) {
+                Next::Exit(code) => self.end(code),
+                Next::Now => self.look(),
+                Next::At(time) => self.wait_until(group, clock, time),
+                Next::Input => self.idle(group),
+            }
+        }
+    }
+
+    /// Ends the program if somebody wants it.
+    fn look(&self) {
+        if self.pace.stopped.is_some_and(|stopped| stopped.load(Ordering::Relaxed)) {
+            self.sleep.stop();
+        }
+    }
+
+    fn wait_until(&self, group: usize, mut clock: WallClock, time: Time) {
+        self.look();
+        let left = time.since(clock.now());
+        if !left.is_zero() && !self.sleep.is_stopped() && self.sleep.may_wait(group) {
+            thread::park_timeout(self.noticed(group).map_or(left, |noticed| left.min(noticed)));
+        }
+    }
+
+    fn idle(&self, group: usize) {
+        self.look();
+        if !self.sleep.may_idle(group) {
+            return;
+        }
+        while self.sleep.sleeps(group) {
+            match self.noticed(group) {
+                Some(noticed) => thread::park_timeout(noticed),
+                None => thread::park(),
+            }
+            self.look();
+        }
+    }
+
+    /// The main group looks from time to time whether somebody wants to end the program.
+    fn noticed(&self, group: usize) -> Option<Duration> {
+        (group == 0 && self.pace.stopped.is_some()).then_some(NOTICED)
+    }
+}

@@ -1,0 +1,100 @@
+//! Which groups sleep, and when all of them do: then nothing can happen any more.
+
+use crate::sync::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
+
+/// It reacts.
+const RUNNING: u8 = 0;
+/// It was told that there is something to look at.
+const WOKEN: u8 = 1;
+/// It sleeps until some time, or until it is woken.
+const WAITING: u8 = 2;
+/// It sleeps until it is woken.
+const IDLE: u8 = 3;
+
+/// What all groups know of each other.
+#[derive(Debug)]
+pub struct Shared<T> {
+    groups: Box<[Sleeper<T>]>,
+    /// How many groups are not idle.
+    busy: AtomicUsize,
+    stopped: AtomicBool,
+}
+
+#[derive(Debug)]
+struct Sleeper<T> {
+    state: AtomicU8,
+    thread: T,
+}
+
+/// How a thread sleeps, and is woken by others.
+pub trait Alarm {
+    /// Ends the sleep of the thread, or lets its next one end at once.
+    fn ring(&self);
+}
+
+impl<T: Alarm> Shared<T> {
+    /// All groups run.
+    pub fn new(threads: impl IntoIterator<Item = T>) -> Self {
+        let group = |thread| Sleeper { state: AtomicU8::new(RUNNING), thread };
+        let groups: Box<[Sleeper<T>]> = threads.into_iter().map(group).collect();
+        Self { busy: AtomicUsize::new(groups.len()), groups, stopped: AtomicBool::new(false) }
+    }
+
+    /// The alarm of a group.
+    pub fn alarm(&self, group: usize) -> &T {
+        &self.groups[group].thread
+    }
+
+    /// Group `group` has something to look at.
+    pub fn wake(&self, group: usize) {
+        let group = &self.groups[group];
+        match group.state.swap(WOKEN, Ordering::AcqRel) {
+            WAITING => group.thread.ring(),
+            IDLE => {
+                // Who wakes it is busy itself, so that the count was not zero in between.
+                self.busy.fetch_add(1, Ordering::AcqRel);
+                group.thread.ring();
+            }
+            _ => {}
+        }
+    }
+
+    /// Group `group` is about to react: it will see everything that it was told of.
+    pub fn begin(&self, group: usize) {
+        self.groups[group].state.swap(RUNNING, Ordering::AcqRel);
+    }
+
+    /// Whether group `group` may sleep until some time: it was not told of anything since it began.
+    pub fn may_wait(&self, group: usize) -> bool {
+        self.change(group, RUNNING, WAITING)
+    }
+
+    /// Whether group `group` may sleep until it is woken. If all others do so already, the program stops.
+    pub fn may_idle(&self, group: usize) -> bool {
+        let idle = self.change(group, RUNNING, IDLE);
+        if idle && self.busy.fetch_sub(1, Ordering::AcqRel) == 1 {
+            self.stop();
+        }
+        idle
+    }
+
+    /// Whether group `group` still sleeps.
+    pub fn sleeps(&self, group: usize) -> bool {
+        self.groups[group].state.load(Ordering::Acquire) == IDLE && !self.is_stopped()
+    }
+
+    fn change(&self, group: usize, from: u8, to: u8) -> bool {
+        self.groups[group].state.compare_exchange(from, to, Ordering::AcqRel, Ordering::Acquire).is_ok()
+    }
+
+    /// Ends all groups, as soon as they have finished what they do.
+    pub fn stop(&self) {
+        self.stopped.store(true, Ordering::Release);
+        self.groups.iter().for_each(|group| group.thread.ring());
+    }
+
+    /// Whether the program ends.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Acquire)
+    }
+}

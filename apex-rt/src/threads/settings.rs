@@ -1,0 +1,63 @@
+//! What the text says about the thread of a group.
+
+use crate::{Info, info::GroupInfo};
+
+/// Gives the current thread the cores and the priority of its group.
+///
+/// # Errors
+/// If the rights for it are missing and the text wants the program to end then.
+pub fn apply(info: &Info, group: &GroupInfo) -> Result<(), String> {
+    let Err(reason) = set(group) else { return Ok(()) };
+    let message = format!("{}: thread `{}` {reason}", info.name, group.name);
+    if group.strict {
+        return Err(format!("{message}; the program ends because its text says `rights = strict`"));
+    }
+    eprintln!("{message}; it runs without");
+    Ok(())
+}
+
+#[cfg(all(feature = "realtime", target_os = "linux"))]
+fn set(group: &GroupInfo) -> Result<(), String> {
+    if !group.cores.is_empty() {
+        set_cores(group.cores).map_err(|error| format!("cannot run on the cores {:?}: {error}", group.cores))?;
+    }
+    match group.priority {
+        Some(priority) => {
+            let policy = if group.round_robin { "rr" } else { "fifo" };
+            set_priority(priority, group.round_robin)
+                .map_err(|error| format!("cannot have priority {priority} ({policy}): {error}"))
+        }
+        None => Ok(()),
+    }
+}
+
+#[cfg(all(feature = "realtime", target_os = "linux"))]
+fn set_cores(cores: &[usize]) -> nix::Result<()> {
+    let mut set = nix::sched::CpuSet::new();
+    cores.iter().try_for_each(|core| set.set(*core))?;
+    nix::sched::sched_setaffinity(nix::unistd::Pid::from_raw(0), &set)
+}
+
+#[cfg(all(feature = "realtime", target_os = "linux"))]
+fn set_priority(priority: u8, round_robin: bool) -> Result<(), String> {
+    use thread_priority::{
+        RealtimeThreadSchedulePolicy::{Fifo, RoundRobin},
+        ThreadPriority, ThreadPriorityValue, ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
+    };
+    let policy = ThreadSchedulePolicy::Realtime(if round_robin { RoundRobin } else { Fifo });
+    let value = ThreadPriorityValue::try_from(priority).map_err(|error| format!("{error:?}"))?;
+    set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Crossplatform(value), policy).map_err(
+        |error| match error {
+            thread_priority::Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
+            other => format!("{other:?}"),
+        },
+    )
+}
+
+#[cfg(not(all(feature = "realtime", target_os = "linux")))]
+fn set(group: &GroupInfo) -> Result<(), String> {
+    match group.cores.is_empty() && group.priority.is_none() {
+        true => Ok(()),
+        false => Err("has cores or a priority, which need Linux and the feature `realtime` of apex-rt".to_owned()),
+    }
+}

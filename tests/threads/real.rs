@@ -1,0 +1,128 @@
+//! Programs on real threads: nothing is lost, their ends are clean, and nobody waits awake.
+
+use crate::groups::{Enough, Match, Panics, There};
+use apex_rt::{prelude::*, threads};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::atomic::{AtomicBool, Ordering},
+    thread,
+    time::{Duration, Instant},
+};
+
+/// Gives every ball back, until it has come often enough.
+#[node]
+pub struct Player {
+    /// So often.
+    #[param]
+    limit: i64,
+    /// The balls that came.
+    pub seen: Vec<i64>,
+}
+
+#[node]
+impl Player {
+    #[slot]
+    fn ball(&mut self, ball: &i64, back: Event<i64>) {
+        self.seen.push(*ball);
+        if *ball < self.limit {
+            back.emit(ball + 1);
+        }
+    }
+}
+
+/// Begins a match.
+#[node]
+#[derive(Default)]
+pub struct Once;
+
+#[node]
+impl Once {
+    #[slot]
+    fn s(&mut self, e: Event<i64>) {
+        e.emit(0);
+    }
+}
+
+/// Counts what comes in order, and says when it is enough.
+#[node]
+pub struct Stop {
+    /// So much is enough.
+    #[param]
+    after: i64,
+    next: i64,
+}
+
+#[node]
+impl Stop {
+    fn process(&mut self, x: &i64, enough: Event<()>) {
+        assert_eq!(*x, 2 * self.next, "tokens come in order, and none is lost");
+        self.next += 1;
+        if self.next == self.after {
+            enough.emit(());
+        }
+    }
+}
+
+/// Panics at the third token.
+#[node]
+#[derive(Default)]
+pub struct Bad {
+    count: usize,
+}
+
+#[node]
+impl Bad {
+    fn process(&mut self, _x: &i64) {
+        self.count += 1;
+        assert!(self.count < 3, "on purpose");
+    }
+}
+
+fn drive<P: Program>(program: &mut P) -> u8 {
+    let pace = WallClock::new().pace().expect("it is the machine's clock");
+    threads::drive_on_threads(program, pace, |_| ())
+}
+
+#[test]
+fn a_match_between_two_threads_ends_by_itself() {
+    let mut program = Match::new();
+    assert_eq!(drive(&mut program), 0);
+    let (home, away) = (&program.nodes().home.seen, &program.nodes().away.seen);
+    assert!(home.iter().copied().eq((0..=2000).step_by(2)));
+    assert!(away.iter().copied().eq((1..2000).step_by(2)));
+}
+
+#[test]
+fn a_token_at_exit_ends_all_threads() {
+    for _ in 0..20 {
+        assert_eq!(drive(&mut Enough::new()), 0);
+    }
+}
+
+#[test]
+fn a_panic_in_one_group_ends_the_others_and_goes_on() {
+    let panicked = catch_unwind(AssertUnwindSafe(|| drive(&mut Panics::new())));
+    let message = panicked.expect_err("it panics");
+    assert_eq!(message.downcast_ref::<&str>(), Some(&"on purpose"));
+}
+
+#[test]
+fn somebody_else_can_end_the_program_while_it_sleeps() {
+    static STOPPED: AtomicBool = AtomicBool::new(false);
+    let ends = thread::spawn(|| {
+        thread::sleep(Duration::from_millis(60));
+        STOPPED.store(true, Ordering::Relaxed);
+    });
+    let mut program = There::new();
+    let clock = apex_rt::UntilStopped::new(WallClock::new(), &STOPPED);
+    assert_eq!(threads::drive_on_threads(&mut program, clock.pace().expect("it is the machine's"), |_| ()), 0);
+    ends.join().expect("it does nothing dangerous");
+    assert!(!program.nodes().k.seen.is_empty());
+}
+
+#[test]
+fn the_main_group_takes_the_threads_down_when_driven_by_run() {
+    let start = Instant::now();
+    apex_rt::run(Match::new(), WallClock::new());
+    assert!(start.elapsed() < Duration::from_secs(60));
+}
