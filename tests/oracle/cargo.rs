@@ -63,26 +63,40 @@ impl Observer for Recorder {
 }
 
 #[allow(dead_code, reason = "a part may have no graph")]
-fn record<P: Program>(mut program: P) {
+fn record<P: Program>(mut program: P, threads: bool) {
     for reaction in 0..10 {
         let now = Time::from_nanos(reaction * 1_000_000);
         note(format_args!("R {}", now.as_nanos()));
-        program.react_with(now, &mut Recorder);
+        if threads {
+            apex_rt::threads::react_on_threads(&mut program, now, |_| Recorder);
+        } else {
+            program.react_with(now, &mut Recorder);
+        }
         note(format_args!("E"));
     }
     println!("{}# end", take_notes());
 }
 
 fn main() {
+    let threads = std::env::args().nth(1).is_some();
     RUNS
 }
 "#;
+
+/// How a program with several thread groups runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum How {
+    /// One group after the other, on one thread.
+    InTurn,
+    /// Each on a thread of its own.
+    OnThreads,
+}
 
 /// The record of each program.
 ///
 /// # Errors
 /// If they cannot be compiled, or if one of them does not come to its end.
-pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
+pub fn run(folder: &str, programs: &[Program], how: How) -> Result<Vec<String>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("oracle");
     // Programs of several folders lie side by side in one target folder.
@@ -102,7 +116,7 @@ pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
             write(file.clone(), &program.text)?;
             let module = program.name.to_lowercase();
             graphs.push_str(&format!("mod {module} {{\n    use apex_rt::prelude::*;\n    graph!({file:?});\n}}\n"));
-            runs.push_str(&format!("record({module}::{}::new());\n    ", program.name));
+            runs.push_str(&format!("record({module}::{}::new(), threads);\n    ", program.name));
         }
         let main = MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs);
         write(folder.join(format!("src/bin/{}.rs", part_name(part))), &main)?;
@@ -126,6 +140,7 @@ pub fn run(folder: &str, programs: &[Program]) -> Result<Vec<String>, String> {
     let mut traces: Vec<String> = vec![];
     for part in 0..PARTS {
         let ran = Command::new(target.join(format!("target/debug/{}", part_name(part))))
+            .args((how == How::OnThreads).then_some("threads"))
             .output()
             .map_err(|e| format!("cannot run the program: {e}"))?;
         if !ran.status.success() {

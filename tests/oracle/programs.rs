@@ -3,8 +3,8 @@
 //! `APEX_ORACLE_GRAPHS` says how many (40), `APEX_ORACLE_SEED` where to begin; with `APEX_ORACLE_RAW` what fails is shown
 //! as it is, not made small first.
 
-use crate::cargo::{Program, run};
-use apex_tests::oracle::{Case, Checker, Failure, generate, read};
+use crate::cargo::{How, Program, run};
+use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, read};
 use std::{collections::BTreeMap, env};
 
 /// Programs that are compiled together.
@@ -19,7 +19,7 @@ fn number(name: &str) -> Option<u64> {
 }
 
 /// What is wrong with each of `cases`, which are legal; nothing where all is right.
-fn judge(checker: &Checker, folder: &str, cases: &[&Case]) -> Vec<Option<String>> {
+fn judge(checker: &Checker, folder: &str, how: How, cases: &[&Case]) -> Vec<Option<String>> {
     if cases.is_empty() {
         return vec![];
     }
@@ -28,7 +28,7 @@ fn judge(checker: &Checker, folder: &str, cases: &[&Case]) -> Vec<Option<String>
         .enumerate()
         .map(|(i, case)| Program { name: format!("Random{i}"), text: case.text(&format!("Random{i}")) })
         .collect();
-    match run(folder, &programs) {
+    match run(folder, &programs, how) {
         Ok(traces) => cases.iter().zip(&programs).zip(traces).map(|((_, p), t)| wrong(checker, p, &t)).collect(),
         Err(message) => {
             let blamed = |i: usize| message.contains(&format!("Random{i}.afg"));
@@ -36,7 +36,7 @@ fn judge(checker: &Checker, folder: &str, cases: &[&Case]) -> Vec<Option<String>
                 return cases.iter().map(|_| Some(message.clone())).collect();
             }
             let rest: Vec<&Case> = cases.iter().enumerate().filter(|(i, _)| !blamed(*i)).map(|(_, c)| *c).collect();
-            let mut judged = judge(checker, folder, &rest).into_iter();
+            let mut judged = judge(checker, folder, how, &rest).into_iter();
             (0..cases.len()).map(|i| if blamed(i) { Some(message.clone()) } else { judged.next().flatten() }).collect()
         }
     }
@@ -67,7 +67,7 @@ fn last_lines(text: &str, count: usize) -> String {
 }
 
 /// A small graph that is still wrong, and what is wrong with it.
-fn smallest(checker: &Checker, case: Case, why: String) -> (Case, String) {
+fn smallest(checker: &Checker, how: How, case: Case, why: String) -> (Case, String) {
     let (mut case, mut why) = (case, why);
     for _ in 0..ROUNDS {
         let legal: Vec<Case> =
@@ -75,7 +75,7 @@ fn smallest(checker: &Checker, case: Case, why: String) -> (Case, String) {
         let mut found = None;
         for batch in legal.chunks(BATCH) {
             let cases: Vec<&Case> = batch.iter().collect();
-            let judged = judge(checker, "oracle-smaller", &cases);
+            let judged = judge(checker, "oracle-smaller", how, &cases);
             let same = batch.iter().zip(judged).filter_map(|(c, w)| Some((c.clone(), w?)));
             found = same.filter(|(_, w)| kind(w) == kind(&why)).min_by_key(|(c, _)| c.nodes.len() + c.links.len());
             if found.is_some() {
@@ -91,32 +91,30 @@ fn smallest(checker: &Checker, case: Case, why: String) -> (Case, String) {
 }
 
 /// Shows the first failure of each kind made small: the others are mostly the same.
-fn show(checker: &Checker, failures: &[(&Case, String)]) {
+fn show(checker: &Checker, how: How, failures: &[(&Case, String)]) {
     let mut shown: Vec<&str> = vec![];
     for (case, why) in failures {
         if shown.contains(&kind(why)) || shown.len() == SHOWN {
             continue;
         }
         shown.push(kind(why));
-        let (small, why) = smallest(checker, (*case).clone(), why.clone());
+        let (small, why) = smallest(checker, how, (*case).clone(), why.clone());
         println!("seed {}: {why}\n{}", case.seed, small.text("Random"));
     }
 }
 
-#[test]
-fn compiled_programs_run_as_their_nets_may() {
+/// Judges random graphs, `made` from a seed each.
+fn try_all(folder: &str, how: How, made: impl Fn(u64) -> Case) {
     let count = number("APEX_ORACLE_GRAPHS").unwrap_or(40);
     let first = number("APEX_ORACLE_SEED").unwrap_or(1);
-    println!("{count} graphs, APEX_ORACLE_SEED={first}");
+    println!("{how:?}: {count} graphs, APEX_ORACLE_SEED={first}");
     let checker = Checker::new();
-    let cases: Vec<Case> = (first..first + count)
-        .map(|seed| generate(seed, true))
-        .filter(|case| checker.check(&case.text("Random")).is_ok())
-        .collect();
+    let cases: Vec<Case> =
+        (first..first + count).map(made).filter(|case| checker.check(&case.text("Random")).is_ok()).collect();
     let mut failures: Vec<(&Case, String)> = vec![];
     for batch in cases.chunks(BATCH) {
         let batch: Vec<&Case> = batch.iter().collect();
-        let judged = judge(&checker, "oracle", &batch);
+        let judged = judge(&checker, folder, how, &batch);
         failures.extend(batch.iter().zip(judged).filter_map(|(case, why)| Some((*case, why?))));
     }
     println!("{} legal graphs, {} of them wrong", cases.len(), failures.len());
@@ -128,7 +126,22 @@ fn compiled_programs_run_as_their_nets_may() {
     if env::var_os("APEX_ORACLE_RAW").is_some() {
         failures.iter().for_each(|(case, why)| println!("seed {}: {why}\n{}", case.seed, case.text("Random")));
     } else {
-        show(&checker, &failures);
+        show(&checker, how, &failures);
     }
     assert!(failures.is_empty(), "{} of {} programs do what their nets may not", failures.len(), cases.len());
+}
+
+#[test]
+fn compiled_programs_run_as_their_nets_may() {
+    try_all("oracle", How::InTurn, |seed| generate(seed, true));
+}
+
+#[test]
+fn thread_groups_in_turn_run_as_their_nets_may() {
+    try_all("oracle-in-turn", How::InTurn, |seed| on_threads(generate(seed, true)));
+}
+
+#[test]
+fn thread_groups_on_threads_run_as_their_nets_may() {
+    try_all("oracle-threads", How::OnThreads, |seed| on_threads(generate(seed, true)));
 }

@@ -265,7 +265,8 @@ impl Generator<'_> {
     /// When a program wants to be called because of sources without a pace. If it waits for other thread groups, they wake it.
     fn next(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
         let guards = &whole.analysis.guards;
-        let mut plain = whole.analysis.clusters.iter().flat_map(|c| &c.own_guards).filter(|g| guards[**g] == Guard::React);
+        let mut plain =
+            whole.analysis.clusters.iter().flat_map(|c| &c.own_guards).filter(|g| guards[**g] == Guard::React);
         if self.part.is_none() {
             return if plain.next().is_some() { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
         }

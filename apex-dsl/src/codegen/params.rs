@@ -19,12 +19,7 @@ struct Rows {
 
 impl Generator<'_> {
     /// The implementation of `Parameters` for a program; `nodes` says where the nodes are kept that stand beside a node.
-    pub fn parameters(
-        &self,
-        graph: &Graph,
-        analysis: &Analysis,
-        nodes: &dyn Fn(NodeId) -> TokenStream,
-    ) -> TokenStream {
+    pub fn parameters(&self, graph: &Graph, analysis: &Analysis, nodes: &dyn Fn(NodeId) -> TokenStream) -> TokenStream {
         let name = super::types::ident(&graph.name);
         let mut rows = Rows::default();
         self.param_rows(graph, analysis, &nodes, &mut rows);
@@ -41,13 +36,7 @@ impl Generator<'_> {
         }
     }
 
-    fn param_rows(
-        &self,
-        graph: &Graph,
-        analysis: &Analysis,
-        nodes: &dyn Fn(NodeId) -> TokenStream,
-        rows: &mut Rows,
-    ) {
+    fn param_rows(&self, graph: &Graph, analysis: &Analysis, nodes: &dyn Fn(NodeId) -> TokenStream, rows: &mut Rows) {
         for (id, node) in graph.nodes.iter().enumerate() {
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {

@@ -47,7 +47,11 @@ impl Generator<'_> {
             let sent: TokenStream = connections_of_values.iter().map(|c| self.sent(whole, bits, *c)).collect();
             let present = self.waits(whole.graph, from(connections[0]));
             let missing = missing.iter().map(|c| self.sent(whole, bits, *c));
-            let sent = if sent.is_empty() { quote!() } else { quote! { if #present { #sent } } };
+            let sent = if sent.is_empty() {
+                quote!()
+            } else {
+                quote! { if #present { #sent } }
+            };
             quote! { #(#missing)* #sent }
         });
         ports.collect()

@@ -59,7 +59,13 @@ impl Generator<'_> {
     }
 
     /// All items of a program on several threads.
-    pub fn threads(&self, graph: &Graph, analysis: &Analysis, split: &Split, used: &mut BTreeSet<String>) -> TokenStream {
+    pub fn threads(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        split: &Split,
+        used: &mut BTreeSet<String>,
+    ) -> TokenStream {
         let names: Vec<Names> = split.parts.iter().map(|part| self.names.of_part(part, used)).collect();
         let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
         let all = Program { generator: self, graph, split };
@@ -100,7 +106,9 @@ impl Generator<'_> {
     /// A token goes into its cell, or the other side is done with it.
     pub fn send_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
         let Whole { graph, analysis, links } = whole;
-        let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else { return quote!() };
+        let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else {
+            return quote!();
+        };
         let (Some(free), Some(token)) = (bits.free(index), bits.token(index)) else { return quote!() };
         let (cell, name) = (cell_name(far.cell), self.name(c.from));
         let value = match is_buffer(graph, self.catalog, c.from) {
@@ -152,7 +160,8 @@ impl Generator<'_> {
     pub fn receive_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
         let Whole { graph, analysis, links } = whole;
         let end = End { node, port: 0 };
-        let (cell, holding, name, sender) = (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
+        let (cell, holding, name, sender) =
+            (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
         let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
         let all_free = match free.is_empty() {
             true => quote!(true),
@@ -235,7 +244,8 @@ impl Program<'_> {
             let sends = (c.sender == number).then(|| quote!(CellSender));
             let takes = (c.receiver == number).then(|| quote!(CellReceiver));
             let end = sends.into_iter().chain(takes);
-            end.map(move |end| quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, }).collect::<Vec<_>>()
+            end.map(move |end| quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, })
+                .collect::<Vec<_>>()
         });
         quote! {
             #[allow(private_interfaces)]
@@ -284,7 +294,8 @@ impl Program<'_> {
         let handed_in: Vec<&(Ident, TokenStream)> = views.iter().flat_map(|v| &v.fields.handed_in).collect();
         let makes = self.split.parts.iter().zip(views).map(|(part, view)| {
             let name = ident(&part.graph.name);
-            let (given, fields) = (format_ident!("{}Parts", part.graph.name), view.fields.handed_in.iter().map(|(f, _)| f));
+            let (given, fields) =
+                (format_ident!("{}Parts", part.graph.name), view.fields.handed_in.iter().map(|(f, _)| f));
             match view.fields.handed_in.is_empty() {
                 true => quote!(#name::new()),
                 false => quote!(#name::new(#given { #(#fields: parts.#fields),* })),
@@ -297,8 +308,10 @@ impl Program<'_> {
                 quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } },
             ),
             false => {
-                let (given, doc) =
-                    (format_ident!("{}Parts", graph.name), format!("The nodes of [`{}`] that are made in Rust.", graph.name));
+                let (given, doc) = (
+                    format_ident!("{}Parts", graph.name),
+                    format!("The nodes of [`{}`] that are made in Rust.", graph.name),
+                );
                 let (fields, types) = (handed_in.iter().map(|(f, _)| f), handed_in.iter().map(|(_, ty)| ty));
                 let item = quote! {
                     #[doc = #doc]
@@ -337,7 +350,8 @@ impl Program<'_> {
     fn ports(&self) -> TokenStream {
         let main = &self.split.parts[0];
         let part = part_name(main);
-        let [inputs, outputs, events] = ["Inputs", "Outputs", "Events"].map(|kind| format_ident!("{}{kind}", main.graph.name));
+        let [inputs, outputs, events] =
+            ["Inputs", "Outputs", "Events"].map(|kind| format_ident!("{}{kind}", main.graph.name));
         quote! {
             /// The graph-level inputs and slots.
             pub fn inputs(&mut self) -> &mut #inputs { &mut self.#part.inputs }
@@ -430,7 +444,8 @@ impl Program<'_> {
     /// The function that hands out the groups with their ends of all cells.
     fn groups(&self) -> TokenStream {
         let cells = (0..self.split.cells.len()).map(|cell| {
-            let (field, sender, receiver) = (cell_name(cell), format_ident!("sender_{cell}"), format_ident!("receiver_{cell}"));
+            let (field, sender, receiver) =
+                (cell_name(cell), format_ident!("sender_{cell}"), format_ident!("receiver_{cell}"));
             quote! { let (#sender, #receiver) = self.cells.#field.ends(); }
         });
         let (mut types, mut makes) = (vec![], vec![]);
@@ -475,7 +490,8 @@ impl Program<'_> {
             let is_node = |node: NodeId| if let Origin::Node(node) = part.origins[node] { Some(node) } else { None };
             nodes.into_iter().filter_map(is_node).collect::<Vec<NodeId>>()
         };
-        let clusters = self.split.parts.iter().flat_map(|p| p.analysis.clusters.iter().map(move |c| of_part(p, c.schedule())));
+        let clusters =
+            self.split.parts.iter().flat_map(|p| p.analysis.clusters.iter().map(move |c| of_part(p, c.schedule())));
         let clusters: Vec<Vec<NodeId>> = clusters.filter(|nodes| !nodes.is_empty()).collect();
         self.generator.info(self.graph, analysis, &clusters, &groups)
     }

@@ -94,9 +94,7 @@ impl Generator<'_> {
                 Some(ty) => ty,
                 None => self.projection(graph, library, end),
             },
-            _ => {
-                spell(&port.ty, self.catalog).unwrap_or_else(|| port.ty.to_string().parse().unwrap_or_default())
-            }
+            _ => spell(&port.ty, self.catalog).unwrap_or_else(|| port.ty.to_string().parse().unwrap_or_default()),
         }
     }
 

@@ -23,7 +23,8 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
 /// The body of an `each` runs where its `each` does.
 fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
     for node in body.nodes.iter().filter(|n| n.modifiers.group.is_some()) {
-        let message = format!("`{}` stands in the body of an `each`, which runs on the thread of the `each`", node.name);
+        let message =
+            format!("`{}` stands in the body of an `each`, which runs on the thread of the `each`", node.name);
         let error = Diagnostic::error("threads", node.span, message);
         diagnostics.push(error.note("put `on` behind the instance with `each`"));
     }
@@ -60,7 +61,8 @@ fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
         if !plain || !single(c.from.node) || !single(c.to.node) {
             let message = "nodes that fire several times in an iteration run on one thread with all that they send to";
             let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
-            diagnostics.push(error.note("gather the tokens into a list first: one token per iteration may change threads"));
+            diagnostics
+                .push(error.note("gather the tokens into a list first: one token per iteration may change threads"));
         }
     }
 }

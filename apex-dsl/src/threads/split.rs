@@ -32,7 +32,8 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
         splitter.place_connection(index);
     }
     let Splitter { drafts, cells, .. } = splitter;
-    let parts = groups.iter().zip(drafts).map(|(group, draft)| draft.analysed(group, catalog)).collect::<Option<_>>()?;
+    let parts =
+        groups.iter().zip(drafts).map(|(group, draft)| draft.analysed(group, catalog)).collect::<Option<_>>()?;
     Some(Split { parts, cells })
 }
 
@@ -121,18 +122,14 @@ impl Splitter<'_> {
             return;
         }
         // What leaves a nested graph does so in the sender's group, what enters one in the receiver's.
-        let enters = c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
+        let enters =
+            c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
         let (leaving, entering) = c.crossings.split_at(enters);
         let node = match self.ends.get(&(c.from, receiver)) {
             Some((_, node)) => *node,
             None => self.add_cell(index, leaving.to_vec()),
         };
-        let connection = Connection {
-            from: End { node, port: 0 },
-            to,
-            crossings: entering.to_vec(),
-            ..c.clone()
-        };
+        let connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
         self.drafts[receiver].connect(connection, Some(index));
     }
 
@@ -191,10 +188,8 @@ impl Splitter<'_> {
 /// A node that passes on what comes over `connection`; its input.
 fn relay(draft: &mut Draft, connection: &Connection, from: End, token: &Port) -> End {
     let beside = &draft.graph.nodes[connection.from.node];
-    let ports = vec![
-        Port::new("in", PortKind::Input, token.ty.clone()),
-        Port::new("out", PortKind::Output, token.ty.clone()),
-    ];
+    let ports =
+        vec![Port::new("in", PortKind::Input, token.ty.clone()), Port::new("out", PortKind::Output, token.ty.clone())];
     let relay = node(beside, &format!("{}.{} relay", beside.name, token.name), NodeKind::Relay, ports);
     End { node: draft.add(relay, Origin::Token(from)), port: 0 }
 }

@@ -31,11 +31,17 @@ const NOTICED: Duration = Duration::from_millis(20);
 /// What all threads of a program share.
 struct Run {
     sleep: Shared<Sleeping>,
-    pace: Pace,
+    time: Timing,
     /// The exit code, once a group has one.
     code: AtomicU8,
-    /// The program ends by itself, and not because somebody said so.
-    strict_failed: AtomicBool,
+}
+
+/// How long groups run.
+enum Timing {
+    /// Until the program ends.
+    Paced(Pace),
+    /// One reaction, at this time.
+    Once(Time),
 }
 
 /// A thread, once it runs.
@@ -66,9 +72,23 @@ pub fn drive_on_threads<P: Program, O: Observer + Send>(
     pace: Pace,
     observer: impl Fn(usize) -> O,
 ) -> u8 {
+    run_groups(program, Timing::Paced(pace), observer)
+}
+
+/// One reaction of all thread groups of `program` at `now`, each on a thread of its own, until nothing is ready in any of
+/// them. Returns the exit code: what [`react_with`](Program::react_with) does with one group after the other.
+pub fn react_on_threads<P: Program, O: Observer + Send>(
+    program: &mut P,
+    now: Time,
+    observer: impl Fn(usize) -> O,
+) -> u8 {
+    run_groups(program, Timing::Once(now), observer)
+}
+
+fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, observer: impl Fn(usize) -> O) -> u8 {
     let groups = P::INFO.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
-    let run = Run { sleep, pace, code: AtomicU8::new(0), strict_failed: AtomicBool::new(false) };
+    let run = Run { sleep, time, code: AtomicU8::new(0) };
     let panicked = thread::scope(|scope| {
         let mut spawner = Spawner { scope, run: &run, observer, info: const { &P::INFO }, threads: vec![] };
         program.on_threads(&run, &mut spawner);
@@ -127,60 +147,77 @@ impl Run {
     }
 
     /// What the thread of a group does.
-    fn group<G: Group, O: Observer>(&self, group: usize, mut part: G, observer: O, info: &'static crate::Info) {
+    fn group<G: Group, O: Observer>(&self, group: usize, part: G, observer: O, info: &'static crate::Info) {
         let _guard = EndOnPanic(self);
         let _ = self.sleep.alarm(group).0.set(thread::current());
         if let Err(reason) = settings::apply(info, &info.groups[group]) {
             eprintln!("{reason}");
-            self.strict_failed.store(true, Ordering::Relaxed);
             self.end(1);
         }
-        let mut clock = self.pace.clock;
-        let mut observer = (observer, crate::run::Stopwatch { clock: &mut clock.clone(), start: Time::ZERO });
+        match self.time {
+            Timing::Paced(pace) => self.drive(group, part, observer, pace),
+            Timing::Once(now) => self.react(group, part, observer, now),
+        }
+    }
+
+    fn drive<G: Group, O: Observer>(&self, group: usize, mut part: G, observer: O, pace: Pace) {
+        let (mut clock, mut other) = (pace.clock, pace.clock);
+        let mut observer = (observer, crate::run::Stopwatch { clock: &mut other, start: Time::ZERO });
         while !self.sleep.is_stopped() {
             self.sleep.begin(group);
             let now = clock.now();
             observer.1.start = now;
             match part.react_with(now, &mut observer) {
                 Next::Exit(code) => self.end(code),
-                Next::Now => self.look(),
-                Next::At(time) => self.wait_until(group, clock, time),
-                Next::Input => self.idle(group),
+                Next::Now => self.look(pace),
+                Next::At(time) => self.wait_until(group, pace, time),
+                Next::Input => self.idle(group, Some(pace)),
             }
+        }
+    }
+
+    fn react<G: Group, O: Observer>(&self, group: usize, mut part: G, mut observer: O, now: Time) {
+        let mut begins = true;
+        while !self.sleep.is_stopped() {
+            self.sleep.begin(group);
+            match part.react_part(now, begins, &mut observer) {
+                Next::Exit(code) => self.end(code),
+                _ => self.idle(group, None),
+            }
+            begins = false;
         }
     }
 
     /// Ends the program if somebody wants it.
-    fn look(&self) {
-        if self.pace.stopped.is_some_and(|stopped| stopped.load(Ordering::Relaxed)) {
+    fn look(&self, pace: Pace) {
+        if pace.stopped.is_some_and(|stopped| stopped.load(Ordering::Relaxed)) {
             self.sleep.stop();
         }
     }
 
-    fn wait_until(&self, group: usize, mut clock: WallClock, time: Time) {
-        self.look();
-        let left = time.since(clock.now());
+    fn wait_until(&self, group: usize, mut pace: Pace, time: Time) {
+        self.look(pace);
+        let left = time.since(pace.clock.now());
         if !left.is_zero() && !self.sleep.is_stopped() && self.sleep.may_wait(group) {
-            thread::park_timeout(self.noticed(group).map_or(left, |noticed| left.min(noticed)));
+            thread::park_timeout(noticed(group, pace).map_or(left, |noticed| left.min(noticed)));
         }
     }
 
-    fn idle(&self, group: usize) {
-        self.look();
+    fn idle(&self, group: usize, pace: Option<Pace>) {
         if !self.sleep.may_idle(group) {
             return;
         }
         while self.sleep.sleeps(group) {
-            match self.noticed(group) {
+            match pace.and_then(|pace| noticed(group, pace)) {
                 Some(noticed) => thread::park_timeout(noticed),
                 None => thread::park(),
             }
-            self.look();
+            pace.into_iter().for_each(|pace| self.look(pace));
         }
     }
+}
 
-    /// The main group looks from time to time whether somebody wants to end the program.
-    fn noticed(&self, group: usize) -> Option<Duration> {
-        (group == 0 && self.pace.stopped.is_some()).then_some(NOTICED)
-    }
+/// The main group looks from time to time whether somebody wants to end the program.
+fn noticed(group: usize, pace: Pace) -> Option<Duration> {
+    (group == 0 && pace.stopped.is_some()).then_some(NOTICED)
 }

@@ -11,7 +11,7 @@ use crate::{Observer, Program, Time};
 use core::cell::Cell;
 
 #[cfg(feature = "std")]
-pub use drive::{Pace, drive_on_threads};
+pub use drive::{Pace, drive_on_threads, react_on_threads};
 
 /// A token on its way from one thread group to another, with what goes with it.
 #[derive(Debug)]

@@ -46,12 +46,12 @@ fn set_priority(priority: u8, round_robin: bool) -> Result<(), String> {
     };
     let policy = ThreadSchedulePolicy::Realtime(if round_robin { RoundRobin } else { Fifo });
     let value = ThreadPriorityValue::try_from(priority).map_err(|error| format!("{error:?}"))?;
-    set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Crossplatform(value), policy).map_err(
-        |error| match error {
+    set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Crossplatform(value), policy).map_err(|error| {
+        match error {
             thread_priority::Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
             other => format!("{other:?}"),
-        },
-    )
+        }
+    })
 }
 
 #[cfg(not(all(feature = "realtime", target_os = "linux")))]

@@ -69,6 +69,8 @@ pub struct Instance {
     pub every: Option<(usize, usize)>,
     /// `start => …`
     pub starts: bool,
+    /// The thread that it runs on; 0 is the main one.
+    pub thread: usize,
 }
 
 /// A connection between two nodes, by their numbers.
@@ -144,6 +146,9 @@ impl Case {
             }
         }
         for n in 0..self.nodes.len() {
+            if self.nodes[n].thread > 0 {
+                add(&|c| c.nodes[n].thread = 0);
+            }
             if self.nodes[n].starts {
                 add(&|c| c.nodes[n].starts = false);
             }

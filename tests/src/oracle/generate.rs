@@ -57,6 +57,28 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
     case
 }
 
+/// The same graph on two to four threads: neighbouring nodes of a nested graph mostly run on the same one.
+pub fn on_threads(mut case: Case) -> Case {
+    let mut dice = Dice(case.seed.wrapping_mul(0xd134_2543_de82_ef95) | 1);
+    let count = 2 + dice.below(3);
+    let mut thread = 0;
+    let mut group = 0;
+    for node in &mut case.nodes {
+        if node.group != group || dice.one_in(if group == 0 { 2 } else { 12 }) {
+            thread = dice.below(count);
+        }
+        group = node.group;
+        node.thread = thread;
+    }
+    // Some lists go to the body of an `each` on another thread, but most do not.
+    for at in 1..case.nodes.len() {
+        if matches!(case.nodes[at].ty.name, "pass" | "ScListSink") && !dice.one_in(3) {
+            case.nodes[at].thread = case.nodes[at - 1].thread;
+        }
+    }
+    case
+}
+
 fn nodes(dice: &mut Dice, case: &mut Case, size: usize, flavour: &Flavour) {
     let sources = 1 + dice.below(1 + size / 6);
     while case.nodes.len() < size {
@@ -99,6 +121,7 @@ fn push(dice: &mut Dice, case: &mut Case, ty: &'static NodeType, flavour: &Flavo
         delay: if delayed { 1 + dice.below(2) } else { 0 },
         every: (is_source && flavour.paced && dice.one_in(2)).then(|| (1 + dice.below(4), dice.below(3))),
         starts: false,
+        thread: 0,
     });
 }
 

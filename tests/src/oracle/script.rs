@@ -1,23 +1,43 @@
 //! What scripted nodes do: a function of their parameters and of how often they were called.
 
 use apex_rt::Event;
-use std::{cell::RefCell, fmt::Write as _};
+use std::{
+    sync::{Mutex, PoisonError},
+    thread::{self, ThreadId},
+};
 
-thread_local! {
-    static NOTES: RefCell<String> = const { RefCell::new(String::new()) };
-}
+/// What happened, by thread: lines in the order in which they were noted.
+static NOTES: Mutex<Vec<(ThreadId, String)>> = Mutex::new(vec![]);
 
-/// Adds a line to what happened on this thread.
+/// Adds a line to what happened.
 pub fn note(line: std::fmt::Arguments<'_>) {
-    NOTES.with_borrow_mut(|notes| {
-        let _ = notes.write_fmt(line);
-        notes.push('\n');
-    });
+    let (thread, line) = (thread::current().id(), line.to_string());
+    NOTES.lock().unwrap_or_else(PoisonError::into_inner).push((thread, line));
 }
 
-/// What happened on this thread since it was asked last.
+/// What happened since it was asked last. What a call found stands behind it, and the activity that its tokens bring before
+/// it, whatever other threads did meanwhile.
 pub fn take_notes() -> String {
-    NOTES.take()
+    let mut notes = std::mem::take(&mut *NOTES.lock().unwrap_or_else(PoisonError::into_inner));
+    let is_call = |line: &str| line.starts_with('F') || line.starts_with('H');
+    let mut at = 0;
+    while at < notes.len() {
+        let own = |(thread, _): &(ThreadId, String)| *thread == notes[at].0;
+        if notes[at].1.starts_with('T') {
+            let call = notes[..at].iter().rposition(own).map_or(at, |call| call + 1);
+            let found = notes.remove(at);
+            notes.insert(call, found);
+        } else if is_call(&notes[at].1) {
+            let before = (0..at).rev().filter(|i| own(&notes[*i])).take_while(|i| notes[*i].1.starts_with('A'));
+            let before: Vec<usize> = before.collect();
+            for (moved, from) in before.into_iter().enumerate() {
+                let activity = notes.remove(from);
+                notes.insert(at - 1 - moved, activity);
+            }
+        }
+        at += 1;
+    }
+    notes.into_iter().map(|(_, line)| line + "\n").collect()
 }
 
 /// The parameters of a scripted node: `[seed, mode, limit]`.
@@ -70,16 +90,8 @@ pub struct Now {
 
 /// Begins a call that has found `tokens`.
 pub fn call(id: i64, parameters: Parameters, calls: &mut i64, tokens: &[Option<i64>]) -> Now {
-    NOTES.with_borrow_mut(|notes| {
-        notes.push('T');
-        for token in tokens {
-            let _ = match token {
-                Some(value) => write!(notes, " {value}"),
-                None => write!(notes, " -"),
-            };
-        }
-        notes.push('\n');
-    });
+    let tokens: Vec<String> = tokens.iter().map(|t| t.map_or("-".to_owned(), |value| value.to_string())).collect();
+    note(format_args!("T {}", tokens.join(" ")));
     *calls += 1;
     Now { id, parameters, call: *calls - 1 }
 }

@@ -39,7 +39,7 @@ impl Case {
 
     fn instance(&self, node: &Instance) -> String {
         if node.ty.name == "pass" {
-            return "pass() each".to_owned();
+            return format!("pass() each{}", self.on(node));
         }
         let mut text = format!(
             "{}(id = {}, script = [{}, {}, {}])",
@@ -58,7 +58,11 @@ impl Case {
         if node.delay > 0 {
             let _ = write!(text, " delay {:?}", vec![7; node.delay]);
         }
-        text
+        text + &self.on(node)
+    }
+
+    fn on(&self, node: &Instance) -> String {
+        if node.thread > 0 { format!(" on t{}", node.thread) } else { String::new() }
     }
 
     /// Whether a group has anything in it.
