@@ -158,6 +158,7 @@ impl<'a> Builder<'a> {
                 item
             }
             NodeKind::Start => Item::new(Shape::Start, "start"),
+            NodeKind::Hung => Item::new(Shape::Start, "hung"),
             NodeKind::Exit(_) => Item::new(Shape::End, &node.name),
             NodeKind::Reset => Item::new(Shape::Reset, &node.name),
             _ => unreachable!("these are no members"),

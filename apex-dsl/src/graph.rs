@@ -17,6 +17,9 @@ pub type ScopeId = usize;
 /// The thread group of nodes that the text puts in no other.
 pub const MAIN_GROUP: &str = "main";
 
+/// Who watches the threads is on none of them.
+pub const WATCH_GROUP: &str = "watch";
+
 /// A resolved graph.
 #[derive(Debug, Clone)]
 pub struct Graph {
@@ -150,6 +153,8 @@ pub enum NodeKind {
     Start,
     /// Where a test looks: takes tokens at an input or slot, and never holds anybody back.
     Probe,
+    /// An event from outside all threads: a node has been running for too long.
+    Hung,
     /// A slot of the program that ends it with this code.
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
@@ -381,6 +386,8 @@ pub struct ThreadSettings {
     pub round_robin: bool,
     /// `rights = strict`: without the right to that the program ends.
     pub strict: bool,
+    /// `hang`: a node that runs for longer than this hangs.
+    pub hang: Option<Duration>,
 }
 
 /// A claim about activity.
@@ -591,6 +598,9 @@ impl Graph {
 
     /// The thread group of a node: its own, or that of the nested graph around it.
     pub fn group(&self, node: NodeId) -> &str {
+        if matches!(self.nodes[node].kind, NodeKind::Hung) {
+            return WATCH_GROUP;
+        }
         let own = self.nodes[node].modifiers.group.as_deref();
         let around = || self.scopes_of(node).into_iter().find_map(|scope| self.scopes[scope].group.as_deref());
         own.or_else(around).unwrap_or(MAIN_GROUP)

@@ -11,8 +11,10 @@ pub struct Info {
     pub connections: &'static [ConnectionInfo],
     /// The nodes of each cluster in the order in which they fire.
     pub clusters: &'static [&'static [usize]],
-    /// The thread groups, if there are several: the main group first.
+    /// The thread groups, if there are several or something is said about them: the main group first.
     pub groups: &'static [GroupInfo],
+    /// The code with which the program ends when a node hangs, if it does.
+    pub end_if_hung: Option<u8>,
     /// All claims, as they stand in the text with full names: `exclusive(fast, slow)`.
     pub claims: &'static [&'static str],
 }
@@ -56,6 +58,8 @@ pub struct GroupInfo {
     pub round_robin: bool,
     /// Without the right to that the program ends; else it says so and goes on.
     pub strict: bool,
+    /// A node that runs for longer than this hangs.
+    pub hang: Option<core::time::Duration>,
 }
 
 impl NodeInfo {

@@ -57,6 +57,11 @@ pub trait Observer {
         let _ = (node, age);
     }
 
+    /// Node `node` has been running for so long, and is still running: it hangs. Told on another thread.
+    fn hung(&mut self, node: usize, running: Duration) {
+        let _ = (node, running);
+    }
+
     /// How long this reaction has been going on, by the machine's clock: what a deadline counts besides the time that
     /// tokens waited. Zero, where nobody measures it.
     #[inline(always)]
@@ -94,6 +99,13 @@ macro_rules! pass_on {
         fn handled(&mut $self, connection: usize) {
             $($to.handled(connection);)+
         }
+        pass_on_others!($self, $($to),+);
+    };
+}
+
+/// The same, but for the beginning and the end of what nodes do.
+macro_rules! pass_on_others {
+    ($self:ident, $($to:expr),+) => {
         #[inline(always)]
         fn activity(&mut $self, node: usize, active: bool) {
             $($to.activity(node, active);)+
@@ -112,6 +124,9 @@ macro_rules! pass_on {
         fn late(&mut $self, node: usize, age: Duration) {
             $($to.late(node, age);)+
         }
+        fn hung(&mut $self, node: usize, running: Duration) {
+            $($to.hung(node, running);)+
+        }
         #[inline(always)]
         fn elapsed(&mut $self) -> Duration {
             Duration::ZERO$(.max($to.elapsed()))+
@@ -124,6 +139,26 @@ macro_rules! pass_on {
             $($to.claim_failed(claim);)+
         }
     };
+}
+
+#[cfg(feature = "std")]
+impl<O: Observer> Observer for crate::threads::Felt<'_, O> {
+    #[inline(always)]
+    fn fired(&mut self, node: usize) {
+        self.runs(node + 1);
+        self.observer.fired(node);
+    }
+    #[inline(always)]
+    fn handled(&mut self, connection: usize) {
+        self.runs(self.info.connections[connection].to + 1);
+        self.observer.handled(connection);
+    }
+    #[inline(always)]
+    fn finished(&mut self, node: usize) {
+        self.runs(0);
+        self.observer.finished(node);
+    }
+    pass_on_others!(self, self.observer);
 }
 
 impl<O: Observer> Observer for &mut O {
@@ -148,6 +183,9 @@ impl Observer for StdErr {
     }
     fn late(&mut self, node: usize, age: Duration) {
         eprintln!("{}: `{}` is late: it had finished after {age:.1?}", self.0.name, self.0.nodes[node].name);
+    }
+    fn hung(&mut self, node: usize, running: Duration) {
+        eprintln!("{}: `{}` hangs: it has been running for {running:.1?}", self.0.name, self.0.nodes[node].name);
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.0.nodes[node].name;

@@ -1,6 +1,6 @@
 use crate::{
     Clock, Info, Observer, Time,
-    threads::{Spawn, Wake},
+    threads::{Alone, Spawn, Wake},
 };
 use core::time::Duration;
 
@@ -53,8 +53,12 @@ pub trait Program {
 
     /// Hands out the thread groups of a program that has several, the main group last. `wake` is told when one of them has
     /// something to look at.
-    fn on_threads<'a, W: Wake + Copy + Send + 'a, S: Spawn<'a>>(&'a mut self, wake: W, spawn: &mut S) {
-        let _ = (wake, spawn);
+    fn on_threads<'a, W: Wake + Copy + Send + 'a, S: Spawn<'a>>(&'a mut self, wake: W, spawn: &mut S)
+    where
+        Self: Sized,
+    {
+        let _ = wake;
+        spawn.stay(0, Alone(self));
     }
 
     /// Whether nested graph `graph`, by its index in [`Info::graphs`], is active: a node in it is, or activity is under way

@@ -1,10 +1,13 @@
 //! Programs on real threads: nothing is lost, their ends are clean, and nobody waits awake.
 
-use crate::groups::{Enough, Match, Panics, There};
+use crate::groups::{Enough, Hangs, Match, Panics, There};
 use apex_rt::{prelude::*, threads};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::atomic::{AtomicBool, Ordering},
+    sync::{
+        Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
     thread,
     time::{Duration, Instant},
 };
@@ -76,6 +79,64 @@ impl Bad {
         self.count += 1;
         assert!(self.count < 3, "on purpose");
     }
+}
+
+/// Does not come back for a while at the third token.
+#[node]
+#[derive(Default)]
+pub struct Stuck {
+    count: usize,
+}
+
+#[node]
+impl Stuck {
+    fn process(&mut self, _x: &i64) {
+        self.count += 1;
+        if self.count == 3 {
+            let end = Instant::now() + Duration::from_secs(10);
+            while Instant::now() < end && !HEARD.load(Ordering::Acquire) {
+                thread::sleep(Duration::from_millis(1));
+            }
+        }
+    }
+}
+
+static HEARD: AtomicBool = AtomicBool::new(false);
+
+/// Hears that something hangs.
+#[node]
+#[derive(Default)]
+pub struct Safe;
+
+#[node]
+impl Safe {
+    #[slot]
+    fn stop(&mut self, stopped: Event<()>) {
+        HEARD.store(true, Ordering::Release);
+        stopped.emit(());
+    }
+}
+
+/// Hears who hangs.
+#[derive(Clone, Copy)]
+struct Hears<'a>(&'a Mutex<Vec<usize>>);
+
+impl Observer for Hears<'_> {
+    fn hung(&mut self, node: usize, running: Duration) {
+        assert!(running >= Duration::from_millis(20));
+        self.0.lock().expect("nobody panics").push(node);
+    }
+}
+
+#[test]
+fn a_node_that_hangs_is_told_by_name_and_to_a_slot_of_another_thread() {
+    let names = Mutex::new(vec![]);
+    let pace = WallClock::new().pace().expect("it is the machine's clock");
+    let start = Instant::now();
+    assert_eq!(threads::drive_on_threads(&mut Hangs::new(), pace, |_| Hears(&names)), 0);
+    assert!(start.elapsed() < Duration::from_secs(9), "the slot was called while the node was hanging");
+    let names = names.into_inner().expect("nobody panics");
+    assert_eq!(names.iter().map(|node| Hangs::INFO.nodes[*node].name).collect::<Vec<_>>(), ["stuck"]);
 }
 
 fn drive<P: Program>(program: &mut P) -> u8 {

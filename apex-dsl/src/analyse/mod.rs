@@ -194,7 +194,12 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
         NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
         NodeKind::Boundary(_) => !graph.is_body,
         NodeKind::Receiver(_) => graph.port(from).optional,
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Probe | NodeKind::Sender(_) => false,
+        NodeKind::Start
+        | NodeKind::Hung
+        | NodeKind::Exit(_)
+        | NodeKind::Reset
+        | NodeKind::Probe
+        | NodeKind::Sender(_) => false,
     }
 }
 
@@ -227,7 +232,12 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
         NodeKind::Boundary(kind) => kind.is_synchronous(),
         NodeKind::Probe => !links.inputs[node].is_empty(),
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Sender(_) | NodeKind::Receiver(_) => false,
+        NodeKind::Start
+        | NodeKind::Hung
+        | NodeKind::Exit(_)
+        | NodeKind::Reset
+        | NodeKind::Sender(_)
+        | NodeKind::Receiver(_) => false,
     }
 }
 

@@ -1,6 +1,15 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
-use super::{Flag, Generator, activity::Whole, bits::Bits, fire::Emitter, rates, state, test::probe, types::ident};
+use super::{
+    Flag, Generator,
+    activity::Whole,
+    bits::Bits,
+    fire::Emitter,
+    rates, state,
+    test::probe,
+    threads::{end_if_hung, group_info},
+    types::ident,
+};
 use crate::{
     analyse::{Analysis, Cluster},
     catalog::Match,
@@ -30,7 +39,9 @@ impl Generator<'_> {
         let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
         let waiting = self.waiting(whole, &bits);
         let clusters: Vec<Vec<NodeId>> = analysis.clusters.iter().map(Cluster::schedule).collect();
-        let info = self.info(graph, analysis, &clusters, &[]);
+        // A single thread is only mentioned if something is said about it.
+        let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
+        let info = self.info(graph, analysis, &clusters, &groups);
         let parameters = self.parameters(graph, analysis, &|_| quote!(self.nodes));
         quote! {
             #items
@@ -278,13 +289,14 @@ impl Generator<'_> {
         let (mut nodes, mut connections) = (vec![], vec![]);
         self.rows(graph, analysis, "", &mut nodes, &mut connections);
         let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
+        let end_if_hung = end_if_hung(graph);
         let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
         let clusters = clusters.iter().map(|nodes| {
             let nodes = nodes.iter().copied().map(Literal::usize_unsuffixed);
             quote!(&[#(#nodes),*])
         });
         quote! {
-            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], graphs: &[#(#graphs),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], groups: &[#(#groups),*], claims: &[#(#claims),*] }
+            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], graphs: &[#(#graphs),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], groups: &[#(#groups),*], end_if_hung: #end_if_hung, claims: &[#(#claims),*] }
         }
     }
 
@@ -365,6 +377,7 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
         NodeKind::Relay => "relay".to_owned(),
         NodeKind::Probe => "probe".to_owned(),
         NodeKind::Start => "start".to_owned(),
+        NodeKind::Hung => "hung".to_owned(),
         NodeKind::Exit(_) => "exit".to_owned(),
         NodeKind::Reset => "reset".to_owned(),
         NodeKind::Sender(_) | NodeKind::Receiver(_) => "cell".to_owned(),

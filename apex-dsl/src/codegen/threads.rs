@@ -7,7 +7,7 @@ use super::{
     bits::Bits,
     plan::is_buffer,
     program::{Field, node_structs},
-    types::ident,
+    types::{duration, ident},
 };
 use crate::{
     analyse::Analysis,
@@ -162,6 +162,7 @@ impl Generator<'_> {
         let end = End { node, port: 0 };
         let (cell, holding, name, sender) =
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
+        let told = sender.map(|sender| quote! { wake.wake(#sender); });
         let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
         let all_free = match free.is_empty() {
             true => quote!(true),
@@ -181,7 +182,7 @@ impl Generator<'_> {
             if self.state.#holding && #all_free {
                 self.state.#holding = false;
                 ends.#cell.release();
-                wake.wake(#sender);
+                #told
             }
             if !self.state.#holding && ends.#cell.is_full() #test {
                 let Self { nodes, state, .. } = self;
@@ -202,8 +203,8 @@ impl Generator<'_> {
     }
 
     /// The groups at both ends of a cell.
-    fn cell(&self, far: Far) -> (usize, usize) {
-        self.cells.get(far.cell).map_or((0, 0), |cell| (cell.sender, cell.receiver))
+    fn cell(&self, far: Far) -> (Option<usize>, usize) {
+        self.cells.get(far.cell).map_or((None, 0), |cell| (cell.sender, cell.receiver))
     }
 }
 
@@ -241,7 +242,7 @@ impl Program<'_> {
         let (ends, handle) = (ends_name(&part.graph), format_ident!("{}Group", part.graph.name));
         let fields = self.split.cells.iter().enumerate().flat_map(|(cell, c)| {
             let (field, ty) = (cell_name(cell), self.generator.token_type(self.graph, c.from));
-            let sends = (c.sender == number).then(|| quote!(CellSender));
+            let sends = (c.sender == Some(number)).then(|| quote!(CellSender));
             let takes = (c.receiver == number).then(|| quote!(CellReceiver));
             let end = sends.into_iter().chain(takes);
             end.map(move |end| quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, })
@@ -370,6 +371,7 @@ impl Program<'_> {
         let handles: Vec<Ident> = parts.iter().map(|p| format_ident!("{}Group", p.graph.name)).collect();
         let numbers: Vec<syn::Index> = (0..count).map(syn::Index::from).collect();
         let (groups, receiving) = (self.groups(), self.receiving());
+        let watch = self.watch(count);
         let last = (1..count).map(|i| {
             let (number, index) = (&numbers[i], i);
             quote! { spawn.spawn(#index, groups.#number); }
@@ -429,6 +431,7 @@ impl Program<'_> {
                     S: ::apex_rt::threads::Spawn<'a>,
                 {
                     let groups = self.groups(wake);
+                    #watch
                     #(#last)*
                     spawn.stay(0, groups.0);
                 }
@@ -455,7 +458,7 @@ impl Program<'_> {
             let own = self.split.cells.iter().enumerate().filter_map(|(cell, c)| {
                 let name = cell_name(cell);
                 let end = match number {
-                    n if n == c.sender => format_ident!("sender_{cell}"),
+                    n if Some(n) == c.sender => format_ident!("sender_{cell}"),
                     n if n == c.receiver => format_ident!("receiver_{cell}"),
                     _ => return None,
                 };
@@ -466,18 +469,35 @@ impl Program<'_> {
                 #handle { part: &mut self.#field, ends: #ends { #(#own)* life: ::core::marker::PhantomData }, wake }
             });
         }
+        // What goes to those who watch over the threads comes last.
+        let watched = self.watched().map(|cell| format_ident!("sender_{cell}"));
+        let watched_types = self.watched().map(|_| quote!(::apex_rt::CellSender<'_, ::apex_rt::threads::Parcel<()>>));
         quote! {
-            fn groups<W: ::apex_rt::threads::Wake + ::core::marker::Copy>(&mut self, wake: W) -> (#(#types,)*) {
+            fn groups<W: ::apex_rt::threads::Wake + ::core::marker::Copy>(&mut self, wake: W) -> (#(#types,)* [(); 0], #(#watched_types,)*) {
                 #(#cells)*
-                (#(#makes,)*)
+                (#(#makes,)* [], #(#watched,)*)
             }
         }
+    }
+
+    /// The cells that only those use who watch over the threads.
+    fn watched(&self) -> impl Iterator<Item = usize> + '_ {
+        self.split.cells.iter().enumerate().filter(|(_, cell)| cell.sender.is_none()).map(|(number, _)| number)
+    }
+
+    /// Hands out the cells for the event that a node hangs; behind the groups and an empty place.
+    fn watch(&self, groups: usize) -> TokenStream {
+        let tells = self.watched().enumerate().map(|(i, cell)| {
+            let (place, receiver) = (syn::Index::from(groups + 1 + i), self.split.cells[cell].receiver);
+            quote! { spawn.watch(#receiver, groups.#place); }
+        });
+        quote! { #(#tells)* }
     }
 
     /// For each group the first node that takes something from another group: what tokens go round through.
     fn receiving(&self) -> Vec<usize> {
         let first = |group: usize| {
-            let cell = self.split.cells.iter().find(|cell| cell.receiver == group || cell.sender == group)?;
+            let cell = self.split.cells.iter().find(|cell| cell.receiver == group || cell.sender == Some(group))?;
             let nodes = self.graph.connections.iter().filter(|c| c.from == cell.from).map(|c| c.to.node);
             nodes.chain([cell.from.node]).find(|node| self.graph.group(*node) == self.split.parts[group].group)
         };
@@ -485,7 +505,8 @@ impl Program<'_> {
     }
 
     fn info(&self, analysis: &Analysis) -> TokenStream {
-        let groups: Vec<TokenStream> = self.split.parts.iter().map(|part| self.group_info(&part.group)).collect();
+        let groups: Vec<TokenStream> =
+            self.split.parts.iter().map(|part| group_info(self.graph, &part.group)).collect();
         let of_part = |part: &Part, nodes: Vec<NodeId>| {
             let is_node = |node: NodeId| if let Origin::Node(node) = part.origins[node] { Some(node) } else { None };
             nodes.into_iter().filter_map(is_node).collect::<Vec<NodeId>>()
@@ -495,16 +516,34 @@ impl Program<'_> {
         let clusters: Vec<Vec<NodeId>> = clusters.filter(|nodes| !nodes.is_empty()).collect();
         self.generator.info(self.graph, analysis, &clusters, &groups)
     }
+}
 
-    /// What the text says about the thread of a group.
-    fn group_info(&self, group: &str) -> TokenStream {
-        let settings = self.graph.threads.iter().find(|t| t.group == group).cloned().unwrap_or_default();
-        let (cores, priority) = (&settings.cores, super::params::option(settings.priority.map(|p| quote!(#p))));
-        let (round_robin, strict) = (settings.round_robin, settings.strict);
-        quote! {
-            ::apex_rt::GroupInfo { name: #group, cores: &[#(#cores),*], priority: #priority, round_robin: #round_robin, strict: #strict }
+/// What the text says about the thread of a group.
+pub fn group_info(graph: &Graph, group: &str) -> TokenStream {
+    let settings = graph.threads.iter().find(|t| t.group == group).cloned().unwrap_or_default();
+    let (cores, priority) = (&settings.cores, super::params::option(settings.priority.map(|p| quote!(#p))));
+    let (round_robin, strict) = (settings.round_robin, settings.strict);
+    let hang = super::params::option(settings.hang.map(duration));
+    quote! {
+        ::apex_rt::GroupInfo {
+            name: #group,
+            cores: &[#(#cores),*],
+            priority: #priority,
+            round_robin: #round_robin,
+            strict: #strict,
+            hang: #hang,
         }
     }
+}
+
+/// With which code a program ends when a node hangs, if it does.
+pub fn end_if_hung(graph: &Graph) -> TokenStream {
+    let code =
+        graph.connections.iter().find_map(|c| match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
+            (NodeKind::Hung, NodeKind::Exit(code)) => Some(quote!(#code)),
+            _ => None,
+        });
+    super::params::option(code)
 }
 
 /// The nodes of a part as references, in `into`.

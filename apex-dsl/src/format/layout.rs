@@ -44,6 +44,7 @@ impl<'a, 't> Layout<'a, 't> {
             instance | handed_in => self.instance(node),
             expr => self.expr(node),
             claim_stmt => self.claim(node),
+            thread_stmt => self.settings(node),
             params | args | list | list_expr | use_group | generics | type_args | tuple_ty => self.list(node),
             _ => self.words(&node.kids),
         }

@@ -56,6 +56,23 @@ impl<'t> Layout<'_, 't> {
         }
     }
 
+    /// `thread vision { cores = [1]; priority = 80 }`
+    pub fn settings(&self, node: &Node) -> Doc<'t> {
+        let is_brace = |kid: &Kid| rule(kid) == Some(Rule::lbrace);
+        let open = node.kids.iter().position(is_brace).unwrap_or(0);
+        let (head, rest) = node.kids.split_at(open + 1);
+        let [inner @ .., close] = rest else { return self.words(&node.kids) };
+        let (settings, (inside, close)) = (elements(inner), self.closing(close));
+        let mut body = vec![];
+        for (i, setting) in settings.iter().enumerate() {
+            let end = if i + 1 == settings.len() { Doc::Broken(";".into()) } else { Doc::text(";") };
+            body.extend([Doc::Line, self.kid(setting.value), self.separator(setting, end)]);
+        }
+        body.extend(inside);
+        let end = if settings.is_empty() { Doc::SoftLine } else { Doc::Line };
+        Doc::group(vec![self.words(head), Doc::indent(body), end, close])
+    }
+
     /// `kids` from the opening bracket to the closing one.
     fn brackets(&self, kids: &[Kid], body: impl FnOnce(&[Element<'_>]) -> Doc<'t>) -> Doc<'t> {
         let [open, inner @ .., close] = kids else { return self.words(kids) };
@@ -88,6 +105,11 @@ impl<'t> Layout<'_, 't> {
             Comma::IfBroken => Doc::Broken(",".into()),
             Comma::Goes => Doc::NIL,
         };
+        self.separator(element, text)
+    }
+
+    /// What stands behind an element, with the comments there.
+    fn separator(&self, element: &Element<'_>, text: Doc<'t>) -> Doc<'t> {
         let token = element.comma.map(|comma| self.first(comma));
         let comments = token.into_iter().flat_map(|token| token.before.iter().chain(&token.after));
         Doc::Concat([text].into_iter().chain(comments.map(Doc::comment)).collect())

@@ -272,6 +272,7 @@ fn in_graph(written: &[Token<'_>]) -> Context {
         ("node", [_, _, colon, ..]) if colon.text == ":" && last.text == "<" => Context::Type,
         ("claim", [_]) => Context::Claim,
         ("claim", _) => Context::Nothing,
+        ("thread", [_]) => Context::Nothing,
         _ => behind_instance(written).unwrap_or_else(|| in_chain(written)),
     }
 }

@@ -346,6 +346,11 @@ pub fn has_process(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
         NodeKind::Each(_) | NodeKind::Delay(_) | NodeKind::Relay => true,
         NodeKind::Boundary(kind) => *kind != PortKind::Event,
         NodeKind::Probe => graph.nodes[node].ports.iter().any(|p| p.kind == PortKind::Input),
-        NodeKind::Start | NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Sender(_) | NodeKind::Receiver(_) => false,
+        NodeKind::Start
+        | NodeKind::Hung
+        | NodeKind::Exit(_)
+        | NodeKind::Reset
+        | NodeKind::Sender(_)
+        | NodeKind::Receiver(_) => false,
     }
 }

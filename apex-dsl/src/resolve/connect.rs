@@ -133,6 +133,7 @@ pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str
 pub fn own_node(name: &str) -> Option<NodeKind> {
     match name {
         "start" => Some(NodeKind::Start),
+        "hung" => Some(NodeKind::Hung),
         "reset" => Some(NodeKind::Reset),
         "exit" => Some(NodeKind::Exit(0)),
         "abort" => Some(NodeKind::Exit(1)),
@@ -141,7 +142,7 @@ pub fn own_node(name: &str) -> Option<NodeKind> {
 }
 
 fn own(kind: &NodeKind) -> bool {
-    matches!(kind, NodeKind::Start | NodeKind::Reset | NodeKind::Exit(_))
+    matches!(kind, NodeKind::Start | NodeKind::Hung | NodeKind::Reset | NodeKind::Exit(_))
 }
 
 /// One alternative of an endpoint: the ports it may mean and where it stands.
@@ -284,7 +285,8 @@ impl Builder<'_> {
         match made {
             Some(node) => Some(node),
             None => {
-                let side = if matches!(kind, NodeKind::Start) { PortKind::Event } else { PortKind::Slot };
+                let side =
+                    if matches!(kind, NodeKind::Start | NodeKind::Hung) { PortKind::Event } else { PortKind::Slot };
                 let ty = if side == PortKind::Event { Type::unit() } else { Type::Unknown("any type".to_owned()) };
                 self.node(name, body.scope, kind, vec![Port::new(&name.text, side, ty)], "")
             }
@@ -520,6 +522,7 @@ impl Builder<'_> {
                     )
                 }
                 NodeKind::Start => format!("{name} is where activity begins; every graph has it"),
+                NodeKind::Hung => format!("{name} is the event that a node hangs; every graph has it"),
                 _ => format!("{name} is a port of this graph"),
             },
             Place::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),

@@ -147,7 +147,7 @@ impl<'a> Builder<'a> {
                 self.diagnostics,
             );
         }
-        self.body(&Body::new(id, 0, values, item), table);
+        self.body(&Body::new(id, 0, values.clone(), item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
             let message = "a `robot` has no ports: nothing stands around it";
@@ -156,6 +156,7 @@ impl<'a> Builder<'a> {
                     .note("make it a node of a driver, or write `graph` instead of `robot`"),
             );
         }
+        let threads = self.threads(id, &values, item);
         if self.budget.exceeded {
             return None;
         }
@@ -174,7 +175,7 @@ impl<'a> Builder<'a> {
             pins: self.pins,
             wires: self.wires,
             claims: self.claims,
-            threads: vec![],
+            threads,
             open_pins,
             excused: ports(&self.excused),
         };

@@ -9,6 +9,7 @@ mod instance;
 mod link;
 mod names;
 mod testing;
+mod threads;
 pub mod value;
 mod wrap;
 

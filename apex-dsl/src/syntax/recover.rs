@@ -21,6 +21,7 @@ pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
         "node" => Rule::node_stmt,
         "in" | "out" | "slot" | "event" => Rule::port_stmt,
         "claim" => Rule::claim_stmt,
+        "thread" => Rule::thread_stmt,
         _ => Rule::chain_stmt,
     };
     again(rule, file, start, text, "a statement is a port, a `node`, a connection or a `claim`")
@@ -158,6 +159,8 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::range_op => "`..` or `..=`",
         Rule::node_kw => "`node`",
         Rule::claim_kw => "`claim`",
+        Rule::thread_kw => "`thread`",
+        Rule::setting => "a setting `name = value`",
         Rule::graph_kw => "`graph` or `robot`",
         Rule::actions => "`->`",
         Rule::target => "`=>`",

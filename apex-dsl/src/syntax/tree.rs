@@ -64,6 +64,8 @@ pub struct GraphItem {
     pub chains: Vec<Chain>,
     /// Claims.
     pub claims: Vec<Claim>,
+    /// What is said about threads.
+    pub threads: Vec<ThreadItem>,
     /// From its documentation to its closing bracket.
     pub extent: Span,
 }
@@ -439,6 +441,15 @@ pub struct Claim {
     pub of: Vec<PortRef>,
     /// All of it, without the `;`.
     pub span: Span,
+}
+
+/// `thread vision { cores = [1]; priority = 80 }`
+#[derive(Debug)]
+pub struct ThreadItem {
+    /// The thread group.
+    pub name: Ident,
+    /// What is set.
+    pub settings: Vec<(Ident, Expr)>,
 }
 
 /// A type as written.

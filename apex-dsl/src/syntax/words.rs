@@ -40,7 +40,7 @@ const fn word(text: &'static str, place: Place, docs: &'static str) -> Word {
 }
 
 /// All of them; a word that can stand in several places comes several times.
-pub const WORDS: [Word; 49] = [
+pub const WORDS: [Word; 51] = [
     word("use", Place::Item, "Imports nodes and types of a crate, or graphs of a text in the same folder."),
     word("graph", Place::Item, "A graph: ports, nodes and connections. It is used as a node is."),
     word("robot", Place::Item, "A graph without ports: what runs on one machine."),
@@ -59,6 +59,11 @@ pub const WORDS: [Word; 49] = [
         "claim",
         Place::Graph,
         "Something that must be true of activity in every run; decided before the program runs.",
+    ),
+    word(
+        "thread",
+        Place::Graph,
+        "What is said about the thread of a group: `thread vision { cores = [1]; priority = 80 }`.",
     ),
     word("slot", Place::Machine, "A slot: what it takes leads from state to state."),
     word("event", Place::Machine, "An event: what transitions trigger."),
@@ -99,6 +104,7 @@ pub const WORDS: [Word; 49] = [
     word("true", Place::Value, "True."),
     word("false", Place::Value, "False."),
     word("start", Place::Node, "Where activity begins."),
+    word("hung", Place::Node, "An event: a node has been running for longer than the `hang` of its thread."),
     word("reset", Place::Node, "A slot: nothing is active any more, and `start` happens again."),
     word("exit", Place::Node, "A slot that ends the program with code 0."),
     word("abort", Place::Node, "A slot that ends the program with code 1."),

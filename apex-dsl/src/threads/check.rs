@@ -14,6 +14,7 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
             check_body(&each.body, diagnostics);
         }
     }
+    check_watch(graph, diagnostics);
     check_loops(graph, diagnostics);
     check_rates(graph, analysis, diagnostics);
     check_reset(graph, analysis, diagnostics);
@@ -27,6 +28,25 @@ fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
             format!("`{}` stands in the body of an `each`, which runs on the thread of the `each`", node.name);
         let error = Diagnostic::error("threads", node.span, message);
         diagnostics.push(error.note("put `on` behind the instance with `each`"));
+    }
+}
+
+/// What is done when a node hangs can be done only by another thread, and somebody has to say what that is.
+fn check_watch(graph: &Graph, diagnostics: &mut Diagnostics) {
+    let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Hung)) else { return };
+    if graph.threads.iter().all(|t| t.hang.is_none()) {
+        let error =
+            Diagnostic::error("threads", graph.nodes[hung].span, "no thread is watched, so that `hung` never comes");
+        let note = "say in a `robot` how long a node may run: `thread main { hang = 500ms }`";
+        diagnostics.push(error.note(note));
+    }
+    let alone = super::groups(graph).len() < 2;
+    let is_called = |c: &&Connection| c.from.node == hung && !matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
+    for c in graph.connections.iter().filter(is_called).filter(|_| alone) {
+        let node = graph.path(c.to.node);
+        let message = format!("`{node}` runs on the thread that hangs: nobody can call it then");
+        let error = Diagnostic::error("threads", c.span, message);
+        diagnostics.push(error.note(format!("put `{node}` on a thread of its own by `on`, or lead `hung` to `abort`")));
     }
 }
 

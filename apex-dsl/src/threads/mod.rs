@@ -14,7 +14,7 @@ use crate::{
 };
 
 pub use check::check;
-pub use split::split;
+pub use split::{groups, split};
 
 /// The graphs of all thread groups.
 #[derive(Debug)]
@@ -54,8 +54,8 @@ pub enum Origin {
 pub struct Cell {
     /// The port in the whole graph whose tokens it takes.
     pub from: End,
-    /// The part that puts tokens in.
-    pub sender: usize,
+    /// The part that puts tokens in; who watches the threads is none.
+    pub sender: Option<usize>,
     /// The part that takes them out.
     pub receiver: usize,
 }

@@ -4,7 +4,7 @@ use super::{Cell, Origin, Part, Split};
 use crate::{
     analyse::{self, Analysis},
     catalog::Catalog,
-    graph::{Connection, Crossing, End, Far, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port},
+    graph::{Connection, Crossing, End, Far, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port, WATCH_GROUP},
     report::Diagnostics,
     syntax::tree::PortKind,
 };
@@ -16,14 +16,14 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
     if groups.len() < 2 {
         return None;
     }
-    let of_node = |node: NodeId| groups.iter().position(|g| *g == whole.group(node)).unwrap_or(0);
+    let of_node = |node: NodeId| groups.iter().position(|g| *g == whole.group(node));
     let mut splitter = Splitter {
         whole,
         analysis,
         catalog,
         group_of: (0..whole.nodes.len()).map(of_node).collect(),
         drafts: groups.iter().map(|group| Draft::new(whole, group)).collect(),
-        placed: vec![0; whole.nodes.len()],
+        placed: vec![NodeId::MAX; whole.nodes.len()],
         cells: vec![],
         ends: BTreeMap::new(),
     };
@@ -42,7 +42,7 @@ pub fn groups(graph: &Graph) -> Vec<&str> {
     let mut groups = vec![MAIN_GROUP];
     for node in 0..graph.nodes.len() {
         let group = graph.group(node);
-        if !groups.contains(&group) {
+        if group != WATCH_GROUP && !groups.contains(&group) {
             groups.push(group);
         }
     }
@@ -92,7 +92,8 @@ struct Splitter<'a> {
     whole: &'a Graph,
     analysis: &'a Analysis,
     catalog: &'a Catalog,
-    group_of: Vec<usize>,
+    /// The group of each node; who watches the threads is in none.
+    group_of: Vec<Option<usize>>,
     drafts: Vec<Draft>,
     /// The number of each node in its part.
     placed: Vec<NodeId>,
@@ -104,7 +105,9 @@ struct Splitter<'a> {
 impl Splitter<'_> {
     fn place_nodes(&mut self) {
         for (id, node) in self.whole.nodes.iter().enumerate() {
-            self.placed[id] = self.drafts[self.group_of[id]].add(node.clone(), Origin::Node(id));
+            if let Some(group) = self.group_of[id] {
+                self.placed[id] = self.drafts[group].add(node.clone(), Origin::Node(id));
+            }
         }
     }
 
@@ -114,11 +117,16 @@ impl Splitter<'_> {
 
     fn place_connection(&mut self, index: usize) {
         let c = &self.whole.connections[index];
-        let (sender, receiver) = (self.group_of[c.from.node], self.group_of[c.to.node]);
+        let (sender, Some(receiver)) = (self.group_of[c.from.node], self.group_of[c.to.node]) else { return };
         let to = self.place(c.to);
-        if sender == receiver {
+        if sender == Some(receiver) {
             let connection = Connection { from: self.place(c.from), to, ..c.clone() };
-            self.drafts[sender].connect(connection, Some(index));
+            self.drafts[receiver].connect(connection, Some(index));
+            return;
+        }
+        // The program is ended from outside then.
+        let ends = matches!(self.whole.nodes[c.to.node].kind, NodeKind::Exit(_));
+        if sender.is_none() && ends {
             return;
         }
         // What leaves a nested graph does so in the sender's group, what enters one in the receiver's.
@@ -127,20 +135,20 @@ impl Splitter<'_> {
         let (leaving, entering) = c.crossings.split_at(enters);
         let node = match self.ends.get(&(c.from, receiver)) {
             Some((_, node)) => *node,
-            None => self.add_cell(index, leaving.to_vec()),
+            None => self.add_cell(index, receiver, leaving.to_vec()),
         };
         let connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
         self.drafts[receiver].connect(connection, Some(index));
     }
 
     /// Makes a cell for connection `index`, and all others that it serves; gives its end in the receiver's group.
-    fn add_cell(&mut self, index: usize, leaving: Vec<Crossing>) -> NodeId {
+    fn add_cell(&mut self, index: usize, receiver: usize, leaving: Vec<Crossing>) -> NodeId {
         let first = self.whole.connections[index].clone();
-        let (sender, receiver) = (self.group_of[first.from.node], self.group_of[first.to.node]);
+        let sender = self.group_of[first.from.node];
         let shared: Vec<usize> = (0..self.whole.connections.len())
             .filter(|c| {
                 let c = &self.whole.connections[*c];
-                c.from == first.from && self.group_of[c.to.node] == receiver
+                c.from == first.from && self.group_of[c.to.node] == Some(receiver)
             })
             .collect();
         let cell = self.cells.len();
@@ -159,6 +167,9 @@ impl Splitter<'_> {
         let (input, output) = (port(PortKind::Input, keeps_missing), port(PortKind::Event, keeps_missing));
         let end = |kind, port| node(&self.whole.nodes[first.from.node], &name, kind, vec![port]);
         let (from, to) = (end(NodeKind::Sender(far), input), end(NodeKind::Receiver(far), output));
+        let giver = self.drafts[receiver].add(to, Origin::Token(first.from));
+        self.ends.insert((first.from, receiver), (cell, giver));
+        let Some(sender) = sender else { return giver };
         let from_end = self.place(first.from);
         let draft = &mut self.drafts[sender];
         let mut connection = Connection { from: from_end, crossings: leaving, active, ..first.clone() };
@@ -171,8 +182,6 @@ impl Splitter<'_> {
         let taker = draft.add(from, Origin::Token(first.from));
         let to_cell = End { node: taker, port: 0 };
         draft.connect(Connection { to: to_cell, crossings: vec![], relayed: true, ..connection }, None);
-        let giver = self.drafts[receiver].add(to, Origin::Token(first.from));
-        self.ends.insert((first.from, receiver), (cell, giver));
         giver
     }
 

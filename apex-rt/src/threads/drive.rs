@@ -1,11 +1,12 @@
 //! One thread for each group.
 
 use super::{
-    Group, Spawn, Wake,
+    Group, Parcel, Spawn, Wake,
     idle::{Alarm, Shared},
     settings,
+    watch::{Felt, Off, Pulse, watch},
 };
-use crate::{Clock, Next, Observer, Program, Time, WallClock};
+use crate::{CellSender, Clock, Info, Next, Observer, Program, Time, WallClock};
 use std::{
     panic::resume_unwind,
     sync::{
@@ -34,6 +35,10 @@ struct Run {
     time: Timing,
     /// The exit code, once a group has one.
     code: AtomicU8,
+    /// For each group what it runs.
+    pulses: Box<[Pulse]>,
+    /// Ends the watch over them.
+    off: Off,
 }
 
 /// How long groups run.
@@ -88,10 +93,13 @@ pub fn react_on_threads<P: Program, O: Observer + Send>(
 fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, observer: impl Fn(usize) -> O) -> u8 {
     let groups = P::INFO.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
-    let run = Run { sleep, time, code: AtomicU8::new(0) };
+    let pulses = (0..groups).map(|_| Pulse::default()).collect();
+    let run = Run { sleep, time, code: AtomicU8::new(0), pulses, off: Off::default() };
     let panicked = thread::scope(|scope| {
-        let mut spawner = Spawner { scope, run: &run, observer, info: const { &P::INFO }, threads: vec![] };
+        let info = const { &P::INFO };
+        let mut spawner = Spawner { scope, run: &run, observer, info, hung: vec![], threads: vec![] };
         program.on_threads(&run, &mut spawner);
+        run.off.end();
         let ends = spawner.threads.into_iter().map(ScopedJoinHandle::join);
         ends.fold(None, |first, end| first.or(end.err()))
     });
@@ -105,13 +113,16 @@ struct Spawner<'scope, 'env, F> {
     scope: &'scope Scope<'scope, 'env>,
     run: &'env Run,
     observer: F,
-    info: &'static crate::Info,
+    info: &'static Info,
+    /// The ways to tell groups that a node hangs.
+    hung: Vec<(usize, CellSender<'env, Parcel<()>>)>,
     threads: Vec<ScopedJoinHandle<'scope, ()>>,
 }
 
 impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner<'_, 'env, F> {
     fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
-        let (run, observer, info) = (self.run, (self.observer)(group), self.info);
+        let (run, info) = (self.run, self.info);
+        let observer = run.felt(info, group, (self.observer)(group));
         let name = info.groups[group].name.to_owned();
         let body = move || run.group(group, part, observer, info);
         match thread::Builder::new().name(name).spawn_scoped(self.scope, body) {
@@ -123,9 +134,19 @@ impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner
         }
     }
 
+    fn watch(&mut self, group: usize, hung: CellSender<'env, Parcel<()>>) {
+        self.hung.push((group, hung));
+    }
+
     fn stay<G: Group + 'env>(&mut self, group: usize, part: G) {
-        let observer = (self.observer)(group);
-        self.run.group(group, part, observer, self.info);
+        let (run, info, hung) = (self.run, self.info, std::mem::take(&mut self.hung));
+        let observer = (self.observer)(info.groups.len());
+        let body = move || watch(info, &run.pulses, &run.off, hung, &|group| run.sleep.wake(group), observer);
+        if run.is_watched(info) {
+            self.threads.extend(thread::Builder::new().name("watch".to_owned()).spawn_scoped(self.scope, body));
+        }
+        let observer = run.felt(info, group, (self.observer)(group));
+        run.group(group, part, observer, info);
     }
 }
 
@@ -141,16 +162,27 @@ impl Drop for EndOnPanic<'_> {
 }
 
 impl Run {
+    /// Whether somebody looks for nodes that hang.
+    fn is_watched(&self, info: &Info) -> bool {
+        matches!(self.time, Timing::Paced(_)) && info.groups.iter().any(|g| g.hang.is_some())
+    }
+
+    fn felt<O>(&self, info: &'static Info, group: usize, observer: O) -> Felt<'_, O> {
+        let pulse = self.pulses.get(group).filter(|_| info.groups.get(group).is_some_and(|g| g.hang.is_some()));
+        Felt { observer, pulse, info }
+    }
+
     fn end(&self, code: u8) {
         let _ = self.code.compare_exchange(0, code, Ordering::AcqRel, Ordering::Relaxed);
         self.sleep.stop();
+        self.off.end();
     }
 
     /// What the thread of a group does.
-    fn group<G: Group, O: Observer>(&self, group: usize, part: G, observer: O, info: &'static crate::Info) {
+    fn group<G: Group, O: Observer>(&self, group: usize, part: G, observer: O, info: &'static Info) {
         let _guard = EndOnPanic(self);
         let _ = self.sleep.alarm(group).0.set(thread::current());
-        if let Err(reason) = settings::apply(info, &info.groups[group]) {
+        if let Some(Err(reason)) = info.groups.get(group).map(|group| settings::apply(info, group)) {
             eprintln!("{reason}");
             self.end(1);
         }

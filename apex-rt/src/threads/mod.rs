@@ -6,9 +6,14 @@ mod drive;
 mod idle;
 #[cfg(feature = "std")]
 mod settings;
+#[cfg(feature = "std")]
+mod watch;
 
 use crate::{Observer, Program, Time};
 use core::cell::Cell;
+
+#[cfg(feature = "std")]
+pub use watch::Felt;
 
 #[cfg(feature = "std")]
 pub use drive::{Pace, drive_on_threads, react_on_threads};
@@ -90,8 +95,29 @@ pub trait Spawn<'a> {
     /// Takes a group that may run on any thread.
     fn spawn<G: Group + Send + 'a>(&mut self, group: usize, part: G);
 
+    /// Takes the way to tell group `group` that a node hangs: it comes before all groups.
+    fn watch(&mut self, group: usize, hung: crate::CellSender<'a, Parcel<()>>);
+
     /// Takes the main group, which stays where it is: it comes last.
     fn stay<G: Group + 'a>(&mut self, group: usize, part: G);
+}
+
+/// A program that is a single group.
+#[derive(Debug)]
+pub struct Alone<'a, P>(pub &'a mut P);
+
+impl<P: Program> Program for Alone<'_, P> {
+    const INFO: crate::Info = P::INFO;
+
+    fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> crate::Next {
+        self.0.react_with(now, observer)
+    }
+}
+
+impl<P: Program> Group for Alone<'_, P> {
+    fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next {
+        if begins { self.0.react_with(now, observer) } else { crate::Next::Input }
+    }
 }
 
 /// Rounds between groups that may follow on one another while the time stands still.

@@ -117,6 +117,7 @@ impl<'a> Builder<'a> {
             nodes: vec![],
             chains: vec![],
             claims: vec![],
+            threads: vec![],
             extent: self.span(&pair),
         };
         for part in pair.into_inner() {
@@ -208,6 +209,7 @@ impl<'a> Builder<'a> {
                     graph.claims.push(Claim { kind, of, span });
                 }
             }
+            Rule::thread_stmt => graph.threads.extend(self.thread(pair)),
             Rule::chain_stmt => {
                 let mut chain = Chain { ends: vec![], arrows: vec![] };
                 for part in pair.into_inner() {
@@ -226,6 +228,23 @@ impl<'a> Builder<'a> {
                 self.bad(recover::statement, &pair);
             }
         }
+    }
+
+    fn thread(&mut self, pair: Pair<'_, Rule>) -> Option<ThreadItem> {
+        let (mut name, mut settings) = (None, vec![]);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::ident => name = Some(self.ident(&part)),
+                Rule::setting => {
+                    let mut parts = part.into_inner();
+                    let name = parts.next().map(|p| self.ident(&p));
+                    let value = parts.find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p));
+                    settings.extend(name.zip(value));
+                }
+                _ => {}
+            }
+        }
+        Some(ThreadItem { name: name?, settings })
     }
 
     fn port(&self, pair: Pair<'_, Rule>) -> Option<PortItem> {

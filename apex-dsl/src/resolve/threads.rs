@@ -1,0 +1,124 @@
+//! `thread` statements.
+
+use super::{
+    instance::Builder,
+    names::{GraphId, suggest},
+    value::{Evaluated, Scope as Names, evaluate},
+};
+use crate::{
+    graph::{self, MAIN_GROUP, Scope, ThreadSettings, Value},
+    report::Diagnostic,
+    source::Span,
+    syntax::tree::{Expr, ExprKind, GraphItem, Ident, PathExpr, ThreadItem},
+};
+use std::{collections::BTreeMap, time::Duration};
+
+/// What can be set.
+const SETTINGS: [&str; 5] = ["cores", "priority", "policy", "rights", "hang"];
+
+impl Builder<'_> {
+    /// The settings of the threads of a program.
+    pub fn threads(&mut self, id: GraphId, values: &BTreeMap<String, Value>, item: &GraphItem) -> Vec<ThreadSettings> {
+        let mut found: Vec<ThreadSettings> = vec![];
+        for thread in &item.threads {
+            if !item.robot {
+                let message = "threads belong to a machine: only a `robot` says what they are like";
+                let error = Diagnostic::error("threads", thread.name.span, message);
+                self.diagnostics.push(error.note(format!("write `robot {}` instead of `graph`", item.name.text)));
+            }
+            self.check_group(thread, found.iter().any(|t| t.group == thread.name.text));
+            let mut settings = ThreadSettings { group: thread.name.text.clone(), ..ThreadSettings::default() };
+            for (name, value) in &thread.settings {
+                if let Err(error) = self.set(id, values, &mut settings, name, value) {
+                    self.diagnostics.push(*error);
+                }
+            }
+            found.push(settings);
+        }
+        found
+    }
+
+    /// A thread is named once, and some node runs on it.
+    fn check_group(&mut self, thread: &ThreadItem, again: bool) {
+        let name = &thread.name;
+        if again {
+            let message = format!("thread `{}` is described twice", name.text);
+            self.diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("put both into one"));
+        }
+        let of_nodes = self.nodes.iter().filter_map(|n| n.modifiers.group.as_deref());
+        let of_scopes = self.scopes.iter().filter_map(|s: &Scope| s.group.as_deref());
+        let groups: Vec<&str> = [MAIN_GROUP].into_iter().chain(of_nodes).chain(of_scopes).collect();
+        if !groups.contains(&name.text.as_str()) {
+            let error = Diagnostic::error("threads", name.span, format!("no node runs on thread `{}`", name.text));
+            let error = error.note("a node is put there by `on` behind it; all others run on `main`");
+            self.diagnostics.push(suggest(error, name, groups.into_iter()));
+        }
+    }
+
+    fn set(
+        &mut self,
+        id: GraphId,
+        values: &BTreeMap<String, Value>,
+        settings: &mut ThreadSettings,
+        name: &Ident,
+        value: &Expr,
+    ) -> Evaluated<()> {
+        let texts = self.texts;
+        let rust_path = |path: &PathExpr| texts.rust_path(id.file, path);
+        let scope = Names { params: values, rust_path: &rust_path };
+        match name.text.as_str() {
+            "cores" => match evaluate(value, &scope)? {
+                Value::List(cores) if !cores.is_empty() => {
+                    let cores: Option<Vec<usize>> = cores.iter().map(|core| whole(core, 0..=1023)).collect();
+                    settings.cores = cores.ok_or_else(|| wrong(value.span, "a core is a number from 0 on"))?;
+                }
+                _ => return Err(wrong(value.span, "`cores` are a list of numbers: `cores = [0, 1]`")),
+            },
+            "priority" => {
+                let priority = whole(&evaluate(value, &scope)?, 1..=99).and_then(|p| u8::try_from(p).ok());
+                let message = "`priority` is a number from 1 (lowest) to 99";
+                settings.priority = Some(priority.ok_or_else(|| wrong(value.span, message))?);
+            }
+            "policy" => settings.round_robin = word(value, ["fifo", "rr"])? == 1,
+            "rights" => settings.strict = word(value, ["warn", "strict"])? == 1,
+            "hang" => match evaluate(value, &scope)? {
+                Value::Duration(time) if time > Duration::ZERO => settings.hang = Some(time),
+                Value::Number(n) if n.dimension == crate::units::Dimension::TIME && n.value > 0.0 => {
+                    settings.hang = Duration::try_from_secs_f64(n.value).ok();
+                }
+                _ => {
+                    return Err(wrong(
+                        value.span,
+                        "`hang` is a time, after which a node is said to hang: `hang = 500ms`",
+                    ));
+                }
+            },
+            _ => {
+                let message = format!("a thread has no setting `{}`", name.text);
+                let error =
+                    Diagnostic::error("threads", name.span, message).note(format!("there are {}", SETTINGS.join(", ")));
+                return Err(Box::new(suggest(error, name, SETTINGS.into_iter())));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn wrong(span: Span, message: &str) -> Box<Diagnostic> {
+    Box::new(Diagnostic::error("wrong-value", span, message))
+}
+
+fn whole(value: &Value, range: std::ops::RangeInclusive<usize>) -> Option<usize> {
+    let Value::Number(graph::Number { integer: Some(integer), .. }) = value else { return None };
+    usize::try_from(*integer).ok().filter(|n| range.contains(n))
+}
+
+/// Which of two words it is.
+fn word(value: &Expr, words: [&str; 2]) -> Evaluated<usize> {
+    let text = match &value.kind {
+        ExprKind::Path(path) => path.text(),
+        _ => String::new(),
+    };
+    let message = format!("here stands `{}` or `{}`", words[0], words[1]);
+    words.iter().position(|word| *word == text).ok_or_else(|| wrong(value.span, &message))
+}
