@@ -62,6 +62,8 @@ pub struct Replay<'a> {
     last: Vec<Token>,
     /// What is not recorded comes as late as possible.
     late: bool,
+    /// The nodes run in several thread groups.
+    has_groups: bool,
     /// Nodes that wait with ⊥ until something else needs it.
     hesitant: BTreeSet<NodeId>,
 }
@@ -89,6 +91,7 @@ impl<'a> Replay<'a> {
             early: vec![],
             last: vec![],
             late: false,
+            has_groups: crate::threads::groups(graph).len() > 1,
             hesitant: BTreeSet::new(),
         };
         replay.expect_changes(true);
@@ -394,8 +397,11 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// What is active from the beginning is recorded before anything else, or not at all.
+    /// What is active from the beginning is recorded before anything else, or not at all. Each thread group begins by itself.
     fn forget_optional(&mut self) {
+        if self.has_groups {
+            return;
+        }
         self.expected.values_mut().for_each(|changes| changes.retain(|c| !c.optional));
     }
 
