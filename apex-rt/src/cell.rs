@@ -15,7 +15,7 @@ const TAKEN: u8 = 2;
 /// there is room for the next one.
 ///
 /// The place is never emptied: what was in it stays, so that its storage is used again.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct TokenCell<T> {
     state: AtomicU8,
     place: UnsafeCell<T>,

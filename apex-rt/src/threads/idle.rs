@@ -47,15 +47,30 @@ impl<T: Alarm> Shared<T> {
 
     /// Group `group` has something to look at.
     pub fn wake(&self, group: usize) {
-        let group = &self.groups[group];
-        match group.state.swap(WOKEN, Ordering::AcqRel) {
-            WAITING => group.thread.ring(),
-            IDLE => {
-                // Who wakes it is busy itself, so that the count was not zero in between.
+        let Sleeper { state, thread } = &self.groups[group];
+        let mut seen = state.load(Ordering::Acquire);
+        loop {
+            // It counts as busy before it can know that it is: else it could be idle again before that, and be the last.
+            if seen == IDLE {
                 self.busy.fetch_add(1, Ordering::AcqRel);
-                group.thread.ring();
             }
-            _ => {}
+            match state.compare_exchange(seen, WOKEN, Ordering::AcqRel, Ordering::Acquire) {
+                Ok(WAITING | IDLE) => return thread.ring(),
+                Ok(_) => return,
+                Err(now) => {
+                    if seen == IDLE {
+                        self.leave();
+                    }
+                    seen = now;
+                }
+            }
+        }
+    }
+
+    /// One group fewer is busy. If it was the last one, the program stops.
+    fn leave(&self) {
+        if self.busy.fetch_sub(1, Ordering::AcqRel) == 1 {
+            self.stop();
         }
     }
 
@@ -72,8 +87,8 @@ impl<T: Alarm> Shared<T> {
     /// Whether group `group` may sleep until it is woken. If all others do so already, the program stops.
     pub fn may_idle(&self, group: usize) -> bool {
         let idle = self.change(group, RUNNING, IDLE);
-        if idle && self.busy.fetch_sub(1, Ordering::AcqRel) == 1 {
-            self.stop();
+        if idle {
+            self.leave();
         }
         idle
     }

@@ -1,0 +1,168 @@
+//! What threads share, with every order in which they can reach it (loom): the sources of the runtime are compiled here with
+//! the atomics of the model checker.
+#![allow(dead_code, unsafe_code, missing_docs, reason = "the runtime uses and documents it")]
+
+mod sync {
+    pub use loom::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
+
+    #[derive(Debug)]
+    pub struct UnsafeCell<T>(loom::cell::UnsafeCell<T>);
+
+    impl<T> UnsafeCell<T> {
+        pub fn new(value: T) -> Self {
+            Self(loom::cell::UnsafeCell::new(value))
+        }
+
+        pub fn with_mut<R>(&self, look: impl FnOnce(*mut T) -> R) -> R {
+            self.0.with_mut(look)
+        }
+    }
+}
+
+#[path = "../../apex-rt/src/cell.rs"]
+mod cell;
+#[path = "../../apex-rt/src/threads/idle.rs"]
+mod idle;
+
+use cell::{CellReceiver, CellSender, TokenCell};
+use idle::{Alarm, Shared};
+use loom::{
+    sync::{Arc, Notify},
+    thread,
+};
+
+/// A cell whose ends may go to threads of the model: they need it for ever.
+fn ends() -> (CellSender<'static, u32>, CellReceiver<'static, u32>) {
+    Box::leak(Box::new(TokenCell::new(0))).ends()
+}
+
+#[test]
+fn a_cell_gives_every_token_once_and_in_order() {
+    loom::model(|| {
+        let (mut sender, mut receiver) = ends();
+        let sends = thread::spawn(move || {
+            for token in 1..=2 {
+                while !sender.put(|place| *place = token) {
+                    thread::yield_now();
+                }
+            }
+        });
+        for expected in 1..=2 {
+            let token = loop {
+                if let Some(token) = receiver.take(|place| std::mem::take(place)) {
+                    break token;
+                }
+                thread::yield_now();
+            };
+            assert_eq!(token, expected);
+            receiver.release();
+        }
+        sends.join().expect("it does not panic");
+    });
+}
+
+#[test]
+fn there_is_no_room_before_the_receiver_is_done() {
+    loom::model(|| {
+        let (mut sender, mut receiver) = ends();
+        assert!(sender.put(|place| *place = 1));
+        let takes = thread::spawn(move || {
+            let token = receiver.take(|place| *place);
+            receiver.release();
+            token
+        });
+        if sender.put(|place| *place = 2) {
+            assert_eq!(takes.join().expect("it does not panic"), Some(1));
+        } else {
+            takes.join().expect("it does not panic");
+            assert!(sender.is_free());
+        }
+    });
+}
+
+/// A thread that sleeps until it is rung.
+#[derive(Default)]
+struct Bell(Notify);
+
+impl Alarm for Bell {
+    fn ring(&self) {
+        self.0.notify();
+    }
+}
+
+fn shared(groups: usize) -> Arc<Shared<Bell>> {
+    Arc::new(Shared::new((0..groups).map(|_| Bell(Notify::new()))))
+}
+
+/// What the thread of a group does: it `works` until it has nothing to do, and sleeps then. `work` says whether it wants to be
+/// called again at once.
+fn group(shared: &Shared<Bell>, number: usize, mut work: impl FnMut(&Shared<Bell>)) {
+    while !shared.is_stopped() {
+        shared.begin(number);
+        work(shared);
+        if shared.may_idle(number) {
+            while shared.sleeps(number) {
+                shared.alarm(number).0.wait();
+            }
+        }
+    }
+}
+
+#[test]
+fn all_groups_stop_when_nothing_can_happen_and_not_before() {
+    let mut builder = loom::model::Builder::new();
+    // All orders would take hours; errors of this kind need few changes of the thread that runs.
+    builder.preemption_bound = Some(2);
+    builder.check(|| {
+        let (mut sender, mut receiver) = ends();
+        let shared = shared(2);
+        let other = shared.clone();
+        let sends = thread::spawn(move || {
+            let mut left = 2;
+            group(&other, 0, |shared| {
+                if left > 0 && sender.put(|place| *place = left) {
+                    left -= 1;
+                    shared.wake(1);
+                }
+            });
+            left
+        });
+        let mut taken = vec![];
+        group(&shared, 1, |shared| {
+            if let Some(token) = receiver.take(|place| *place) {
+                taken.push(token);
+                receiver.release();
+                shared.wake(0);
+            }
+        });
+        assert_eq!(sends.join().expect("it does not panic"), 0, "everything was sent");
+        assert_eq!(taken, [2, 1], "everything was taken");
+    });
+}
+
+#[test]
+fn a_group_that_stops_the_program_stops_those_that_sleep() {
+    loom::model(|| {
+        let shared = shared(2);
+        let other = shared.clone();
+        let sleeps = thread::spawn(move || group(&other, 1, |_| {}));
+        shared.begin(0);
+        shared.stop();
+        sleeps.join().expect("it does not panic");
+    });
+}
+
+#[test]
+fn who_may_wait_was_not_woken_before() {
+    loom::model(|| {
+        let shared = shared(2);
+        let other = shared.clone();
+        shared.begin(0);
+        let wakes = thread::spawn(move || other.wake(0));
+        if shared.may_wait(0) {
+            // It was not told yet: it will be rung.
+            shared.alarm(0).0.wait();
+        }
+        wakes.join().expect("it does not panic");
+    });
+}
