@@ -1,11 +1,14 @@
 //! `apex explain`.
 
-use crate::{Format, memory, project};
+use crate::{Format, memory, project, times};
 use apex_dsl::{
     petri,
     report::{PAGES, explain, explain_json, nearest, page},
 };
-use std::{path::Path, process::ExitCode};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 /// What is shown of a text.
 pub enum Shown {
@@ -15,6 +18,8 @@ pub enum Shown {
     Net,
     /// How many bytes there are of what.
     Memory,
+    /// How long what takes, as this profile says.
+    Times(PathBuf),
 }
 
 /// Explains a text or a code; without either, lists the codes.
@@ -29,6 +34,7 @@ pub fn run(what: Option<&Path>, format: Format, shown: Shown) -> Result<ExitCode
         (Some(code), _) => self::code(code),
         (None, Shown::Net) => net(what),
         (None, Shown::Memory) => memory::run(what, format),
+        (None, Shown::Times(profile)) => times::run(what, &profile, format),
         (None, Shown::Decisions) => text(what, format),
     }
 }

@@ -17,6 +17,7 @@ mod replace;
 mod run;
 mod test;
 mod texts;
+mod times;
 mod watch;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -106,6 +107,9 @@ enum Command {
         /// Print how many bytes each program has in memory instead, by node and by buffer. Builds it.
         #[arg(long, conflicts_with = "pnml")]
         memory: bool,
+        /// Print how long clusters take at worst and how busy each thread is instead, from a profile that `apex run --profile` made.
+        #[arg(long, value_name = "FILE", conflicts_with_all = ["pnml", "memory"])]
+        profile: Option<PathBuf>,
     },
     /// Draw a graph.
     #[command(
@@ -207,10 +211,11 @@ fn main() -> ExitCode {
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { what, format, pnml, memory, .. } => {
-            let shown = match (pnml, memory) {
-                (true, _) => explain::Shown::Net,
-                (_, true) => explain::Shown::Memory,
+        Command::Explain { what, format, pnml, memory, profile, .. } => {
+            let shown = match (pnml, memory, profile) {
+                (true, ..) => explain::Shown::Net,
+                (_, true, _) => explain::Shown::Memory,
+                (_, _, Some(profile)) => explain::Shown::Times(profile),
                 _ => explain::Shown::Decisions,
             };
             explain::run(what.as_deref(), format, shown)

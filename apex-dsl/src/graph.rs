@@ -573,7 +573,7 @@ impl Graph {
     /// `node.port` as a person would write it.
     pub fn end_name(&self, end: End) -> String {
         match self.nodes[end.node].kind {
-            NodeKind::Boundary(_) => self.path(end.node),
+            NodeKind::Boundary(_) | NodeKind::Sender(_) | NodeKind::Receiver(_) => self.path(end.node),
             _ => format!("{}.{}", self.path(end.node), self.port(end).name),
         }
     }

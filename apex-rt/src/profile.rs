@@ -1,37 +1,50 @@
 //! Where the time goes: how long every firing and every call of a slot takes, as a table by node and as a trace that
 //! Perfetto and Chrome show (`ui.perfetto.dev`, `chrome://tracing`), active nodes in another colour.
 
-use crate::{Clock, Info, Observer, Program, StdErr, UntilStopped, drive_with};
+use crate::{Clock, Info, Observer, Program, StdErr, UntilStopped, drive_with, threads::drive_on_threads};
 use hdrhistogram::Histogram;
 use std::{
     fmt::Write as _,
     fs::File,
     io::{self, BufWriter, Write},
     path::Path,
+    sync::{Mutex, PoisonError},
     time::{Duration, Instant},
 };
 
 /// Most calls that the trace shows; the table counts all of them.
 pub const MAX_TRACED: u64 = 1_000_000;
 
-/// An observer that measures.
+/// What was measured of a program.
 pub struct Profile {
     info: &'static Info,
     start: Instant,
-    /// The node that runs and since when; those that run it stand before it (`each`).
-    running: Vec<(usize, Instant)>,
+    /// For each thread group the calls that are going on: the last one, before it those that made it (`each`).
+    running: Vec<Vec<Call>>,
     /// Which nodes are active.
     active: Vec<bool>,
     /// Nanoseconds of each node's calls; `None` before the first.
     calls: Vec<Option<Histogram<u64>>>,
     /// Nanoseconds of each node, without those that it runs.
     own: Vec<u64>,
-    /// For each running node, the nanoseconds of those that it ran.
-    inner: Vec<u64>,
     traced: u64,
     trace: BufWriter<File>,
     /// What went wrong with the file, the first time.
     error: Option<io::Error>,
+}
+
+/// A call that is going on.
+struct Call {
+    node: usize,
+    start: Instant,
+    /// The nanoseconds of those that it made.
+    inner: u64,
+}
+
+/// An observer that measures one thread group.
+pub struct Measures<'a> {
+    profile: &'a Mutex<Profile>,
+    group: usize,
 }
 
 impl Profile {
@@ -42,52 +55,63 @@ impl Profile {
     pub fn to_file(info: &'static Info, path: &Path) -> io::Result<Self> {
         let mut trace = BufWriter::new(File::create(path)?);
         write!(trace, "[{{\"ph\":\"M\",\"pid\":1,\"name\":\"process_name\",\"args\":{{\"name\":\"{}\"}}}}", info.name)?;
+        for (group, g) in info.groups.iter().enumerate() {
+            let (tid, name) = (group + 1, g.name);
+            write!(
+                trace,
+                ",\n{{\"ph\":\"M\",\"pid\":1,\"tid\":{tid},\"name\":\"thread_name\",\"args\":{{\"name\":\"{name}\"}}}}"
+            )?;
+        }
         let nodes = info.nodes.len();
         Ok(Self {
             info,
             start: Instant::now(),
-            running: vec![],
+            running: (0..info.groups.len().max(1)).map(|_| vec![]).collect(),
             active: vec![false; nodes],
             calls: (0..nodes).map(|_| None).collect(),
             own: vec![0; nodes],
-            inner: vec![],
             traced: 0,
             trace,
             error: None,
         })
     }
 
-    fn begin(&mut self, node: usize) {
-        self.inner.push(0);
-        self.running.push((node, Instant::now()));
+    /// The observer of a thread group.
+    pub fn of_group(profile: &Mutex<Self>, group: usize) -> Measures<'_> {
+        Measures { profile, group }
     }
 
-    fn end(&mut self, node: usize) {
-        let end = Instant::now();
-        let Some((running, start)) = self.running.pop() else { return };
+    fn begin(&mut self, group: usize, node: usize) {
+        if let Some(calls) = self.running.get_mut(group) {
+            calls.push(Call { node, start: Instant::now(), inner: 0 });
+        }
+    }
+
+    fn end(&mut self, group: usize, node: usize, end: Instant) {
+        let Some(Call { node: running, start, inner }) = self.running.get_mut(group).and_then(Vec::pop) else { return };
         debug_assert_eq!(running, node, "calls end in the order in which they begin");
         let took = nanos(end - start);
-        let inner = self.inner.pop().unwrap_or_default();
         self.own[node] += took.saturating_sub(inner);
-        if let Some(outer) = self.inner.last_mut() {
-            *outer += took;
+        if let Some(outer) = self.running[group].last_mut() {
+            outer.inner += took;
         }
         // Three digits, whatever comes: the counts grow with the longest call.
         let calls = self.calls[node].get_or_insert_with(|| Histogram::new(3).expect("three digits are allowed"));
         calls.saturating_record(took);
         if self.traced < MAX_TRACED && self.error.is_none() {
             self.traced += 1;
-            self.error = self.write(node, start, took).err();
+            self.error = self.write(group, node, start, took).err();
         }
     }
 
-    fn write(&mut self, node: usize, start: Instant, took: u64) -> io::Result<()> {
+    fn write(&mut self, group: usize, node: usize, start: Instant, took: u64) -> io::Result<()> {
         let (name, active) = (self.info.nodes[node].name, self.active[node]);
         let (at, took) = (nanos(start - self.start) as f64 / 1e3, took as f64 / 1e3);
+        let tid = group + 1;
         let colour = if active { ",\"cname\":\"thread_state_running\"" } else { "" };
         write!(
             self.trace,
-            ",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":1,\"name\":\"{name}\",\"ts\":{at:.3},\"dur\":{took:.3},\"args\":{{\"active\":{active}}}{colour}}}"
+            ",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":{tid},\"name\":\"{name}\",\"ts\":{at:.3},\"dur\":{took:.3},\"args\":{{\"active\":{active}}}{colour}}}"
         )
     }
 
@@ -142,15 +166,23 @@ impl Profile {
 pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> u8 {
     let cannot_write = |error: io::Error| eprintln!("error: cannot write `{}`: {error}", path.display());
     let info = const { &P::INFO };
-    let mut profile = match Profile::to_file(info, path) {
-        Ok(profile) => profile,
+    let profile = match Profile::to_file(info, path) {
+        Ok(profile) => Mutex::new(profile),
         Err(error) => {
             cannot_write(error);
             return 2;
         }
     };
-    let observer = (StdErr(info), &mut profile);
-    let code = drive_with(program, UntilStopped::ctrl_c_if_free(clock), observer);
+    let observer = |group| (StdErr(info), Profile::of_group(&profile, group));
+    let clock = UntilStopped::ctrl_c_if_free(clock);
+    let code = match clock.pace().filter(|_| !info.groups.is_empty()) {
+        Some(pace) => {
+            let mut program = program;
+            drive_on_threads(&mut program, pace, observer)
+        }
+        None => drive_with(program, clock, observer(0)),
+    };
+    let mut profile = profile.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Err(error) = profile.finish() {
         cannot_write(error);
     }
@@ -165,17 +197,24 @@ fn nanos(time: Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-impl Observer for Profile {
+impl Measures<'_> {
+    fn with(&self, look: impl FnOnce(&mut Profile)) {
+        look(&mut self.profile.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+}
+
+impl Observer for Measures<'_> {
     fn fired(&mut self, node: usize) {
-        self.begin(node);
+        self.with(|profile| profile.begin(self.group, node));
     }
     fn handled(&mut self, connection: usize) {
-        self.begin(self.info.connections[connection].to);
+        self.with(|profile| profile.begin(self.group, profile.info.connections[connection].to));
     }
     fn finished(&mut self, node: usize) {
-        self.end(node);
+        let end = Instant::now();
+        self.with(|profile| profile.end(self.group, node, end));
     }
     fn activity(&mut self, node: usize, active: bool) {
-        self.active[node] = active;
+        self.with(|profile| profile.active[node] = active);
     }
 }

@@ -1,7 +1,7 @@
 //! Profiles: what is measured, not how long it takes.
 
 use apex_rt::{drive_with, prelude::*, profile::Profile};
-use std::{env, fs};
+use std::{env, fs, sync::Mutex};
 
 graph! {
     use apex_tests::nodes::{Count, Echo, Snk, Take, Watch, mul, pass};
@@ -23,8 +23,10 @@ graph! {
 #[test]
 fn a_profile_counts_every_firing_and_every_slot() {
     let path = env::temp_dir().join(format!("apex-profile-{}.json", std::process::id()));
-    let mut profile = Profile::to_file(const { &Measured::INFO }, &path).expect("a folder for temporary files");
-    drive_with(Measured::new(), SimClock::until(Time::from_millis(3)), &mut profile);
+    let profile = Profile::to_file(const { &Measured::INFO }, &path).expect("a folder for temporary files");
+    let profile = Mutex::new(profile);
+    drive_with(Measured::new(), SimClock::until(Time::from_millis(3)), Profile::of_group(&profile, 0));
+    let mut profile = profile.into_inner().expect("nobody panics");
     profile.finish().expect("room for the file");
 
     let table = profile.table();

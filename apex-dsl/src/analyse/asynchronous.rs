@@ -77,6 +77,11 @@ impl Asynchronous {
         self.slots.binary_search(&connection).is_ok()
     }
 
+    /// The connections on which tokens may be sent because of the one on `connection`.
+    pub fn causes(&self, connection: usize) -> &[usize] {
+        &self.causes[connection]
+    }
+
     /// The slot tokens that may be sent because of the token on `connection`, in the order in which they are emitted.
     pub fn caused_slots(&self, connection: usize) -> impl Iterator<Item = usize> + Clone + '_ {
         self.causes[connection].iter().copied().filter(|c| self.is_slot(*c))

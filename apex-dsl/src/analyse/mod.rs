@@ -11,6 +11,7 @@ mod pruning;
 mod rates;
 mod schedule;
 mod stamps;
+mod steps;
 
 use crate::{
     catalog::Catalog,

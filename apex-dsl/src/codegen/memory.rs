@@ -6,9 +6,12 @@ use super::{
     bits::Bits,
     program::{Field, boundaries},
     state::Kind,
+    threads::{cell_name, part_name},
     types::ident,
 };
-use crate::{catalog::Catalog, passes::Program, source::Sources, syntax::tree::PortKind};
+use crate::{
+    analyse::Analysis, catalog::Catalog, graph::Graph, passes::Program, source::Sources, syntax::tree::PortKind,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A piece of the memory of a program.
@@ -24,34 +27,61 @@ pub struct Piece {
 
 /// The pieces of `program`, which is no test, kind after kind. Together they are all of it, but for padding.
 pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
-    let (graph, analysis) = (&program.graph, &program.analysis);
-    let names = Names::new(graph, &graph.name, "", &mut 0, &mut BTreeSet::new());
+    let graph = &program.graph;
+    let mut used = BTreeSet::new();
+    let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
     let place = |_| proc_macro2::Span::call_site();
     let generator = Generator { catalog, sources, names: &names, place: &place, outer: None, part: None, cells: &[] };
-    let mut fields = BTreeMap::new();
-    generator.node_fields(graph, analysis, &mut fields, &mut vec![]);
+    let Some(split) = &program.split else { return generator.pieces(graph, &program.analysis) };
     let mut pieces = vec![];
-    nodes(&fields, "", "nodes", &mut pieces);
-    for (kind, place) in [
-        (PortKind::Input, "inputs"),
-        (PortKind::Slot, "inputs"),
-        (PortKind::Output, "outputs"),
-        (PortKind::Event, "events"),
-    ] {
-        pieces.extend(boundaries(graph, |k| k == kind).into_iter().map(|node| {
-            let name = &graph.nodes[node].name;
-            Piece { what: "ports", of: name.clone(), place: format!("{place}.{}", ident(name)) }
-        }));
+    for part in &split.parts {
+        let names = names.of_part(part, &mut used);
+        let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
+        let field = part_name(part);
+        let own = generator.pieces(&part.graph, &part.analysis).into_iter();
+        pieces.extend(own.map(|piece| Piece { place: format!("{field}.{}", piece.place), ..piece }));
     }
-    let whole = Whole { graph, analysis, links: &analysis.links };
-    let mut state = generator.state(whole, &Bits::new(graph, analysis));
-    state.sort_by_key(|kept| kept.kind);
-    pieces.extend(state.into_iter().map(|kept| Piece {
-        what: word(kept.kind),
-        of: kept.of,
-        place: format!("state.{}", kept.name),
+    pieces.extend(split.cells.iter().enumerate().map(|(cell, c)| Piece {
+        what: "cells",
+        of: format!("{} to {}", graph.end_name(c.from), split.parts[c.receiver].group),
+        place: format!("cells.{}", cell_name(cell)),
     }));
+    let order = |piece: &Piece| KINDS.iter().position(|kind| *kind == piece.what);
+    pieces.sort_by_key(order);
     pieces
+}
+
+/// The kinds of pieces in their order.
+const KINDS: [&str; 9] = ["nodes", "ports", "tokens", "timers", "activity", "stamps", "claims", "dispatcher", "cells"];
+
+impl Generator<'_> {
+    /// The pieces of a program on one thread, or of what runs on one of several.
+    fn pieces(&self, graph: &Graph, analysis: &Analysis) -> Vec<Piece> {
+        let mut fields = BTreeMap::new();
+        self.node_fields(graph, analysis, &mut fields, &mut vec![]);
+        let mut pieces = vec![];
+        nodes(&fields, "", "nodes", &mut pieces);
+        for (kind, place) in [
+            (PortKind::Input, "inputs"),
+            (PortKind::Slot, "inputs"),
+            (PortKind::Output, "outputs"),
+            (PortKind::Event, "events"),
+        ] {
+            pieces.extend(boundaries(graph, |k| k == kind).into_iter().map(|node| {
+                let name = &graph.nodes[node].name;
+                Piece { what: "ports", of: name.clone(), place: format!("{place}.{}", ident(name)) }
+            }));
+        }
+        let whole = Whole { graph, analysis, links: &analysis.links };
+        let mut state = self.state(whole, &Bits::new(graph, analysis));
+        state.sort_by_key(|kept| kept.kind);
+        pieces.extend(state.into_iter().map(|kept| Piece {
+            what: word(kept.kind),
+            of: kept.of,
+            place: format!("state.{}", kept.name),
+        }));
+        pieces
+    }
 }
 
 fn word(kind: Kind) -> &'static str {

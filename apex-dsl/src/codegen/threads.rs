@@ -48,7 +48,8 @@ pub fn carries_missing(graph: &Graph, connection: usize) -> bool {
     }
 }
 
-fn cell_name(cell: usize) -> Ident {
+/// The field of a cell.
+pub fn cell_name(cell: usize) -> Ident {
     format_ident!("cell_{cell}")
 }
 

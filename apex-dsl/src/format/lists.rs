@@ -64,8 +64,8 @@ impl<'t> Layout<'_, 't> {
         let [inner @ .., close] = rest else { return self.words(&node.kids) };
         let (settings, (inside, close)) = (elements(inner), self.closing(close));
         let mut body = vec![];
-        for (i, setting) in settings.iter().enumerate() {
-            let end = if i + 1 == settings.len() { Doc::Broken(";".into()) } else { Doc::text(";") };
+        for setting in &settings {
+            let end = if setting.comma.is_some() { Doc::text(";") } else { Doc::NIL };
             body.extend([Doc::Line, self.kid(setting.value), self.separator(setting, end)]);
         }
         body.extend(inside);

@@ -8,6 +8,7 @@ use crate::{
     machine,
     passes::Program,
     syntax::tree::PortKind,
+    threads::Split,
 };
 use serde_json::{Value, json};
 use std::{collections::BTreeSet, fmt::Write as _};
@@ -17,12 +18,30 @@ pub fn explain(program: &Program, catalog: &Catalog) -> String {
     let mut text = String::new();
     let kind = if program.graph.robot { "robot" } else { "graph" };
     let _ = writeln!(text, "{kind} {}", program.graph.name);
-    section(&mut text, &program.graph, &program.analysis, catalog, 0);
+    match &program.split {
+        None => section(&mut text, &program.graph, &program.analysis, catalog, 0),
+        Some(split) => threads(&mut text, program, split, catalog),
+    }
     let machines: BTreeSet<usize> = program.graph.nodes.iter().filter_map(signature).collect();
     for machine in machines.iter().filter_map(|signature| catalog.machines.get(signature)) {
         text.push_str(&machine::translation(machine));
     }
     text
+}
+
+/// What runs on each thread, and what is between them.
+fn threads(text: &mut String, program: &Program, split: &Split, catalog: &Catalog) {
+    for part in &split.parts {
+        let _ = writeln!(text, "  thread {}", part.group);
+        section(text, &part.graph, &part.analysis, catalog, 1);
+    }
+    let _ = writeln!(text, "  cells between threads, with room for one token each");
+    for cell in &split.cells {
+        let from = cell.sender.map_or("outside", |sender| split.parts[sender].group.as_str());
+        let (port, to) = (program.graph.end_name(cell.from), &split.parts[cell.receiver].group);
+        let _ = writeln!(text, "    {port}: from {from} to {to}");
+    }
+    claims(text, &program.graph, &program.analysis, "  ");
 }
 
 fn signature(node: &Node) -> Option<usize> {
@@ -33,6 +52,7 @@ fn signature(node: &Node) -> Option<usize> {
 fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
     for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
         let how = match (graph.flow(c), analysis.asynchronous.stays[index]) {
+            _ if is_cell(graph, c.to.node) => "occupied until the other thread is done with it",
             (Flow::ToInput, _) => "occupied until the region behind it has finished",
             (_, true) => "occupied until the slot can be served",
             (_, false) => "served at once",
@@ -59,6 +79,14 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Cata
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
         let never = if cluster.fires { "" } else { ", and never fires: not all of that can come" };
         let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}{never}", cluster.region);
+        if !graph.is_body && cluster.fires && cluster.upstream.is_empty() {
+            let steps = match analysis.steps_after(graph, index) {
+                Some(1) => "it is the only step until it is notified".to_owned(),
+                Some(steps) => format!("at most {steps} steps until all that it causes has finished"),
+                None => "its events can go round: there is no bound of the steps until all has finished".to_owned(),
+            };
+            let _ = writeln!(text, "{pad}  {steps}");
+        }
         steps(text, graph, analysis, &cluster.block, indent + 2);
     }
     if graph.connections.iter().any(|c| !graph.is_synchronous(c)) {
@@ -73,7 +101,7 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Cata
     }
     let _ = writeln!(text, "{pad}pruning");
     let width = (0..graph.nodes.len()).map(|n| graph.path(n).len()).max().unwrap_or(0);
-    for node in 0..graph.nodes.len() {
+    for node in (0..graph.nodes.len()).filter(|node| !is_cell(graph, *node)) {
         let skipped: Vec<String> = skipped(graph, analysis, node).into_iter().map(|n| graph.path(n)).collect();
         let words = characteristics(analysis, node);
         let words = if words.is_empty() { "-".to_owned() } else { words.join(", ") };
@@ -96,6 +124,11 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, catalog: &Cata
             section(text, &each.body, body, catalog, indent + 1);
         }
     }
+}
+
+/// Whether it is an end of a cell to another thread.
+fn is_cell(graph: &Graph, node: NodeId) -> bool {
+    matches!(graph.nodes[node].kind, NodeKind::Sender(_) | NodeKind::Receiver(_))
 }
 
 /// Which claims hold, and how many states were looked at for that.
@@ -203,7 +236,12 @@ fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(End, Stri
 
 /// The same for programs.
 pub fn explain_json(program: &Program, catalog: &Catalog) -> Value {
-    object(&program.graph, &program.analysis, catalog)
+    let mut whole = object(&program.graph, &program.analysis, catalog);
+    if let Some(split) = &program.split {
+        let threads = split.parts.iter().map(|part| (part.group.clone(), object(&part.graph, &part.analysis, catalog)));
+        whole["threads"] = Value::Object(threads.collect());
+    }
+    whole
 }
 
 fn object(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Value {

@@ -1,0 +1,124 @@
+//! `apex explain --profile`: how long clusters and slots take at worst, and how busy each thread is, as it was measured.
+
+use crate::{Format, project};
+use apex_dsl::{
+    analyse::Analysis,
+    graph::{Graph, MAIN_GROUP},
+    passes::Program,
+};
+use serde_json::{Value, json};
+use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path, process::ExitCode};
+
+/// The largest profile that is read.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// What was measured of a node, in µs.
+#[derive(Default)]
+struct Measured {
+    longest: f64,
+    all: f64,
+}
+
+/// What was measured of a program.
+struct Profile {
+    program: String,
+    nodes: BTreeMap<String, Measured>,
+    /// From the first call to the end of the last one, in µs.
+    span: f64,
+}
+
+/// Prints the times of the program in `file` that `profile` was made of.
+pub fn run(file: &Path, profile: &Path, format: Format) -> Result<ExitCode, String> {
+    let profile = read(profile).map_err(|reason| format!("cannot read `{}`: {reason}", profile.display()))?;
+    let checked = project::check(file)?;
+    checked.print_diagnostics();
+    if checked.diagnostics.has_errors() {
+        return Ok(ExitCode::from(1));
+    }
+    let program = checked.programs.iter().find(|p| p.graph.name == profile.program);
+    let program = program.ok_or_else(|| {
+        let names: Vec<&str> = checked.programs.iter().map(|p| p.graph.name.as_str()).collect();
+        format!("the profile is of `{}`, but `{}` has {}", profile.program, file.display(), names.join(", "))
+    })?;
+    match format {
+        Format::Text => project::print(&text(program, &profile))?,
+        Format::Json => project::print(&format!("{:#}", json_of(program, &profile)))?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn read(path: &Path) -> Result<Profile, String> {
+    let size = fs::metadata(path).map_err(|e| e.to_string())?;
+    if !size.is_file() || size.len() > MAX_BYTES {
+        return Err(format!("it is no file of at most {MAX_BYTES} bytes"));
+    }
+    let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
+    let events: Vec<Value> =
+        serde_json::from_str(&text).map_err(|e| format!("it is not what `apex run --profile` writes: {e}"))?;
+    let program = events.iter().find(|e| e["name"] == "process_name").and_then(|e| e["args"]["name"].as_str());
+    let program = program.ok_or("it is not what `apex run --profile` writes: it names no program")?.to_owned();
+    let (mut nodes, mut first, mut last) = (BTreeMap::<String, Measured>::new(), f64::INFINITY, 0.0f64);
+    for event in events.iter().filter(|e| e["ph"] == "X") {
+        let (Some(name), Some(at), Some(took)) = (event["name"].as_str(), event["ts"].as_f64(), event["dur"].as_f64())
+        else {
+            continue;
+        };
+        let node = nodes.entry(name.to_owned()).or_default();
+        node.longest = node.longest.max(took);
+        node.all += took;
+        (first, last) = (first.min(at), last.max(at + took));
+    }
+    Ok(Profile { program, nodes, span: (last - first).max(0.0) })
+}
+
+/// What one thread does.
+struct Thread<'a> {
+    name: &'a str,
+    /// How much of the time it was at work, in percent.
+    busy: f64,
+    /// For each cluster that fires: its number, its nodes, and the sum of their longest calls in µs.
+    clusters: Vec<(usize, Vec<String>, f64)>,
+}
+
+fn threads<'a>(program: &'a Program, profile: &Profile) -> Vec<Thread<'a>> {
+    let of = |name, graph, analysis| thread(name, graph, analysis, profile);
+    match &program.split {
+        None => vec![of(MAIN_GROUP, &program.graph, &program.analysis)],
+        Some(split) => split.parts.iter().map(|part| of(&part.group, &part.graph, &part.analysis)).collect(),
+    }
+}
+
+fn thread<'a>(name: &'a str, graph: &Graph, analysis: &Analysis, profile: &Profile) -> Thread<'a> {
+    let measured = |node: usize| profile.nodes.get(&graph.path(node));
+    let all: f64 = (0..graph.nodes.len()).filter_map(|node| Some(measured(node)?.all)).sum();
+    let clusters = analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires).map(|(number, cluster)| {
+        let nodes: Vec<usize> = cluster.schedule().into_iter().filter(|node| measured(*node).is_some()).collect();
+        let longest = |node: &usize| measured(*node).map_or(0.0, |m| m.longest) * analysis.repetitions[*node] as f64;
+        (number, nodes.iter().map(|node| graph.path(*node)).collect(), nodes.iter().map(longest).sum())
+    });
+    Thread { name, busy: 100.0 * all / profile.span.max(f64::MIN_POSITIVE), clusters: clusters.collect() }
+}
+
+fn text(program: &Program, profile: &Profile) -> String {
+    let mut text = format!("{}: {:.1} ms measured\n", profile.program, profile.span / 1e3);
+    for thread in threads(program, profile) {
+        let _ = writeln!(text, "  thread {}: {:.1} % of the time at work", thread.name, thread.busy);
+        for (number, nodes, longest) in thread.clusters.iter().filter(|(_, nodes, _)| !nodes.is_empty()) {
+            let _ = writeln!(text, "    cluster {number}: at worst {longest:.1} µs ({})", nodes.join(", "));
+        }
+    }
+    text.push_str("  at worst: all nodes of the cluster as slow as each of them ever was\n");
+    text
+}
+
+fn json_of(program: &Program, profile: &Profile) -> Value {
+    let threads = threads(program, profile).into_iter().map(|thread| {
+        let clusters: Vec<Value> = thread
+            .clusters
+            .iter()
+            .map(|(number, nodes, longest)| json!({ "cluster": number, "nodes": nodes, "worst_us": longest }))
+            .collect();
+        json!({ "name": thread.name, "busy_percent": thread.busy, "clusters": clusters })
+    });
+    json!({ "name": profile.program, "measured_us": profile.span, "threads": threads.collect::<Vec<Value>>() })
+}

@@ -1,0 +1,62 @@
+//! How many steps the dispatcher takes at most until all that a firing causes has finished.
+
+use super::Analysis;
+use crate::graph::{Flow, Graph};
+use std::collections::BTreeMap;
+
+/// Something that takes a step: a cluster that fires, or the slot at the end of a connection that is called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Step {
+    Cluster(usize),
+    Slot(usize),
+}
+
+impl Analysis {
+    /// The most steps from a firing of `cluster` to its notification, and until all slots that it causes to be called have been;
+    /// `None` if there is no bound, because tokens can go round.
+    pub fn steps_after(&self, graph: &Graph, cluster: usize) -> Option<u64> {
+        let mut known = BTreeMap::new();
+        let mut open = vec![(Step::Cluster(cluster), false)];
+        while let Some((step, counted)) = open.pop() {
+            let next = self.caused(graph, step);
+            if counted {
+                // What is not known by now leads back to this step.
+                let below = next.iter().map(|next| *known.get(next)?);
+                let steps: Option<u64> =
+                    below.into_iter().try_fold(1u64, |sum, steps: Option<u64>| Some(sum.saturating_add(steps?)));
+                known.insert(step, steps);
+            } else if !known.contains_key(&step) {
+                known.insert(step, None);
+                open.push((step, true));
+                open.extend(next.into_iter().filter(|next| !known.contains_key(next)).map(|next| (next, false)));
+            }
+        }
+        known.get(&Step::Cluster(cluster)).copied().flatten()
+    }
+
+    /// The steps that a step may cause, each once: a cluster that takes tokens from several others fires when all have come, and is
+    /// counted for each of them.
+    fn caused(&self, graph: &Graph, step: Step) -> Vec<Step> {
+        let after = |connection: &usize| {
+            let c = &graph.connections[*connection];
+            match graph.flow(c) {
+                _ if !self.asynchronous.live[*connection] => None,
+                Flow::ToSlot => Some(Step::Slot(*connection)),
+                Flow::ToInput
+                    if self.clusters.get(self.cluster_of[c.to.node]).is_some_and(|k| k.nodes.contains(&c.to.node)) =>
+                {
+                    Some(Step::Cluster(self.cluster_of[c.to.node]))
+                }
+                Flow::ToInput | Flow::Synchronous => None,
+            }
+        };
+        match step {
+            Step::Cluster(cluster) => {
+                let cluster = &self.clusters[cluster];
+                let down = cluster.downstream.iter().copied().map(Step::Cluster);
+                down.chain(cluster.sends.iter().filter_map(after)).collect()
+            }
+            Step::Slot(connection) => self.asynchronous.causes(connection).iter().filter_map(after).collect(),
+        }
+    }
+}
