@@ -14,7 +14,7 @@ use std::{
 };
 
 /// Changes when the cached items do.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {

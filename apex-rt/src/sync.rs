@@ -1,6 +1,8 @@
 //! What is shared between threads is built on: the model checker of the tests puts its own in this place.
 
-pub use core::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
+#[cfg(feature = "std")]
+pub use core::sync::atomic::{AtomicBool, AtomicUsize};
+pub use core::sync::atomic::{AtomicU8, Ordering};
 
 /// A place that several threads can reach.
 #[derive(Debug, Default)]

@@ -11,7 +11,7 @@ mod nodes;
 mod pages;
 
 use apex_dsl::report::Diagnostic;
-use compile::{Compiled, catalog, compile, folder};
+use compile::{Compiled, bare_catalog, catalog, compile, folder};
 use std::{
     collections::BTreeSet,
     env, fs,
@@ -34,13 +34,14 @@ fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
 
 /// All texts with what the compiler says about them.
 fn compiled() -> Vec<(PathBuf, String, Compiled)> {
-    let mut catalog = catalog();
+    let (mut usual, mut bare) = (catalog(), bare_catalog());
     let texts = files(&folder().join("texts"), "afg");
     assert!(!texts.is_empty());
     let compile = |path: PathBuf| {
         // One is not UTF-8; another text tries to import it.
         let text = fs::read_to_string(&path).ok()?;
-        let compiled = compile(&path, &expect::strip(&text), &mut catalog);
+        let catalog = if path.parent().is_some_and(|folder| folder.ends_with("bare")) { &mut bare } else { &mut usual };
+        let compiled = compile(&path, &expect::strip(&text), catalog);
         Some((path, text, compiled))
     };
     texts.into_iter().filter_map(compile).collect()

@@ -40,6 +40,13 @@ pub enum ItemKind {
     Struct(NodeItem),
     /// `#[node] impl Name`.
     Methods(NodeMethods),
+    /// `#![no_std]`; with a condition, the crate can also do without the standard library.
+    NoStd {
+        /// There is no condition.
+        always: bool,
+    },
+    /// `extern crate name`
+    Extern,
     /// A macro call whose tokens hold `#[node]`: its nodes cannot be seen.
     Hidden,
     /// What is wrong with a file that is no Rust: nothing in it can be seen.
@@ -70,6 +77,8 @@ pub struct NodeItem {
     pub params: Vec<ParamItem>,
     /// Whether it has state between firings.
     pub stateful: bool,
+    /// The types of its state.
+    pub state: Vec<Ty>,
     /// Whether its events take activity away.
     pub deactivates: bool,
     /// The signature of a function node.
@@ -189,12 +198,20 @@ pub enum Literal {
 /// Reads the items of one file.
 pub fn read(text: &str) -> Vec<Item> {
     match syn::parse_file(text) {
-        Ok(file) => items(&file.items),
+        Ok(file) => file.attrs.iter().filter_map(no_std).chain(items(&file.items)).collect(),
         Err(error) => {
             let kind = ItemKind::Broken(error.to_string());
             vec![entry(String::new(), &Visibility::Inherited, &[], error.span(), kind)]
         }
     }
+}
+
+/// `#![no_std]`, `#![cfg_attr(…, no_std)]`
+fn no_std(attr: &Attribute) -> Option<Item> {
+    let always = attr.path().is_ident("no_std");
+    let conditional = attr.path().is_ident("cfg_attr") && attr.meta.to_token_stream().to_string().contains("no_std");
+    let mark = entry(String::new(), &Visibility::Inherited, &[], attr.span(), ItemKind::NoStd { always });
+    (always || conditional).then_some(mark)
 }
 
 fn items(syntax: &[Syn]) -> Vec<Item> {
@@ -215,6 +232,9 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
             Syn::Use(u) => imports(&u.tree, &mut vec![], &mut |name, kind| {
                 list.push(entry(name, &u.vis, &u.attrs, u.span(), kind));
             }),
+            Syn::ExternCrate(e) => {
+                list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), ItemKind::Extern))
+            }
             Syn::Struct(s) => structure(s, &mut list),
             Syn::Enum(e) => {
                 list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), ItemKind::Type(None)))
@@ -318,6 +338,12 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
         docs: signature::docs(&item.attrs),
         generics: generics(&item.generics),
         stateful: item.fields.len() > declared.len(),
+        state: item
+            .fields
+            .iter()
+            .filter(|field| !declared.iter().any(|(param, _)| param.ident == field.ident))
+            .map(|field| Ty::from_syn(&field.ty))
+            .collect(),
         deactivates: signature::marked(&item.attrs, signature::DEACTIVATES),
         params,
         process: None,
@@ -395,6 +421,7 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
         generics: generics(&item.sig.generics),
         params,
         stateful: false,
+        state: vec![],
         deactivates: false,
         process: Some(process(callable)),
     }

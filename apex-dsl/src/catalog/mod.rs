@@ -14,12 +14,12 @@ use std::{
 };
 
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
-pub use tree::{DefId, ModuleId};
+pub use tree::{DefId, ModuleId, Need};
 pub use ty::Ty;
 pub use types::{Match, Type};
 
 use items::{ArgKind, ItemKind, NodeItem, NodeMethods};
-use tree::Tree;
+use tree::{Def, Tree};
 
 /// A crate to scan.
 #[derive(Debug, Clone)]
@@ -89,6 +89,8 @@ pub struct Signature {
     pub on_deactivate: Option<String>,
     /// Whether its events take activity away instead of passing it on.
     pub deactivates: bool,
+    /// What it cannot do without, and why.
+    pub needs: Option<(Need, String)>,
 }
 
 /// A slot of a node type: a method.
@@ -313,7 +315,12 @@ impl Catalog {
         let (args, returns) = process.map_or((None, ReturnSig::default()), |p| builder.process(p));
         let slots = methods.iter().flat_map(|m| &m.slots).enumerate().map(|(i, slot)| builder.slot(slot, i)).collect();
         let ports = builder.ports;
+        let params: Vec<ParamSig> = node.params.iter().map(|p| self.param(p, def.module, &node.generics)).collect();
+        let types = ports.iter().map(|p| p.ty.clone()).chain(params.iter().map(|p| p.ty.clone()));
+        let types: Vec<Type> =
+            types.chain(node.state.iter().map(|ty| self.type_of(ty, def.module, &node.generics))).collect();
         Signature {
+            needs: self.needs(def, &types),
             name: def.name.clone(),
             docs: node.docs.clone(),
             file: def.file.strip_prefix(&self.crates.root).unwrap_or(&def.file).to_owned(),
@@ -322,7 +329,7 @@ impl Catalog {
             is_function,
             generics: node.generics.clone(),
             stateful: node.stateful,
-            params: node.params.iter().map(|p| self.param(p, def.module, &node.generics)).collect(),
+            params,
             ports,
             process: args,
             returns,
@@ -332,6 +339,40 @@ impl Catalog {
             on_deactivate: methods.iter().find_map(|m| m.on_deactivate.clone()),
             deactivates: node.deactivates,
         }
+    }
+
+    /// What a node with tokens, parameters and state of these types cannot do without.
+    fn needs(&self, def: &Def, types: &[Type]) -> Option<(Need, String)> {
+        let krate = self.tree.modules[def.module].krate;
+        let name = &self.crates.all[krate].name;
+        if !self.tree.does_without[krate].can_lack_std {
+            return Some((Need::Std, format!("its crate `{name}` is not `#![no_std]`")));
+        }
+        let feature = |word: &str| format!("it exists only with the feature `{word}` of `{name}`");
+        match def.need {
+            Some(Need::Std) => return Some((Need::Std, feature("std"))),
+            Some(Need::Heap) => return Some((Need::Heap, feature("alloc"))),
+            None => {}
+        }
+        let found =
+            types.iter().filter_map(|ty| ty.needs().map(|(need, of)| (need, format!("it has to do with `{of}`"))));
+        found.max_by_key(|(need, _)| *need)
+    }
+
+    /// What the crate that the program becomes part of does without, if it says so.
+    pub fn lacks(&self) -> Option<Need> {
+        let here = self.tree.does_without.get(self.crates.here)?;
+        match (here.lacks_std, here.has_heap) {
+            (false, _) => None,
+            (true, true) => Some(Need::Std),
+            (true, false) => Some(Need::Heap),
+        }
+    }
+
+    /// On which condition something of a crate exists that is not there now, if it does.
+    pub fn left_out(&self, names: &[&str]) -> Option<String> {
+        let (krate, name, cfg) = self.tree.left_out.iter().find(|(_, name, _)| names.contains(&name.as_str()))?;
+        Some(format!("`{name}` of `{}` exists only with `{cfg}`", self.crates.all[*krate].name))
     }
 
     fn param(&self, param: &items::ParamItem, module: ModuleId, generics: &[String]) -> ParamSig {

@@ -26,6 +26,8 @@ const MAX_MODULES: usize = 64;
 pub struct Module {
     /// The crate, by number.
     pub krate: usize,
+    /// What it exists only with.
+    need: Option<Need>,
     parent: Option<ModuleId>,
     names: BTreeMap<String, Vec<Entry>>,
     globs: Vec<(Vec<String>, bool)>,
@@ -44,9 +46,31 @@ enum Target {
     Import(Vec<String>),
 }
 
+/// What a crate does without.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Without {
+    /// It can be built without the standard library.
+    pub can_lack_std: bool,
+    /// It is never built with it.
+    pub lacks_std: bool,
+    /// It uses `alloc`.
+    pub has_heap: bool,
+}
+
+/// What something cannot do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Need {
+    /// A heap.
+    Heap,
+    /// The standard library.
+    Std,
+}
+
 /// A type or node that was seen.
 #[derive(Debug)]
 pub struct Def {
+    /// What it exists only with, by the conditions on it and on the modules around it.
+    pub need: Option<Need>,
     /// Its name.
     pub name: String,
     /// Where it is defined.
@@ -68,6 +92,10 @@ pub struct Tree {
     pub roots: Vec<ModuleId>,
     /// What was found.
     pub defs: Vec<Def>,
+    /// For each crate what it can do without.
+    pub does_without: Vec<Without>,
+    /// Items that the enabled features leave out: the crate, the name, and the condition.
+    pub left_out: Vec<(usize, String, String)>,
     /// Files in which a macro hides nodes.
     pub hidden: Vec<PathBuf>,
     /// Files that are no Rust: the line of what is wrong, and what.
@@ -83,7 +111,8 @@ impl Tree {
         for (index, spec) in crates.iter().enumerate() {
             tree.names.push(spec.name.clone());
             tree.dependencies.push(spec.dependencies.clone());
-            let root = tree.module(index, None);
+            tree.does_without.push(Without::default());
+            let root = tree.module(index, None, None);
             tree.roots.push(root);
             let folder = spec.root.parent().unwrap_or(Path::new("")).to_owned();
             tree.file(root, &spec.root, &folder, spec, world, 0);
@@ -91,8 +120,8 @@ impl Tree {
         tree
     }
 
-    fn module(&mut self, krate: usize, parent: Option<ModuleId>) -> ModuleId {
-        self.modules.push(Module { krate, parent, names: BTreeMap::new(), globs: vec![] });
+    fn module(&mut self, krate: usize, parent: Option<ModuleId>, need: Option<Need>) -> ModuleId {
+        self.modules.push(Module { krate, need, parent, names: BTreeMap::new(), globs: vec![] });
         self.modules.len() - 1
     }
 
@@ -126,10 +155,16 @@ impl Tree {
         world: &mut dyn World,
         depth: usize,
     ) {
-        for item in items.iter().filter(|i| i.cfg.iter().all(|cfg| enabled(cfg, &spec.features))) {
+        for item in items {
+            if let Some(cfg) = item.cfg.iter().find(|cfg| !enabled(cfg, &spec.features)) {
+                let krate = spec_index(self, module);
+                self.left_out.push((krate, item.name.clone(), cfg.split_whitespace().collect()));
+                continue;
+            }
+            let need = self.modules[module].need.max(need(item, &spec.features));
             let target = match &item.kind {
                 ItemKind::Module(path, content) => {
-                    let child = self.module(spec_index(self, module), Some(module));
+                    let child = self.module(spec_index(self, module), Some(module), need);
                     let inner = folder.join(&item.name);
                     match (content, path) {
                         (Some(content), _) => self.items(child, content, file, &inner, spec, world, depth + 1),
@@ -152,6 +187,17 @@ impl Tree {
                     self.modules[module].globs.push((path.clone(), item.public));
                     continue;
                 }
+                ItemKind::NoStd { always } => {
+                    let krate = spec_index(self, module);
+                    let without = &mut self.does_without[krate];
+                    (without.can_lack_std, without.lacks_std) = (true, *always);
+                    continue;
+                }
+                ItemKind::Extern => {
+                    let krate = spec_index(self, module);
+                    self.does_without[krate].has_heap |= matches!(item.name.as_str(), "alloc" | "std");
+                    continue;
+                }
                 ItemKind::Hidden => {
                     self.hidden.push(file.to_owned());
                     continue;
@@ -162,7 +208,7 @@ impl Tree {
                 }
                 kind => {
                     let (name, file) = (item.name.clone(), file.to_owned());
-                    self.defs.push(Def { name, module, file, line: item.line, kind: kind.clone() });
+                    self.defs.push(Def { need, name, module, file, line: item.line, kind: kind.clone() });
                     Target::Def(self.defs.len() - 1)
                 }
             };
@@ -338,6 +384,19 @@ impl Tree {
             ItemKind::Alias(target) => Some(target),
             _ => None,
         }
+    }
+}
+
+/// What an item exists only with: without these features it would not be there.
+fn need(item: &Item, features: &BTreeSet<String>) -> Option<Need> {
+    let exists_without = |left_out: &[&str]| {
+        let features = features.iter().filter(|f| !left_out.contains(&f.as_str())).cloned().collect();
+        item.cfg.iter().all(|cfg| enabled(cfg, &features))
+    };
+    match () {
+        () if item.cfg.is_empty() || exists_without(&["std", "alloc"]) => None,
+        () if exists_without(&["std"]) => Some(Need::Heap),
+        () => Some(Need::Std),
     }
 }
 

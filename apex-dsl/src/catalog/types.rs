@@ -1,4 +1,4 @@
-use super::{Catalog, DefId, ModuleId, Ty};
+use super::{Catalog, DefId, ModuleId, Need, Ty};
 use std::fmt;
 
 /// A type whose names have been looked up as far as the scan can see.
@@ -42,8 +42,15 @@ const PRIMITIVES: [&str; 17] = [
 ];
 const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
 const LISTS: [&str; 2] = ["Vec", "heapless::Vec"];
+/// Parts of `std` that `core` has under the same name.
+const CORE: [&str; 8] = ["time", "ops", "num", "cmp", "marker", "option", "result", "primitive"];
 /// How many aliases are followed.
 const MAX_ALIASES: usize = 16;
+
+/// Whether a path of the standard library is one of `core`, too.
+fn is_in_core(path: &str) -> bool {
+    path.split("::").nth(1).is_some_and(|module| CORE.contains(&module)) && !path.ends_with("Instant")
+}
 
 impl Type {
     /// `()`
@@ -62,6 +69,25 @@ impl Type {
             Self::Primitive(name) | Self::Def(_, name, _) | Self::Alias(_, name, _) | Self::Param(name) => name,
             Self::Named(text, _) | Self::Unknown(text) => text.rsplit("::").next().unwrap_or(text),
             _ => "",
+        }
+    }
+
+    /// What it cannot do without, and the type in it that is the reason.
+    pub fn needs(&self) -> Option<(Need, String)> {
+        let of_all = |types: &[Self]| types.iter().filter_map(Self::needs).max_by_key(|(need, _)| *need);
+        match self {
+            Self::Named(name, args) => {
+                let own = match name.as_str() {
+                    "Vec" | "String" | "Box" => Some(Need::Heap),
+                    name if name.starts_with("alloc::") => Some(Need::Heap),
+                    name if name.starts_with("std::") && !is_in_core(name) => Some(Need::Std),
+                    _ => None,
+                };
+                own.map(|need| (need, self.to_string())).or_else(|| of_all(args))
+            }
+            Self::Def(_, _, args) | Self::Tuple(args) => of_all(args),
+            Self::Alias(_, _, inner) | Self::Array(inner, _) | Self::Ref(inner) => inner.needs(),
+            Self::Primitive(_) | Self::Param(_) | Self::Unknown(_) => None,
         }
     }
 

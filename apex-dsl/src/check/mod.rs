@@ -6,6 +6,7 @@ mod inputs;
 mod lists;
 mod modifiers;
 mod parallel;
+mod target;
 mod types;
 
 use crate::{
@@ -26,6 +27,7 @@ pub fn check(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
     asynchronous::check_asynchronous(graph, catalog, diagnostics);
     activity::check_activity(graph, catalog, diagnostics);
     parallel::check_parallel(graph, catalog, diagnostics);
+    target::check_target(graph, catalog, diagnostics);
     for node in &mut graph.nodes {
         if let NodeKind::Each(each) = &mut node.kind {
             check(&mut each.body, catalog, diagnostics);

@@ -45,6 +45,7 @@ pages! {
     "recursion"
     "robot-port"
     "syntax"
+    "target"
     "threads"
     "too-deep"
     "too-large"

@@ -374,5 +374,7 @@ fn unknown_import(words: &[String], last: &Ident, catalog: &Catalog) -> Diagnost
     for def in elsewhere.into_iter().filter_map(|def| catalog.path(def)).take(3) {
         error = error.note(format!("there is `{}`", def.join("::").trim_start_matches("::")));
     }
+    let names: Vec<&str> = words.iter().map(String::as_str).collect();
+    error = catalog.left_out(&names[1..]).into_iter().fold(error, Diagnostic::note);
     catalog.broken().fold(error, Diagnostic::note)
 }

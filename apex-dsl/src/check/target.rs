@@ -1,0 +1,34 @@
+//! Nodes that need more than the machine has: the crate that the program becomes part of does without a heap, or without
+//! the standard library.
+
+use crate::{
+    catalog::{Catalog, Need},
+    graph::{Graph, NodeKind},
+    report::{Diagnostic, Diagnostics},
+};
+
+/// Reports them.
+pub fn check_target(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let Some(lacks) = catalog.lacks() else { return };
+    for node in &graph.nodes {
+        let NodeKind::Library(library) = &node.kind else { continue };
+        let signature = &catalog.signatures[library.signature];
+        let Some((need, why)) = signature.needs.as_ref().filter(|(need, _)| *need >= lacks) else { continue };
+        let (needs, without, remedy) = match need {
+            Need::Heap => (
+                "a heap",
+                "`#![no_std]` without `extern crate alloc`",
+                "take one of fixed size, as those of `heapless` are",
+            ),
+            Need::Std => (
+                "the standard library",
+                "`#![no_std]`",
+                "take a node whose crate is `#![no_std]`, or feed what it does from outside",
+            ),
+        };
+        let message = format!("`{}` needs {needs}, but this crate is {without}", node.name);
+        let declared =
+            format!("`{}` is declared at {}:{}; {why}", signature.name, signature.file.display(), signature.line);
+        diagnostics.push(Diagnostic::error("target", node.span, message).note(declared).note(remedy));
+    }
+}

@@ -1,0 +1,50 @@
+//! The nodes of a crate without a heap.
+#![no_std]
+use apex_rt::prelude::*;
+
+/// A source.
+#[node]
+#[derive(Default)]
+pub struct Ramp {
+    next: u64,
+}
+
+#[node]
+impl Ramp {
+    fn process(&mut self) -> u64 {
+        self.next += 1;
+        self.next
+    }
+}
+
+/// Keeps all that it sees.
+#[node]
+pub struct Keep {
+    seen: Vec<u64>,
+}
+
+#[node]
+impl Keep {
+    fn process(&mut self, x: &u64) {
+        self.seen.push(*x);
+    }
+}
+
+/// Writes to a file.
+#[cfg(feature = "std")]
+#[node]
+pub fn write(x: &u64) {
+    drop(*x);
+}
+
+/// Says what it sees.
+#[node]
+pub fn spell(x: &u64) -> String {
+    x.to_string()
+}
+
+#[cfg(feature = "camera")]
+#[node]
+pub fn camera() -> u64 {
+    0
+}
