@@ -23,6 +23,8 @@ pub mod params;
 #[cfg(feature = "profile")]
 pub mod profile;
 mod queue;
+#[cfg(feature = "record")]
+pub mod record;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
@@ -59,6 +61,24 @@ pub use stop::UntilStopped;
 pub use time::Time;
 pub use timer::{Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
+
+/// Code that only a program has that can be recorded; the feature `record` decides. For generated code.
+#[cfg(feature = "record")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __recorded {
+    ({ $($recorded:tt)* }) => { $($recorded)* };
+    ({ $($recorded:tt)* } else { $($plain:tt)* }) => { $($recorded)* };
+}
+
+/// Code that only a program has that can be recorded; the feature `record` decides. For generated code.
+#[cfg(not(feature = "record"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __recorded {
+    ({ $($recorded:tt)* }) => {};
+    ({ $($recorded:tt)* } else { $($plain:tt)* }) => { $($plain)* };
+}
 
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {
