@@ -9,7 +9,7 @@ pub fn run(file: &Path) -> Result<ExitCode, String> {
     let mut checked = project::check(file)?;
     let place = |_| proc_macro2::Span::call_site();
     let code =
-        passes::generate(&checked.programs, &checked.catalog, &checked.sources, &place, &mut checked.diagnostics);
+        passes::generate(&checked.programs, &checked.catalog, &checked.sources, &place, false, &mut checked.diagnostics);
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));

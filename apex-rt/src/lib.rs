@@ -62,24 +62,6 @@ pub use time::Time;
 pub use timer::{Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
-/// Code that only a program has that can be recorded; the feature `record` decides. For generated code.
-#[cfg(feature = "record")]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __recorded {
-    ({ $($recorded:tt)* }) => { $($recorded)* };
-    ({ $($recorded:tt)* } else { $($plain:tt)* }) => { $($recorded)* };
-}
-
-/// Code that only a program has that can be recorded; the feature `record` decides. For generated code.
-#[cfg(not(feature = "record"))]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __recorded {
-    ({ $($recorded:tt)* }) => {};
-    ({ $($recorded:tt)* } else { $($plain:tt)* }) => { $($plain)* };
-}
-
 /// Everything that a user of Apex needs, macros included.
 pub mod prelude {
     pub use crate::{

@@ -15,6 +15,7 @@ use crate::{
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
+use syn::Ident;
 
 impl Generator<'_> {
     /// Fields of the program's state that the dispatcher needs, with what they start as.
@@ -107,8 +108,8 @@ impl Generator<'_> {
         code
     }
 
-    /// `react_with`.
-    pub fn react(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    /// `react_with`, under this name.
+    pub fn react(&self, whole: Whole<'_>, bits: &Bits, name: &Ident) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
         let queued = analysis.asynchronous.delivery == Delivery::Queued;
         let serves = !analysis.asynchronous.slots.is_empty() && queued;
@@ -213,7 +214,7 @@ impl Generator<'_> {
             }
         });
         quote! {
-            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+            fn #name<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
                 let ctx = &::apex_rt::Ctx::new(now);
                 #exit
                 #begin_steps

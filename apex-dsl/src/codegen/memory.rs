@@ -27,7 +27,7 @@ pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Pi
     let (graph, analysis) = (&program.graph, &program.analysis);
     let names = Names::new(graph, &graph.name, "", &mut 0, &mut BTreeSet::new());
     let place = |_| proc_macro2::Span::call_site();
-    let generator = Generator { catalog, sources, names: &names, place: &place, outer: None };
+    let generator = Generator { catalog, sources, names: &names, place: &place, outer: None, channels: None };
     let mut fields = BTreeMap::new();
     generator.node_fields(graph, analysis, &mut fields, &mut vec![]);
     let mut pieces = vec![];

@@ -64,7 +64,11 @@ impl Generator<'_> {
             };
             (quote!(parts: #parts_name), item, quote!())
         };
-        let react = self.react(whole, &bits);
+        let (own_react, react) = match self.channels {
+            Some(_) => (self.react(whole, &bits, &ident("reaction")), self.recorded_react(graph)),
+            None => (quote!(), self.react(whole, &bits, &ident("react_with"))),
+        };
+        let recording = self.recording(graph);
         let clusters = self.clusters(whole, &bits);
         let (dispatcher, claims) = (self.dispatcher(whole, &bits), self.claim_function(whole));
         let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
@@ -120,6 +124,7 @@ impl Generator<'_> {
                 pub fn outputs(&self) -> &#outputs_name { &self.outputs }
                 /// The graph-level events.
                 pub fn events(&mut self) -> &mut #events_name { &mut self.events }
+                #own_react
                 #clusters
                 #dispatcher
                 #claims
@@ -128,6 +133,7 @@ impl Generator<'_> {
             #[allow(unused, clippy::all)]
             impl ::apex_rt::Program for #name {
                 const INFO: ::apex_rt::Info = #info;
+                #recording
                 #react
                 #is_active
                 #is_graph_active

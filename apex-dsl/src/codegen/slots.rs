@@ -43,10 +43,11 @@ impl Generator<'_> {
         let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
             let sent: TokenStream = connections.iter().map(|c| self.sent(whole, bits, *c)).collect();
             let present = self.waits(whole.graph, from(connections[0]));
-            if sent.is_empty() {
+            let chosen = self.chosen_event(whole.graph, from(connections[0]));
+            if sent.is_empty() && chosen.is_empty() {
                 quote!()
             } else {
-                quote! { if #present { #sent } }
+                quote! { if #present { #chosen #sent } }
             }
         });
         ports.collect()
@@ -233,6 +234,7 @@ impl Generator<'_> {
         } else {
             quote! { #call; #late }
         };
+        let call = self.recorded_slot(graph, node, call);
         if graph.nodes[node].can_be_disabled() {
             let flag = self.flag(Flag::Enabled, node);
             quote! { if state.#flag { #call } }

@@ -176,6 +176,7 @@ impl<'a> Builder<'a> {
             claims: self.claims,
             open_pins,
             excused: ports(&self.excused),
+            record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
         require_function_params(&mut graph, self.catalog);

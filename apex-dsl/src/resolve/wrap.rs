@@ -64,6 +64,7 @@ impl Builder<'_> {
                 claims: vec![],
                 open_pins,
                 excused: BTreeSet::new(),
+                record: None,
             };
             generics::settle(&mut graph, builder.catalog);
             Some(graph)
