@@ -68,6 +68,7 @@ pages! {
     "wrong-claim"
     "wrong-direction"
     "wrong-modifier"
+    "wrong-record"
     "wrong-unit"
     "wrong-value"
 }

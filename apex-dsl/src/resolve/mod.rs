@@ -8,6 +8,7 @@ mod generics;
 mod instance;
 mod link;
 mod names;
+mod record;
 mod testing;
 pub mod value;
 mod wrap;

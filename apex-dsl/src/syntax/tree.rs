@@ -64,6 +64,8 @@ pub struct GraphItem {
     pub chains: Vec<Chain>,
     /// Claims.
     pub claims: Vec<Claim>,
+    /// `record` statements, of which one is right.
+    pub records: Vec<RecordItem>,
     /// From its documentation to its closing bracket.
     pub extent: Span,
 }
@@ -431,6 +433,17 @@ pub struct Claim {
     /// Of what.
     pub of: Vec<PortRef>,
     /// All of it, without the `;`.
+    pub span: Span,
+}
+
+/// `record "run.mcap" { laser.scan; }`
+#[derive(Debug)]
+pub struct RecordItem {
+    /// The file.
+    pub file: String,
+    /// The ports.
+    pub ports: Vec<PortRef>,
+    /// The word and the file.
     pub span: Span,
 }
 

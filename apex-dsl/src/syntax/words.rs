@@ -40,7 +40,7 @@ const fn word(text: &'static str, place: Place, docs: &'static str) -> Word {
 }
 
 /// All of them; a word that can stand in several places comes several times.
-pub const WORDS: [Word; 49] = [
+pub const WORDS: [Word; 50] = [
     word("use", Place::Item, "Imports nodes and types of a crate, or graphs of a text in the same folder."),
     word("graph", Place::Item, "A graph: ports, nodes and connections. It is used as a node is."),
     word("robot", Place::Item, "A graph without ports: what runs on one machine."),
@@ -59,6 +59,11 @@ pub const WORDS: [Word; 49] = [
         "claim",
         Place::Graph,
         "Something that must be true of activity in every run; decided before the program runs.",
+    ),
+    word(
+        "record",
+        Place::Graph,
+        "The file in which a run is recorded, and ports whose tokens are recorded besides those of the sources.",
     ),
     word("slot", Place::Machine, "A slot: what it takes leads from state to state."),
     word("event", Place::Machine, "An event: what transitions trigger."),
@@ -118,8 +123,8 @@ pub fn words_at(place: Place) -> impl Iterator<Item = &'static Word> {
 }
 
 /// The words that nothing in a text can be named.
-pub const RESERVED: [&str; 11] =
-    ["use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "true", "false"];
+pub const RESERVED: [&str; 12] =
+    ["use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "record", "true", "false"];
 
 /// Whether something in a text can be named so.
 pub fn is_name(text: &str) -> bool {

@@ -15,9 +15,9 @@ mod sink;
 mod source;
 mod tap;
 
-pub use message::{Codec, Message, Schema};
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
+pub use message::{Codec, Message, Schema};
 pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
 pub use report::{Compared, Difference, Report};

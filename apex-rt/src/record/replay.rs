@@ -122,8 +122,12 @@ impl Replay {
             Some(recorded) if recorded != info.name => {
                 return Err(ReplayError::OtherProgram { path: path.to_owned(), recorded, wanted: info.name });
             }
+            Some(_) => {}
             None if replay.source.cut.is_none() => return Err(ReplayError::NoRecording(path.to_owned())),
-            _ => {}
+            None => {
+                let what = "it is empty, or was cut off before anything was recorded";
+                return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
+            }
         }
         replay.match_channels();
         Ok(replay)
@@ -218,7 +222,8 @@ impl Replay {
             Meaning::Reaction => {}
             Meaning::Elapsed => reaction.elapsed.extend(fields.u64().map(Duration::from_nanos)),
             Meaning::Parameter => {
-                if let (Some(name), Some(value)) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned)) {
+                if let (Some(name), Some(value)) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned))
+                {
                     reaction.params.push((name, value, bool::read(&mut fields).unwrap_or(true)));
                 }
             }

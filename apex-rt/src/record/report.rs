@@ -68,7 +68,10 @@ impl Display for Report {
             writeln!(f, "the recording is not whole: {cut}; compared as far as it goes")?;
         }
         for (channel, count) in &self.dropped {
-            writeln!(f, "{count} messages of `{channel}` were lost when this was recorded: what follows from them differs")?;
+            writeln!(
+                f,
+                "{count} messages of `{channel}` were lost when this was recorded: what follows from them differs"
+            )?;
         }
         if self.unreadable > 0 {
             writeln!(f, "{} recorded tokens are no values of their types any more", self.unreadable)?;
@@ -92,7 +95,9 @@ impl Display for Report {
         }
         let reactions = self.reactions;
         match (self.compared.is_empty(), self.is_same()) {
-            (true, _) => writeln!(f, "{reactions} reactions; nothing to compare: name connections in a `record` statement"),
+            (true, _) => {
+                writeln!(f, "{reactions} reactions; nothing to compare: name connections in a `record` statement")
+            }
             (false, true) => writeln!(f, "{reactions} reactions, all the same"),
             (false, false) => writeln!(f, "{reactions} reactions, not the same"),
         }
