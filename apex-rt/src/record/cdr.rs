@@ -1,8 +1,13 @@
 //! CDR, the binary form of ROS 2 messages (XCDR1, little endian): what Foxglove and the Python package `mcap-ros2-support`
 //! read.
 
+use crate::Time;
+
 /// Before each message: little endian, no options.
 const HEADER: [u8; 4] = [0, 1, 0, 0];
+
+/// Nanoseconds of a second.
+const NANOS: i64 = 1_000_000_000;
 
 /// Writes a message behind what is in a buffer.
 #[derive(Debug)]
@@ -25,6 +30,15 @@ impl<'a> Writer<'a> {
             self.bytes.push(0);
         }
         self.bytes.extend_from_slice(&number);
+    }
+
+    /// A `std_msgs/Header`. Its seconds are an `i32`: a stamp more than 68 years from the zero of the clock is not the same
+    /// again.
+    pub fn header(&mut self, stamp: Time, frame: &str) {
+        let (seconds, rest) = (stamp.as_nanos().div_euclid(NANOS), stamp.as_nanos().rem_euclid(NANOS));
+        self.i32(i32::try_from(seconds).unwrap_or(if seconds < 0 { i32::MIN } else { i32::MAX }));
+        self.u32(rest as u32);
+        self.text(frame);
     }
 
     /// A text, which in CDR ends with a zero.
@@ -53,6 +67,13 @@ impl<'a> Reader<'a> {
         let number = self.bytes.get(at..at.checked_add(N)?)?;
         self.at = at + N;
         number.try_into().ok()
+    }
+
+    /// The stamp of a `std_msgs/Header`.
+    pub fn header(&mut self) -> Option<Time> {
+        let (seconds, rest) = (self.i32()?, self.u32()?);
+        self.text()?;
+        Some(Time::from_nanos(i64::from(seconds) * NANOS + i64::from(rest)))
     }
 
     /// A text.
