@@ -2,6 +2,7 @@
 
 mod cut;
 mod full;
+mod python;
 mod round;
 
 use apex_rt::{

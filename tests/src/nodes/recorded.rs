@@ -1,5 +1,6 @@
 //! Sources of which nobody knows what they send next, and nodes that make something of it.
 
+use apex_nodes::scan::{Pose2, Scan};
 use apex_rt::{Ctx, Event, Out, Outputs, node};
 use serde::{Deserialize, Serialize};
 use std::time::SystemTime;
@@ -153,4 +154,30 @@ impl Diary {
 #[node]
 pub fn swallow<T>(value: &T) {
     let _ = value;
+}
+
+/// The time in milliseconds, and a half.
+#[node]
+pub fn count(ctx: &Ctx) -> f64 {
+    ctx.now().as_secs_f64() * 1e3 + 0.5
+}
+
+/// A scan with odd ranges.
+#[node]
+pub fn eyes(ctx: &Ctx) -> Scan {
+    let mut scan = Scan { stamp: ctx.now(), angle_increment: 0.1, ..Scan::default() };
+    scan.ranges.extend([1.0, f32::NAN, f32::INFINITY]);
+    scan
+}
+
+/// A pose.
+#[node]
+pub fn pose() -> Pose2 {
+    Pose2::new(1.5, -2.0, 0.5)
+}
+
+/// A word.
+#[node]
+pub fn word() -> String {
+    "zwölf".to_owned()
 }
