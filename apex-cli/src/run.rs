@@ -74,7 +74,7 @@ pub enum Recording<'a> {
 }
 
 /// The feature of programs that can be recorded, and the library whose types then are messages.
-const RECORDS: &str = "record";
+pub const RECORDS: &str = "record";
 const NODES: &str = "apex-nodes";
 
 /// How an MCAP file begins.

@@ -128,10 +128,13 @@ module.exports = grammar({
       seq(
         'feed',
         field('port', $.identifier),
-        optional(seq('=', $.expression)),
-        optional(seq('every', $.expression)),
+        choice(
+          seq('=', $.recording),
+          seq(optional(seq('=', $.expression)), optional(seq('every', $.expression))),
+        ),
         ';',
       ),
+    recording: ($) => seq('recording', '(', $.string, ',', $.string, ')'),
     wait: ($) => seq('wait', $.expression, ';'),
     expect: ($) => seq('expect', $.condition, optional(seq(choice('by', 'within'), $.expression)), ';'),
     never: ($) => seq('never', $.condition, ';'),

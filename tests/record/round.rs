@@ -5,7 +5,7 @@ use apex_rt::{Program, drive_with, prelude::*, record::replay};
 use std::time::Duration;
 
 graph! {
-    use apex_tests::nodes::{Diary, Mean, Moody, bits, device, noise, ranges, same, swallow};
+    use apex_tests::nodes::{Diary, Mean, Moody, bits, device, dozen, noise, pairs, ranges, same, swallow};
 
     /// Sources of all kinds.
     robot Restless {
@@ -39,6 +39,14 @@ graph! {
             slow.late;
             diary.told;
         }
+    }
+
+    /// Several tokens at once.
+    robot Batches {
+        node d = dozen() every 3ms;
+        node pairs = pairs();
+        d -> pairs -> swallow();
+        record "batches.mcap" { pairs; }
     }
 
     /// Tokens come in from outside, and events are taken out.
@@ -121,6 +129,17 @@ fn what_comes_from_outside_comes_again() {
     assert_eq!(first.nodes().diary.entries, second.nodes().diary.entries);
     assert_eq!(first.outputs().mean, second.outputs().mean);
     assert_eq!(second.param::<f64>("m.offset").ok(), Some(2.5));
+}
+
+#[test]
+fn several_tokens_at_once_are_the_same_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    record::<Batches>(&path, |tap| {
+        drive_with(Batches::new(), until(30), tap);
+    });
+    let report = repeat(Batches::new(), &path);
+    assert!(report.is_same() && report.compared[0].equal == 60, "{report}");
 }
 
 #[test]

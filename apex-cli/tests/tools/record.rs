@@ -56,7 +56,9 @@ pub fn opaque() -> Opaque {
 }
 
 #[node]
-pub fn swallow(value: &Opaque) {}
+pub fn swallow(value: &Opaque) {
+    let _ = value;
+}
 ";
 
 fn text(k: u32) -> String {

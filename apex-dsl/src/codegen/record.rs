@@ -184,6 +184,45 @@ impl Generator<'_> {
         }
     }
 
+    /// What a node of a region with several rates sends in its firing number `i`, into arrays.
+    pub fn recorded_at_rate(&self, graph: &Graph, node: NodeId, sends: TokenStream) -> TokenStream {
+        let places = |end: End| {
+            let (name, rate) = (self.name(end), graph.port(end).rate);
+            quote!(#name[i * #rate..(i + 1) * #rate])
+        };
+        let (takes, sent): (TokenStream, TokenStream) = self
+            .sources(graph, node)
+            .into_iter()
+            .map(|(end, number)| {
+                let (codec, places) = (self.codec(graph, end), places(end));
+                (
+                    quote! { for place in &mut #places { *place = tap.take(#number, #codec); } },
+                    quote! { for place in &#places { tap.sent(#number, #codec, place.as_ref()); } },
+                )
+            })
+            .unzip();
+        let chosen = (0..graph.nodes[node].ports.len()).map(|port| End { node, port }).filter_map(|end| {
+            let number = self.channels?.number(end, Role::Chosen)?;
+            let (codec, places) = (self.codec(graph, end), places(end));
+            Some(quote! { for place in &#places { tap.token(#number, #codec, place.as_ref()); } })
+        });
+        let chosen: TokenStream = chosen.collect();
+        if takes.is_empty() && chosen.is_empty() {
+            return sends;
+        }
+        let index = self.names.base + node;
+        let calls = if takes.is_empty() { quote!(false) } else { quote!(tap.calls(#index)) };
+        quote! {
+            match ::apex_rt::Observer::tap(observer).map(|tap| (#calls, tap)) {
+                Some((true, tap)) => { #takes }
+                _ => {
+                    #sends
+                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sent #chosen }
+                }
+            }
+        }
+    }
+
     /// An event that was chosen is recorded when it is sent.
     pub fn chosen_event(&self, graph: &Graph, end: End) -> TokenStream {
         let Some(number) = self.channels.and_then(|c| c.number(end, Role::Chosen)) else { return quote!() };

@@ -352,7 +352,7 @@ impl<'a> Walker<'a, '_> {
         item.replaced.iter().for_each(|(of, _)| self.reference(id, of));
         for step in &item.steps {
             match step {
-                TestStep::Feed(port, ..) => {
+                TestStep::Feed(port, ..) | TestStep::FeedRecorded(port, ..) => {
                     let definition = self.names[&id].get(port.text.as_str()).copied();
                     definition.iter().for_each(|d| self.used(port, *d));
                 }

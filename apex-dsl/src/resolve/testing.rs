@@ -121,10 +121,14 @@ impl Writer<'_> {
                 Some(Step::Expect(seen, until))
             }
             TestStep::Feed(port, value, every) => self.feed(port, value.as_ref(), every.as_ref()),
+            TestStep::FeedRecorded(port, file, channel) => {
+                Some(Step::FeedRecorded { port: self.way_in(port)?, file: file.clone(), channel: channel.clone() })
+            }
         }
     }
 
-    fn feed(&mut self, port: &Ident, value: Option<&Expr>, every: Option<&Expr>) -> Option<Step> {
+    /// The port of the graph that a test puts tokens into.
+    fn way_in(&mut self, port: &Ident) -> Option<NodeId> {
         let is_way_in = |n: &crate::graph::Node| matches!(n.kind, NodeKind::Boundary(_));
         let ports: Vec<(NodeId, &str)> = self
             .graph
@@ -141,7 +145,12 @@ impl Writer<'_> {
             self.diagnostics.push(suggest(error, port, ports.iter().map(|(_, name)| *name)));
             return None;
         };
-        let (node, ty) = (*node, self.graph.nodes[*node].ports[0].ty.clone());
+        Some(*node)
+    }
+
+    fn feed(&mut self, port: &Ident, value: Option<&Expr>, every: Option<&Expr>) -> Option<Step> {
+        let node = self.way_in(port)?;
+        let ty = self.graph.nodes[node].ports[0].ty.clone();
         let every = match every {
             Some(time) => Some(self.time(time)?),
             None => None,

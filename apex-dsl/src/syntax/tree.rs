@@ -350,6 +350,8 @@ pub struct TestItem {
 pub enum TestStep {
     /// `feed port = value every 10ms;`
     Feed(Ident, Option<Expr>, Option<Expr>),
+    /// `feed port = recording("run.mcap", "laser.scan");`
+    FeedRecorded(Ident, String, String),
     /// `wait 50ms;`
     Wait(Expr),
     /// `expect condition within 50ms;`, `expect condition by 2s;`

@@ -40,7 +40,7 @@ const fn word(text: &'static str, place: Place, docs: &'static str) -> Word {
 }
 
 /// All of them; a word that can stand in several places comes several times.
-pub const WORDS: [Word; 50] = [
+pub const WORDS: [Word; 51] = [
     word("use", Place::Item, "Imports nodes and types of a crate, or graphs of a text in the same folder."),
     word("graph", Place::Item, "A graph: ports, nodes and connections. It is used as a node is."),
     word("robot", Place::Item, "A graph without ports: what runs on one machine."),
@@ -99,6 +99,7 @@ pub const WORDS: [Word; 50] = [
     word("if", Place::Inside, "The transition is taken only where this holds."),
     word("by", Place::Inside, "Until when it is expected, counted from the start."),
     word("within", Place::Inside, "Until when it is expected, counted from the step before."),
+    word("recording", Place::Inside, "The tokens that passed a port in a recorded run, at their times."),
     word("active", Place::Inside, "Whether a node or nested graph is active."),
     word("in", Place::Inside, "The range of a parameter: `gap: f32[m] = 0.1 in 0..=1`."),
     word("true", Place::Value, "True."),

@@ -14,6 +14,7 @@ mod run;
 mod sink;
 mod source;
 mod tap;
+mod tokens;
 
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
@@ -24,6 +25,8 @@ pub use report::{Compared, Difference, Report};
 pub use run::replay;
 pub(crate) use run::{Wish, drive};
 pub use tap::Tap;
+#[doc(hidden)]
+pub use tokens::tokens;
 
 /// What passes a channel of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

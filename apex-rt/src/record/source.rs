@@ -31,6 +31,8 @@ pub struct FileChannel {
 pub struct FileMessage {
     /// Its channel.
     pub channel: u16,
+    /// Its time, in nanoseconds.
+    pub time: u64,
     /// Its number.
     pub sequence: u32,
     /// Its bytes.
@@ -176,6 +178,7 @@ impl Source {
             Record::Message { header, data } => {
                 return Some(FileMessage {
                     channel: header.channel_id,
+                    time: header.log_time,
                     sequence: header.sequence,
                     data: data.into_owned(),
                 });

@@ -181,3 +181,15 @@ pub fn pose() -> Pose2 {
 pub fn word() -> String {
     "zwölf".to_owned()
 }
+
+/// Twelve numbers that nobody knows.
+#[node]
+pub fn dozen() -> [u64; 12] {
+    core::array::from_fn(|i| chance() ^ i as u64)
+}
+
+/// Two numbers become one.
+#[node]
+pub fn pairs(numbers: &[u64; 2]) -> u64 {
+    numbers[0] ^ numbers[1].rotate_left(1)
+}
