@@ -44,6 +44,6 @@ pub fn compile(path: &Path, text: &str, catalog: &mut Catalog) -> Compiled {
     let root = sources.add(path, text);
     let programs = passes::check(root, catalog, &mut sources, &mut Disk::new(None), &mut diagnostics);
     let place = |_| proc_macro2::Span::call_site();
-    passes::generate(&programs, catalog, &sources, &place, &mut diagnostics);
+    passes::generate(&programs, catalog, &sources, &place, false, &mut diagnostics);
     Compiled { sources, diagnostics }
 }
