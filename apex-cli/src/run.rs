@@ -325,8 +325,12 @@ pub fn make_package(
             _ => format!("{name} = {{ path = {path:?} }}\n"),
         })
         .collect();
+    // Cargo tells packages of one name apart by what they are made of only: the program of another text would count as up
+    // to date.
+    let made_for = folder.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let made_for = made_for.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     let manifest = format!(
-        "[package]\nname = \"apex-run\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
+        "[package]\nname = \"apex-run-{made_for}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
     );
     let write = |path: PathBuf, text: &str| {
         let same = fs::read_to_string(&path).is_ok_and(|old| old == text);
