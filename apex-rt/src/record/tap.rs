@@ -6,6 +6,7 @@ use core::time::Duration;
 /// code calls it.
 ///
 /// Ports are given by their index in [`Program::channels`](crate::Program::channels).
+#[allow(clippy::large_enum_variant, reason = "a program has one")]
 pub enum Tap {
     /// A run is recorded.
     Record(Recorder),
