@@ -78,9 +78,12 @@ impl<'a> Reader<'a> {
 
     /// A text.
     pub fn text(&mut self) -> Option<&'a str> {
-        let length = usize::try_from(self.u32()?).ok()?.checked_sub(1)?;
-        let text = self.bytes.get(self.at..self.at.checked_add(length)?)?;
-        self.at += length + 1;
+        let length = usize::try_from(self.u32()?).ok()?;
+        let (zero, text) = self.bytes.get(self.at..self.at.checked_add(length)?)?.split_last()?;
+        self.at += length;
+        if *zero != 0 {
+            return None;
+        }
         core::str::from_utf8(text).ok()
     }
 }

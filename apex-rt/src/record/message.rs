@@ -190,3 +190,55 @@ impl Message for Time {
         message.i64().map(Self::from_nanos)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::fmt::Debug;
+
+    /// A token that was written and read.
+    fn again<T>(codec: Option<Codec<T>>, token: &T) -> (Schema, Option<T>) {
+        let (codec, mut bytes) = (codec.expect("it can be recorded"), vec![]);
+        assert!((codec.write)(token, &mut bytes));
+        assert!(
+            (0..bytes.len()).all(|cut| { (codec.read)(&bytes[..cut]).is_none() || codec.schema.encoding != "cdr" })
+        );
+        (codec.schema, (codec.read)(&bytes))
+    }
+
+    fn same<T: Message + PartialEq + Debug>(token: T) {
+        let (schema, read) = again(crate::__codec!(T), &token);
+        assert_eq!((schema.encoding, read), ("cdr", Some(token)));
+    }
+
+    #[test]
+    fn messages_come_back() {
+        same(-1.5_f64);
+        same(f32::MIN_POSITIVE);
+        same(i64::MIN);
+        same(u8::MAX);
+        same(true);
+        same(());
+        same("zwölf".to_owned());
+        same(String::new());
+        same(Failure::new(&"no more paper"));
+        same(Time::from_nanos(-1));
+    }
+
+    #[test]
+    fn nan_keeps_its_bits() {
+        let odd = f32::from_bits(0x7fc0_1234);
+        let (_, read) = again(crate::__codec!(f32), &odd);
+        assert_eq!(read.map(f32::to_bits), Some(odd.to_bits()));
+        let (schema, read) = again(crate::__codec!(Vec<f32>), &vec![odd, -0.0]);
+        let bits = read.map(|list| list.into_iter().map(f32::to_bits).collect::<Vec<_>>());
+        assert_eq!((schema.encoding, bits), ("postcard", Some(vec![odd.to_bits(), (-0.0_f32).to_bits()])));
+    }
+
+    #[test]
+    fn a_type_that_nobody_knows_has_no_codec() {
+        struct Opaque;
+        assert!(crate::__codec!(Opaque).is_none());
+        let _ = Opaque;
+    }
+}

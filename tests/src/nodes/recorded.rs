@@ -47,8 +47,9 @@ pub struct Readings {
 #[node]
 pub fn device() -> Readings {
     let number = chance();
-    let reading = if number % 3 == 0 { Reading::Empty } else { Reading::Value { number, text: number.to_string() } };
-    Readings { reading, odd: (number % 2 == 1).then_some(number) }
+    let reading =
+        if number.is_multiple_of(3) { Reading::Empty } else { Reading::Value { number, text: number.to_string() } };
+    Readings { reading, odd: (!number.is_multiple_of(2)).then_some(number) }
 }
 
 /// A device that writes its output in place, has an event, fails now and then, and counts what is asked of it.
@@ -66,10 +67,10 @@ impl Moody {
         self.calls += 1;
         let number = chance();
         level.set(number);
-        if number % 5 == 0 {
+        if number.is_multiple_of(5) {
             alarm.emit(number);
         }
-        if number % 7 == 0 { Err(format!("no more than {number}")) } else { Ok(()) }
+        if number.is_multiple_of(7) { Err(format!("no more than {number}")) } else { Ok(()) }
     }
 
     /// Answers with something that nobody knows.
