@@ -8,8 +8,14 @@ use std::{path::Path, process::ExitCode};
 pub fn run(file: &Path) -> Result<ExitCode, String> {
     let mut checked = project::check(file)?;
     let place = |_| proc_macro2::Span::call_site();
-    let code =
-        passes::generate(&checked.programs, &checked.catalog, &checked.sources, &place, &mut checked.diagnostics);
+    let code = passes::generate(
+        &checked.programs,
+        &checked.catalog,
+        &checked.sources,
+        &place,
+        false,
+        &mut checked.diagnostics,
+    );
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));

@@ -158,6 +158,22 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         path: Option<PathBuf>,
     },
+    /// Repeat a recorded run, and say what comes out differently.
+    #[command(
+        after_help = "The robot is built, and takes what its sources sent, at the times at which they did. What it makes of that is compared with\nthe recording, token by token, for the ports that its `record` statement names.\nExit code 0: all the same, 1: something was different (or the text has errors).\n\nExample:\n  apex run robot.afg --record run.mcap\n  apex replay run.mcap robot.afg"
+    )]
+    Replay {
+        /// The recording (MCAP), by `apex run --record` or a `record` statement.
+        recording: PathBuf,
+        /// The text.
+        file: PathBuf,
+        /// Which robot or graph, if the text has several.
+        #[arg(long)]
+        robot: Option<String>,
+        /// Sets parameters from this file (TOML) before the run, as `apex run` does.
+        #[arg(long, value_name = "FILE")]
+        params: Option<PathBuf>,
+    },
     /// Run the tests of a text on simulated time.
     #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
     Test {
@@ -188,6 +204,10 @@ enum Command {
         /// Measures every node: writes a trace for Perfetto or Chrome into this file, and a table when the run ends, also by Ctrl-C.
         #[arg(long, value_name = "FILE")]
         profile: Option<PathBuf>,
+        /// Records everything that enters the robot, and what its `record` statement names, in this file (MCAP); a file that is
+        /// there is kept, and the next one has a number.
+        #[arg(long, value_name = "FILE", conflicts_with = "profile")]
+        record: Option<PathBuf>,
         /// Arguments for the program.
         #[arg(last = true)]
         args: Vec<String>,
@@ -227,10 +247,24 @@ fn main() -> ExitCode {
         Command::Lsp => lsp::run(),
         Command::New { folder, path } => new::run(&folder, path.as_deref()),
         Command::Test { file, filter } => test::run(&file, filter.as_deref()),
-        Command::Run { file, robot, params, save_params, watch, profile, args } => {
+        Command::Replay { recording, file, robot, params } => {
+            let params = run::Params { load: params, save: None };
+            let (robot, recording) = (robot.as_deref(), run::Recording::Repeated(&recording));
+            run::run(&run::Wanted {
+                file: &file,
+                robot,
+                params: &params,
+                profile: None,
+                recording,
+                args: &[],
+                watch: false,
+            })
+        }
+        Command::Run { file, robot, params, save_params, watch, profile, record, args } => {
             let params = run::Params { load: params, save: save_params };
             let (robot, profile) = (robot.as_deref(), profile.as_deref());
-            let wanted = run::Wanted { file: &file, robot, params: &params, profile, args: &args, watch };
+            let recording = record.as_deref().map_or(run::Recording::Stated, run::Recording::Made);
+            let wanted = run::Wanted { file: &file, robot, params: &params, profile, recording, args: &args, watch };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };

@@ -7,7 +7,7 @@ use std::{
     env,
     ffi::OsString,
     fs,
-    io::{self, IsTerminal},
+    io::{self, IsTerminal, Read as _},
     path::{Path, PathBuf},
     process::{Command, ExitCode},
 };
@@ -38,10 +38,15 @@ impl Params {
         if save.exists() && !save.is_file() {
             return Err(format!("cannot write `{}`: it is no file, which could be replaced", shown(save)));
         }
-        match save.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
-            Some(folder) => Err(format!("cannot write `{}`: there is no folder `{}`", shown(save), shown(folder))),
-            None => Ok(()),
-        }
+        has_folder(save).map_err(|e| format!("cannot write `{}`: {e}", shown(save)))
+    }
+}
+
+/// Whether a file could be made: the folder is there.
+fn has_folder(file: &Path) -> Result<(), String> {
+    match file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        Some(folder) => Err(format!("there is no folder `{}`", folder.display())),
+        None => Ok(()),
     }
 }
 
@@ -51,6 +56,57 @@ const SAVE: &str = "APEX_SAVE_PARAMS";
 const KEPT: &str = "APEX_KEPT_PARAMS";
 /// The variable by which every program learns where its profile is written (`apex_rt::drive`).
 const PROFILE: &str = "APEX_PROFILE";
+
+/// The variables by which every program learns which recording it makes or repeats (`apex_rt::drive`).
+const RECORD: &str = "APEX_RECORD";
+const REPLAY: &str = "APEX_REPLAY";
+
+/// What is to be done with a recording.
+#[derive(Clone, Copy, Default)]
+pub enum Recording<'a> {
+    /// What the text says.
+    #[default]
+    Stated,
+    /// The run is recorded in this file.
+    Made(&'a Path),
+    /// The run in this file is repeated.
+    Repeated(&'a Path),
+}
+
+/// The feature of programs that can be recorded, and the library whose types then are messages.
+pub const RECORDS: &str = "record";
+const NODES: &str = "apex-nodes";
+
+/// How an MCAP file begins.
+const MAGIC: &[u8; 8] = b"\x89MCAP0\r\n";
+
+impl Recording<'_> {
+    /// Says before a build what would be wrong after it.
+    fn look(self) -> Result<(), String> {
+        match self {
+            Self::Stated => Ok(()),
+            Self::Made(path) if path.is_dir() => {
+                Err(format!("cannot record to `{}`: it is a folder; name a file in it", path.display()))
+            }
+            Self::Made(path) => has_folder(path).map_err(|e| format!("cannot record to `{}`: {e}", path.display())),
+            Self::Repeated(path) => {
+                let what = |what: &str| Err(format!("cannot read `{}`: {what}", path.display()));
+                if path.is_dir() {
+                    return what("it is a folder");
+                }
+                let mut magic = [0; 8];
+                match fs::File::open(path).and_then(|mut file| file.read_exact(&mut magic)) {
+                    Ok(()) if magic == *MAGIC => Ok(()),
+                    Ok(()) => what("it is no MCAP file, or its beginning is damaged"),
+                    Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+                        what("it is empty, or was cut off before anything was recorded")
+                    }
+                    Err(error) => what(&error.to_string()),
+                }
+            }
+        }
+    }
+}
 
 /// What is to be run.
 pub struct Wanted<'a> {
@@ -62,6 +118,8 @@ pub struct Wanted<'a> {
     pub params: &'a Params,
     /// Where its profile is written.
     pub profile: Option<&'a Path>,
+    /// What is recorded or repeated.
+    pub recording: Recording<'a>,
     /// Arguments for the program.
     pub args: &'a [String],
     /// Whether it is built again and again, and what it changed in its parameters is kept.
@@ -98,6 +156,13 @@ impl Wanted<'_> {
             Some(path) => command.env(PROFILE, env::current_dir().unwrap_or_default().join(path)),
             None => command.env_remove(PROFILE),
         };
+        let here = |path: &Path| env::current_dir().unwrap_or_default().join(path);
+        command.env_remove(RECORD).env_remove(REPLAY);
+        match self.recording {
+            Recording::Stated => {}
+            Recording::Made(path) => drop(command.env(RECORD, here(path))),
+            Recording::Repeated(path) => drop(command.env(REPLAY, here(path))),
+        }
         let Some(made) = &program.made else { return };
         let kept = self.watch.then(|| made.join("kept"));
         for (name, path) in [(LOAD, &self.params.load), (SAVE, &self.params.save), (KEPT, &kept)] {
@@ -116,18 +181,25 @@ impl Wanted<'_> {
             return Ok(None);
         }
         self.params.look(self.file)?;
+        self.recording.look()?;
         let folder = package(self.file)?;
         let workspace = Workspace::load(&folder)?;
         has_runtime(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
-        match binary.filter(|_| self.robot.is_none()) {
+        // A program of one's own may have a loop of its own, which repeats nothing.
+        let repeats = matches!(self.recording, Recording::Repeated(_));
+        match binary.filter(|_| self.robot.is_none() && !repeats) {
             Some(binary) if self.params.are_wanted() => Err(format!(
                 "`--params` and `--save-params` are for programs that are made for the text, but `{binary}` is a program of its own: leave them out, or choose a robot with `--robot`"
             )),
             Some(binary) => {
                 let mut select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
-                if self.profile.is_some() {
-                    select.extend(["--features", "apex-rt/profile"].map(OsString::from));
+                let records = checked.programs.iter().any(|p| p.graph.record.is_some());
+                for feature in self.features(false, records) {
+                    select.extend(["--features".into(), format!("apex-rt/{feature}").into()]);
+                    if feature == RECORDS && workspace.libraries().iter().any(|(name, _)| *name == NODES) {
+                        select.extend(["--features".into(), format!("{NODES}/{feature}").into()]);
+                    }
                 }
                 Ok(Some(Found { select, folder, target: workspace.target, made: None }))
             }
@@ -135,25 +207,29 @@ impl Wanted<'_> {
         }
     }
 
+    /// The features of the runtime that the program needs; `records` if its text says so.
+    fn features(&self, params: bool, records: bool) -> Vec<&'static str> {
+        let records = records || !matches!(self.recording, Recording::Stated);
+        let wanted = [("params", params), ("ctrl-c", params), ("profile", self.profile.is_some()), (RECORDS, records)];
+        wanted.into_iter().filter(|(_, wanted)| *wanted).map(|(feature, _)| feature).collect()
+    }
+
     /// Makes a package whose only job is to drive the program.
     fn make(&self, program: &Program, workspace: &Workspace) -> Result<Found, String> {
         let graph = &program.graph;
         if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
             return Err(format!(
-                "`{}` of `{}` is made in Rust: run it from a program of your own",
-                node.name, graph.name
+                "`{}` of `{}` is made in Rust: run it from a program of your own{}",
+                node.name,
+                graph.name,
+                if matches!(self.recording, Recording::Repeated(_)) { ", with `apex_rt::record::replay`" } else { "" }
             ));
         }
         let params = self.watch || self.params.are_wanted();
-        let features: &[&str] = match (params, self.profile.is_some()) {
-            (true, true) => &["params", "ctrl-c", "profile"],
-            (true, false) => &["params", "ctrl-c"],
-            (false, true) => &["profile"],
-            (false, false) => &[],
-        };
         let made = workspace.cache_folder().join("run").join(&graph.name);
         let main = main_file(&absolute(self.file)?, &graph.name, params);
-        let manifest = make_package(&made, workspace, features, "src/main.rs", &main)?;
+        let manifest =
+            make_package(&made, workspace, &self.features(params, graph.record.is_some()), "src/main.rs", &main)?;
         let target = workspace.target.join("apex/run");
         let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.clone().into()].to_vec();
         // Files are named as the user sees them.
@@ -169,6 +245,15 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     command.arg("--");
     wanted.tell(&program, &mut command);
     let status = command.status().map_err(|e| no_cargo(&e))?;
+    if let Recording::Made(path) = wanted.recording
+        && status.success()
+        && !path.exists()
+    {
+        return Err(format!(
+            "nothing was recorded to `{}`: a program of your own records if `apex_rt::run` or `apex_rt::drive` drives it, or with an `apex_rt::record::Recorder`",
+            path.display()
+        ));
+    }
     Ok(status.code().and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from))
 }
 
@@ -233,12 +318,19 @@ pub fn make_package(
         .libraries()
         .iter()
         .map(|(name, path)| match *name {
+            NODES if features.contains(&RECORDS) => {
+                format!("{name} = {{ path = {path:?}, features = [{RECORDS:?}] }}\n")
+            }
             "apex-rt" => format!("{name} = {{ path = {path:?}, features = {features:?} }}\n"),
             _ => format!("{name} = {{ path = {path:?} }}\n"),
         })
         .collect();
+    // Cargo tells packages of one name apart by what they are made of only: the program of another text would count as up
+    // to date.
+    let made_for = folder.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let made_for = made_for.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     let manifest = format!(
-        "[package]\nname = \"apex-run\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
+        "[package]\nname = \"apex-run-{made_for}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
     );
     let write = |path: PathBuf, text: &str| {
         let same = fs::read_to_string(&path).is_ok_and(|old| old == text);

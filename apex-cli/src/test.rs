@@ -1,6 +1,7 @@
 //! `apex test`: the tests of a text, as Rust tests.
 
 use crate::{project, run};
+use apex_dsl::script::Step;
 use apex_host::{Workspace, cargo, no_cargo};
 use std::{path::Path, process::ExitCode};
 
@@ -23,7 +24,11 @@ pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
     let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = workspace.cache_folder().join("test").join(name);
     let code = format!("use apex_rt::prelude::*;\n\ngraph!({text:?});\n");
-    let manifest = run::make_package(&folder, &workspace, &[], "src/lib.rs", &code)?;
+    let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
+    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref());
+    let recorded = scripts.flat_map(|script| &script.steps).any(is_recorded);
+    let features: &[&str] = if recorded { &[run::RECORDS] } else { &[] };
+    let manifest = run::make_package(&folder, &workspace, features, "src/lib.rs", &code)?;
     let target = workspace.target.join("apex/test");
     run::say_if_first(&target);
     let mut command = cargo();

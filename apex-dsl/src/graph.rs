@@ -49,10 +49,23 @@ pub struct Graph {
     pub claims: Vec<Claim>,
     /// What the text says about the threads of groups.
     pub threads: Vec<ThreadSettings>,
+    /// What its `record` statement says.
+    pub record: Option<Record>,
     /// Nodes with an input that hangs on an unconnected port of the nested graph around them; reported there.
     pub open_pins: BTreeSet<NodeId>,
     /// Inputs whose connection could not be made, which has been reported.
     pub excused: BTreeSet<End>,
+}
+
+/// A `record` statement: the file, and ports whose tokens are recorded besides what comes from outside.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// The file.
+    pub file: String,
+    /// The ports.
+    pub ports: Vec<End>,
+    /// Its place in the text.
+    pub span: Span,
 }
 
 /// An instance of a nested graph.

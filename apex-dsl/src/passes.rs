@@ -102,18 +102,19 @@ pub fn memory<'a>(
 }
 
 /// Rust for `programs`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in
-/// the code that called `graph!`.
+/// the code that called `graph!`; `recordable` if the runtime that it will call can record.
 pub fn generate(
     programs: &[Program],
     catalog: &Catalog,
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
+    recordable: bool,
     diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     if diagnostics.has_errors() {
         return TokenStream::new();
     }
     let machines = codegen::machines(catalog);
-    let programs = programs.iter().map(|p| codegen::generate(p, catalog, sources, place));
+    let programs = programs.iter().map(|p| codegen::generate(p, catalog, sources, place, recordable));
     std::iter::once(machines).chain(programs).collect()
 }

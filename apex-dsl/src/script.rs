@@ -32,6 +32,15 @@ pub enum Step {
         /// From token to token.
         every: Option<Duration>,
     },
+    /// The tokens of a channel of a recording for a port of the program, at their times.
+    FeedRecorded {
+        /// The port.
+        port: NodeId,
+        /// The file, from the folder of the text.
+        file: String,
+        /// The channel.
+        channel: String,
+    },
     /// Lets time pass.
     Wait(Duration),
     /// Something is to happen until then; without a time it has to have happened by now.

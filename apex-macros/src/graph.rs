@@ -52,7 +52,7 @@ fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
     let programs = passes::check(text.root, &mut catalog, &mut text.sources, &mut disk, &mut diagnostics);
     disk.save();
     let place = |span: Span| place(&text, span);
-    let code = passes::generate(&programs, &catalog, &text.sources, &place, &mut diagnostics);
+    let code = passes::generate(&programs, &catalog, &text.sources, &place, cfg!(feature = "record"), &mut diagnostics);
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error).map(|d| error(d, &text));
     let watched = watched(&text, &workspace);
     Ok(quote! { #(#errors)* #(#watched)* #code })

@@ -2,6 +2,9 @@ use crate::Time;
 
 /// Where a program's time comes from.
 pub trait Clock {
+    /// Whether its time stands still while nobody asks for it.
+    const SIMULATED: bool = false;
+
     /// The time now.
     fn now(&mut self) -> Time;
 
@@ -39,6 +42,8 @@ impl SimClock {
 }
 
 impl Clock for SimClock {
+    const SIMULATED: bool = true;
+
     fn now(&mut self) -> Time {
         self.now
     }

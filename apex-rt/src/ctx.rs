@@ -51,11 +51,23 @@ impl Ctx {
     /// Whether node `node` has finished later than its `deadline` allows, which the observer is told.
     #[doc(hidden)]
     pub fn is_late<O: Observer>(&self, node: usize, deadline: Duration, observer: &mut O) -> bool {
-        let age = self.now.since(self.stamp).saturating_add(observer.elapsed());
+        let age = self.now.since(self.stamp).saturating_add(elapsed(observer));
         let late = age > deadline;
         if late {
             observer.late(node, age);
         }
         late
     }
+}
+
+/// How long the reaction has been going on; in a replay, what it was then.
+#[inline(always)]
+fn elapsed<O: Observer>(observer: &mut O) -> Duration {
+    let elapsed = observer.elapsed();
+    #[cfg(feature = "record")]
+    let elapsed = match observer.tap() {
+        Some(tap) => tap.elapsed(elapsed),
+        None => elapsed,
+    };
+    elapsed
 }

@@ -24,6 +24,8 @@ pub mod params;
 #[cfg(feature = "profile")]
 pub mod profile;
 mod queue;
+#[cfg(feature = "record")]
+pub mod record;
 mod run;
 #[cfg(feature = "std")]
 mod stop;

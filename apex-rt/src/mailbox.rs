@@ -25,6 +25,11 @@ impl<T> Mailbox<T> {
         Ok(())
     }
 
+    /// The token that waits in it.
+    pub const fn peek(&self) -> Option<&T> {
+        self.token.as_ref()
+    }
+
     /// Whether a token waits in it.
     pub const fn is_full(&self) -> bool {
         self.token.is_some()

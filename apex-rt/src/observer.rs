@@ -80,6 +80,13 @@ pub trait Observer {
     fn claim_failed(&mut self, claim: usize) {
         let _ = claim;
     }
+
+    /// Where a program lets tokens out, to be recorded, or takes recorded ones in.
+    #[cfg(feature = "record")]
+    #[inline(always)]
+    fn tap(&mut self) -> Option<&mut crate::record::Tap> {
+        None
+    }
 }
 
 impl Observer for () {}
@@ -137,6 +144,11 @@ macro_rules! pass_on_others {
         }
         fn claim_failed(&mut $self, claim: usize) {
             $($to.claim_failed(claim);)+
+        }
+        #[cfg(feature = "record")]
+        #[inline(always)]
+        fn tap(&mut $self) -> Option<&mut crate::record::Tap> {
+            None$(.or($to.tap()))+
         }
     };
 }

@@ -39,6 +39,16 @@ pub trait Program {
     /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next;
 
+    /// The file in which the program is recorded, by its `record` statement.
+    #[cfg(feature = "record")]
+    const RECORD: Option<&'static str> = None;
+
+    /// What can be recorded of it.
+    #[cfg(feature = "record")]
+    fn channels() -> std::vec::Vec<crate::record::Channel> {
+        std::vec::Vec::new()
+    }
+
     /// The connections (by index) whose events a node waits for although other tokens for it have come. Where nothing
     /// else is to happen, that is a deadlock.
     fn waiting(&self, found: impl FnMut(usize)) {
@@ -80,6 +90,14 @@ impl<P: Program> Program for &mut P {
         (**self).on_threads(wake, spawn);
     }
 
+    #[cfg(feature = "record")]
+    const RECORD: Option<&'static str> = P::RECORD;
+
+    #[cfg(feature = "record")]
+    fn channels() -> std::vec::Vec<crate::record::Channel> {
+        P::channels()
+    }
+
     fn is_active(&self, node: usize) -> bool {
         (**self).is_active(node)
     }
@@ -109,10 +127,16 @@ impl<C: Clock> Observer for Stopwatch<'_, C> {
 ///
 /// With the feature `profile` and a file in the environment variable `APEX_PROFILE`, the trace of a
 /// [`Profile`](crate::profile::Profile) is written there, and its table to standard error; Ctrl-C then ends the program.
+/// With the feature `record`, the run is recorded in the file that the environment variable `APEX_RECORD` names, or else a
+/// `record` statement of the text; or, if `APEX_REPLAY` names a recording, that is replayed instead.
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
     #[cfg(feature = "profile")]
     if let Some(path) = std::env::var_os("APEX_PROFILE") {
         return crate::profile::drive(program, clock, path.as_ref());
+    }
+    #[cfg(feature = "record")]
+    if let Some(wish) = crate::record::Wish::of::<P>() {
+        return crate::record::drive(program, clock, &wish);
     }
     #[cfg(feature = "std")]
     if let Some(pace) = clock.pace().filter(|_| !P::INFO.groups.is_empty()) {

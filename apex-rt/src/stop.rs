@@ -37,7 +37,7 @@ impl<C: Clock> UntilStopped<C> {
     }
 
     /// The same, unless somebody else handles the signals, who then has to end the clock.
-    #[cfg(feature = "profile")]
+    #[cfg(any(feature = "profile", feature = "record"))]
     pub(crate) fn ctrl_c_if_free(clock: C) -> Self {
         let _ = ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed));
         Self::new(clock, &STOPPED)
@@ -45,6 +45,8 @@ impl<C: Clock> UntilStopped<C> {
 }
 
 impl<C: Clock> Clock for UntilStopped<C> {
+    const SIMULATED: bool = C::SIMULATED;
+
     fn now(&mut self) -> Time {
         self.clock.now()
     }

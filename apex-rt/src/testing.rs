@@ -199,6 +199,21 @@ impl<P: Program + 'static> Test<P> {
         self.feeds.push((self.now, Box::new(feed)));
     }
 
+    /// Feeds each of `tokens` at its time, counted from now. One that finds no room is put in as soon as there is some.
+    pub fn feed_at<T: Clone + 'static>(&mut self, tokens: Vec<(Duration, T)>, put: fn(&mut P, T) -> Result<(), T>) {
+        let (start, mut at) = (self.now, 0);
+        let Some((first, _)) = tokens.first() else { return };
+        let first = start + *first;
+        let feed = move |program: &mut P, due: Time| {
+            if put(program, tokens[at].1.clone()).is_err() {
+                return Some(due);
+            }
+            at += 1;
+            tokens.get(at).map(|(time, _)| start + *time)
+        };
+        self.feeds.push((first, Box::new(feed)));
+    }
+
     /// Lets `time` pass.
     pub fn wait(&mut self, time: Duration) {
         let until = self.now + time;

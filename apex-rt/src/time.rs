@@ -8,6 +8,7 @@ use core::{
 ///
 /// Sums saturate at both ends instead of wrapping.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
 pub struct Time(i64);
 
 impl Time {

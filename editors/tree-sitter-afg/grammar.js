@@ -54,7 +54,7 @@ module.exports = grammar({
       ),
     unit_text: () => /[A-Za-z0-9\/*^%-]+/,
 
-    _statement: ($) => choice($.port, $.node, $.claim, $.connection),
+    _statement: ($) => choice($.port, $.node, $.claim, $.record, $.connection),
     port: ($) =>
       seq(
         field('kind', choice('in', 'out', 'slot', 'event')),
@@ -70,6 +70,8 @@ module.exports = grammar({
         ';',
       ),
     claim: ($) => seq('claim', field('kind', $.identifier), optional(seq('(', list($.reference), ')')), ';'),
+    record: ($) =>
+      seq('record', field('file', $.string), '{', repeat(seq($.reference, ';')), '}'),
     connection: ($) => seq($._end, repeat1(seq($.arrow, $._end)), ';'),
     arrow: () => choice('->', '=>'),
     _end: ($) => choice($.list, $.instance, $.reference),
@@ -126,10 +128,13 @@ module.exports = grammar({
       seq(
         'feed',
         field('port', $.identifier),
-        optional(seq('=', $.expression)),
-        optional(seq('every', $.expression)),
+        choice(
+          seq('=', $.recording),
+          seq(optional(seq('=', $.expression)), optional(seq('every', $.expression))),
+        ),
         ';',
       ),
+    recording: ($) => seq('recording', '(', $.string, ',', $.string, ')'),
     wait: ($) => seq('wait', $.expression, ';'),
     expect: ($) => seq('expect', $.condition, optional(seq(choice('by', 'within'), $.expression)), ';'),
     never: ($) => seq('never', $.condition, ';'),

@@ -21,6 +21,7 @@ mod nodes;
 #[allow(dead_code)]
 mod rates;
 mod readme;
+mod recording;
 mod texts;
 mod tour;
 
@@ -173,7 +174,9 @@ fn the_rust_in_the_documentation_is_compiled_here() {
     assert_eq!(blocks(&page("docs/embedding.md"), "rust"), embedding::BLOCKS);
     assert_eq!(blocks(&page("docs/from/copper.md"), "rust"), [include_str!("from/copper.rs")]);
     assert_eq!(blocks(&page("docs/from/cs-apex.md"), "rust"), [include_str!("from/cs_apex.rs")]);
+    assert_eq!(blocks(&page("docs/recording.md"), "rust"), [include_str!("recording.rs")]);
     readme::main();
+    recording::main().expect("the file can be written and read");
     language::main();
     embedding::main();
     from::copper::main();

@@ -37,20 +37,6 @@ pub fn catalog() -> Catalog {
     Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0] }, &mut Disk::new(None))
 }
 
-/// Nodes of a crate without a heap, and of one that has the standard library.
-pub fn bare_catalog() -> Catalog {
-    let spec = |name: &str, dependencies| CrateSpec {
-        name: name.to_owned(),
-        root: folder().join(format!("{name}.rs")),
-        features: BTreeSet::from(["std".to_owned()]),
-        externs: BTreeSet::from(["core".to_owned()]),
-        dependencies,
-    };
-    let dependencies = BTreeMap::from([("library".to_owned(), 1)]);
-    let all = vec![spec("bare", dependencies), spec("library", BTreeMap::new())];
-    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0] }, &mut Disk::new(None))
-}
-
 /// Takes `text`, which stands in `path`, through all passes up to generated code.
 pub fn compile(path: &Path, text: &str, catalog: &mut Catalog) -> Compiled {
     let mut sources = Sources::default();
@@ -58,6 +44,6 @@ pub fn compile(path: &Path, text: &str, catalog: &mut Catalog) -> Compiled {
     let root = sources.add(path, text);
     let programs = passes::check(root, catalog, &mut sources, &mut Disk::new(None), &mut diagnostics);
     let place = |_| proc_macro2::Span::call_site();
-    passes::generate(&programs, catalog, &sources, &place, &mut diagnostics);
+    passes::generate(&programs, catalog, &sources, &place, false, &mut diagnostics);
     Compiled { sources, diagnostics }
 }

@@ -10,10 +10,14 @@ mod library;
 mod nodes;
 mod pages;
 
-use apex_dsl::report::Diagnostic;
-use compile::{Compiled, bare_catalog, catalog, compile, folder};
+use apex_dsl::{
+    catalog::{Catalog, CrateSpec, Crates},
+    report::Diagnostic,
+};
+use apex_host::Disk;
+use compile::{Compiled, catalog, compile, folder};
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeMap, BTreeSet},
     env, fs,
     path::{Path, PathBuf},
 };
@@ -30,6 +34,20 @@ fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     }
     found.sort();
     found
+}
+
+/// Nodes of a crate without a heap, and of one that has the standard library.
+fn bare_catalog() -> Catalog {
+    let spec = |name: &str, dependencies| CrateSpec {
+        name: name.to_owned(),
+        root: folder().join(format!("{name}.rs")),
+        features: BTreeSet::from(["std".to_owned()]),
+        externs: BTreeSet::from(["core".to_owned()]),
+        dependencies,
+    };
+    let dependencies = BTreeMap::from([("library".to_owned(), 1)]);
+    let all = vec![spec("bare", dependencies), spec("library", BTreeMap::new())];
+    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0] }, &mut Disk::new(None))
 }
 
 /// All texts with what the compiler says about them.

@@ -49,7 +49,7 @@ fn a_cell_gives_every_token_once_and_in_order() {
         });
         for expected in 1..=2 {
             let token = loop {
-                if let Some(token) = receiver.take(|place| std::mem::take(place)) {
+                if let Some(token) = receiver.take(std::mem::take) {
                     break token;
                 }
                 thread::yield_now();

@@ -20,6 +20,7 @@ pub mod nodes {
     mod ops;
     mod params;
     mod rates;
+    mod recorded;
     mod scripted;
     mod sinks;
     mod sources;
@@ -34,6 +35,7 @@ pub mod nodes {
     pub use ops::*;
     pub use params::*;
     pub use rates::*;
+    pub use recorded::*;
     pub use scripted::*;
     pub use sinks::*;
     pub use sources::*;

@@ -11,6 +11,7 @@ mod docs;
 mod import;
 mod memory;
 mod new;
+mod record;
 mod watch;
 
 /// Where all that these tests make is built, so that what it needs is built once.

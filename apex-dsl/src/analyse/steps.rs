@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use crate::graph::{Flow, Graph};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Something that takes a step: a cluster that fires, or the slot at the end of a connection that is called.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,8 +25,8 @@ impl Analysis {
                 let steps: Option<u64> =
                     below.into_iter().try_fold(1u64, |sum, steps: Option<u64>| Some(sum.saturating_add(steps?)));
                 known.insert(step, steps);
-            } else if !known.contains_key(&step) {
-                known.insert(step, None);
+            } else if let Entry::Vacant(entry) = known.entry(step) {
+                entry.insert(None);
                 open.push((step, true));
                 open.extend(next.into_iter().filter(|next| !known.contains_key(next)).map(|next| (next, false)));
             }

@@ -16,6 +16,7 @@ use crate::{
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
+use syn::Ident;
 
 impl Generator<'_> {
     /// Fields of the program's state that the dispatcher needs, with what they start as.
@@ -112,7 +113,7 @@ impl Generator<'_> {
         code
     }
 
-    /// `react_with`.
+    /// `react_with`; where it is recorded, what is inside of that.
     pub fn react(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
         let queued = analysis.asynchronous.delivery == Delivery::Queued;
@@ -239,6 +240,11 @@ impl Generator<'_> {
         }
     }
 
+    /// The name of the function that reacts.
+    pub fn reaction(&self) -> Ident {
+        ident(if self.channels.is_some() { "reaction" } else { "react_with" })
+    }
+
     /// The head of the function that reacts. A part of a program has ends of cells besides, and goes on with a reaction
     /// when other parts did something meanwhile.
     fn signature(&self, graph: &Graph) -> TokenStream {
@@ -256,9 +262,12 @@ impl Generator<'_> {
                     ) -> ::apex_rt::Next
                 }
             }
-            None => quote! {
-                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next
-            },
+            None => {
+                let name = self.reaction();
+                quote! {
+                    fn #name<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next
+                }
+            }
         }
     }
 

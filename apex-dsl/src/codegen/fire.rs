@@ -173,8 +173,8 @@ impl<'a> Emitter<'a> {
         let (take, fire) = (self.generator.take_activity(self.whole, node), self.fire(node, block));
         // A delay has sent its token before it takes one.
         let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
-        let heard = self.heard(node, block);
-        quote! { #take #fire #heard #pass }
+        let (heard, chosen) = (self.heard(node, block), self.chosen_outputs(node, block));
+        quote! { #take #fire #heard #chosen #pass }
     }
 
     /// A source whose silence is watched has sent something.
@@ -270,6 +270,7 @@ impl<'a> Emitter<'a> {
         let call = self.with_checked_params(node, library, signature, call, block);
         let call = if told { self.told(node, signature, call, block) } else { call };
         let results = self.results(node, library, signature, call, told);
+        let results = self.recorded(node, block, results, processed);
         let outputs = self.param_outputs(node, library, signature, block);
         let late = self.generator.check_late(self.whole, node);
         let code = quote! { observer.fired(#index); #params #results #outputs #late observer.finished(#index); };

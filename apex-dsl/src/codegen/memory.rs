@@ -31,7 +31,16 @@ pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Pi
     let mut used = BTreeSet::new();
     let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
     let place = |_| proc_macro2::Span::call_site();
-    let generator = Generator { catalog, sources, names: &names, place: &place, outer: None, part: None, cells: &[] };
+    let generator = Generator {
+        catalog,
+        sources,
+        names: &names,
+        place: &place,
+        outer: None,
+        part: None,
+        cells: &[],
+        channels: None,
+    };
     let Some(split) = &program.split else { return generator.pieces(graph, &program.analysis) };
     let mut pieces = vec![];
     for part in &split.parts {

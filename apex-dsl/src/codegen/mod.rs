@@ -14,6 +14,7 @@ mod params;
 mod plan;
 mod program;
 mod rates;
+mod record;
 mod slots;
 mod stamps;
 mod state;
@@ -52,6 +53,8 @@ pub struct Generator<'a> {
     part: Option<(&'a Graph, &'a Part)>,
     /// What is between the parts.
     cells: &'a [Cell],
+    /// What is recorded, if the program can be recorded; not in the body of an `each`.
+    channels: Option<&'a record::Channels>,
 }
 
 /// Names of locals and fields: those of the text, made unique.
@@ -152,9 +155,9 @@ impl Names {
     }
 }
 
-/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, `claim_0` …, `stamp_0` …, and `token_` with
+/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, `claim_0` …, `stamp_0` …, `recorded_0` …, and `token_` with
 /// the name of a port.
-const OWN: [&str; 19] = [
+const OWN: [&str; 21] = [
     "state",
     "nodes",
     "inputs",
@@ -174,12 +177,14 @@ const OWN: [&str; 19] = [
     "steps",
     "exit",
     "started",
+    "tap",
+    "recorded",
 ];
 
 /// `name`, or something like it that is not used yet.
 fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
     if OWN.contains(&name.as_str())
-        || ["param_", "token_", "carries_", "claim_", "stamp_"].iter().any(|own| name.starts_with(own))
+        || ["param_", "token_", "carries_", "claim_", "stamp_", "recorded_"].iter().any(|own| name.starts_with(own))
     {
         name.push('_');
     }
@@ -189,18 +194,21 @@ fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
     name
 }
 
-/// The program of a graph, with the test that it is made for, if there is one.
+/// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be recorded.
 pub fn generate(
     program: &Program,
     catalog: &Catalog,
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
+    recordable: bool,
 ) -> TokenStream {
     let graph = &program.graph;
     let mut used = BTreeSet::new();
     let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
     let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
-    let generator = Generator { catalog, sources, names: &names, place, outer: None, part: None, cells };
+    let channels = record::Channels::new(graph, &program.analysis, catalog);
+    let channels = recordable.then_some(&channels);
+    let generator = Generator { catalog, sources, names: &names, place, outer: None, part: None, cells, channels };
     let code = match &program.split {
         Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
         None => generator.program(graph, &program.analysis),
@@ -225,7 +233,7 @@ impl<'a> Generator<'a> {
     /// The generator for the body of the `each` node `node` of `graph`.
     fn inside(&'a self, graph: &'a Graph, node: NodeId) -> Generator<'a> {
         let names = self.names.inner.get(&node).unwrap_or(self.names);
-        Generator { names, outer: Some((graph, node, self)), part: None, ..*self }
+        Generator { names, outer: Some((graph, node, self)), part: None, channels: None, ..*self }
     }
 
     /// For types: the generator of the graph of all thread groups. A type may depend on a node of another group.

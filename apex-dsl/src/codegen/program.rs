@@ -35,7 +35,9 @@ impl Generator<'_> {
         let name = ident(&graph.name);
         let whole = Whole { graph, analysis, links: &analysis.links };
         let bits = Bits::new(graph, analysis);
-        let (items, react) = (self.items(whole, &bits), self.react(whole, &bits));
+        let items = self.items(whole, &bits);
+        let (own_react, react) = self.around(graph, self.react(whole, &bits), &quote!(self));
+        let recording = self.recording(graph);
         let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
         let waiting = self.waiting(whole, &bits);
         let clusters: Vec<Vec<NodeId>> = analysis.clusters.iter().map(Cluster::schedule).collect();
@@ -50,16 +52,26 @@ impl Generator<'_> {
                 /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
                 #[inline]
                 pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
+                #own_react
             }
             #[allow(unused, clippy::all)]
             impl ::apex_rt::Program for #name {
                 const INFO: ::apex_rt::Info = #info;
+                #recording
                 #react
                 #is_active
                 #is_graph_active
                 #waiting
             }
             #parameters
+        }
+    }
+
+    /// How a program reacts: in a function of its own if it is recorded, and as `Program` knows it.
+    pub fn around(&self, graph: &Graph, react: TokenStream, ports: &TokenStream) -> (TokenStream, TokenStream) {
+        match self.channels {
+            Some(_) => (react, self.recorded_react(graph, ports)),
+            None => (quote!(), react),
         }
     }
 

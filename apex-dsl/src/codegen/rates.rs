@@ -198,6 +198,7 @@ impl Generator<'_> {
             quote!(#place.process(#(#args),*))
         };
         let sends = self.sends_at_rate(graph, links, node, signature, call, index);
+        let sends = self.recorded_at_rate(graph, node, sends);
         let told = if is_told(graph, self.catalog, node) {
             let (place, method) =
                 (self.node_place(graph, node), ident(signature.no_message.as_deref().unwrap_or_default()));

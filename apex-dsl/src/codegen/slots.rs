@@ -47,10 +47,11 @@ impl Generator<'_> {
             let sent: TokenStream = connections_of_values.iter().map(|c| self.sent(whole, bits, *c)).collect();
             let present = self.waits(whole.graph, from(connections[0]));
             let missing = missing.iter().map(|c| self.sent(whole, bits, *c));
-            let sent = if sent.is_empty() {
+            let chosen = self.chosen_event(whole.graph, from(connections[0]));
+            let sent = if sent.is_empty() && chosen.is_empty() {
                 quote!()
             } else {
-                quote! { if #present { #sent } }
+                quote! { if #present { #chosen #sent } }
             };
             quote! { #(#missing)* #sent }
         });
@@ -239,6 +240,7 @@ impl Generator<'_> {
         } else {
             quote! { #call; #late }
         };
+        let call = self.recorded_slot(graph, node, call);
         if graph.nodes[node].can_be_disabled() {
             let flag = self.flag(Flag::Enabled, node);
             quote! { if state.#flag { #call } }

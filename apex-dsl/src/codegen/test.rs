@@ -67,6 +67,7 @@ impl Generator<'_> {
                 };
                 quote! { test.feed::<#token>([#(#values),*], #every, |program, token| program.inputs.#name.put(token)); }
             }
+            Step::FeedRecorded { port, file, channel } => self.feed_recorded(graph, *port, file, channel),
             Step::Wait(time) => {
                 let time = duration(*time);
                 quote! { test.wait(#time); }
@@ -90,6 +91,19 @@ impl Generator<'_> {
                 let (test, text, place) = self.seen(seen);
                 quote! { test.never(|program| #test, #text, #place); }
             }
+        }
+    }
+
+    fn feed_recorded(&self, graph: &Graph, port: NodeId, file: &str, channel: &str) -> TokenStream {
+        if self.channels.is_none() {
+            let message = format!("`recording(\"{file}\", …)` in a test needs the feature `record` of `apex-rt`");
+            return quote! { ::core::compile_error!(#message); };
+        }
+        let (name, token) = (ident(&graph.nodes[port].name), self.token_type(graph, End { node: port, port: 0 }));
+        let text = self.sources.get(graph.span.file).path.display().to_string();
+        quote! {
+            let tokens = ::apex_rt::record::tokens::<#token>(#text, #file, #channel, ::apex_rt::__codec!(#token));
+            test.feed_at(tokens, |program, token| program.inputs.#name.put(token));
         }
     }
 

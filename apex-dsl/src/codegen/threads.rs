@@ -392,21 +392,9 @@ impl Program<'_> {
             quote!(self.#field.nodes)
         };
         let parameters = self.generator.parameters(self.graph, analysis, &place);
-        let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
-        quote! {
-            #[allow(unused, clippy::all)]
-            impl #name {
-                /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to be called next.
-                #[inline]
-                pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
-                /// Sets how many steps a reaction of a thread group may take before it is reported as an endless loop.
-                pub fn set_budget(&mut self, steps: u32) { #(self.#endless.set_budget(steps);)* }
-                #groups
-            }
-            #[allow(unused, clippy::all)]
-            impl ::apex_rt::Program for #name {
-                const INFO: ::apex_rt::Info = #info;
-                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+        let name_of_reaction = self.generator.reaction();
+        let react = quote! {
+                fn #name_of_reaction<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
                     let woken = ::apex_rt::threads::Woken::all(#count);
                     let mut groups = self.groups(&woken);
                     let mut next = [::apex_rt::Next::Input; #count];
@@ -426,6 +414,27 @@ impl Program<'_> {
                     observer.endless(&[#(#receiving),*], &counts);
                     ::apex_rt::Next::Now
                 }
+        };
+        let main = part_name(&parts[0]);
+        let (own_react, react) = self.generator.around(self.graph, react, &quote!(self.#main));
+        let recording = self.generator.recording(self.graph);
+        let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
+        quote! {
+            #[allow(unused, clippy::all)]
+            impl #name {
+                /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to be called next.
+                #[inline]
+                pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
+                /// Sets how many steps a reaction of a thread group may take before it is reported as an endless loop.
+                pub fn set_budget(&mut self, steps: u32) { #(self.#endless.set_budget(steps);)* }
+                #groups
+                #own_react
+            }
+            #[allow(unused, clippy::all)]
+            impl ::apex_rt::Program for #name {
+                const INFO: ::apex_rt::Info = #info;
+                #recording
+                #react
                 fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
                 where
                     W: ::apex_rt::threads::Wake + ::core::marker::Copy + ::core::marker::Send + 'a,

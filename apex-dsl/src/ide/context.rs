@@ -250,6 +250,7 @@ fn in_braces(tokens: &[Token<'_>], open: usize) -> Context {
         Some("state") => in_machine(written, true),
         Some("test") => in_test(written),
         Some("graph" | "robot") => in_graph(written),
+        Some("record") => in_record(written),
         _ => Context::Nothing,
     }
 }
@@ -271,9 +272,20 @@ fn in_graph(written: &[Token<'_>]) -> Context {
         ("node", [_, _, colon]) if colon.text == ":" => Context::Made(true),
         ("node", [_, _, colon, ..]) if colon.text == ":" && last.text == "<" => Context::Type,
         ("claim", [_]) => Context::Claim,
-        ("claim", _) => Context::Nothing,
+        ("claim" | "record", _) => Context::Nothing,
         ("thread", [_]) => Context::Nothing,
         _ => behind_instance(written).unwrap_or_else(|| in_chain(written)),
+    }
+}
+
+/// A port that is recorded.
+fn in_record(written: &[Token<'_>]) -> Context {
+    match written.split_last() {
+        None => Context::Name(Named::Node, None),
+        Some((last, before)) if last.text == "." => {
+            Context::Port(End::Reference(reference_before(before).0), Named::Tested, None)
+        }
+        Some(_) => Context::Nothing,
     }
 }
 

@@ -154,6 +154,7 @@ impl<'a> Walker<'a, '_> {
         }
         item.chains.iter().flat_map(|c| &c.ends).for_each(|end| self.endpoint(id, end));
         item.claims.iter().flat_map(|c| &c.of).for_each(|of| self.reference(id, of));
+        item.records.iter().flat_map(|r| &r.ports).for_each(|port| self.reference(id, port));
     }
 
     fn handed_in(&mut self, id: GraphId, ty: &TypeExpr, made: Option<NodeType>) {
@@ -351,7 +352,7 @@ impl<'a> Walker<'a, '_> {
         item.replaced.iter().for_each(|(of, _)| self.reference(id, of));
         for step in &item.steps {
             match step {
-                TestStep::Feed(port, ..) => {
+                TestStep::Feed(port, ..) | TestStep::FeedRecorded(port, ..) => {
                     let definition = self.names[&id].get(port.text.as_str()).copied();
                     definition.iter().for_each(|d| self.used(port, *d));
                 }

@@ -69,6 +69,7 @@ pages! {
     "wrong-claim"
     "wrong-direction"
     "wrong-modifier"
+    "wrong-record"
     "wrong-unit"
     "wrong-value"
 }

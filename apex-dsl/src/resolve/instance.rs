@@ -113,6 +113,7 @@ impl<'a> Builder<'a> {
     /// The whole graph, with boundary nodes for its ports.
     pub fn top(mut self, id: GraphId, purpose: Purpose) -> Option<Graph> {
         let item = self.texts.graph(id);
+        let is_program = matches!(purpose, Purpose::Program);
         let (given, is_body) = match purpose {
             Purpose::Program => (None, false),
             Purpose::Body(values) => (Some(values), true),
@@ -178,8 +179,13 @@ impl<'a> Builder<'a> {
             threads,
             open_pins,
             excused: ports(&self.excused),
+            record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
+        // A statement that could not be read may make what is to be recorded.
+        if is_program && !self.texts.are_broken() {
+            graph.record = super::record::record(&graph, item, self.diagnostics);
+        }
         require_function_params(&mut graph, self.catalog);
         Some(graph)
     }

@@ -8,6 +8,7 @@ mod generics;
 mod instance;
 mod link;
 mod names;
+mod record;
 mod testing;
 mod threads;
 pub mod value;

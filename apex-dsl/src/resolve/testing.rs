@@ -5,6 +5,7 @@ use super::{
     args,
     instance::{Builder, Purpose},
     names::{GraphId, Made, Texts, suggest},
+    record::sending_port,
     value::{Scope, Wanted, as_rust, duration, element_of, evaluate},
 };
 use crate::{
@@ -120,10 +121,14 @@ impl Writer<'_> {
                 Some(Step::Expect(seen, until))
             }
             TestStep::Feed(port, value, every) => self.feed(port, value.as_ref(), every.as_ref()),
+            TestStep::FeedRecorded(port, file, channel) => {
+                Some(Step::FeedRecorded { port: self.way_in(port)?, file: file.clone(), channel: channel.clone() })
+            }
         }
     }
 
-    fn feed(&mut self, port: &Ident, value: Option<&Expr>, every: Option<&Expr>) -> Option<Step> {
+    /// The port of the graph that a test puts tokens into.
+    fn way_in(&mut self, port: &Ident) -> Option<NodeId> {
         let is_way_in = |n: &crate::graph::Node| matches!(n.kind, NodeKind::Boundary(_));
         let ports: Vec<(NodeId, &str)> = self
             .graph
@@ -140,7 +145,12 @@ impl Writer<'_> {
             self.diagnostics.push(suggest(error, port, ports.iter().map(|(_, name)| *name)));
             return None;
         };
-        let (node, ty) = (*node, self.graph.nodes[*node].ports[0].ty.clone());
+        Some(*node)
+    }
+
+    fn feed(&mut self, port: &Ident, value: Option<&Expr>, every: Option<&Expr>) -> Option<Step> {
+        let node = self.way_in(port)?;
+        let ty = self.graph.nodes[node].ports[0].ty.clone();
         let every = match every {
             Some(time) => Some(self.time(time)?),
             None => None,
@@ -239,7 +249,7 @@ impl Writer<'_> {
         if let Some(node) = self.graph.nodes.iter().position(known) {
             return Some((node, self.graph.nodes[node].ports[0].ty.clone()));
         }
-        let Some(from) = self.sending_port(&path) else {
+        let Some(from) = sending_port(self.graph, &path) else {
             let ends = (0..self.graph.nodes.len()).flat_map(|node| {
                 let graph = &*self.graph;
                 (0..graph.nodes[node].ports.len()).map(move |port| graph.end_name(End { node, port }))
@@ -272,19 +282,6 @@ impl Writer<'_> {
             span,
         });
         Some((to.node, ty))
-    }
-
-    /// `node.port`, or `node` if only one port sends; also a graph-level input.
-    fn sending_port(&self, path: &str) -> Option<End> {
-        let graph = &*self.graph;
-        let ends: Vec<End> = (0..graph.nodes.len())
-            .flat_map(|node| (0..graph.nodes[node].ports.len()).map(move |port| End { node, port }))
-            .filter(|end| graph.port(*end).kind.sends())
-            .collect();
-        let exact = ends.iter().find(|end| format!("{}.{}", graph.path(end.node), graph.port(**end).name) == path);
-        let of_node: Vec<&End> =
-            ends.iter().filter(|end| graph.path(end.node) == path && graph.port(**end).parameter.is_none()).collect();
-        exact.copied().or(if let [only] = of_node.as_slice() { Some(**only) } else { None })
     }
 }
 

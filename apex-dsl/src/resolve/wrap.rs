@@ -67,6 +67,7 @@ impl Builder<'_> {
                 threads: vec![],
                 open_pins,
                 excused: BTreeSet::new(),
+                record: None,
             };
             generics::settle(&mut graph, builder.catalog);
             Some(graph)

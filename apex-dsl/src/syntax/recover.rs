@@ -22,6 +22,7 @@ pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
         "in" | "out" | "slot" | "event" => Rule::port_stmt,
         "claim" => Rule::claim_stmt,
         "thread" => Rule::thread_stmt,
+        "record" => Rule::record_stmt,
         _ => Rule::chain_stmt,
     };
     again(rule, file, start, text, "a statement is a port, a `node`, a connection or a `claim`")
@@ -151,7 +152,8 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::instance | Rule::endpoint => "a node or port",
         Rule::args => "`(`",
         Rule::ty | Rule::type_arg => "a type",
-        Rule::expr | Rule::primary | Rule::number | Rule::string => "a value",
+        Rule::expr | Rule::primary | Rule::number => "a value",
+        Rule::string => "a text",
         Rule::binary => "an operator",
         Rule::use_group => "`{`",
         Rule::type_args | Rule::generics => "`<`",
@@ -161,6 +163,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::claim_kw => "`claim`",
         Rule::thread_kw => "`thread`",
         Rule::setting => "a setting `name = value`",
+        Rule::record_kw => "`record`",
         Rule::graph_kw => "`graph` or `robot`",
         Rule::actions => "`->`",
         Rule::target => "`=>`",

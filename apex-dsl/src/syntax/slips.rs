@@ -22,7 +22,7 @@ pub struct Slip<'a> {
 }
 
 /// The words that begin a statement of a graph.
-const STATEMENTS: [&str; 6] = ["node", "in", "out", "slot", "event", "claim"];
+const STATEMENTS: [&str; 7] = ["node", "in", "out", "slot", "event", "claim", "record"];
 
 impl Slip<'_> {
     /// What was meant, if it is a slip that many make.

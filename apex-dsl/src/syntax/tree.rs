@@ -66,6 +66,8 @@ pub struct GraphItem {
     pub claims: Vec<Claim>,
     /// What is said about threads.
     pub threads: Vec<ThreadItem>,
+    /// `record` statements, of which one is right.
+    pub records: Vec<RecordItem>,
     /// From its documentation to its closing bracket.
     pub extent: Span,
 }
@@ -357,6 +359,8 @@ pub struct TestItem {
 pub enum TestStep {
     /// `feed port = value every 10ms;`
     Feed(Ident, Option<Expr>, Option<Expr>),
+    /// `feed port = recording("run.mcap", "laser.scan");`
+    FeedRecorded(Ident, String, String),
     /// `wait 50ms;`
     Wait(Expr),
     /// `expect condition within 50ms;`, `expect condition by 2s;`
@@ -450,6 +454,17 @@ pub struct ThreadItem {
     pub name: Ident,
     /// What is set.
     pub settings: Vec<(Ident, Expr)>,
+}
+
+/// `record "run.mcap" { laser.scan; }`
+#[derive(Debug)]
+pub struct RecordItem {
+    /// The file.
+    pub file: String,
+    /// The ports.
+    pub ports: Vec<PortRef>,
+    /// The word and the file.
+    pub span: Span,
 }
 
 /// A type as written.

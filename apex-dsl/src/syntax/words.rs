@@ -40,7 +40,7 @@ const fn word(text: &'static str, place: Place, docs: &'static str) -> Word {
 }
 
 /// All of them; a word that can stand in several places comes several times.
-pub const WORDS: [Word; 51] = [
+pub const WORDS: [Word; 53] = [
     word("use", Place::Item, "Imports nodes and types of a crate, or graphs of a text in the same folder."),
     word("graph", Place::Item, "A graph: ports, nodes and connections. It is used as a node is."),
     word("robot", Place::Item, "A graph without ports: what runs on one machine."),
@@ -64,6 +64,11 @@ pub const WORDS: [Word; 51] = [
         "thread",
         Place::Graph,
         "What is said about the thread of a group: `thread vision { cores = [1]; priority = 80 }`.",
+    ),
+    word(
+        "record",
+        Place::Graph,
+        "The file in which a run is recorded, and ports whose tokens are recorded besides those of the sources.",
     ),
     word("slot", Place::Machine, "A slot: what it takes leads from state to state."),
     word("event", Place::Machine, "An event: what transitions trigger."),
@@ -99,6 +104,7 @@ pub const WORDS: [Word; 51] = [
     word("if", Place::Inside, "The transition is taken only where this holds."),
     word("by", Place::Inside, "Until when it is expected, counted from the start."),
     word("within", Place::Inside, "Until when it is expected, counted from the step before."),
+    word("recording", Place::Inside, "The tokens that passed a port in a recorded run, at their times."),
     word("active", Place::Inside, "Whether a node or nested graph is active."),
     word("in", Place::Inside, "The range of a parameter: `gap: f32[m] = 0.1 in 0..=1`."),
     word("true", Place::Value, "True."),
@@ -124,8 +130,8 @@ pub fn words_at(place: Place) -> impl Iterator<Item = &'static Word> {
 }
 
 /// The words that nothing in a text can be named.
-pub const RESERVED: [&str; 11] =
-    ["use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "true", "false"];
+pub const RESERVED: [&str; 12] =
+    ["use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "record", "true", "false"];
 
 /// Whether something in a text can be named so.
 pub fn is_name(text: &str) -> bool {

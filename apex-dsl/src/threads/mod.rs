@@ -61,6 +61,11 @@ pub struct Cell {
 }
 
 impl Part {
+    /// A port of a node in the whole graph, if it has that node.
+    pub fn node(&self, end: End) -> Option<End> {
+        matches!(self.origins[end.node], Origin::Node(_)).then(|| self.origin(end))
+    }
+
     /// A port of a node in the whole graph; for what passes tokens on, the port that they come from.
     pub fn origin(&self, end: End) -> End {
         match self.origins[end.node] {

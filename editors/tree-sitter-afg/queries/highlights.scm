@@ -12,9 +12,9 @@
 
 ["use" "as"] @keyword.import
 ["graph" "robot" "fsm" "test"] @keyword.type
-["in" "out" "slot" "event" "node" "claim" "state"] @keyword
+["in" "out" "slot" "event" "node" "claim" "record" "state"] @keyword
 ["on" "if" "entry" "exit"] @keyword
-["replace" "feed" "wait" "expect" "never" "by" "within" "active"] @keyword
+["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
 ["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "essential" "restart"] @keyword.modifier
 
 (arrow) @operator

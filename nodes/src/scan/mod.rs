@@ -7,6 +7,8 @@ mod container;
 mod filter;
 mod geometry;
 mod laser;
+#[cfg(feature = "record")]
+mod message;
 mod segment;
 
 pub use container::{Container, ContainerSearch};

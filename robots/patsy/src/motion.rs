@@ -4,9 +4,10 @@ use core::{
     f32::consts::{PI, TAU},
     fmt,
 };
+use serde::{Deserialize, Serialize};
 
 /// How the cart moves (thesis 6.10.2, experiment 1).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scenario {
     /// Straight towards the scanner, front first.
     Toward,

@@ -3,9 +3,10 @@ use apex_nodes::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Out, node};
 use apex_sim::{Laser, Random, World};
 use core::f32::consts::{FRAC_PI_2, PI};
+use serde::{Deserialize, Serialize};
 
 /// What is really there while a scan is taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// The scenario that runs.
     pub scenario: Scenario,

@@ -43,6 +43,10 @@ fn statements_of_a_graph() {
     assert_eq!(in_graph("x."), Context::Port(End::Reference(vec!["x".into()]), Named::Sends, None));
     assert_eq!(in_graph("claim "), Context::Claim);
     assert_eq!(in_graph("claim exclusive(a, "), Context::Name(Named::Node, None));
+    assert_eq!(in_graph("record "), Context::Nothing);
+    assert_eq!(in_graph("record \"a.mcap\" { x.y; "), Context::Name(Named::Node, None));
+    let of = End::Reference(vec!["x".into()]);
+    assert_eq!(in_graph("record \"a.mcap\" { x."), Context::Port(of, Named::Tested, None));
 }
 
 #[test]

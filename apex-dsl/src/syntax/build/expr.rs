@@ -112,7 +112,7 @@ fn operator(pair: &Pair<'_, Rule>) -> Option<(&'static str, u8)> {
     })
 }
 
-fn unescape(quoted: &str) -> String {
+pub fn unescape(quoted: &str) -> String {
     let mut text = String::new();
     let mut chars = quoted[1..quoted.len() - 1].chars();
     while let Some(char) = chars.next() {

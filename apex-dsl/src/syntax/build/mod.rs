@@ -118,6 +118,7 @@ impl<'a> Builder<'a> {
             chains: vec![],
             claims: vec![],
             threads: vec![],
+            records: vec![],
             extent: self.span(&pair),
         };
         for part in pair.into_inner() {
@@ -210,6 +211,7 @@ impl<'a> Builder<'a> {
                 }
             }
             Rule::thread_stmt => graph.threads.extend(self.thread(pair)),
+            Rule::record_stmt => graph.records.extend(self.record(pair)),
             Rule::chain_stmt => {
                 let mut chain = Chain { ends: vec![], arrows: vec![] };
                 for part in pair.into_inner() {
@@ -245,6 +247,15 @@ impl<'a> Builder<'a> {
             }
         }
         Some(ThreadItem { name: name?, settings })
+    }
+
+    fn record(&self, pair: Pair<'_, Rule>) -> Option<RecordItem> {
+        let mut parts = pair.into_inner();
+        let (word, file) = (parts.next()?, parts.next()?);
+        let span = self.span(&word).to(self.span(&file));
+        let ports = parts.filter(|p| p.as_rule() == Rule::recorded).filter_map(|p| p.into_inner().next());
+        let ports = ports.map(|port| self.port_ref(port)).collect();
+        Some(RecordItem { file: expr::unescape(file.as_str()), ports, span })
     }
 
     fn port(&self, pair: Pair<'_, Rule>) -> Option<PortItem> {

@@ -1,6 +1,6 @@
 //! `test` items.
 
-use super::{Builder, push_doc};
+use super::{Builder, expr::unescape, push_doc};
 use crate::syntax::{Rule, recover, tree::*};
 use pest::iterators::Pair;
 
@@ -48,11 +48,16 @@ impl Builder<'_> {
     fn test_step(&mut self, pair: Pair<'_, Rule>) -> Option<TestStep> {
         let rule = pair.as_rule();
         let (mut port, mut values, mut every, mut condition, mut limit) = (None, vec![], None, None, None);
+        let mut recording = vec![];
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::ident => port = Some(self.ident(&part)),
                 Rule::expr => values.push(self.expr(part)),
                 Rule::every => every = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)),
+                Rule::recording => {
+                    let texts = part.into_inner().filter(|p| p.as_rule() == Rule::string);
+                    recording.extend(texts.map(|text| unescape(text.as_str())));
+                }
                 Rule::condition => condition = self.condition(part),
                 Rule::limit => {
                     let kind = if part.as_str().starts_with("by") { Limit::By } else { Limit::Within };
@@ -62,7 +67,10 @@ impl Builder<'_> {
             }
         }
         Some(match rule {
-            Rule::feed_stmt => TestStep::Feed(port?, values.pop(), every),
+            Rule::feed_stmt => match <[String; 2]>::try_from(recording) {
+                Ok([file, channel]) => TestStep::FeedRecorded(port?, file, channel),
+                Err(_) => TestStep::Feed(port?, values.pop(), every),
+            },
             Rule::wait_stmt => TestStep::Wait(values.pop()?),
             Rule::never_stmt => TestStep::Never(condition?),
             _ => TestStep::Expect(condition?, limit),

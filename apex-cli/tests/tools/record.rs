@@ -1,0 +1,187 @@
+//! `apex run --record` and `apex replay`.
+
+use crate::{
+    MADE, TARGET,
+    common::{Folder, apex, package, stderr},
+};
+use std::{fs, process::Output};
+
+const NODES: &str = "use apex_rt::prelude::*;
+
+/// Something that nobody knows.
+#[node]
+pub fn noise() -> u64 {
+    std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |t| t.as_nanos() as u64)
+}
+
+#[node]
+pub fn scaled(value: &u64, #[param] k: u64) -> u64 {
+    value.wrapping_mul(k)
+}
+
+#[node]
+#[derive(Default)]
+pub struct Sum {
+    sum: u64,
+}
+
+#[node]
+impl Sum {
+    fn process(&mut self, value: &u64, all: Event<u64>) {
+        self.sum = self.sum.wrapping_add(*value);
+        all.emit(self.sum);
+    }
+}
+
+#[node]
+#[derive(Default)]
+pub struct Print;
+
+#[node]
+impl Print {
+    #[slot]
+    fn sum(&mut self, sum: &u64) {
+        println!(\"{sum}\");
+    }
+}
+
+#[node]
+pub fn tick() {}
+
+pub struct Opaque;
+
+#[node]
+pub fn opaque() -> Opaque {
+    Opaque
+}
+
+#[node]
+pub fn swallow(value: &Opaque) {
+    let _ = value;
+}
+";
+
+fn text(k: u32) -> String {
+    format!(
+        "use crate::{{Print, Sum, noise, scaled, tick}};
+
+robot Adder {{
+    node noise  = noise() every 5ms;
+    node scaled = scaled(k = {k});
+    node sum    = Sum();
+    node print  = Print();
+    node end    = tick() after 60ms;
+
+    noise         -> scaled -> sum;
+    sum.all       -> print.sum;
+    end.processed -> exit;
+
+    record \"adder.mcap\" {{
+        scaled;
+        sum.all;
+    }}
+}}
+
+graph Other {{
+    node noise = noise() every 5ms;
+    node print = Sum();
+    noise -> print;
+}}
+"
+    )
+}
+
+fn run(folder: &Folder, arguments: &[&str]) -> Output {
+    apex()
+        .args(arguments)
+        .current_dir(&folder.0)
+        .env("CARGO_TARGET_DIR", TARGET)
+        .output()
+        .expect("the command is there")
+}
+
+fn replay(folder: &Folder, recording: &str) -> (Option<i32>, String, String) {
+    let output = run(folder, &["replay", recording, "robot.afg", "--robot", "Adder"]);
+    (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned(), stderr(&output))
+}
+
+#[test]
+fn a_run_is_recorded_and_repeated() {
+    let _made = MADE.lock();
+    let folder = Folder::new("record");
+    package(&folder, NODES);
+    folder.file("robot.afg", text(3));
+
+    // What the text says, and what the command says.
+    for (arguments, file) in [(&[][..], "adder.mcap"), (&["--record", "run.mcap"][..], "run.mcap")] {
+        let output = run(&folder, &[&["run", "robot.afg", "--robot", "Adder"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stderr(&output).contains(&format!("{file}`\n")), "{}", stderr(&output));
+        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        let (code, stdout, stderr) = replay(&folder, file);
+        assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+        let rest = stdout.strip_prefix(printed.as_str()).expect("the robot prints the same");
+        assert!(rest.starts_with("`scaled.out`: "), "{rest}");
+        assert!(rest.ends_with("reactions, all the same\n"), "{rest}");
+    }
+
+    // A text that was changed.
+    folder.file("robot.afg", text(4));
+    let (code, stdout, _) = replay(&folder, "run.mcap");
+    assert_eq!(code, Some(1), "{stdout}");
+    assert!(stdout.contains("`scaled.out`: 0 of "), "{stdout}");
+    assert!(stdout.contains("the first other one is number 1, at 0.0"), "{stdout}");
+    assert!(stdout.ends_with("reactions, not the same\n"), "{stdout}");
+
+    // A file that was cut off.
+    let bytes = fs::read(folder.0.join("run.mcap")).expect("it was recorded");
+    folder.file("robot.afg", text(3));
+    folder.file("cut.mcap", &bytes[..bytes.len() / 2]);
+    let (code, stdout, _) = replay(&folder, "cut.mcap");
+    assert!(code == Some(0) && stdout.contains("the recording is not whole: it was cut off"), "{code:?} {stdout}");
+
+    // Another program.
+    let output = run(&folder, &["replay", "run.mcap", "robot.afg", "--robot", "Other"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is a recording of `Adder`, not of `Other`"), "{}", stderr(&output));
+
+    // A source whose tokens cannot be recorded.
+    folder.file(
+        "opaque.afg",
+        "use crate::{opaque, swallow};\nrobot Dark { node o = opaque() every 5ms; o -> swallow(); }\n",
+    );
+    let output = run(&folder, &["run", "opaque.afg", "--record", "dark.mcap"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("the tokens of `o.out` cannot be recorded: derive `serde::"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(!folder.0.join("dark.mcap").exists());
+}
+
+#[test]
+fn what_cannot_be_replayed_is_said_before_a_build() {
+    let folder = Folder::new("no-record");
+    package(&folder, NODES);
+    folder.file("robot.afg", text(3));
+    folder.file("text.mcap", "this is no recording");
+    folder.file("empty.mcap", "");
+    fs::create_dir(folder.0.join("folder.mcap")).expect("a new folder");
+    for (file, message) in [
+        ("text.mcap", "cannot read `text.mcap`: it is no MCAP file, or its beginning is damaged"),
+        ("empty.mcap", "cannot read `empty.mcap`: it is empty, or was cut off before anything was recorded"),
+        ("folder.mcap", "cannot read `folder.mcap`: it is a folder"),
+        ("missing.mcap", "cannot read `missing.mcap`: No such file"),
+    ] {
+        let (code, _, stderr) = replay(&folder, file);
+        assert!(code == Some(2) && stderr.starts_with(&format!("error: {message}")), "{code:?} {stderr}");
+    }
+    for (file, message) in [
+        ("folder.mcap", "cannot record to `folder.mcap`: it is a folder; name a file in it"),
+        ("none/run.mcap", "cannot record to `none/run.mcap`: there is no folder `none`"),
+    ] {
+        let output = run(&folder, &["run", "robot.afg", "--robot", "Adder", "--record", file]);
+        assert_eq!((output.status.code(), stderr(&output)), (Some(2), format!("error: {message}\n")));
+    }
+}

@@ -1,0 +1,331 @@
+//! Recording and replay: where the code of a program lets tokens out to be recorded, or takes recorded ones in. Only
+//! programs that can be recorded have it (`apex_rt::record`).
+
+use super::{
+    Generator,
+    fire::Emitter,
+    plan::{BlockId, Storage, is_buffer},
+    program::boundaries,
+    types::ident,
+};
+use crate::{
+    analyse::{Analysis, Links, is_source},
+    catalog::Catalog,
+    graph::{End, Graph, NodeId, NodeKind, Standard},
+    syntax::tree::PortKind,
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::BTreeMap;
+
+/// What passes a channel; named as in the runtime.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Role {
+    Mailbox,
+    Event,
+    Source,
+    Chosen,
+}
+
+/// The ports of a program that are recorded, each with the number of its channel.
+#[derive(Debug, Default)]
+pub struct Channels {
+    rows: Vec<(End, Role)>,
+    numbers: BTreeMap<End, usize>,
+}
+
+impl Channels {
+    /// Those of a program.
+    pub fn new(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Self {
+        let mut channels = Self::default();
+        let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
+        for node in boundaries(graph, comes_in) {
+            channels.add(End { node, port: 0 }, Role::Mailbox);
+        }
+        for node in boundaries(graph, |kind| kind == PortKind::Event) {
+            channels.add(End { node, port: 0 }, Role::Event);
+        }
+        for node in (0..graph.nodes.len()).filter(|n| is_recorded(graph, analysis, catalog, *n)) {
+            for end in source_ports(graph, &analysis.links, node) {
+                channels.add(end, Role::Source);
+            }
+        }
+        for end in graph.record.iter().flat_map(|record| &record.ports) {
+            channels.add(*end, Role::Chosen);
+        }
+        channels
+    }
+
+    fn add(&mut self, end: End, role: Role) {
+        if let std::collections::btree_map::Entry::Vacant(entry) = self.numbers.entry(end) {
+            entry.insert(self.rows.len());
+            self.rows.push((end, role));
+        }
+    }
+
+    fn number(&self, end: End, role: Role) -> Option<usize> {
+        self.numbers.get(&end).copied().filter(|number| self.rows[*number].1 == role)
+    }
+}
+
+/// Whether what a node sends comes from outside of the program: it is a source.
+fn is_recorded(graph: &Graph, analysis: &Analysis, catalog: &Catalog, node: NodeId) -> bool {
+    matches!(graph.nodes[node].kind, NodeKind::Library(_)) && is_source(graph, catalog, &analysis.links, node)
+}
+
+/// The ports by which a source itself sends to somebody.
+fn source_ports<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = End> + 'a {
+    let sends = move |end: &End| {
+        let all = links.out_of[node].iter().chain(&links.sends[node]);
+        all.map(|c| graph.connections[*c].from).any(|from| from == *end)
+    };
+    let own = move |end: &End| {
+        let port = graph.port(*end);
+        port.kind.sends() && port.parameter.is_none() && matches!(port.standard, None | Some(Standard::Failed))
+    };
+    (0..graph.nodes[node].ports.len()).map(move |port| End { node, port }).filter(own).filter(sends)
+}
+
+impl Generator<'_> {
+    /// The channel of a port, if it has this role.
+    fn channel(&self, end: End, role: Role) -> Option<usize> {
+        let end = match self.part {
+            Some((_, part)) => part.node(end)?,
+            None => end,
+        };
+        self.channels?.number(end, role)
+    }
+
+    /// How the tokens of a port are recorded.
+    fn codec(&self, graph: &Graph, end: End) -> TokenStream {
+        let ty = self.token_type(graph, end);
+        quote!(::apex_rt::__codec!(#ty))
+    }
+
+    /// The table of channels, and the file of the `record` statement.
+    pub fn recording(&self, graph: &Graph) -> TokenStream {
+        let Some(channels) = self.channels else { return quote!() };
+        let rows = channels.rows.iter().map(|(end, role)| {
+            let (name, node, ty) = (graph.end_name(*end), self.index(end.node), self.token_type(graph, *end));
+            let role = ident(&format!("{role:?}"));
+            quote!(::apex_rt::__channel!(#name, #node, #role, #ty))
+        });
+        let file = graph.record.as_ref().map(|record| {
+            let file = &record.file;
+            quote! { const RECORD: ::core::option::Option<&'static str> = Some(#file); }
+        });
+        quote! {
+            #file
+            fn channels() -> ::apex_rt::record::Channels { ::apex_rt::record::Channels::from([#(#rows),*]) }
+        }
+    }
+
+    /// `react_with` of a program that can be recorded: around the reaction proper, what comes from outside between two
+    /// reactions. `ports` has the mailboxes.
+    pub fn recorded_react(&self, graph: &Graph, ports: &TokenStream) -> TokenStream {
+        let Some(channels) = self.channels else { return quote!() };
+        let (mut before, mut after) = (quote!(), quote!());
+        for (number, (end, role)) in channels.rows.iter().enumerate() {
+            let name = ident(&graph.nodes[end.node].name);
+            match role {
+                Role::Mailbox => {
+                    let codec = self.codec(graph, *end);
+                    before.extend(quote! { tap.put_in(#number, #codec, &mut #ports.inputs.#name); });
+                    after.extend(quote! { tap.keep_mailbox(#number, #ports.inputs.#name.is_full()); });
+                }
+                Role::Event => {
+                    before.extend(quote! { tap.taken_out(#number, &mut #ports.events.#name); });
+                    after.extend(quote! { tap.keep_mailbox(#number, #ports.events.#name.is_full()); });
+                }
+                Role::Source | Role::Chosen => {}
+            }
+        }
+        quote! {
+            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) {
+                    tap.begin(now);
+                    tap.set_params(self);
+                    #before
+                }
+                let next = self.reaction(now, observer);
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) {
+                    tap.keep_params(self);
+                    #after
+                    tap.end();
+                }
+                next
+            }
+        }
+    }
+
+    /// The number of a source's port, of those that are recorded.
+    fn sources(&self, graph: &Graph, node: NodeId) -> Vec<(End, usize)> {
+        let ends = (0..graph.nodes[node].ports.len()).map(|port| End { node, port });
+        let number = |end: End| self.channel(end, Role::Source);
+        ends.filter_map(|end| Some((end, number(end)?))).collect()
+    }
+
+    /// A call of a slot: a source that is recorded is not called again, its events come from the recording.
+    pub fn recorded_slot(&self, graph: &Graph, node: NodeId, call: TokenStream) -> TokenStream {
+        let ports = self.sources(graph, node);
+        if ports.is_empty() {
+            return call;
+        }
+        let index = self.index(node);
+        let events = ports.iter().filter(|(end, _)| graph.port(*end).kind == PortKind::Event);
+        let (takes, sends): (TokenStream, TokenStream) = events
+            .map(|(end, number)| {
+                let (name, codec) = (self.name(*end), self.codec(graph, *end));
+                (
+                    quote! { state.#name = tap.take(#number, #codec); },
+                    quote! { tap.sent(#number, #codec, state.#name.as_ref()); },
+                )
+            })
+            .unzip();
+        quote! {
+            match ::apex_rt::Observer::tap(observer).map(|tap| (tap.calls(#index), tap)) {
+                Some((true, tap)) => { #takes }
+                _ => {
+                    #call
+                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sends }
+                }
+            }
+        }
+    }
+
+    /// What a node of a region with several rates sends in its firing number `i`, into arrays.
+    pub fn recorded_at_rate(&self, graph: &Graph, node: NodeId, sends: TokenStream) -> TokenStream {
+        let places = |end: End| {
+            let (name, rate) = (self.name(end), graph.port(end).rate);
+            quote!(#name[i * #rate..(i + 1) * #rate])
+        };
+        let (takes, sent): (TokenStream, TokenStream) = self
+            .sources(graph, node)
+            .into_iter()
+            .map(|(end, number)| {
+                let (codec, places) = (self.codec(graph, end), places(end));
+                (
+                    quote! { for place in &mut #places { *place = tap.take(#number, #codec); } },
+                    quote! { for place in &#places { tap.sent(#number, #codec, place.as_ref()); } },
+                )
+            })
+            .unzip();
+        let chosen = (0..graph.nodes[node].ports.len()).map(|port| End { node, port }).filter_map(|end| {
+            let number = self.channel(end, Role::Chosen)?;
+            let (codec, places) = (self.codec(graph, end), places(end));
+            Some(quote! { for place in &#places { tap.token(#number, #codec, place.as_ref()); } })
+        });
+        let chosen: TokenStream = chosen.collect();
+        if takes.is_empty() && chosen.is_empty() {
+            return sends;
+        }
+        let index = self.index(node);
+        let calls = if takes.is_empty() { quote!(false) } else { quote!(tap.calls(#index)) };
+        quote! {
+            match ::apex_rt::Observer::tap(observer).map(|tap| (#calls, tap)) {
+                Some((true, tap)) => { #takes }
+                _ => {
+                    #sends
+                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sent #chosen }
+                }
+            }
+        }
+    }
+
+    /// An event that was chosen is recorded when it is sent.
+    pub fn chosen_event(&self, graph: &Graph, end: End) -> TokenStream {
+        let Some(number) = self.channel(end, Role::Chosen) else { return quote!() };
+        if graph.port(end).kind != PortKind::Event {
+            return quote!();
+        }
+        let (name, codec) = (self.name(end), self.codec(graph, end));
+        quote! { if let Some(tap) = ::apex_rt::Observer::tap(observer) { tap.token(#number, #codec, state.#name.as_ref()); } }
+    }
+}
+
+impl Emitter<'_> {
+    /// The outputs of a node that were chosen are recorded when it has fired.
+    pub fn chosen_outputs(&self, node: NodeId, block: BlockId) -> TokenStream {
+        let ends = (0..self.graph.nodes[node].ports.len()).map(|port| End { node, port });
+        let number = |end: End| self.generator.channel(end, Role::Chosen);
+        let tokens: TokenStream = ends
+            .filter(|end| self.graph.port(*end).kind == PortKind::Output)
+            .filter_map(|end| Some((end, number(end)?)))
+            .map(|(end, number)| {
+                let (codec, token) = (self.generator.codec(self.graph, end), self.option(end, block));
+                quote! { tap.token(#number, #codec, #token); }
+            })
+            .collect();
+        if tokens.is_empty() {
+            return tokens;
+        }
+        quote! { if let Some(tap) = ::apex_rt::Observer::tap(observer) { #tokens } }
+    }
+
+    /// What a node sends: a source that is recorded is not called again. `results` calls it and gives names to what it
+    /// returns; `processed` is what is triggered before.
+    pub fn recorded(&self, node: NodeId, block: BlockId, results: TokenStream, processed: TokenStream) -> TokenStream {
+        let ports = self.generator.sources(self.graph, node);
+        if ports.is_empty() {
+            return results;
+        }
+        let index = self.generator.index(node);
+        let mut code = Recorded::default();
+        for (end, number) in ports {
+            self.recorded_port(end, number, block, &mut code);
+        }
+        let Recorded { takes, patterns, named, set, sends } = code;
+        quote! {
+            let recorded = match ::apex_rt::Observer::tap(observer) {
+                Some(tap) => if tap.calls(#index) { Some((#(#takes,)*)) } else { None },
+                None => None,
+            };
+            let (#(#named,)*) = match recorded {
+                Some((#(#patterns,)*)) => { #processed #(#set)* (#(#named,)*) }
+                _ => {
+                    #results
+                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #(#sends)* }
+                    (#(#named,)*)
+                }
+            };
+        }
+    }
+
+    fn recorded_port(&self, end: End, number: usize, block: BlockId, code: &mut Recorded) {
+        let (graph, generator) = (self.graph, self.generator);
+        let (name, codec) = (generator.name(end), generator.codec(graph, end));
+        let is_event = graph.port(end).kind == PortKind::Event;
+        let token = if is_event { quote!(state.#name.as_ref()) } else { self.option(end, block) };
+        code.takes.push(quote!(tap.take(#number, #codec)));
+        code.sends.push(quote! { tap.sent(#number, #codec, #token); });
+        let local = format_ident!("recorded_{number}");
+        let always = !is_event && self.plan.storage(end) == Storage::Local;
+        code.patterns.push(if always { quote!(Some(#local)) } else { quote!(#local) });
+        if is_event {
+            code.set.push(quote! { state.#name = #local; });
+        } else if is_buffer(graph, generator.catalog, end) {
+            code.set.push(quote! { state.#name.begin(); if let Some(token) = #local { state.#name.set(token); } });
+        } else if !self.plan.is_hoisted(end) {
+            code.set.push(quote! { let #name = #local; });
+            code.named.push(name);
+        } else {
+            let token = if always { quote!(Some(#local)) } else { quote!(#local) };
+            code.set.push(quote! { #name = #token; });
+        }
+    }
+}
+
+/// The parts of the code of a source that is recorded.
+#[derive(Default)]
+struct Recorded {
+    /// Each token from the recording.
+    takes: Vec<TokenStream>,
+    /// The names of these, where all are there that have to be.
+    patterns: Vec<TokenStream>,
+    /// Puts tokens where they are kept.
+    set: Vec<TokenStream>,
+    /// The names that are left: locals.
+    named: Vec<syn::Ident>,
+    /// Each token to the recording.
+    sends: Vec<TokenStream>,
+}

@@ -1,0 +1,109 @@
+//! The `record` statement of a program: the ports that it names, as ports of the flat graph.
+
+use super::names::suggest;
+use crate::{
+    graph::{End, Graph, NodeKind, Place, Record},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::{GraphItem, Ident, PortRef, RecordItem},
+};
+
+/// Resolves the `record` statement of `item`, of which `graph` is the program.
+pub fn record(graph: &Graph, item: &GraphItem, diagnostics: &mut Diagnostics) -> Option<Record> {
+    let [first, others @ ..] = item.records.as_slice() else { return None };
+    for other in others {
+        let error = Diagnostic::error("wrong-record", other.span, "a program is recorded in one file");
+        diagnostics.push(
+            error.also(first.span, "it has one already").note("write the ports of both into one `record` statement"),
+        );
+    }
+    if first.file.is_empty() {
+        let error = Diagnostic::error("wrong-record", first.span, "the file of the recording has no name");
+        diagnostics.push(error.note("write it as `record \"run.mcap\" { … }`"));
+    }
+    let found: Vec<Option<Vec<End>>> = first.ports.iter().map(|port| port_of(graph, port, diagnostics)).collect();
+    report_twice(first, diagnostics);
+    let ports: Vec<Vec<End>> = found.into_iter().collect::<Option<_>>()?;
+    Some(Record { file: first.file.clone(), ports: ports.concat(), span: first.span })
+}
+
+fn report_twice(record: &RecordItem, diagnostics: &mut Diagnostics) {
+    for (i, port) in record.ports.iter().enumerate() {
+        if let Some(before) = record.ports[..i].iter().find(|before| before.text() == port.text()) {
+            let message = format!("`{}` is named twice", port.text());
+            let error = Diagnostic::error("wrong-record", port.span, message);
+            diagnostics.push(error.also(before.span, "first named here").note("leave one of the two out"));
+        }
+    }
+}
+
+/// The ports that a name stands for: that of a node, or all that send to the port of a nested graph.
+fn port_of(graph: &Graph, port: &PortRef, diagnostics: &mut Diagnostics) -> Option<Vec<End>> {
+    let path = port.text();
+    let ends = match sending_port(graph, &path) {
+        Some(end) => vec![end],
+        None => ends_of_pin(graph, &path),
+    };
+    if ends.is_empty() {
+        diagnostics.push(unknown(graph, port));
+        return None;
+    }
+    let is_connected = |end: &&End| graph.connections.iter().any(|c| c.from == **end);
+    if ends.iter().any(|end| !is_connected(&end)) {
+        let message = format!("nothing is connected to `{path}`, so that its tokens go nowhere");
+        let error = Diagnostic::error("wrong-record", port.span, message);
+        diagnostics.push(error.note("connect it to a node that takes its tokens, or leave it out"));
+        return None;
+    }
+    Some(ends)
+}
+
+fn unknown(graph: &Graph, port: &PortRef) -> Diagnostic {
+    let path = port.text();
+    let ends = sending_ports(graph).map(|end| graph.end_name(end));
+    let pins = (0..graph.pins.len()).filter(|pin| graph.pins[*pin].kind.sends()).map(|pin| pin_name(graph, pin));
+    let known: Vec<String> = ends.chain(pins).collect();
+    let word = Ident { text: path.clone(), span: port.span };
+    let error = Diagnostic::error("unknown-port", port.span, format!("the program has no port `{path}` that sends"));
+    suggest(error, &word, known.iter().map(String::as_str))
+}
+
+fn sending_ports(graph: &Graph) -> impl Iterator<Item = End> + '_ {
+    let nodes = (0..graph.nodes.len()).filter(|node| !matches!(graph.nodes[*node].kind, NodeKind::Start));
+    let ends = nodes.flat_map(|node| (0..graph.nodes[node].ports.len()).map(move |port| End { node, port }));
+    ends.filter(|end| graph.port(*end).kind.sends())
+}
+
+/// `node.port`, or `node` if only one port sends; also a graph-level input.
+pub fn sending_port(graph: &Graph, path: &str) -> Option<End> {
+    let exact = |end: &End| format!("{}.{}", graph.path(end.node), graph.port(*end).name) == path;
+    let of_node: Vec<End> = sending_ports(graph)
+        .filter(|end| graph.path(end.node) == path && graph.port(*end).parameter.is_none())
+        .collect();
+    sending_ports(graph).find(exact).or(if let [only] = of_node.as_slice() { Some(*only) } else { None })
+}
+
+fn pin_name(graph: &Graph, pin: usize) -> String {
+    format!("{}.{}", graph.scope_path(graph.pins[pin].scope), graph.pins[pin].name)
+}
+
+/// The ports of nodes whose tokens leave a nested graph by the port `path`.
+fn ends_of_pin(graph: &Graph, path: &str) -> Vec<End> {
+    let is_meant = |pin: &usize| graph.pins[*pin].kind.sends() && pin_name(graph, *pin) == path;
+    let mut open: Vec<usize> = (0..graph.pins.len()).filter(is_meant).collect();
+    let (mut seen, mut ends) = (open.clone(), vec![]);
+    while let Some(pin) = open.pop() {
+        for wire in graph.wires.iter().filter(|wire| wire.to == Place::Pin(pin)) {
+            match wire.from {
+                Place::Port(end) => ends.push(end),
+                Place::Pin(inner) if !seen.contains(&inner) => {
+                    seen.push(inner);
+                    open.push(inner);
+                }
+                Place::Pin(_) => {}
+            }
+        }
+    }
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}

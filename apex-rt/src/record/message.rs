@@ -1,0 +1,244 @@
+//! Tokens as messages: which types there is a message for, and what becomes of all others.
+
+use super::cdr::{Reader, Writer};
+use crate::{Failure, Time};
+use core::{any::type_name, marker::PhantomData};
+use serde::{Serialize, de::DeserializeOwned};
+
+/// A type whose tokens are recorded as messages of ROS 2, so that other programs can read them.
+///
+/// Implement it for types of your own that shall be seen in Foxglove or in Python; for all others the traits of serde
+/// are enough. What is read must be what was written, bit by bit: a replay depends on it.
+pub trait Message: Sized {
+    /// The name of the message: `sensor_msgs/msg/LaserScan`.
+    const NAME: &'static str;
+    /// Its definition, and after lines of `=` those of the messages in it, as a `.msg` file has them.
+    const DEFINITION: &'static str;
+
+    /// Writes the fields in the order of the definition.
+    fn write(&self, message: &mut Writer<'_>);
+
+    /// Reads them; `None` if they are no value of this type.
+    fn read(message: &mut Reader<'_>) -> Option<Self>;
+}
+
+/// What a channel carries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Schema {
+    /// The name of the message, or of the Rust type.
+    pub name: &'static str,
+    /// The definition of the message; nothing for a Rust type.
+    pub definition: &'static str,
+    /// How tokens are written: `cdr` or `postcard`.
+    pub encoding: &'static str,
+}
+
+/// How tokens of a type are written, read and shown.
+pub struct Codec<T> {
+    /// What its channel carries.
+    pub schema: Schema,
+    /// Writes a token behind what is there; `false` if it cannot be written.
+    pub write: fn(&T, &mut Vec<u8>) -> bool,
+    /// Reads a token.
+    pub read: fn(&[u8]) -> Option<T>,
+}
+
+impl<T> Clone for Codec<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Codec<T> {}
+
+/// A type of tokens, for generated code to find out how they are recorded: it calls `codec` on `&&&Kind`, which is
+/// [`ByMessage::codec`] if the type is a [`Message`], [`BySerde::codec`] if serde knows it, and [`ByNothing::codec`]
+/// otherwise, because rustc tries the type with more references first.
+pub struct Kind<T>(PhantomData<T>);
+
+impl<T> Kind<T> {
+    /// The type.
+    pub const NEW: Self = Self(PhantomData);
+}
+
+/// Types that are messages.
+pub trait ByMessage<T> {
+    /// How they are recorded.
+    fn codec(&self) -> Option<Codec<T>>;
+}
+
+impl<T: Message> ByMessage<T> for &&Kind<T> {
+    fn codec(&self) -> Option<Codec<T>> {
+        Some(Codec {
+            schema: Schema { name: T::NAME, definition: T::DEFINITION, encoding: "cdr" },
+            write: |token, bytes| {
+                token.write(&mut Writer::new(bytes));
+                true
+            },
+            read: |bytes| T::read(&mut Reader::new(bytes)?),
+        })
+    }
+}
+
+/// Types that serde knows.
+pub trait BySerde<T> {
+    /// How they are recorded.
+    fn codec(&self) -> Option<Codec<T>>;
+}
+
+impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
+    fn codec(&self) -> Option<Codec<T>> {
+        Some(Codec {
+            schema: Schema { name: type_name::<T>(), definition: "", encoding: "postcard" },
+            write: |token, bytes| postcard::to_io(token, &mut *bytes).is_ok(),
+            read: |bytes| postcard::from_bytes(bytes).ok(),
+        })
+    }
+}
+
+/// All other types.
+pub trait ByNothing<T> {
+    /// They cannot be recorded.
+    fn codec(&self) -> Option<Codec<T>>;
+}
+
+impl<T> ByNothing<T> for Kind<T> {
+    fn codec(&self) -> Option<Codec<T>> {
+        None
+    }
+}
+
+macro_rules! numbers {
+    ($($ty:ident $name:literal $definition:literal)*) => { $(
+        impl Message for $ty {
+            const NAME: &'static str = $name;
+            const DEFINITION: &'static str = $definition;
+            fn write(&self, message: &mut Writer<'_>) {
+                message.$ty(*self);
+            }
+            fn read(message: &mut Reader<'_>) -> Option<Self> {
+                message.$ty()
+            }
+        }
+    )* };
+}
+numbers! {
+    f64 "std_msgs/msg/Float64" "float64 data"
+    f32 "std_msgs/msg/Float32" "float32 data"
+    i64 "std_msgs/msg/Int64" "int64 data"
+    i32 "std_msgs/msg/Int32" "int32 data"
+    i16 "std_msgs/msg/Int16" "int16 data"
+    i8 "std_msgs/msg/Int8" "int8 data"
+    u64 "std_msgs/msg/UInt64" "uint64 data"
+    u32 "std_msgs/msg/UInt32" "uint32 data"
+    u16 "std_msgs/msg/UInt16" "uint16 data"
+    u8 "std_msgs/msg/UInt8" "uint8 data"
+}
+
+impl Message for bool {
+    const NAME: &'static str = "std_msgs/msg/Bool";
+    const DEFINITION: &'static str = "bool data";
+    fn write(&self, message: &mut Writer<'_>) {
+        message.u8(u8::from(*self));
+    }
+    fn read(message: &mut Reader<'_>) -> Option<Self> {
+        message.u8().map(|byte| byte != 0)
+    }
+}
+
+impl Message for () {
+    const NAME: &'static str = "std_msgs/msg/Empty";
+    const DEFINITION: &'static str = "";
+    fn write(&self, message: &mut Writer<'_>) {
+        // A message of ROS is never quite empty.
+        message.u8(0);
+    }
+    fn read(message: &mut Reader<'_>) -> Option<Self> {
+        message.u8().map(drop)
+    }
+}
+
+impl Message for String {
+    const NAME: &'static str = "std_msgs/msg/String";
+    const DEFINITION: &'static str = "string data";
+    fn write(&self, message: &mut Writer<'_>) {
+        message.text(self);
+    }
+    fn read(message: &mut Reader<'_>) -> Option<Self> {
+        message.text().map(str::to_owned)
+    }
+}
+
+impl Message for Failure {
+    const NAME: &'static str = "std_msgs/msg/String";
+    const DEFINITION: &'static str = "string data";
+    fn write(&self, message: &mut Writer<'_>) {
+        message.text(self.text());
+    }
+    fn read(message: &mut Reader<'_>) -> Option<Self> {
+        message.text().map(|text| Self::new(&text))
+    }
+}
+
+impl Message for Time {
+    const NAME: &'static str = "apex_msgs/msg/Time";
+    const DEFINITION: &'static str = "int64 nanoseconds";
+    fn write(&self, message: &mut Writer<'_>) {
+        message.i64(self.as_nanos());
+    }
+    fn read(message: &mut Reader<'_>) -> Option<Self> {
+        message.i64().map(Self::from_nanos)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::fmt::Debug;
+
+    /// A token that was written and read.
+    fn again<T>(codec: Option<Codec<T>>, token: &T) -> (Schema, Option<T>) {
+        let (codec, mut bytes) = (codec.expect("it can be recorded"), vec![]);
+        assert!((codec.write)(token, &mut bytes));
+        assert!(
+            (0..bytes.len()).all(|cut| { (codec.read)(&bytes[..cut]).is_none() || codec.schema.encoding != "cdr" })
+        );
+        (codec.schema, (codec.read)(&bytes))
+    }
+
+    fn same<T: Message + PartialEq + Debug>(token: T) {
+        let (schema, read) = again(crate::__codec!(T), &token);
+        assert_eq!((schema.encoding, read), ("cdr", Some(token)));
+    }
+
+    #[test]
+    fn messages_come_back() {
+        same(-1.5_f64);
+        same(f32::MIN_POSITIVE);
+        same(i64::MIN);
+        same(u8::MAX);
+        same(true);
+        same(());
+        same("zwölf".to_owned());
+        same(String::new());
+        same(Failure::new(&"no more paper"));
+        same(Time::from_nanos(-1));
+    }
+
+    #[test]
+    fn nan_keeps_its_bits() {
+        let odd = f32::from_bits(0x7fc0_1234);
+        let (_, read) = again(crate::__codec!(f32), &odd);
+        assert_eq!(read.map(f32::to_bits), Some(odd.to_bits()));
+        let (schema, read) = again(crate::__codec!(Vec<f32>), &vec![odd, -0.0]);
+        let bits = read.map(|list| list.into_iter().map(f32::to_bits).collect::<Vec<_>>());
+        assert_eq!((schema.encoding, bits), ("postcard", Some(vec![odd.to_bits(), (-0.0_f32).to_bits()])));
+    }
+
+    #[test]
+    fn a_type_that_nobody_knows_has_no_codec() {
+        struct Opaque;
+        assert!(crate::__codec!(Opaque).is_none());
+        let _ = Opaque;
+    }
+}

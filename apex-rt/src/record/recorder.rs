@@ -1,0 +1,271 @@
+use super::{
+    Channel, Codec, Message as _,
+    cdr::Writer,
+    sink::{ELAPSED, FIRST, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, free},
+};
+use crate::{
+    Mailbox, Parameters, Program, Time,
+    params::{Access, Given, ParamInfo, ParamVisitor},
+};
+use core::time::Duration;
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// What happens when tokens come faster than they can be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhenFull {
+    /// They are dropped and counted: a robot cannot wait.
+    Drop,
+    /// The program waits: its time is simulated.
+    Wait,
+}
+
+/// Records a run.
+pub struct Recorder {
+    channels: Vec<Channel>,
+    sink: Sink,
+    when_full: WhenFull,
+    path: PathBuf,
+    now: Time,
+    /// How often each node was called in this reaction.
+    calls: Vec<u32>,
+    /// Which mailboxes held a token after the last reaction, by channel.
+    full: Vec<bool>,
+    /// The parameters after the last reaction, as bytes one after the other; nothing before the first.
+    params: Vec<u8>,
+    /// The same before this one.
+    params_now: Vec<u8>,
+    /// The reaction that goes on was dropped, and all in it.
+    lost: bool,
+    dropped: Vec<u64>,
+}
+
+/// What is left to say when a recording has ended.
+#[derive(Debug)]
+pub struct Finished {
+    /// The file.
+    pub path: PathBuf,
+    /// The channels that lost messages, because the file could not be written as fast, with how many.
+    pub dropped: Vec<(String, u64)>,
+}
+
+impl Recorder {
+    /// A recording of a program of type `P` in the file `path`, or, if that is there already, in one with a number.
+    ///
+    /// # Errors
+    /// The file cannot be made, or a source sends tokens that cannot be recorded, so that the recording would be useless.
+    pub fn to_file<P: Program>(path: &Path, when_full: WhenFull) -> io::Result<Self> {
+        Self::with_room::<P>(path, when_full, ROOM)
+    }
+
+    /// The same with another number of bytes that can wait to be written.
+    #[doc(hidden)]
+    pub fn with_room<P: Program>(path: &Path, when_full: WhenFull, room: usize) -> io::Result<Self> {
+        let (info, channels) = (const { &P::INFO }, P::channels());
+        if let Some(message) = why_useless(&channels) {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        }
+        let path = free(path);
+        let sink = Sink::new(path.clone(), info.name, &channels, room)?;
+        Ok(Self {
+            sink,
+            when_full,
+            path,
+            now: Time::ZERO,
+            calls: vec![0; info.nodes.len()],
+            full: vec![false; channels.len()],
+            params: vec![],
+            params_now: vec![],
+            lost: false,
+            dropped: vec![0; FIRST + channels.len()],
+            channels,
+        })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes what is left, and ends the file.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub fn finish(mut self) -> io::Result<Finished> {
+        let own = OWN.iter().map(|(name, _)| *name);
+        let names = own.chain(self.channels.iter().map(|c| c.name));
+        let lost = names.zip(&self.dropped).filter(|(_, count)| **count > 0);
+        let dropped: Vec<(String, u64)> = lost.map(|(name, count)| (name.to_owned(), *count)).collect();
+        self.sink.finish(&dropped)?;
+        Ok(Finished { path: self.path.clone(), dropped })
+    }
+
+    pub(super) fn begin(&mut self, now: Time) {
+        self.now = now;
+        self.lost = false;
+        self.calls.fill(0);
+        let sent = self.own(REACTION, |message| {
+            // There is one group of threads.
+            message.u32(0);
+            message.i64(now.as_nanos());
+        });
+        self.lost = !sent;
+    }
+
+    pub(super) fn calls(&mut self, node: usize) {
+        self.calls[node] += 1;
+    }
+
+    pub(super) fn token<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        let Some(codec) = codec else { return };
+        let call = self.calls[self.channels[channel].node];
+        let frame = self.sink.begin((FIRST + channel) as u16, call, time(self.now));
+        if !(codec.write)(token, frame) || self.lost || !self.sink.end(self.when_full == WhenFull::Wait) {
+            self.dropped[FIRST + channel] += 1;
+        }
+    }
+
+    pub(super) fn elapsed(&mut self, elapsed: Duration) -> Duration {
+        let nanos = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
+        self.own(ELAPSED, |message| message.u64(nanos));
+        elapsed
+    }
+
+    pub(super) fn put_in<T>(&mut self, channel: usize, codec: Option<Codec<T>>, mailbox: &Mailbox<T>) {
+        let was_full = self.full[channel];
+        if let (false, Some(token)) = (was_full, mailbox.peek()) {
+            self.token(channel, codec, token);
+        }
+    }
+
+    pub(super) fn taken_out(&mut self, channel: usize, is_full: bool) {
+        if self.full[channel] && !is_full {
+            let name = self.channels[channel].name;
+            self.own(TAKEN, |message| message.text(name));
+        }
+    }
+
+    pub(super) fn keep_mailbox(&mut self, channel: usize, is_full: bool) {
+        self.full[channel] = is_full;
+    }
+
+    /// The parameters that are not what they were after the last reaction; before the first one, all.
+    pub(super) fn changed_params<P: Parameters>(&mut self, program: &mut P) {
+        let first = self.params.is_empty();
+        let mut now = core::mem::take(&mut self.params_now);
+        now.clear();
+        program.visit_params(&mut Bits(&mut now));
+        if first || now != self.params {
+            let before = core::mem::take(&mut self.params);
+            program.visit_params(&mut Changes { recorder: self, before: &before, first });
+            self.params = before;
+        }
+        self.params_now = now;
+    }
+
+    pub(super) fn keep_params<P: Parameters>(&mut self, program: &mut P) {
+        self.params.clear();
+        program.visit_params(&mut Bits(&mut self.params));
+    }
+
+    /// Sends a message on a channel that every recording has.
+    fn own(&mut self, channel: u16, write: impl FnOnce(&mut Writer<'_>)) -> bool {
+        let frame = self.sink.begin(channel, 0, time(self.now));
+        write(&mut Writer::new(frame));
+        let sent = !self.lost && self.sink.end(self.when_full == WhenFull::Wait);
+        if !sent {
+            self.dropped[usize::from(channel)] += 1;
+        }
+        sent
+    }
+}
+
+/// Why nothing would be gained by a recording.
+fn why_useless(channels: &[Channel]) -> Option<String> {
+    let lost = channels.iter().filter(|c| c.schema.is_none());
+    let names: Vec<String> = lost.map(|c| format!("`{}`", c.name)).collect();
+    if names.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "the tokens of {} cannot be recorded: derive `serde::Serialize` and `serde::Deserialize` for their types, or implement `apex_rt::record::Message`",
+        names.join(", ")
+    ))
+}
+
+/// Nothing happens before the zero of a clock.
+fn time(now: Time) -> u64 {
+    u64::try_from(now.as_nanos()).unwrap_or(0)
+}
+
+/// Writes down all parameters, each with its length before it.
+struct Bits<'a>(&'a mut Vec<u8>);
+
+impl ParamVisitor for Bits<'_> {
+    fn param(&mut self, _: &'static ParamInfo, access: Option<&mut dyn Access>) {
+        let start = self.0.len();
+        self.0.extend_from_slice(&[0; 4]);
+        if let Some(access) = access {
+            bits(access.get(), self.0);
+        }
+        let length = (self.0.len() - start - 4) as u32;
+        self.0[start..start + 4].copy_from_slice(&length.to_le_bytes());
+    }
+}
+
+/// Values are the same if their bits are.
+fn bits(value: Given<'_>, out: &mut Vec<u8>) {
+    match value {
+        Given::Bool(value) => out.push(u8::from(value)),
+        Given::Integer(value) => out.extend_from_slice(&value.to_le_bytes()),
+        Given::Float(value) => out.extend_from_slice(&value.to_le_bytes()),
+        Given::Single(value) => out.extend_from_slice(&value.to_le_bytes()),
+        Given::Text(value) => out.extend_from_slice(value.as_bytes()),
+        Given::List(list) => {
+            for index in 0..list.count() {
+                bits(list.element(index), out);
+                // Texts in a list are told apart.
+                out.push(0);
+            }
+        }
+        Given::Other(_) => {}
+    }
+}
+
+/// Records the parameters that are not as `before` says.
+struct Changes<'a> {
+    recorder: &'a mut Recorder,
+    before: &'a [u8],
+    first: bool,
+}
+
+impl ParamVisitor for Changes<'_> {
+    fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+        let Some(access) = access else {
+            self.skip(&[]);
+            return;
+        };
+        let mut now = vec![];
+        bits(access.get(), &mut now);
+        if !self.skip(&now) {
+            let (value, changed) = (access.get().to_string(), !self.first);
+            self.recorder.own(PARAMETER, |message| {
+                message.text(info.name);
+                message.text(&value);
+                changed.write(message);
+            });
+        }
+    }
+}
+
+impl Changes<'_> {
+    /// Goes on to the next parameter; whether this one was `now` before.
+    fn skip(&mut self, now: &[u8]) -> bool {
+        let Some((length, rest)) = self.before.split_first_chunk::<4>() else { return false };
+        let Some((was, rest)) = rest.split_at_checked(u32::from_le_bytes(*length) as usize) else { return false };
+        self.before = rest;
+        was == now
+    }
+}

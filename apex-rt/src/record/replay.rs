@@ -1,0 +1,345 @@
+use super::{
+    Channel, Codec, Message as _, Report, Role,
+    cdr::Reader,
+    report::{Compared, Difference},
+    sink::OWN,
+    source::{FileMessage, Source},
+};
+use crate::{
+    Parameters, Program, Time,
+    params::{Access, ParamInfo, ParamVisitor, set_text},
+};
+use core::{fmt, time::Duration};
+use std::{
+    collections::{BTreeMap, VecDeque},
+    io, mem,
+    path::{Path, PathBuf},
+};
+
+/// Why there is nothing to replay.
+#[derive(Debug)]
+pub enum ReplayError {
+    /// The file cannot be read.
+    File(PathBuf, io::Error),
+    /// It is an MCAP file of something else.
+    NoRecording(PathBuf),
+    /// It is a recording of another program.
+    OtherProgram {
+        /// The file.
+        path: PathBuf,
+        /// Whose it is.
+        recorded: String,
+        /// The program that was to replay it.
+        wanted: &'static str,
+    },
+}
+
+impl fmt::Display for ReplayError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(path, error) => write!(f, "cannot read `{}`: {error}", path.display()),
+            Self::NoRecording(path) => {
+                write!(f, "`{}` is an MCAP file, but no recording of a program: it has no reactions", path.display())
+            }
+            Self::OtherProgram { path, recorded, wanted } => {
+                write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReplayError {}
+
+/// What a message of a file is for.
+#[derive(Debug, Clone, Copy)]
+enum Meaning {
+    Reaction,
+    Elapsed,
+    Parameter,
+    Taken,
+    /// A token of a channel of the program.
+    Token(usize),
+}
+
+/// What enters the program in one reaction.
+#[derive(Debug, Default)]
+struct Reaction {
+    elapsed: VecDeque<Duration>,
+    params: Vec<(String, String, bool)>,
+    taken: Vec<String>,
+    /// Tokens of each channel, with the call of the node that they belong to.
+    tokens: Vec<VecDeque<(u32, Vec<u8>)>>,
+}
+
+impl Reaction {
+    fn new(channels: usize) -> Self {
+        Self { tokens: (0..channels).map(|_| VecDeque::new()).collect(), ..Self::default() }
+    }
+}
+
+/// Repeats a run.
+pub struct Replay {
+    channels: Vec<Channel>,
+    source: Source,
+    meanings: BTreeMap<u16, Option<Meaning>>,
+    /// The beginning of the reaction after this one, which was read already.
+    next: Option<Time>,
+    /// The reaction that goes on.
+    now: Time,
+    reaction: Reaction,
+    /// How often each node was called in it.
+    calls: Vec<u32>,
+    /// Which nodes are sources that were recorded, and are not called.
+    recorded: Vec<bool>,
+    report: Report,
+    /// Where a token is written to be compared.
+    bytes: Vec<u8>,
+}
+
+impl Replay {
+    /// Opens a recording of a program of type `P`.
+    ///
+    /// # Errors
+    /// It cannot be read, or is none of such a program.
+    pub fn open<P: Program>(path: &Path) -> Result<Self, ReplayError> {
+        let info = const { &P::INFO };
+        let at = |error| ReplayError::File(path.to_owned(), error);
+        let channels = P::channels();
+        let mut replay = Self {
+            source: Source::open(path).map_err(at)?,
+            meanings: BTreeMap::new(),
+            next: None,
+            now: Time::ZERO,
+            reaction: Reaction::new(channels.len()),
+            calls: vec![0; info.nodes.len()],
+            recorded: vec![false; info.nodes.len()],
+            report: Report::default(),
+            bytes: vec![],
+            channels,
+        };
+        replay.load().map_err(at)?;
+        match replay.source.program.clone() {
+            Some(recorded) if recorded != info.name => {
+                return Err(ReplayError::OtherProgram { path: path.to_owned(), recorded, wanted: info.name });
+            }
+            Some(_) => {}
+            None if replay.source.cut.is_none() => return Err(ReplayError::NoRecording(path.to_owned())),
+            None => {
+                let what = "it is empty, or was cut off before anything was recorded";
+                return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
+            }
+        }
+        replay.match_channels();
+        Ok(replay)
+    }
+
+    /// Which channels of the program the file has, and which not.
+    fn match_channels(&mut self) {
+        let known = |c: &Channel| {
+            let same = |f: &super::source::FileChannel| {
+                f.name == c.name && c.schema.is_some_and(|s| s.name == f.schema && s.encoding == f.encoding)
+            };
+            self.source.channels.values().any(same)
+        };
+        let mut missing = vec![];
+        for channel in &self.channels {
+            match (channel.role, known(channel)) {
+                (Role::Source, true) => self.recorded[channel.node] = true,
+                (Role::Chosen, true) => {
+                    self.report.compared.push(Compared::new(channel.name));
+                    continue;
+                }
+                (_, true) => {}
+                (_, false) => missing.push(channel),
+            }
+        }
+        for channel in missing {
+            self.report.missing.push((channel.name, channel.role));
+            if channel.role == Role::Source {
+                // One token of a firing alone would be of no use.
+                self.recorded[channel.node] = false;
+            }
+        }
+        let names = self.channels.iter().map(|c| c.name).chain(OWN.iter().map(|(name, _)| *name));
+        let names: Vec<&str> = names.collect();
+        let gone = self.source.channels.values().filter(|f| !names.contains(&f.name.as_str()));
+        self.report.gone = gone.map(|f| f.name.clone()).collect();
+    }
+
+    /// Reads up to the beginning of the next reaction; what was read before belongs to the one that begins now. `None`
+    /// at the end.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn next_reaction(&mut self) -> Result<Option<Time>, io::Error> {
+        let Some(now) = self.next.take() else { return Ok(None) };
+        self.now = now;
+        self.reaction = Reaction::new(self.channels.len());
+        self.load()?;
+        // What was written of the last reaction is not all of it.
+        if self.next.is_none() && self.source.cut.is_some() {
+            return Ok(None);
+        }
+        self.report.reactions += 1;
+        Ok(Some(now))
+    }
+
+    fn load(&mut self) -> io::Result<()> {
+        while let Some(message) = self.source.next()? {
+            match self.meaning(message.channel) {
+                Some(Meaning::Reaction) => {
+                    self.next = time_of(&message.data);
+                    if self.next.is_some() {
+                        return Ok(());
+                    }
+                }
+                Some(meaning) => self.keep(meaning, message),
+                None => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// What messages of a channel of the file are for, which is found out once.
+    fn meaning(&mut self, id: u16) -> Option<Meaning> {
+        if let Some(known) = self.meanings.get(&id) {
+            return *known;
+        }
+        let name = self.source.channels.get(&id).map_or("", |c| c.name.as_str());
+        let own = [Meaning::Reaction, Meaning::Elapsed, Meaning::Parameter, Meaning::Taken];
+        let meaning = match OWN.iter().position(|(own, _)| *own == name) {
+            Some(index) => Some(own[index]),
+            None => self.channels.iter().position(|c| c.name == name).map(Meaning::Token),
+        };
+        self.meanings.insert(id, meaning);
+        meaning
+    }
+
+    fn keep(&mut self, meaning: Meaning, message: FileMessage) {
+        let Some(mut fields) = Reader::new(&message.data).or_else(|| Reader::new(&[0, 1, 0, 0])) else { return };
+        let reaction = &mut self.reaction;
+        match meaning {
+            Meaning::Reaction => {}
+            Meaning::Elapsed => reaction.elapsed.extend(fields.u64().map(Duration::from_nanos)),
+            Meaning::Parameter => {
+                if let (Some(name), Some(value)) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned))
+                {
+                    reaction.params.push((name, value, bool::read(&mut fields).unwrap_or(true)));
+                }
+            }
+            Meaning::Taken => reaction.taken.extend(fields.text().map(str::to_owned)),
+            Meaning::Token(channel) => reaction.tokens[channel].push_back((message.sequence, message.data)),
+        }
+    }
+
+    /// What came of it.
+    pub fn finish(mut self) -> Report {
+        self.report.cut = self.source.cut.take();
+        self.report.dropped = mem::take(&mut self.source.dropped);
+        self.report
+    }
+
+    pub(super) fn begin(&mut self) {
+        self.calls.fill(0);
+    }
+
+    pub(super) fn end(&mut self) {
+        for channel in 0..self.channels.len() {
+            if self.channels[channel].role == Role::Chosen {
+                while let Some((_, was)) = self.reaction.tokens[channel].pop_front() {
+                    self.compared(channel, Some(&was), None);
+                }
+            }
+        }
+    }
+
+    pub(super) fn set_params<P: Parameters>(&mut self, program: &mut P) {
+        for (name, value, changed) in mem::take(&mut self.reaction.params) {
+            if changed {
+                if let Err(error) = set_text(program, &name, &value) {
+                    self.report.params.push(format!("`{name}` cannot be set to {value}: {error}"));
+                }
+                continue;
+            }
+            match now(program, &name) {
+                Some(now) if now == value => {}
+                Some(now) => self.report.params.push(format!("`{name}` was {value} and is {now}")),
+                None => self.report.params.push(format!("`{name}` was {value} and is no more")),
+            }
+        }
+    }
+
+    pub(super) fn calls(&mut self, node: usize) -> bool {
+        self.calls[node] += 1;
+        self.recorded[node]
+    }
+
+    pub(super) fn take<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
+        let call = self.calls[self.channels[channel].node];
+        let waiting = &mut self.reaction.tokens[channel];
+        while waiting.front().is_some_and(|(at, _)| *at < call) {
+            waiting.pop_front();
+        }
+        let (_, bytes) = if waiting.front()?.0 == call { waiting.pop_front()? } else { return None };
+        let token = codec.and_then(|codec| (codec.read)(&bytes));
+        if token.is_none() {
+            self.report.unreadable += 1;
+        }
+        token
+    }
+
+    pub(super) fn was_taken(&self, channel: usize) -> bool {
+        let name = self.channels[channel].name;
+        self.reaction.taken.iter().any(|taken| taken == name)
+    }
+
+    pub(super) fn elapsed(&mut self) -> Option<Duration> {
+        self.reaction.elapsed.pop_front()
+    }
+
+    pub(super) fn compare<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        let Some(codec) = codec else { return };
+        let mut bytes = mem::take(&mut self.bytes);
+        bytes.clear();
+        (codec.write)(token, &mut bytes);
+        let was = self.reaction.tokens[channel].pop_front().map(|(_, was)| was);
+        self.compared(channel, was.as_deref(), Some(&bytes));
+        self.bytes = bytes;
+    }
+
+    fn compared(&mut self, channel: usize, was: Option<&[u8]>, is: Option<&[u8]>) {
+        let Channel { name, show, .. } = self.channels[channel];
+        let Some(compared) = self.report.compared.iter_mut().find(|c| c.name == name) else { return };
+        let index = compared.equal + compared.different;
+        if was == is {
+            compared.equal += 1;
+            return;
+        }
+        compared.different += 1;
+        if compared.first.is_none() {
+            let shown = |bytes: Option<&[u8]>| bytes.map(|b| show(b).unwrap_or_else(|| "a token".to_owned()));
+            compared.first = Some(Difference { index, time: self.now, was: shown(was), is: shown(is) });
+        }
+    }
+}
+
+fn time_of(reaction: &[u8]) -> Option<Time> {
+    let mut fields = Reader::new(reaction)?;
+    fields.u32()?;
+    fields.i64().map(Time::from_nanos)
+}
+
+/// The value of a parameter, as TOML spells it.
+fn now<P: Parameters>(program: &mut P, name: &str) -> Option<String> {
+    struct Find<'a>(&'a str, Option<String>);
+    impl ParamVisitor for Find<'_> {
+        fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+            if info.name == self.0 {
+                self.1 = access.map(|access| access.get().to_string());
+            }
+        }
+    }
+    let mut find = Find(name, None);
+    program.visit_params(&mut find);
+    find.1
+}

@@ -1,0 +1,152 @@
+use super::Role;
+use crate::Time;
+use core::fmt::{self, Display, Formatter};
+
+/// What came of a replay.
+#[derive(Debug, Default)]
+pub struct Report {
+    /// The reactions that were repeated.
+    pub reactions: u64,
+    /// The connections that were compared.
+    pub compared: Vec<Compared>,
+    /// Channels of the program that the recording does not have.
+    pub missing: Vec<(&'static str, Role)>,
+    /// Channels of the recording that the program does not have.
+    pub gone: Vec<String>,
+    /// Parameters that were not what they are.
+    pub params: Vec<String>,
+    /// Messages that were lost when the run was recorded.
+    pub dropped: Vec<(String, u64)>,
+    /// Tokens of the recording that are no values of their types any more.
+    pub unreadable: u64,
+    /// Why the recording ends before the run did.
+    pub cut: Option<String>,
+}
+
+/// How the tokens of a connection compare.
+#[derive(Debug)]
+pub struct Compared {
+    /// The port that sends them.
+    pub name: &'static str,
+    /// How many were the same, bit by bit, in the same reaction.
+    pub equal: u64,
+    /// How many were not, or were there only once.
+    pub different: u64,
+    /// The first of these.
+    pub first: Option<Difference>,
+}
+
+/// Two tokens that should be the same.
+#[derive(Debug)]
+pub struct Difference {
+    /// How many tokens of the connection came before.
+    pub index: u64,
+    /// The time of the reaction.
+    pub time: Time,
+    /// The recorded token; `None` if there was none.
+    pub was: Option<String>,
+    /// The token of the replay; `None` if there was none.
+    pub is: Option<String>,
+}
+
+impl Compared {
+    pub(super) fn new(name: &'static str) -> Self {
+        Self { name, equal: 0, different: 0, first: None }
+    }
+}
+
+impl Report {
+    /// Whether all tokens that could be compared were the same.
+    pub fn is_same(&self) -> bool {
+        self.compared.iter().all(|c| c.different == 0)
+    }
+}
+
+impl Display for Report {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if let Some(cut) = &self.cut {
+            writeln!(f, "the recording is not whole: {cut}; compared as far as it goes")?;
+        }
+        for (channel, count) in &self.dropped {
+            writeln!(
+                f,
+                "{count} messages of `{channel}` were lost when this was recorded: what follows from them differs"
+            )?;
+        }
+        if self.unreadable > 0 {
+            writeln!(f, "{} recorded tokens are no values of their types any more", self.unreadable)?;
+        }
+        for line in &self.params {
+            writeln!(f, "parameter {line}")?;
+        }
+        for (name, role) in &self.missing {
+            let why = match role {
+                Role::Source => "is not in the recording: its node runs as ever",
+                Role::Mailbox | Role::Event => "is not in the recording: nothing comes there",
+                Role::Chosen => "is not in the recording: nothing to compare it with",
+            };
+            writeln!(f, "`{name}` {why}")?;
+        }
+        for name in &self.gone {
+            writeln!(f, "`{name}` is in the recording, but no port of the program that is recorded")?;
+        }
+        for compared in &self.compared {
+            write!(f, "{compared}")?;
+        }
+        let reactions = self.reactions;
+        match (self.compared.is_empty(), self.is_same()) {
+            (true, _) => {
+                writeln!(f, "{reactions} reactions; nothing to compare: name connections in a `record` statement")
+            }
+            (false, true) => writeln!(f, "{reactions} reactions, all the same"),
+            (false, false) => writeln!(f, "{reactions} reactions, not the same"),
+        }
+    }
+}
+
+impl Display for Compared {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let total = self.equal + self.different;
+        writeln!(f, "`{}`: {} of {total} tokens the same", self.name, self.equal)?;
+        let Some(first) = &self.first else { return Ok(()) };
+        let (was, is) = around(first.was.as_deref().unwrap_or("nothing"), first.is.as_deref().unwrap_or("nothing"));
+        writeln!(f, "  the first other one is number {}, at {}", first.index + 1, first.time)?;
+        writeln!(f, "    recorded: {was}")?;
+        writeln!(f, "    replayed: {is}")
+    }
+}
+
+/// The characters shown before the first difference of two texts, and after it.
+const BEFORE: usize = 40;
+const AFTER: usize = 60;
+
+/// Two texts that differ, without what is far from the place.
+fn around(a: &str, b: &str) -> (String, String) {
+    let same = a.chars().zip(b.chars()).take_while(|(a, b)| a == b).count();
+    let start = same.saturating_sub(BEFORE);
+    let part = |text: &str| {
+        let mut shown: String = text.chars().skip(start).take(BEFORE + AFTER).collect();
+        if start > 0 {
+            shown.insert(0, '…');
+        }
+        if text.chars().nth(start + BEFORE + AFTER).is_some() {
+            shown.push('…');
+        }
+        shown
+    };
+    (part(a), part(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_values_are_shown_where_they_differ() {
+        let (a, b) = (format!("{}1{}", "x".repeat(100), "y".repeat(100)), format!("{}2", "x".repeat(100)));
+        let (a, b) = around(&a, &b);
+        assert_eq!(a, format!("…{}1{}…", "x".repeat(40), "y".repeat(59)));
+        assert_eq!(b, format!("…{}2", "x".repeat(40)));
+        assert_eq!(around("1.0", "nothing"), ("1.0".to_owned(), "nothing".to_owned()));
+    }
+}

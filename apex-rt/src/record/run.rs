@@ -1,0 +1,80 @@
+//! What [`drive`](crate::drive) and the `apex` command do.
+
+use super::{Recorder, Replay, ReplayError, Report, Tap, WhenFull};
+use crate::{Clock, Observer, Program, StdErr, UntilStopped, drive_with};
+use std::{
+    env, io,
+    path::{Path, PathBuf},
+};
+
+/// The file that is replayed.
+const REPLAY: &str = "APEX_REPLAY";
+/// The file that is written.
+const RECORD: &str = "APEX_RECORD";
+
+/// What is to be done with a recording.
+pub enum Wish {
+    Record(PathBuf),
+    Replay(PathBuf),
+}
+
+impl Wish {
+    /// What the environment says, or a `record` statement of the program.
+    pub fn of<P: Program>() -> Option<Self> {
+        let file = |name| env::var_os(name).map(PathBuf::from);
+        match (file(REPLAY), file(RECORD), P::RECORD) {
+            (Some(path), ..) => Some(Self::Replay(path)),
+            (None, Some(path), _) => Some(Self::Record(path)),
+            (None, None, stated) => stated.map(|path| Self::Record(path.into())),
+        }
+    }
+}
+
+/// Drives a program and records it, or replays a recording of it.
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, wish: &Wish) -> u8 {
+    match wish {
+        Wish::Record(path) => record(program, clock, path).unwrap_or_else(|error| {
+            eprintln!("error: cannot record to `{}`: {error}", path.display());
+            2
+        }),
+        Wish::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
+            Ok(report) => {
+                print!("{report}");
+                u8::from(!report.is_same())
+            }
+            Err(error) => {
+                eprintln!("error: {error}");
+                2
+            }
+        },
+    }
+}
+
+fn record<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> io::Result<u8> {
+    let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
+    let mut tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
+    let code = drive_with(program, UntilStopped::ctrl_c_if_free(clock), (StdErr(const { &P::INFO }), &mut tap));
+    let Tap::Record(recorder) = tap else { return Ok(code) };
+    let finished = recorder.finish()?;
+    eprintln!("recorded to `{}`", finished.path.display());
+    for (channel, count) in finished.dropped {
+        eprintln!("warning: {count} messages of `{channel}` were lost: the file could not be written as fast");
+    }
+    Ok(code)
+}
+
+/// Lets a program react as it did when `path` was recorded, and says what came out differently.
+///
+/// # Errors
+/// The file is no recording of such a program, or cannot be read.
+pub fn replay<P: Program>(mut program: P, path: &Path, mut observer: impl Observer) -> Result<Report, ReplayError> {
+    let mut tap = Tap::Replay(Replay::open::<P>(path)?);
+    loop {
+        let Tap::Replay(replay) = &mut tap else { unreachable!("it was made so") };
+        let next = replay.next_reaction().map_err(|error| ReplayError::File(path.to_owned(), error))?;
+        let Some(now) = next else { break };
+        program.react_with(now, &mut (&mut observer, &mut tap));
+    }
+    let Tap::Replay(replay) = tap else { unreachable!("it was made so") };
+    Ok(replay.finish())
+}

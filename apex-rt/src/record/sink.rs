@@ -1,0 +1,247 @@
+//! Frames go through a ring of bytes to a thread that writes them into an MCAP file.
+
+use super::{Channel, Schema};
+use mcap::{WriteOptions, Writer, records::MessageHeader, records::Metadata};
+use rtrb::{Consumer, Producer, RingBuffer};
+use std::{
+    collections::BTreeMap,
+    fs::File,
+    io::{self, BufWriter},
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+
+/// So many bytes can wait to be written.
+pub const ROOM: usize = 16 << 20;
+/// What came within this time is written together; a power failure takes no more.
+const FLUSH: Duration = Duration::from_millis(500);
+/// How long the thread sleeps when there is nothing to write.
+const NAP: Duration = Duration::from_millis(2);
+/// The largest part of a file that is read and found as a whole.
+const CHUNK: u64 = 1 << 20;
+
+/// The channels that every recording has, before those of the program.
+pub const REACTION: u16 = 0;
+/// How long reactions had been going on, where a deadline asked.
+pub const ELAPSED: u16 = 1;
+/// Parameters, when they were set from outside.
+pub const PARAMETER: u16 = 2;
+/// Events of the program that were taken out.
+pub const TAKEN: u16 = 3;
+/// The first channel of the program.
+pub const FIRST: usize = 4;
+
+/// The names and messages of the channels that every recording has.
+pub const OWN: [(&str, Schema); FIRST] = [
+    ("apex/reaction", own("apex_msgs/msg/Reaction", "uint32 group\nint64 nanoseconds")),
+    ("apex/elapsed", own("apex_msgs/msg/Elapsed", "uint64 nanoseconds")),
+    ("apex/parameter", own("apex_msgs/msg/Parameter", "string name\nstring value\nbool changed")),
+    ("apex/taken", own("apex_msgs/msg/Taken", "string event")),
+];
+
+const fn own(name: &'static str, definition: &'static str) -> Schema {
+    Schema { name, definition, encoding: "cdr" }
+}
+
+/// The name under which the file says what was lost.
+pub const DROPPED: &str = "apex/dropped";
+/// The name under which the file says what program was recorded.
+pub const PROGRAM: &str = "apex/program";
+
+/// Bytes before each frame: channel, call, time, length.
+const HEADER: usize = 2 + 4 + 8 + 4;
+
+/// The near end of the ring.
+pub struct Sink {
+    ring: Producer<u8>,
+    frame: Vec<u8>,
+    over: Arc<AtomicBool>,
+    thread: Option<JoinHandle<io::Result<()>>>,
+    /// Bytes of the largest frame that ever fits.
+    room: usize,
+}
+
+impl Sink {
+    /// Makes the file and begins to write. `room` bytes can wait.
+    pub fn new(path: PathBuf, program: &str, channels: &[Channel], room: usize) -> io::Result<Self> {
+        let (ring, taken) = RingBuffer::new(room);
+        let file = File::create_new(&path)?;
+        let writer = open(file.try_clone()?, program, channels).map_err(as_io)?;
+        let over = Arc::new(AtomicBool::new(false));
+        let far = Far { ring: taken, writer, file, over: Arc::clone(&over), frame: vec![], path };
+        let thread = thread::Builder::new().name("apex-record".to_owned()).spawn(move || far.run())?;
+        Ok(Self { ring, frame: vec![], over, thread: Some(thread), room })
+    }
+
+    /// Begins a frame, which `end` sends; what is in it is written behind.
+    pub fn begin(&mut self, channel: u16, call: u32, time: u64) -> &mut Vec<u8> {
+        self.frame.clear();
+        self.frame.extend_from_slice(&channel.to_le_bytes());
+        self.frame.extend_from_slice(&call.to_le_bytes());
+        self.frame.extend_from_slice(&time.to_le_bytes());
+        self.frame.extend_from_slice(&[0; 4]);
+        &mut self.frame
+    }
+
+    /// Sends the frame; `false` if there is no room for it, however long one waits if one `waits`.
+    pub fn end(&mut self, waits: bool) -> bool {
+        let Ok(length) = u32::try_from(self.frame.len() - HEADER) else { return false };
+        self.frame[HEADER - 4..HEADER].copy_from_slice(&length.to_le_bytes());
+        loop {
+            if self.ring.push_entire_slice(&self.frame).is_ok() {
+                return true;
+            }
+            if !waits || self.frame.len() > self.room || self.ring.is_abandoned() {
+                return false;
+            }
+            thread::sleep(Duration::from_micros(100));
+        }
+    }
+
+    /// Writes what is left, and what was lost, and ends the file.
+    pub fn finish(&mut self, dropped: &[(String, u64)]) -> io::Result<()> {
+        let Some(thread) = self.thread.take() else { return Ok(()) };
+        let fields: BTreeMap<String, String> = dropped.iter().map(|(name, n)| (name.clone(), n.to_string())).collect();
+        self.frame.clear();
+        if let Ok(text) = postcard::to_allocvec(&fields) {
+            self.begin(u16::MAX, 0, 0).extend_from_slice(&text);
+            self.end(true);
+        }
+        self.over.store(true, Ordering::Release);
+        thread.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")))
+    }
+}
+
+impl Drop for Sink {
+    fn drop(&mut self) {
+        let _ = self.finish(&[]);
+    }
+}
+
+type Out = Writer<BufWriter<File>>;
+
+fn open(file: File, program: &str, channels: &[Channel]) -> mcap::McapResult<Out> {
+    let options = WriteOptions::new()
+        .compression(None)
+        .chunk_size(Some(CHUNK))
+        // A chunk is written when it is whole: one that was begun could not be read.
+        .disable_seeking(true)
+        .profile("ros2")
+        .library(concat!("apex ", env!("CARGO_PKG_VERSION")));
+    let mut writer = options.create(BufWriter::new(file))?;
+    let fields = BTreeMap::from([("name".to_owned(), program.to_owned())]);
+    writer.write_metadata(&Metadata { name: PROGRAM.to_owned(), metadata: fields })?;
+    let own = OWN.iter().map(|(name, schema)| (*name, Some(*schema)));
+    for (index, (name, schema)) in own.chain(channels.iter().map(|c| (c.name, c.schema))).enumerate() {
+        let Some(schema) = schema else { continue };
+        let (encoding, definition) =
+            if schema.encoding == "cdr" { ("ros2msg", schema.definition.as_bytes()) } else { ("", &[][..]) };
+        let id = writer.add_schema(schema.name, encoding, definition)?;
+        writer.add_channel_with_id(index as u16, id, name, schema.encoding, &BTreeMap::new())?;
+    }
+    writer.flush()?;
+    Ok(writer)
+}
+
+/// The far end of the ring.
+struct Far {
+    ring: Consumer<u8>,
+    writer: Out,
+    file: File,
+    over: Arc<AtomicBool>,
+    frame: Vec<u8>,
+    path: PathBuf,
+}
+
+impl Far {
+    fn run(mut self) -> io::Result<()> {
+        let result = self.write_all().and_then(|()| self.writer.finish().map(drop).map_err(as_io));
+        if let Err(error) = &result {
+            eprintln!("error: cannot write `{}` any further: {error}", self.path.display());
+            // The program goes on; what it says is dropped from now on, as the ring is abandoned.
+        }
+        result
+    }
+
+    fn write_all(&mut self) -> io::Result<()> {
+        let (mut flushed, mut dirty) = (Instant::now(), false);
+        loop {
+            // Asked before looking: what was sent before the end is then seen.
+            let over = self.over.load(Ordering::Acquire);
+            while self.write_one()? {
+                dirty = true;
+                if flushed.elapsed() >= FLUSH {
+                    break;
+                }
+            }
+            if dirty && flushed.elapsed() >= FLUSH {
+                self.writer.flush().map_err(as_io)?;
+                self.file.sync_data()?;
+                (flushed, dirty) = (Instant::now(), false);
+            }
+            if self.ring.is_empty() {
+                if over {
+                    return Ok(());
+                }
+                thread::sleep(NAP);
+            }
+        }
+    }
+
+    /// Writes a frame, if one is there.
+    fn write_one(&mut self) -> io::Result<bool> {
+        let mut head = [0; HEADER];
+        // Frames come in one piece: with the head the rest is there.
+        if self.ring.pop_entire_slice(&mut head).is_err() {
+            return Ok(false);
+        }
+        let [c0, c1, s0, s1, s2, s3, t0, t1, t2, t3, t4, t5, t6, t7, l0, l1, l2, l3] = head;
+        let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
+        self.frame.resize(length, 0);
+        let _ = self.ring.pop_entire_slice(&mut self.frame);
+        let channel_id = u16::from_le_bytes([c0, c1]);
+        if channel_id == u16::MAX {
+            return self.write_dropped().map(|()| true);
+        }
+        let time = u64::from_le_bytes([t0, t1, t2, t3, t4, t5, t6, t7]);
+        let sequence = u32::from_le_bytes([s0, s1, s2, s3]);
+        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
+        self.writer.write_to_known_channel(&header, &self.frame).map_err(as_io)?;
+        Ok(true)
+    }
+
+    fn write_dropped(&mut self) -> io::Result<()> {
+        let metadata = postcard::from_bytes(&self.frame).unwrap_or_default();
+        self.writer.write_metadata(&Metadata { name: DROPPED.to_owned(), metadata }).map_err(as_io)
+    }
+}
+
+fn as_io(error: mcap::McapError) -> io::Error {
+    match error {
+        mcap::McapError::Io(error) => error,
+        other => io::Error::other(other),
+    }
+}
+
+/// `path`, or, as nothing is overwritten, the first of `run-2.mcap`, `run-3.mcap` … that is not there yet.
+pub fn free(path: &Path) -> PathBuf {
+    let (stem, end) = (path.file_stem().unwrap_or_default(), path.extension().unwrap_or_default());
+    let numbered = |n: u32| {
+        let mut name = stem.to_owned();
+        name.push(format!("-{n}"));
+        let mut file = path.with_file_name(name);
+        if !end.is_empty() {
+            // `with_extension` would take a part of a name with points for one.
+            file.as_mut_os_string().push(".");
+            file.as_mut_os_string().push(end);
+        }
+        file
+    };
+    let taken = |path: &PathBuf| path.symlink_metadata().is_ok();
+    std::iter::once(path.to_owned()).chain((2..).map(numbered)).find(|p| !taken(p)).unwrap_or_else(|| path.to_owned())
+}

@@ -1,0 +1,47 @@
+//! The tokens of one channel, for a test.
+
+use super::{Codec, source::Source};
+use core::time::Duration;
+use std::{
+    env,
+    path::{Path, PathBuf},
+};
+
+/// The tokens of the channel `channel` of a recording, with their times. `file` is given from the folder of `text`.
+///
+/// # Panics
+/// It cannot be read, or has no such tokens.
+pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>) -> Vec<(Duration, T)> {
+    try_tokens(&find(text, file), channel, codec).unwrap_or_else(|message| panic!("{message}"))
+}
+
+fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<Vec<(Duration, T)>, String> {
+    let codec =
+        codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
+    let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
+    let mut source = Source::open(path).map_err(cannot_read)?;
+    let mut tokens = vec![];
+    while let Some(message) = source.next().map_err(cannot_read)? {
+        let Some(found) = source.channels.get(&message.channel).filter(|c| c.name == channel) else { continue };
+        if found.schema != codec.schema.name || found.encoding != codec.schema.encoding {
+            let (is, wanted) = (&found.schema, codec.schema.name);
+            return Err(format!("`{channel}` in `{}` is of type `{is}`, not `{wanted}`", path.display()));
+        }
+        let token = (codec.read)(&message.data);
+        let token = token.ok_or_else(|| format!("a token of `{channel}` in `{}` is damaged", path.display()))?;
+        tokens.push((Duration::from_nanos(message.time), token));
+    }
+    if tokens.is_empty() {
+        let names: Vec<String> = source.channels.values().map(|c| format!("`{}`", c.name)).collect();
+        return Err(format!("`{}` has no tokens of `{channel}`; it has {}", path.display(), names.join(", ")));
+    }
+    Ok(tokens)
+}
+
+/// Tests run in the folder of their package, but texts are named from that of the workspace.
+fn find(text: &str, file: &str) -> PathBuf {
+    let from_text = Path::new(text).parent().unwrap_or(Path::new("")).join(file);
+    let here = env::current_dir().unwrap_or_default();
+    let places = here.ancestors().map(|folder| folder.join(&from_text));
+    places.into_iter().find(|path| path.exists()).unwrap_or(from_text)
+}

@@ -1,0 +1,85 @@
+use apex_rt::{
+    drive_with,
+    prelude::*,
+    record::{
+        Message, Recorder, Tap, WhenFull,
+        cdr::{Reader, Writer},
+        replay,
+    },
+};
+
+/// How warm it is, in °C.
+pub struct Warmth(pub f64);
+
+impl Message for Warmth {
+    const NAME: &'static str = "sensor_msgs/msg/Temperature";
+    const DEFINITION: &'static str = "\
+std_msgs/Header header
+float64 temperature
+float64 variance
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec";
+
+    fn write(&self, message: &mut Writer<'_>) {
+        message.header(Time::ZERO, "stove");
+        message.f64(self.0);
+        message.f64(0.0);
+    }
+
+    fn read(message: &mut Reader<'_>) -> Option<Self> {
+        message.header()?;
+        message.f64().map(Self)
+    }
+}
+
+/// A thermometer.
+#[node]
+pub fn thermometer(ctx: &Ctx) -> Warmth {
+    Warmth(20.0 + ctx.now().as_secs_f64())
+}
+
+/// Whether it is too warm.
+#[node]
+pub fn too_warm(warmth: &Warmth) -> bool {
+    warmth.0 > 20.5
+}
+
+graph! {
+    use apex_nodes::flow::Signal;
+    use crate::recording::{thermometer, too_warm};
+
+    robot Stove {
+        node warmth = thermometer() every 100ms;
+        node warm   = too_warm();
+
+        warmth -> warm -> Signal();
+
+        record "stove.mcap" {
+            warm;
+        }
+    }
+}
+
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let file = std::env::temp_dir().join(format!("stove-{}.mcap", std::process::id()));
+
+    // A robot cannot wait until its file is written; a simulation can.
+    let mut tap = Tap::Record(Recorder::to_file::<Stove>(&file, WhenFull::Wait)?);
+    drive_with(Stove::new(), SimClock::until(Time::from_secs(1)), &mut tap);
+    if let Tap::Record(recorder) = tap {
+        let finished = recorder.finish()?;
+        assert!(finished.dropped.is_empty());
+    }
+
+    let report = replay(Stove::new(), &file, ())?;
+    assert!(report.is_same());
+    assert_eq!(report.reactions, 10);
+    std::fs::remove_file(file)?;
+    Ok(())
+}

@@ -1,0 +1,200 @@
+//! There and back.
+
+use crate::{Folder, record, repeat};
+use apex_rt::{Program, drive_with, prelude::*, record::replay};
+use std::time::Duration;
+
+graph! {
+    use apex_tests::nodes::{Diary, Mean, Moody, bits, device, dozen, noise, pairs, ranges, same, swallow};
+
+    /// Sources of all kinds.
+    robot Restless {
+        node a = noise() every 3ms;
+        node b = noise() every 5ms;
+        node r = ranges() every 4ms;
+        node d = device() every 7ms;
+        node m = Moody() every 2ms;
+        node mean = Mean();
+        node sum = bits();
+        node slow = same() deadline 500us;
+        node diary = Diary();
+        node echo = Diary();
+
+        a -> mean;
+        b -> slow;
+        r -> sum -> [diary.number, m.ask];
+        slow.late -> diary.late;
+        d.reading -> diary.reading;
+        d.odd -> diary.number;
+        m.level -> diary.number;
+        m.alarm -> diary.number;
+        m.answer -> diary.number;
+        m.failed -> diary.failure;
+        diary.told -> echo.text;
+        mean -> same() -> swallow();
+
+        record "restless.mcap" {
+            mean.out;
+            sum.out;
+            slow.late;
+            diary.told;
+        }
+    }
+
+    /// Several tokens at once.
+    robot Batches {
+        node d = dozen() every 3ms;
+        node pairs = pairs();
+        d -> pairs -> swallow();
+        record "batches.mcap" { pairs; }
+    }
+
+    /// Tokens come in from outside, and events are taken out.
+    graph Ports {
+        in value: f64;
+        slot number: u64;
+        event told: String;
+        out mean: f64;
+        node m = Mean();
+        node diary = Diary();
+        value -> m -> mean;
+        number -> diary.number;
+        diary.told -> told;
+        record "ports.mcap" {
+            m.out;
+            diary.told;
+        }
+    }
+}
+
+/// A machine on which reactions take sometimes longer, sometimes not as long.
+#[derive(Default)]
+struct Busy(u32);
+
+impl Observer for Busy {
+    fn elapsed(&mut self) -> Duration {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        Duration::from_nanos(u64::from(self.0 >> 12))
+    }
+}
+
+fn until(ms: i64) -> SimClock {
+    SimClock::until(Time::from_millis(ms))
+}
+
+#[test]
+fn a_run_with_chance_in_it_is_the_same_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Restless::new();
+    record::<Restless>(&path, |tap| {
+        drive_with(&mut first, until(400), (Busy::default(), tap));
+    });
+    let mut second = Restless::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && report.missing.is_empty() && report.params.is_empty(), "{report}");
+    assert_eq!(report.compared.len(), 4, "{report}");
+    assert!(report.compared.iter().all(|c| c.equal > 5), "{report}");
+    assert_eq!(first.nodes().diary.entries, second.nodes().diary.entries);
+    assert!(first.nodes().m.calls > 200);
+    assert_eq!(second.nodes().m.calls, 0, "a source that was recorded is not called");
+}
+
+#[test]
+fn what_comes_from_outside_comes_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Ports::new();
+    let run = |program: &mut Ports, tap: &mut apex_rt::record::Tap| {
+        for i in 0..60_u64 {
+            let now = Time::from_millis(i as i64);
+            if i % 2 == 0 {
+                let _ = program.inputs().value.put(i as f64);
+            }
+            let _ = program.inputs().number.put(i);
+            if i % 5 == 0 {
+                program.events().told.take();
+            }
+            if i == 20 {
+                program.set_param("m.offset", 2.5).expect("there is one");
+            }
+            program.react_with(now, tap);
+        }
+    };
+    record::<Ports>(&path, |tap| run(&mut first, tap));
+    let mut second = Ports::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && report.reactions == 60, "{report}");
+    assert_eq!(report.compared.iter().map(|c| c.equal).collect::<Vec<_>>(), [30, 13], "{report}");
+    assert_eq!(first.nodes().diary.entries, second.nodes().diary.entries);
+    assert_eq!(first.outputs().mean, second.outputs().mean);
+    assert_eq!(second.param::<f64>("m.offset").ok(), Some(2.5));
+}
+
+#[test]
+fn several_tokens_at_once_are_the_same_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    record::<Batches>(&path, |tap| {
+        drive_with(Batches::new(), until(30), tap);
+    });
+    let report = repeat(Batches::new(), &path);
+    assert!(report.is_same() && report.compared[0].equal == 60, "{report}");
+}
+
+#[test]
+fn another_parameter_shows_the_first_difference() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    record::<Restless>(&path, |tap| {
+        drive_with(Restless::new(), until(50), tap);
+    });
+    let mut other = Restless::new();
+    other.set_param("mean.offset", 1.0).expect("there is one");
+    let report = repeat(&mut other, &path);
+    let mean = report.compared.iter().find(|c| c.name == "mean.out").expect("it is compared");
+    assert!(!report.is_same() && mean.equal == 0 && mean.different == 17, "{report}");
+    let first = mean.first.as_ref().expect("a difference");
+    assert_eq!((first.index, first.time), (0, Time::ZERO));
+    let value = |text: &Option<String>| text.as_ref().and_then(|t| t.parse::<f64>().ok()).expect("a number");
+    assert!((value(&first.is) - value(&first.was) - 1.0).abs() < 1e-12);
+    assert_eq!(report.params, ["`mean.offset` was 0.0 and is 1.0"]);
+    let told = report.compared.iter().find(|c| c.name == "diary.told").expect("it is compared");
+    assert_eq!(told.different, 0, "what does not depend on it is the same");
+}
+
+#[test]
+fn a_recording_of_another_program_is_refused() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    record::<Restless>(&path, |tap| {
+        drive_with(Restless::new(), until(5), tap);
+    });
+    let error = replay(Ports::new(), &path, ()).expect_err("another program");
+    assert_eq!(error.to_string(), format!("`{}` is a recording of `Restless`, not of `Ports`", path.display()));
+}
+
+#[test]
+fn nothing_is_overwritten() {
+    let folder = Folder::new();
+    let path = folder.file("run.mcap");
+    let names: Vec<String> = (0..3)
+        .map(|_| {
+            record::<Restless>(&path, |tap| {
+                drive_with(Restless::new(), until(2), tap);
+            })
+        })
+        .map(|finished| finished.path.file_name().expect("a name").to_string_lossy().into_owned())
+        .collect();
+    assert_eq!(names, ["run.mcap", "run-2.mcap", "run-3.mcap"]);
+}
+
+#[test]
+fn the_text_names_the_file() {
+    assert_eq!(Restless::RECORD, Some("restless.mcap"));
+    let names: Vec<&str> = Restless::channels().iter().map(|c| c.name).collect();
+    let expected = ["a.out", "b.out", "r.out", "d.reading", "d.odd", "m.level", "m.alarm", "m.answer", "m.failed"];
+    assert_eq!(names[..9], expected);
+    assert_eq!(names[9..], ["mean.out", "sum.out", "slow.late", "diary.told"]);
+    assert!(Restless::channels().iter().all(|c| c.schema.is_some()));
+}

@@ -1,0 +1,196 @@
+//! Sources of which nobody knows what they send next, and nodes that make something of it.
+
+use apex_nodes::scan::{Pose2, Scan};
+use apex_rt::{Ctx, Event, Out, Outputs, node};
+use serde::{Deserialize, Serialize};
+use std::time::SystemTime;
+
+/// Something that differs from call to call, and from run to run.
+fn chance() -> u64 {
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    let mixed = (now.as_nanos() as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    mixed ^ (mixed >> 29)
+}
+
+/// A number in 0..1 that nobody knows.
+#[node]
+pub fn noise() -> f64 {
+    chance() as f64 / u64::MAX as f64
+}
+
+/// Ranges, some of which are NaN with bits of their own.
+#[node]
+pub fn ranges() -> Vec<f32> {
+    let odd = f32::from_bits(0x7fc0_0000 | (chance() as u32 & 0xffff));
+    vec![chance() as f32, odd, f32::INFINITY, -0.0]
+}
+
+/// A reading of a device.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Reading {
+    /// Nothing there.
+    Empty,
+    /// Something.
+    Value { number: u64, text: String },
+}
+
+/// Several outputs at once, one of which may be missing.
+#[derive(Outputs)]
+pub struct Readings {
+    /// Always sent.
+    pub reading: Reading,
+    /// Sent now and then.
+    pub odd: Option<u64>,
+}
+
+/// A device with several outputs.
+#[node]
+pub fn device() -> Readings {
+    let number = chance();
+    let reading =
+        if number.is_multiple_of(3) { Reading::Empty } else { Reading::Value { number, text: number.to_string() } };
+    Readings { reading, odd: (!number.is_multiple_of(2)).then_some(number) }
+}
+
+/// A device that writes its output in place, has an event, fails now and then, and counts what is asked of it.
+#[node]
+#[derive(Default)]
+pub struct Moody {
+    /// How often it was called, which a replay does not do.
+    pub calls: u32,
+    asked: u64,
+}
+
+#[node]
+impl Moody {
+    fn process(&mut self, level: &mut Out<u64>, alarm: Event<u64>) -> Result<(), String> {
+        self.calls += 1;
+        let number = chance();
+        level.set(number);
+        if number.is_multiple_of(5) {
+            alarm.emit(number);
+        }
+        if number.is_multiple_of(7) { Err(format!("no more than {number}")) } else { Ok(()) }
+    }
+
+    /// Answers with something that nobody knows.
+    #[slot]
+    fn ask(&mut self, question: &u64, answer: Event<u64>) {
+        self.calls += 1;
+        self.asked += question & 1;
+        answer.emit(chance());
+    }
+}
+
+/// The mean of all values so far, and whether it took long.
+#[node]
+#[derive(Default)]
+pub struct Mean {
+    /// What is added to it.
+    #[param(default = 0.0)]
+    offset: f64,
+    sum: f64,
+    count: f64,
+}
+
+#[node]
+impl Mean {
+    fn process(&mut self, value: &f64) -> f64 {
+        self.sum += value;
+        self.count += 1.0;
+        self.sum / self.count + self.offset
+    }
+}
+
+/// The sum of all ranges, as bits: NaN, infinity and −0 count.
+#[node]
+pub fn bits(ranges: &Vec<f32>) -> u64 {
+    ranges.iter().fold(0, |sum: u64, range| sum.rotate_left(7) ^ u64::from(range.to_bits()))
+}
+
+/// Passes on what comes.
+#[node]
+pub fn same(value: &f64) -> f64 {
+    *value
+}
+
+/// Writes down what came, in order.
+#[node]
+#[derive(Default)]
+pub struct Diary {
+    /// The entries.
+    pub entries: Vec<String>,
+}
+
+#[node]
+impl Diary {
+    #[slot]
+    fn number(&mut self, number: &u64, ctx: &Ctx, told: Event<String>) {
+        self.entries.push(format!("{}: {number}", ctx.now()));
+        told.emit(format!("{number}"));
+    }
+
+    #[slot]
+    fn reading(&mut self, reading: &Reading) {
+        self.entries.push(format!("{reading:?}"));
+    }
+
+    #[slot]
+    fn failure(&mut self, failure: &apex_rt::Failure) {
+        self.entries.push(failure.text().to_owned());
+    }
+
+    #[slot]
+    fn late(&mut self) {
+        self.entries.push("late".to_owned());
+    }
+
+    #[slot]
+    fn text(&mut self, text: &String) {
+        self.entries.push(text.clone());
+    }
+}
+
+/// Takes whatever comes.
+#[node]
+pub fn swallow<T>(value: &T) {
+    let _ = value;
+}
+
+/// The time in milliseconds, and a half.
+#[node]
+pub fn count(ctx: &Ctx) -> f64 {
+    ctx.now().as_secs_f64() * 1e3 + 0.5
+}
+
+/// A scan with odd ranges.
+#[node]
+pub fn eyes(ctx: &Ctx) -> Scan {
+    let mut scan = Scan { stamp: ctx.now(), angle_increment: 0.1, ..Scan::default() };
+    scan.ranges.extend([1.0, f32::NAN, f32::INFINITY]);
+    scan
+}
+
+/// A pose.
+#[node]
+pub fn pose() -> Pose2 {
+    Pose2::new(1.5, -2.0, 0.5)
+}
+
+/// A word.
+#[node]
+pub fn word() -> String {
+    "zwölf".to_owned()
+}
+
+/// Twelve numbers that nobody knows.
+#[node]
+pub fn dozen() -> [u64; 12] {
+    core::array::from_fn(|i| chance() ^ i as u64)
+}
+
+/// Two numbers become one.
+#[node]
+pub fn pairs(numbers: &[u64; 2]) -> u64 {
+    numbers[0] ^ numbers[1].rotate_left(1)
+}
