@@ -5,7 +5,13 @@
 #![recursion_limit = "1024"] // A hundred operations in a row are a type of this depth.
 
 pub mod copper;
+pub mod dataflow;
 pub mod dfir;
+pub mod exchange;
+pub mod machines;
+pub mod pool;
+pub mod reactive;
+pub mod tasks;
 
 use std::{
     hint::black_box,
@@ -53,4 +59,12 @@ peers! {
         throttle = dfir::throttle, rate23 = dfir::rate23, nested1000 = dfir::nested1000,
         pingpong = dfir::pingpong, mpse8 = dfir::mpse8;
     "dfir-batch": chain3 = dfir::chain3_batch, chain10 = dfir::chain10_batch, chain100 = dfir::chain100_batch;
+    "rayon": chain3 = pool::chain3, chain10 = pool::chain10, chain100 = pool::chain100, diamond8 = pool::diamond8, diamond64 = pool::diamond64, nested1000 = pool::nested1000;
+    "rxrust": chain3 = reactive::chain3, chain10 = reactive::chain10, chain100 = reactive::chain100, diamond8 = reactive::diamond8, diamond64 = reactive::diamond64, bot100 = reactive::bot100, throttle = reactive::throttle, rate23 = reactive::rate23, nested1000 = reactive::nested1000, mpse8 = reactive::mpse8;
+    "tokio-ct": chain3 = tasks::chain3, chain10 = tasks::chain10, chain100 = tasks::chain100, diamond8 = tasks::diamond8, diamond64 = tasks::diamond64, bot100 = tasks::bot100, throttle = tasks::throttle, pingpong = tasks::pingpong, mpse8 = tasks::mpse8;
+    "timely": chain3 = dataflow::chain3, chain10 = dataflow::chain10, chain100 = dataflow::chain100, bot100 = dataflow::bot100;
+    "statig": fsm16 = machines::statig::fsm16;
+    "smlang": fsm16 = machines::smlang::fsm16;
+    "triple_buffer-free": tworegion = exchange::triple_buffer;
+    "crossbeam-free": tworegion = exchange::array_queue;
 }
