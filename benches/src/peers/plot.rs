@@ -38,7 +38,8 @@ pub fn svg(rows: &[Row]) -> String {
         let y = top + ROW * (i as f64 + 0.5);
         let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>", LEFT - 10.0, y + 4.0, row.graph);
         // Those that come first in the list of names lie above the others.
-        let mut dots: Vec<_> = row.others.iter().filter_map(|o| Some((index(&names, &o.name)?, o.ratio))).collect();
+        let right = row.others.iter().filter(|other| other.equal);
+        let mut dots: Vec<_> = right.filter_map(|o| Some((index(&names, &o.name)?, o.ratio))).collect();
         dots.sort_by_key(|(index, _)| std::cmp::Reverse(*index));
         for (index, ratio) in dots {
             let _ = writeln!(svg, "{}", dot(axis.x(ratio), y, index));
