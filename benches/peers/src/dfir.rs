@@ -187,6 +187,11 @@ impl Sum {
     }
 }
 
+/// What producer `p` sends, and the number of the operation for it.
+fn event(i: u64, p: u64) -> (u64, u64) {
+    (p + 1, numbered(&i, p))
+}
+
 /// Eight values a tick.
 pub fn mpse8(ticks: u64) -> Ran {
     let mut source = Count::default();
@@ -194,7 +199,7 @@ pub fn mpse8(ticks: u64) -> Ran {
     seq!(P in 0..8 {
         let mut flow = dfir_syntax! {
             all = spin() -> map(|()| source.process()) -> tee();
-            #(all -> map(|i: u64| (P + 1, numbered(&i, P))) -> consumer;)*
+            #(all -> map(|i: u64| event(i, P)) -> consumer;)*
             consumer = union() -> for_each(|(k, v): (u64, u64)| {
                 let mut sum = inner.borrow_mut();
                 sum.acc = black_box(sum.acc.wrapping_add(op(&v, k)));

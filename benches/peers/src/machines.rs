@@ -50,22 +50,22 @@ pub mod statig {
 
     #[rustfmt::skip]
     ring! {
-        s0 "enter0" enter0 1 => s1,
-        s1 "enter1" enter1 2 => s2,
-        s2 "enter2" enter2 3 => s3,
-        s3 "enter3" enter3 4 => s4,
-        s4 "enter4" enter4 5 => s5,
-        s5 "enter5" enter5 6 => s6,
-        s6 "enter6" enter6 7 => s7,
-        s7 "enter7" enter7 8 => s8,
-        s8 "enter8" enter8 9 => s9,
-        s9 "enter9" enter9 10 => s10,
-        s10 "enter10" enter10 11 => s11,
-        s11 "enter11" enter11 12 => s12,
-        s12 "enter12" enter12 13 => s13,
-        s13 "enter13" enter13 14 => s14,
-        s14 "enter14" enter14 15 => s15,
-        s15 "enter15" enter15 16 => s0,
+        s0 "enter1" enter1 1 => s1,
+        s1 "enter2" enter2 2 => s2,
+        s2 "enter3" enter3 3 => s3,
+        s3 "enter4" enter4 4 => s4,
+        s4 "enter5" enter5 5 => s5,
+        s5 "enter6" enter6 6 => s6,
+        s6 "enter7" enter7 7 => s7,
+        s7 "enter8" enter8 8 => s8,
+        s8 "enter9" enter9 9 => s9,
+        s9 "enter10" enter10 10 => s10,
+        s10 "enter11" enter11 11 => s11,
+        s11 "enter12" enter12 12 => s12,
+        s12 "enter13" enter13 13 => s13,
+        s13 "enter14" enter14 14 => s14,
+        s14 "enter15" enter15 15 => s15,
+        s15 "enter16" enter16 16 => s0,
     }
 
     /// Symbols for the ring.
@@ -89,23 +89,23 @@ pub mod smlang {
 
     statemachine! {
         transitions: {
-            *S0 + Next / enter1 = S1,
-            S1 + Next / enter2 = S2,
-            S2 + Next / enter3 = S3,
-            S3 + Next / enter4 = S4,
-            S4 + Next / enter5 = S5,
-            S5 + Next / enter6 = S6,
-            S6 + Next / enter7 = S7,
-            S7 + Next / enter8 = S8,
-            S8 + Next / enter9 = S9,
-            S9 + Next / enter10 = S10,
-            S10 + Next / enter11 = S11,
-            S11 + Next / enter12 = S12,
-            S12 + Next / enter13 = S13,
-            S13 + Next / enter14 = S14,
-            S14 + Next / enter15 = S15,
-            S15 + Next / enter0 = S0,
-            _ + Reset / enter0 = S0,
+            *S0 + Next / enter2 = S1,
+            S1 + Next / enter3 = S2,
+            S2 + Next / enter4 = S3,
+            S3 + Next / enter5 = S4,
+            S4 + Next / enter6 = S5,
+            S5 + Next / enter7 = S6,
+            S6 + Next / enter8 = S7,
+            S7 + Next / enter9 = S8,
+            S8 + Next / enter10 = S9,
+            S9 + Next / enter11 = S10,
+            S10 + Next / enter12 = S11,
+            S11 + Next / enter13 = S12,
+            S12 + Next / enter14 = S13,
+            S13 + Next / enter15 = S14,
+            S14 + Next / enter16 = S15,
+            S15 + Next / enter1 = S0,
+            _ + Reset / enter1 = S0,
         }
     }
 
@@ -113,11 +113,11 @@ pub mod smlang {
         sink: Entered,
     }
 
-    seq!(N in 0..16 {
+    seq!(N in 1..=16 {
         impl StateMachineContext for Context {
             #(
                 fn enter~N(&mut self) -> Result<(), ()> {
-                    self.sink.s(&(N + 1));
+                    self.sink.s(&N);
                     Ok(())
                 }
             )*
