@@ -1,6 +1,7 @@
 //! The compiled graphs, each as a function from a number of ticks to the checksum.
 
 use apex_rt::prelude::*;
+use std::time::Instant;
 
 graph!("graphs/chain3.afg");
 graph!("graphs/chain10.afg");
@@ -77,4 +78,43 @@ pub fn mixed1000(ticks: u64) -> u64 {
         std::hint::black_box(&mut graph);
     }
     crate::hand::mixed1000::checksum(&graph)
+}
+
+/// Reads the clock of the machine when the first node of a cluster fires: one time stamp for all nodes of a tick.
+struct Stamps {
+    clusters: &'static [&'static [usize]],
+}
+
+impl Observer for Stamps {
+    #[inline(always)]
+    fn fired(&mut self, node: usize) {
+        if self.clusters.iter().any(|cluster| cluster[0] == node) {
+            std::hint::black_box(Instant::now());
+        }
+    }
+}
+
+macro_rules! stamped {
+    ($($name:ident: $graph:ident),*) => {
+        /// The same with a time stamp per cluster.
+        pub mod stamped {
+            use super::*;
+            $(
+                #[doc = concat!("Ticks of `", stringify!($graph), "`.")]
+                #[inline(never)]
+                pub fn $name(ticks: u64) -> u64 {
+                    let mut graph = $graph::new();
+                    let mut stamps = Stamps { clusters: $graph::INFO.clusters };
+                    for now in milliseconds(ticks) {
+                        graph.react_with(now, &mut stamps);
+                    }
+                    graph.nodes().sink.checksum()
+                }
+            )*
+        }
+    };
+}
+
+stamped! {
+    chain3: Chain3, chain10: Chain10, chain100: Chain100, diamond8: Diamond8, bot100: Bot100, throttle: Throttle
 }

@@ -19,9 +19,14 @@ pub enum Side {
 const SHORT: u64 = 1000;
 const LONG: u64 = 2000;
 
+/// Whether there is a valgrind.
+pub fn can_count() -> bool {
+    Command::new("valgrind").arg("--version").output().is_ok()
+}
+
 /// Prints a table of all graphs.
 pub fn run() -> Result<ExitCode, String> {
-    if Command::new("valgrind").arg("--version").output().is_err() {
+    if !can_count() {
         println!("skipped: counting instructions needs valgrind");
         return Ok(ExitCode::SUCCESS);
     }
@@ -44,7 +49,8 @@ pub fn ticks(graph: &str, side: Side, ticks: u64) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn per_tick(graph: &str, side: Side) -> Result<f64, String> {
+/// Instructions per tick of one side of a graph.
+pub fn per_tick(graph: &str, side: Side) -> Result<f64, String> {
     // A frame takes millions of instructions: a few are enough.
     let scale = if graph == "image" { 125 } else { 1 };
     let (short, long) = (SHORT / scale, LONG / scale);

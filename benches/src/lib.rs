@@ -4,6 +4,9 @@ mod cases;
 pub mod graphs;
 pub mod hand;
 pub mod image;
+mod memory;
 pub mod nodes;
+pub mod tworegion;
 
 pub use cases::{CASES, Case, Run, SKIPPED, SYNCHRONOUS, allocations};
+pub use memory::print_memory;

@@ -3,6 +3,7 @@
 mod compile;
 mod instructions;
 mod measure;
+mod peers;
 mod report;
 
 use apex_bench::CASES;
@@ -39,6 +40,8 @@ enum Command {
     Instructions,
     /// Measure what it costs to compile: `apex check`, generated lines, a rebuild after an edit.
     Compile,
+    /// Measure other frameworks, too, which are built from `benches/peers`.
+    Peers(peers::Arguments),
     /// Run ticks of one side of a graph (what `instructions` counts).
     #[command(hide = true)]
     Ticks { graph: String, side: instructions::Side, ticks: u64 },
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         None => times(&arguments),
         Some(Command::Instructions) => instructions::run(),
         Some(Command::Compile) => compile::run(),
+        Some(Command::Peers(arguments)) => peers::run(arguments),
         Some(Command::Ticks { graph, side, ticks }) => instructions::ticks(graph, *side, *ticks),
     };
     result.unwrap_or_else(|message| {

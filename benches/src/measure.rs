@@ -3,6 +3,7 @@
 use apex_bench::{Case, Run};
 use serde::Serialize;
 use std::{
+    convert::Infallible,
     hint::black_box,
     time::{Duration, Instant},
 };
@@ -48,7 +49,7 @@ impl Measurement {
 
 /// Compares both sides of `case`, round by round, each side first in turn.
 pub fn compare(case: &Case, effort: Effort) -> Measurement {
-    let ticks = ticks_in(case.hand, effort.round).min(ticks_in(case.apex, effort.round));
+    let ticks = ticks_of(case.hand, effort.round).min(ticks_of(case.apex, effort.round));
     let mut equal = true;
     let (mut apex, mut hand, mut ratios) = (vec![], vec![], vec![]);
     for round in 0..effort.rounds {
@@ -76,9 +77,13 @@ fn allocations(run: Run) -> f64 {
     (many as f64 - few as f64) / TICKS as f64
 }
 
-struct Round {
-    ns: f64,
-    checksum: u64,
+/// What a run of a number of ticks gave.
+#[derive(Clone, Copy)]
+pub struct Round {
+    /// Nanoseconds per tick.
+    pub ns: f64,
+    /// The result.
+    pub checksum: u64,
 }
 
 fn in_turn(round: usize, a: impl Fn() -> Round, b: impl Fn() -> Round) -> (Round, Round) {
@@ -91,26 +96,30 @@ fn in_turn(round: usize, a: impl Fn() -> Round, b: impl Fn() -> Round) -> (Round
     }
 }
 
-fn timed(run: Run, ticks: u64) -> Round {
+/// Runs `ticks` ticks.
+pub fn timed(run: Run, ticks: u64) -> Round {
     let start = Instant::now();
     let checksum = run(black_box(ticks));
     Round { ns: start.elapsed().as_nanos() as f64 / ticks as f64, checksum }
 }
 
-/// How many ticks take about `duration`.
-fn ticks_in(run: Run, duration: Duration) -> u64 {
-    let mut ticks = 4;
-    loop {
-        let start = Instant::now();
-        black_box(run(black_box(ticks)));
-        if start.elapsed() >= duration / 2 {
-            return ticks;
-        }
-        ticks *= 2;
-    }
+/// How many ticks of `run` take about `duration`.
+fn ticks_of(run: Run, duration: Duration) -> u64 {
+    let Ok(ticks) = ticks_in(duration, |ticks| Ok::<_, Infallible>(timed(run, ticks)));
+    ticks
 }
 
-fn median(values: &mut [f64]) -> f64 {
+/// How many ticks take about `duration`.
+pub fn ticks_in<E>(duration: Duration, mut run: impl FnMut(u64) -> Result<Round, E>) -> Result<u64, E> {
+    let mut ticks = 4;
+    while run(ticks)?.ns * (ticks as f64) < duration.as_nanos() as f64 / 2.0 {
+        ticks *= 2;
+    }
+    Ok(ticks)
+}
+
+/// The one in the middle.
+pub fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
 }

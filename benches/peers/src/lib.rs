@@ -1,0 +1,67 @@
+//! The graphs of `apex-bench` as other frameworks have them. They call the same node functions.
+//!
+//! Lockstep: a tick begins when the sink has the value of the one before. What relaxes this has `-batch` in its name.
+
+#![recursion_limit = "1024"] // A hundred operations in a row are a type of this depth.
+
+pub mod copper;
+pub mod dataflow;
+pub mod dfir;
+pub mod exchange;
+pub mod machines;
+pub mod pool;
+pub mod reactive;
+pub mod tasks;
+
+use std::time::{Duration, Instant};
+
+/// What a run gave.
+#[derive(Clone, Copy)]
+pub struct Ran {
+    /// How long all ticks took, without what is done once.
+    pub time: Duration,
+    /// What the sink had at the end.
+    pub checksum: u64,
+}
+
+/// How long `ticks` takes.
+pub(crate) fn timed(ticks: impl FnOnce()) -> Duration {
+    let start = Instant::now();
+    ticks();
+    start.elapsed()
+}
+
+/// A graph as a framework has it.
+pub struct Peer {
+    /// The graph.
+    pub graph: &'static str,
+    /// The framework, and what is special about how it is used.
+    pub name: &'static str,
+    /// Runs a number of ticks from the beginning.
+    pub run: fn(u64) -> Ran,
+}
+
+macro_rules! peers {
+    ($($name:literal: $($graph:ident = $run:path),+;)+) => {
+        /// All of them.
+        pub const PEERS: &[Peer] = &[$($(Peer { graph: stringify!($graph), name: $name, run: $run },)+)+];
+    };
+}
+
+peers! {
+    "cu29": chain3 = copper::chain3, chain10 = copper::chain10, chain100 = copper::chain100,
+        diamond8 = copper::diamond8, bot100 = copper::bot100, throttle = copper::throttle;
+    "dfir": chain3 = dfir::chain3, chain10 = dfir::chain10, chain100 = dfir::chain100,
+        diamond8 = dfir::diamond8, diamond64 = dfir::diamond64, bot100 = dfir::bot100,
+        throttle = dfir::throttle, rate23 = dfir::rate23, nested1000 = dfir::nested1000,
+        pingpong = dfir::pingpong, mpse8 = dfir::mpse8;
+    "dfir-batch": chain3 = dfir::chain3_batch, chain10 = dfir::chain10_batch, chain100 = dfir::chain100_batch;
+    "rayon": chain3 = pool::chain3, chain10 = pool::chain10, chain100 = pool::chain100, diamond8 = pool::diamond8, diamond64 = pool::diamond64, nested1000 = pool::nested1000;
+    "rxrust": chain3 = reactive::chain3, chain10 = reactive::chain10, chain100 = reactive::chain100, diamond8 = reactive::diamond8, diamond64 = reactive::diamond64, bot100 = reactive::bot100, throttle = reactive::throttle, rate23 = reactive::rate23, nested1000 = reactive::nested1000, mpse8 = reactive::mpse8;
+    "tokio-ct": chain3 = tasks::chain3, chain10 = tasks::chain10, chain100 = tasks::chain100, diamond8 = tasks::diamond8, diamond64 = tasks::diamond64, bot100 = tasks::bot100, throttle = tasks::throttle, pingpong = tasks::pingpong, mpse8 = tasks::mpse8;
+    "timely": chain3 = dataflow::chain3, chain10 = dataflow::chain10, chain100 = dataflow::chain100, bot100 = dataflow::bot100;
+    "statig": fsm16 = machines::statig::fsm16;
+    "smlang": fsm16 = machines::smlang::fsm16;
+    "triple_buffer-free": tworegion = exchange::triple_buffer;
+    "crossbeam-free": tworegion = exchange::array_queue;
+}

@@ -1,0 +1,180 @@
+//! tokio: a task for each node, channels of one element between them, all on one thread.
+
+use crate::Ran;
+use apex_bench::nodes::{Count, OneOf, Ping, Sink, add, numbered, op};
+use std::hint::black_box;
+use tokio::{
+    runtime::Builder,
+    spawn,
+    sync::mpsc::{Receiver, Sender, channel},
+};
+
+/// A message, or ⊥: the sink has to hear of every tick.
+type Token = Option<u64>;
+
+/// A task that makes a token of each.
+fn node(mut from: Receiver<Token>, mut make: impl FnMut(u64) -> Token + Send + 'static) -> Receiver<Token> {
+    let (to, output) = channel(1);
+    spawn(async move {
+        while let Some(token) = from.recv().await {
+            if to.send(token.and_then(&mut make)).await.is_err() {
+                break;
+            }
+        }
+    });
+    output
+}
+
+/// Operations in a row.
+fn ops(from: Receiver<Token>, numbers: impl Iterator<Item = u64>) -> Receiver<Token> {
+    numbers.fold(from, |from, k| node(from, move |x| Some(op(&x, k))))
+}
+
+/// Gives each token to all.
+fn tee(mut from: Receiver<Token>, count: u64) -> Vec<Receiver<Token>> {
+    let (senders, receivers): (Vec<Sender<Token>>, Vec<_>) = (0..count).map(|_| channel(1)).unzip();
+    spawn(async move {
+        while let Some(token) = from.recv().await {
+            for to in &senders {
+                let _ = to.send(token).await;
+            }
+        }
+    });
+    receivers
+}
+
+/// Adds up one token of each; ⊥ if one of them is ⊥.
+fn join(mut from: Vec<Receiver<Token>>) -> Receiver<Token> {
+    let (to, output) = channel(1);
+    spawn(async move {
+        loop {
+            let mut sum = Some(0);
+            for input in &mut from {
+                let Some(token) = input.recv().await else { return };
+                sum = sum.zip(token).map(|(a, b)| add(&a, &b));
+            }
+            if to.send(sum).await.is_err() {
+                return;
+            }
+        }
+    });
+    output
+}
+
+/// Runs `graph` in a runtime of one thread.
+fn on_one_thread<T>(graph: impl Future<Output = T>) -> T {
+    Builder::new_current_thread().build().expect("a runtime needs nothing").block_on(graph)
+}
+
+/// Source and sink are here, what is between them is what `graph` makes.
+fn lockstep(ticks: u64, graph: impl FnOnce(Receiver<Token>) -> Receiver<Token>) -> Ran {
+    on_one_thread(async {
+        let (mut source, mut sink) = (Count::default(), Sink::default());
+        let (to, input) = channel(1);
+        let mut output = graph(input);
+        let start = std::time::Instant::now();
+        for _ in 0..ticks {
+            let _ = to.send(Some(source.process())).await;
+            if let Some(Some(x)) = output.recv().await {
+                sink.process(&x);
+            }
+        }
+        Ran { time: start.elapsed(), checksum: sink.checksum() }
+    })
+}
+
+macro_rules! chain {
+    ($($name:ident: $n:literal;)*) => {
+        $(
+            #[doc = concat!(stringify!($n), " operations in a row.")]
+            pub fn $name(ticks: u64) -> Ran {
+                lockstep(ticks, |input| ops(input, 1..=$n))
+            }
+        )*
+    };
+}
+
+chain! {
+    chain3: 3;
+    chain10: 10;
+    chain100: 100;
+}
+
+macro_rules! diamond {
+    ($($name:ident: $n:literal;)*) => {
+        $(
+            #[doc = concat!(stringify!($n), " operations side by side.")]
+            pub fn $name(ticks: u64) -> Ran {
+                lockstep(ticks, |input| {
+                    join((1..).zip(tee(input, $n)).map(|(k, branch)| ops(branch, k..=k)).collect())
+                })
+            }
+        )*
+    };
+}
+
+diamond! {
+    diamond8: 8;
+    diamond64: 64;
+}
+
+/// A filter that passes 1 % in front of 98 operations.
+pub fn bot100(ticks: u64) -> Ran {
+    let mut filter = OneOf::new(100);
+    lockstep(ticks, |input| ops(node(ops(input, 1..=1), move |x| filter.process(&x)), 3..=100))
+}
+
+/// A join of a filtered and a full branch.
+pub fn throttle(ticks: u64) -> Ran {
+    let mut filter = OneOf::new(10);
+    lockstep(ticks, |input| {
+        let mut branches = tee(ops(input, 1..=1), 2);
+        let full = ops(branches.remove(1), 10..=17);
+        join(vec![ops(node(branches.remove(0), move |x| filter.process(&x)), 2..=2), full])
+    })
+}
+
+/// A token that goes to and fro.
+pub fn pingpong(ticks: u64) -> Ran {
+    on_one_thread(async {
+        let (to, input) = channel(1);
+        let mut back = ops(input, 1..=1);
+        let (mut a, mut x) = (Ping::default(), 0);
+        let start = std::time::Instant::now();
+        for _ in 0..ticks {
+            let _ = to.send(Some(x)).await;
+            if let Some(Some(y)) = back.recv().await {
+                x = a.back(&y);
+            }
+        }
+        Ran { time: start.elapsed(), checksum: a.checksum() }
+    })
+}
+
+/// Eight values a tick.
+pub fn mpse8(ticks: u64) -> Ran {
+    on_one_thread(async {
+        let (to, input) = channel(1);
+        let (events, mut consumer) = channel(8);
+        for (p, mut input) in (0..8).zip(tee(input, 8)) {
+            let events = events.clone();
+            spawn(async move {
+                while let Some(Some(i)) = input.recv().await {
+                    let _ = events.send((p + 1, numbered(&i, p))).await;
+                }
+            });
+        }
+        let (mut source, mut acc) = (Count::default(), 0u64);
+        let start = std::time::Instant::now();
+        for _ in 0..ticks {
+            let _ = to.send(Some(source.process())).await;
+            for _ in 0..8 {
+                if let Some((k, v)) = consumer.recv().await {
+                    acc = acc.wrapping_add(op(&v, k));
+                }
+            }
+            acc = black_box(acc);
+        }
+        Ran { time: start.elapsed(), checksum: acc }
+    })
+}
