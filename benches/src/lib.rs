@@ -6,6 +6,7 @@ pub mod hand;
 pub mod image;
 mod memory;
 pub mod nodes;
+pub mod threads;
 pub mod tworegion;
 
 pub use cases::{CASES, Case, Run, SKIPPED, SYNCHRONOUS, allocations};

@@ -3,6 +3,7 @@
 mod compile;
 mod instructions;
 mod measure;
+mod on_threads;
 mod peers;
 mod report;
 
@@ -42,6 +43,12 @@ enum Command {
     Compile,
     /// Measure other frameworks, too, which are built from `benches/peers`.
     Peers(peers::Arguments),
+    /// Measure programs on two threads: how much faster they are, and how long a token takes to the other.
+    Threads {
+        /// A fifth of the rounds.
+        #[arg(long)]
+        quick: bool,
+    },
     /// Run ticks of one side of a graph (what `instructions` counts).
     #[command(hide = true)]
     Ticks { graph: String, side: instructions::Side, ticks: u64 },
@@ -54,6 +61,7 @@ fn main() -> ExitCode {
         Some(Command::Instructions) => instructions::run(),
         Some(Command::Compile) => compile::run(),
         Some(Command::Peers(arguments)) => peers::run(arguments),
+        Some(Command::Threads { quick }) => on_threads::run(*quick),
         Some(Command::Ticks { graph, side, ticks }) => instructions::ticks(graph, *side, *ticks),
     };
     result.unwrap_or_else(|message| {
