@@ -54,7 +54,7 @@ module.exports = grammar({
       ),
     unit_text: () => /[A-Za-z0-9\/*^%-]+/,
 
-    _statement: ($) => choice($.port, $.node, $.claim, $.record, $.connection),
+    _statement: ($) => choice($.port, $.node, $.claim, $.record, $.thread, $.connection),
     port: ($) =>
       seq(
         field('kind', choice('in', 'out', 'slot', 'event')),
@@ -72,6 +72,15 @@ module.exports = grammar({
     claim: ($) => seq('claim', field('kind', $.identifier), optional(seq('(', list($.reference), ')')), ';'),
     record: ($) =>
       seq('record', field('file', $.string), '{', repeat(seq($.reference, ';')), '}'),
+    thread: ($) =>
+      seq(
+        'thread',
+        field('name', $.identifier),
+        '{',
+        optional(seq($.setting, repeat(seq(';', $.setting)), optional(';'))),
+        '}',
+      ),
+    setting: ($) => seq(field('name', $.identifier), '=', field('value', $.expression)),
     connection: ($) => seq($._end, repeat1(seq($.arrow, $._end)), ';'),
     arrow: () => choice('->', '=>'),
     _end: ($) => choice($.list, $.instance, $.reference),

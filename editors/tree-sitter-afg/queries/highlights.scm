@@ -12,7 +12,7 @@
 
 ["use" "as"] @keyword.import
 ["graph" "robot" "fsm" "test"] @keyword.type
-["in" "out" "slot" "event" "node" "claim" "record" "state"] @keyword
+["in" "out" "slot" "event" "node" "claim" "record" "thread" "state"] @keyword
 ["on" "if" "entry" "exit"] @keyword
 ["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
 ["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "essential" "restart"] @keyword.modifier
@@ -51,4 +51,4 @@
 (claim kind: (identifier) @function.builtin)
 
 ((reference . (identifier) @variable.builtin .)
-  (#any-of? @variable.builtin "start" "reset" "exit" "abort"))
+  (#any-of? @variable.builtin "start" "hung" "reset" "exit" "abort"))
