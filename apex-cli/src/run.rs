@@ -1,7 +1,12 @@
 //! `apex run`: the package's own program, or one that is made for the text.
 
 use crate::{project, replace::is_same};
-use apex_dsl::{graph::NodeKind, passes::Program, report::nearest, syntax::MAX_BYTES};
+use apex_dsl::{
+    graph::{Graph, NodeKind},
+    passes::Program,
+    report::nearest,
+    syntax::MAX_BYTES,
+};
 use apex_host::{Workspace, cargo, no_cargo, read_text};
 use std::{
     env,
@@ -194,8 +199,8 @@ impl Wanted<'_> {
             )),
             Some(binary) => {
                 let mut select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
-                let records = checked.programs.iter().any(|p| p.graph.record.is_some());
-                for feature in self.features(false, records) {
+                let graphs: Vec<&Graph> = checked.programs.iter().map(|p| &p.graph).collect();
+                for feature in self.features(false, &graphs) {
                     select.extend(["--features".into(), format!("apex-rt/{feature}").into()]);
                     if feature == RECORDS && workspace.libraries().iter().any(|(name, _)| *name == NODES) {
                         select.extend(["--features".into(), format!("{NODES}/{feature}").into()]);
@@ -207,10 +212,19 @@ impl Wanted<'_> {
         }
     }
 
-    /// The features of the runtime that the program needs; `records` if its text says so.
-    fn features(&self, params: bool, records: bool) -> Vec<&'static str> {
-        let records = records || !matches!(self.recording, Recording::Stated);
-        let wanted = [("params", params), ("ctrl-c", params), ("profile", self.profile.is_some()), (RECORDS, records)];
+    /// The features of the runtime that a program of one of `graphs` needs.
+    fn features(&self, params: bool, graphs: &[&Graph]) -> Vec<&'static str> {
+        let stated = graphs.iter().any(|graph| graph.record.is_some());
+        let records = stated || !matches!(self.recording, Recording::Stated);
+        let mut threads = graphs.iter().flat_map(|graph| &graph.threads);
+        let realtime = threads.any(|thread| !thread.cores.is_empty() || thread.priority.is_some());
+        let wanted = [
+            ("params", params),
+            ("ctrl-c", params),
+            ("profile", self.profile.is_some()),
+            ("realtime", realtime),
+            (RECORDS, records),
+        ];
         wanted.into_iter().filter(|(_, wanted)| *wanted).map(|(feature, _)| feature).collect()
     }
 
@@ -228,8 +242,7 @@ impl Wanted<'_> {
         let params = self.watch || self.params.are_wanted();
         let made = workspace.cache_folder().join("run").join(&graph.name);
         let main = main_file(&absolute(self.file)?, &graph.name, params);
-        let manifest =
-            make_package(&made, workspace, &self.features(params, graph.record.is_some()), "src/main.rs", &main)?;
+        let manifest = make_package(&made, workspace, &self.features(params, &[graph]), "src/main.rs", &main)?;
         let target = workspace.target.join("apex/run");
         let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.clone().into()].to_vec();
         // Files are named as the user sees them.
