@@ -14,7 +14,9 @@ mod run;
 mod sink;
 mod source;
 mod tap;
+mod threads;
 mod tokens;
+mod waits;
 
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
@@ -25,6 +27,9 @@ pub use report::{Compared, Difference, Report};
 pub use run::replay;
 pub(crate) use run::{Wish, drive};
 pub use tap::Tap;
+#[doc(hidden)]
+pub use tap::looked;
+pub use threads::record_on_threads;
 #[doc(hidden)]
 pub use tokens::tokens;
 
@@ -48,6 +53,8 @@ pub struct Channel {
     pub name: &'static str,
     /// The node that it belongs to.
     pub node: usize,
+    /// The group of threads that it belongs to.
+    pub group: usize,
     /// What passes it.
     pub role: Role,
     /// How its tokens are written; `None` if they cannot be.
@@ -74,10 +81,11 @@ macro_rules! __codec {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __channel {
-    ($name:literal, $node:literal, $role:ident, $ty:ty) => {
+    ($name:literal, $node:literal, $group:literal, $role:ident, $ty:ty) => {
         $crate::record::Channel {
             name: $name,
             node: $node,
+            group: $group,
             role: $crate::record::Role::$role,
             schema: $crate::__codec!($ty).map(|codec| codec.schema),
             show: |bytes| {
