@@ -1,11 +1,11 @@
 //! Programs that are recorded while they run on several threads: a replay gives every thread what it had from the others,
 //! when it had it.
 
-use crate::{Folder, repeat};
+use crate::{Folder, record, repeat};
 use apex_rt::{
-    Program, StdErr,
+    Program, drive_with,
     prelude::*,
-    record::{Finished, record_on_threads},
+    record::{Compared, Report, record_on_threads, replay},
 };
 use std::{
     fs,
@@ -59,6 +59,9 @@ pub struct Mix {
     /// What it begins with.
     #[param(default = 0)]
     seed: i64,
+    /// After so many it says nothing any more.
+    #[param(default = 1_000_000)]
+    talks: i64,
     mixed: u64,
     /// How many came.
     pub count: u64,
@@ -66,22 +69,24 @@ pub struct Mix {
 
 #[node]
 impl Mix {
-    fn mix(&mut self, number: u64, ctx: &Ctx) -> u64 {
+    fn mix(&mut self, number: u64, ctx: &Ctx, told: Event<u64>) {
         dawdle();
         self.count += 1;
         let all = self.mixed.rotate_left(5) ^ number ^ self.seed as u64 ^ ctx.now().as_nanos() as u64;
         self.mixed = all.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.mixed
+        if self.count <= self.talks as u64 {
+            told.emit(self.mixed);
+        }
     }
 
     #[slot]
     fn left(&mut self, number: &u64, ctx: &Ctx, told: Event<u64>) {
-        told.emit(self.mix(*number, ctx));
+        self.mix(*number, ctx, told);
     }
 
     #[slot]
     fn right(&mut self, number: &u64, ctx: &Ctx, told: Event<u64>) {
-        told.emit(self.mix(!*number, ctx));
+        self.mix(!*number, ctx, told);
     }
 }
 
@@ -96,6 +101,45 @@ impl Awake {
     fn hear(&mut self, number: &u64, ctx: &Ctx, told: Event<u64>) {
         dawdle();
         told.emit(number << 1 | u64::from(ctx.active()));
+    }
+}
+
+/// Does not come back for a while at the third token.
+#[node]
+#[derive(Default)]
+pub struct Stuck {
+    count: u64,
+}
+
+#[node]
+impl Stuck {
+    fn process(&mut self, number: &u64) -> u64 {
+        self.count += 1;
+        if self.count == 3 {
+            thread::sleep(Duration::from_millis(150));
+        }
+        *number
+    }
+}
+
+/// Says how often it was called.
+#[node]
+#[derive(Default)]
+pub struct Heard {
+    count: u64,
+}
+
+#[node]
+impl Heard {
+    #[slot]
+    fn hung(&mut self, told: Event<u64>) {
+        self.count += 1;
+        told.emit(self.count);
+    }
+
+    #[slot]
+    fn number(&mut self, number: &u64, told: Event<u64>) {
+        told.emit(self.count << 32 | number & 0xffff);
     }
 }
 
@@ -173,13 +217,69 @@ graph! {
     }
 }
 
-fn crowd(path: &Path) -> (Crowd, Finished) {
-    let mut program = Crowd::new();
+graph! {
+    use crate::threads::{Enough, Heard, Stuck, dice, slow};
+
+    /// A node hangs, others are late, and somebody hears of it on another thread.
+    robot Troubles {
+        thread main { hang = 40ms }
+        node s      = dice() every 5ms;
+        node stuck  = Stuck();
+        node heard  = Heard() on ears;
+        node late   = slow() on legs deadline 1us;
+        node enough = Enough(after = 60);
+        hung        -> heard.hung;
+        s           -> [stuck, late];
+        stuck       -> heard.number;
+        late.late   -> heard.hung;
+        heard.told  -> enough.more;
+        enough.now  -> exit;
+        record "troubles.mcap" { heard.told; late.late; }
+    }
+
+    /// Somebody has put in a token before the threads begin.
+    graph Asked {
+        slot question: u64;
+        event answer: u64;
+        node far    = Heard() on other;
+        node enough = Enough(after = 1);
+        question   -> far.number;
+        far.told   -> [answer, enough.more];
+        enough.now -> exit;
+        record "asked.mcap" { far.told; }
+    }
+}
+
+mod before {
+    apex_rt::prelude::graph! {
+        use crate::threads::{Enough, Heard};
+
+        graph Asked {
+            slot question: u64;
+            node far    = Heard() on elsewhere;
+            node enough = Enough(after = 1);
+            question   -> far.number;
+            far.told   -> enough.more;
+            enough.now -> exit;
+        }
+    }
+}
+
+/// Runs a program on its threads, and records it.
+fn on_threads<P: Program>(program: &mut P, path: &Path) {
     let pace = WallClock::new().pace().expect("it is the machine's clock");
-    let recorded = record_on_threads(&mut program, pace, path, |_| StdErr(const { &Crowd::INFO }));
-    let (code, finished) = recorded.expect("room for the file");
-    assert!(code == 0 && finished.dropped.is_empty(), "{code} {finished:?}");
-    (program, finished)
+    let (code, finished) = record_on_threads(program, pace, path, |_| ()).expect("room for the file");
+    assert!(code == 0 && finished.dropped.is_empty() && finished.path == path, "{code} {finished:?}");
+}
+
+fn crowd(path: &Path) -> Crowd {
+    let mut program = Crowd::new();
+    on_threads(&mut program, path);
+    program
+}
+
+fn compared<'a>(report: &'a Report, name: &str) -> &'a Compared {
+    report.compared.iter().find(|c| c.name == name).expect("it is compared")
 }
 
 #[test]
@@ -187,7 +287,7 @@ fn what_threads_do_is_the_same_again_and_again() {
     let folder = Folder::new();
     for run in 0..30 {
         let path = folder.file(&format!("{run}.mcap"));
-        let (first, _) = crowd(&path);
+        let first = crowd(&path);
         for _ in 0..2 {
             let mut second = Crowd::new();
             let report = repeat(&mut second, &path);
@@ -207,9 +307,9 @@ fn another_graph_shows_the_first_difference_and_ends() {
     let mut other = Crowd::new();
     other.set_param("eyes.seed", 7).expect("there is one");
     let report = repeat(&mut other, &path);
-    let of = |name: &str| report.compared.iter().find(|c| c.name == name).expect("it is compared");
-    assert!(of("arms.told").different == 0, "{report}");
-    assert!(of("eyes.told").equal == 0 && of("eyes.told").first.is_some(), "{report}");
+    let (arms, eyes) = (compared(&report, "arms.told"), compared(&report, "eyes.told"));
+    assert!(arms.different == 0 && arms.equal > 10, "what does not depend on it is the same: {report}");
+    assert!(eyes.equal == 0 && eyes.first.is_some() && report.missed == 0, "{report}");
     assert_eq!(report.params, ["`eyes.seed` was 0 and is 7"]);
 }
 
@@ -229,4 +329,71 @@ fn a_file_that_was_cut_is_repeated_up_to_the_cut() {
         last = report.reactions;
     }
     assert!(last > all / 2, "{last} of {all}");
+}
+
+#[test]
+fn tokens_that_do_not_come_any_more_are_not_waited_for() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    crowd(&path);
+    let silent = || {
+        let mut other = Crowd::new();
+        other.set_param("arms.talks", 5).expect("there is one");
+        repeat(&mut other, &path)
+    };
+    let report = silent();
+    let arms = compared(&report, "arms.told");
+    assert!(arms.equal == 5 && arms.different > 5 && report.missed > 0 && !report.is_same(), "{report}");
+    let first = compared(&report, "arms.told").first.as_ref().expect("a difference");
+    assert!(first.index == 5 && first.is.is_none(), "{report}");
+    assert_eq!(report.to_string(), silent().to_string(), "also what differs is the same each time");
+}
+
+#[test]
+fn nodes_that_hang_or_are_late_do_so_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    on_threads(&mut Troubles::new(), &path);
+    let report = repeat(Troubles::new(), &path);
+    assert!(report.is_same() && report.missed == 0, "{report}");
+    assert!(compared(&report, "heard.told").equal >= 60 && compared(&report, "late.late").equal > 10, "{report}");
+}
+
+#[test]
+fn what_was_put_in_before_is_there_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Asked::new();
+    first.inputs().question.put(7).expect("there is room");
+    on_threads(&mut first, &path);
+    let mut second = Asked::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && compared(&report, "far.told").equal == 1, "{report}");
+    assert_eq!((first.events().answer.take(), second.events().answer.take()), (Some(7), Some(7)));
+}
+
+#[test]
+fn a_recording_of_other_threads_is_refused() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Asked::new();
+    first.inputs().question.put(7).expect("there is room");
+    on_threads(&mut first, &path);
+    let error = replay(before::Asked::new(), &path, ()).expect_err("other threads").to_string();
+    let end = "was recorded on the threads `main other`, but the program has `main elsewhere`: replay it with the `on` that it had";
+    assert!(error.ends_with(end), "{error}");
+}
+
+#[test]
+fn in_simulated_time_groups_are_recorded_and_repeated_in_turn() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Crowd::new();
+    record::<Crowd>(&path, |tap| {
+        drive_with(&mut first, SimClock::until(Time::from_millis(50)), tap);
+    });
+    let mut second = Crowd::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && report.reactions > 5 && compared(&report, "third.told").equal > 10, "{report}");
+    assert_eq!(first.nodes().again.count, second.nodes().again.count);
 }
