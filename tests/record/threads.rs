@@ -332,6 +332,22 @@ fn a_file_that_was_cut_is_repeated_up_to_the_cut() {
 }
 
 #[test]
+fn a_file_with_other_bits_never_hangs() {
+    let folder = Folder::new();
+    let (whole, bad) = (folder.file("whole.mcap"), folder.file("bad.mcap"));
+    crowd(&whole);
+    let bytes = fs::read(&whole).expect("it was written");
+    for part in 0..40 {
+        let mut bytes = bytes.clone();
+        let at = part * (bytes.len() - 2000) / 40 + chance() as usize % 2000;
+        bytes[at] ^= 0x55;
+        fs::write(&bad, &bytes).expect("room for it");
+        // What it says is as good as its bytes; it must say something.
+        let _ = replay(Crowd::new(), &bad, ());
+    }
+}
+
+#[test]
 fn tokens_that_do_not_come_any_more_are_not_waited_for() {
     let folder = Folder::new();
     let path = folder.file("a.mcap");

@@ -12,7 +12,7 @@ use crate::{
 };
 use core::{fmt, time::Duration};
 use std::{
-    collections::{BTreeMap, VecDeque},
+    collections::{BTreeMap, BTreeSet, VecDeque},
     io, mem,
     path::{Path, PathBuf},
     sync::Arc,
@@ -88,7 +88,7 @@ struct Reaction {
     params: Vec<(String, String, bool)>,
     taken: Vec<String>,
     /// The numbers of the looks that found something.
-    looks: VecDeque<u32>,
+    looks: BTreeSet<u32>,
     /// It was recorded to its end.
     ended: bool,
     /// Tokens of each channel, with the call of the node that they belong to.
@@ -133,11 +133,11 @@ struct Side {
 }
 
 impl Replay {
-    /// Opens a recording of a program of type `P`.
+    /// Opens a recording of a program of type `P` that reacted on one thread.
     ///
     /// # Errors
     /// It cannot be read, or is none of such a program.
-    pub fn open<P: Program>(path: &Path) -> Result<Self, ReplayError> {
+    pub(super) fn open<P: Program>(path: &Path) -> Result<Self, ReplayError> {
         Self::new::<P>(path, None)
     }
 
@@ -220,7 +220,7 @@ impl Replay {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn next_reaction(&mut self) -> Result<Option<Time>, io::Error> {
+    pub(super) fn next_reaction(&mut self) -> Result<Option<Time>, io::Error> {
         let Some(now) = self.next.take().filter(|_| !self.over) else { return Ok(None) };
         self.now = now;
         self.reaction = Reaction::new(self.channels.len());
@@ -292,7 +292,7 @@ impl Replay {
                 if let (Some(group), Some(look)) = (fields.u32(), fields.u32())
                     && self.is_own(group)
                 {
-                    self.reaction.looks.push_back(look);
+                    self.reaction.looks.insert(look);
                 }
             }
             Meaning::Ended => self.reaction.ended |= fields.u32().is_some_and(|group| self.is_own(group)),
@@ -304,7 +304,7 @@ impl Replay {
     }
 
     /// What came of it.
-    pub fn finish(mut self) -> Report {
+    pub(super) fn finish(mut self) -> Report {
         self.report.cut = self.source.cut.take();
         self.report.dropped = mem::take(&mut self.source.dropped);
         self.report
@@ -320,8 +320,7 @@ impl Replay {
         let Some(group) = &self.group else { return finds() };
         let look = self.looks;
         self.looks += 1;
-        while self.reaction.looks.pop_front_if(|at| *at < look).is_some() {}
-        if self.over || self.reaction.looks.pop_front_if(|at| *at == look).is_none() {
+        if self.over || !self.reaction.looks.remove(&look) {
             return false;
         }
         match group.waits.wait(group.number, finds) {
