@@ -348,6 +348,32 @@ fn a_file_with_other_bits_never_hangs() {
 }
 
 #[test]
+fn a_file_that_lost_messages_never_hangs() {
+    let folder = Folder::new();
+    let (whole, lossy) = (folder.file("whole.mcap"), folder.file("lossy.mcap"));
+    crowd(&whole);
+    let bytes = fs::read(&whole).expect("it was written");
+    let file = fs::File::create(&lossy).expect("room for it");
+    let mut writer = mcap::WriteOptions::new().compression(None).create(file).expect("a writer");
+    let groups: Vec<&str> = Crowd::INFO.groups.iter().map(|group| group.name).collect();
+    let about = [("name", "Crowd".to_owned()), ("threads", groups.join(" "))];
+    let metadata = about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+    let metadata = mcap::records::Metadata { name: "apex/program".to_owned(), metadata };
+    writer.write_metadata(&metadata).expect("room for it");
+    let mut looks = 0;
+    for message in mcap::MessageStream::new(&bytes).expect("a recording") {
+        let message = message.expect("a message");
+        looks += u32::from(message.channel.topic == "apex/looked");
+        if message.channel.topic != "apex/looked" || looks % 50 != 0 {
+            writer.write(&message).expect("room for it");
+        }
+    }
+    writer.finish().expect("room for it");
+    let report = repeat(Crowd::new(), &lossy);
+    assert!(looks > 500 && report.missed > 0 && !report.is_same(), "{looks} looks; {report}");
+}
+
+#[test]
 fn tokens_that_do_not_come_any_more_are_not_waited_for() {
     let folder = Folder::new();
     let path = folder.file("a.mcap");

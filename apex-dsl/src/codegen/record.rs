@@ -150,17 +150,20 @@ impl Generator<'_> {
         self.recorded_around(&quote! { tap.begin(now); #before }, react, &quote! { #after tap.end(); })
     }
 
+    /// `react_with` with what is done before and after it, if the program can be recorded.
     fn recorded_around(&self, before: &TokenStream, react: &TokenStream, after: &TokenStream) -> TokenStream {
-        let tapped = |code: &TokenStream| {
-            self.channels.map(|_| quote! { if let Some(tap) = ::apex_rt::Observer::tap(observer) { #code } })
+        let body = match self.channels {
+            None => quote!(#react),
+            Some(_) => quote! {
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) { #before }
+                let next = #react;
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) { #after }
+                next
+            },
         };
-        let (before, after) = (tapped(before), tapped(after));
         quote! {
             fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
-                #before
-                let next = #react;
-                #after
-                next
+                #body
             }
         }
     }

@@ -3,7 +3,8 @@
 //!
 //! A program does the same again if it reacts at the same times, its sources send the same tokens, the same tokens are
 //! put into its mailboxes, its events are taken out at the same times, its parameters are set as they were, and its
-//! deadlines see the same delays. That is what is recorded; and, to be compared, what was chosen besides.
+//! deadlines see the same delays. Where it runs on several threads, these also find the same when they look at what is
+//! between them. That is what is recorded; and, to be compared, what was chosen besides.
 
 pub mod cdr;
 mod message;
