@@ -49,6 +49,13 @@ pub trait Program {
         std::vec::Vec::new()
     }
 
+    /// Records the parameters before threads begin, or says which were others.
+    #[cfg(feature = "record")]
+    #[doc(hidden)]
+    fn share_params(&mut self, tap: &mut crate::record::Tap) {
+        let _ = tap;
+    }
+
     /// The connections (by index) whose events a node waits for although other tokens for it have come. Where nothing
     /// else is to happen, that is a deadlock.
     fn waiting(&self, found: impl FnMut(usize)) {
@@ -96,6 +103,11 @@ impl<P: Program> Program for &mut P {
     #[cfg(feature = "record")]
     fn channels() -> std::vec::Vec<crate::record::Channel> {
         P::channels()
+    }
+
+    #[cfg(feature = "record")]
+    fn share_params(&mut self, tap: &mut crate::record::Tap) {
+        (**self).share_params(tap);
     }
 
     fn is_active(&self, node: usize) -> bool {

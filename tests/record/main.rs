@@ -5,6 +5,7 @@ mod feed;
 mod full;
 mod python;
 mod round;
+mod threads;
 
 use apex_rt::{
     Program, StdErr,

@@ -82,6 +82,23 @@ robot Adder {{
     }}
 }}
 
+robot Apart {{
+    node noise  = noise() every 5ms;
+    node scaled = scaled(k = {k}) on far;
+    node sum    = Sum() on back;
+    node print  = Print();
+    node end    = tick() after 60ms;
+
+    noise         -> scaled -> sum;
+    sum.all       -> print.sum;
+    end.processed -> exit;
+
+    record \"apart.mcap\" {{
+        scaled;
+        sum.all;
+    }}
+}}
+
 graph Other {{
     node noise = noise() every 5ms;
     node print = Sum();
@@ -100,8 +117,8 @@ fn run(folder: &Folder, arguments: &[&str]) -> Output {
         .expect("the command is there")
 }
 
-fn replay(folder: &Folder, recording: &str) -> (Option<i32>, String, String) {
-    let output = run(folder, &["replay", recording, "robot.afg", "--robot", "Adder"]);
+fn replay(folder: &Folder, recording: &str, robot: &str) -> (Option<i32>, String, String) {
+    let output = run(folder, &["replay", recording, "robot.afg", "--robot", robot]);
     (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned(), stderr(&output))
 }
 
@@ -113,12 +130,17 @@ fn a_run_is_recorded_and_repeated() {
     folder.file("robot.afg", text(3));
 
     // What the text says, and what the command says.
-    for (arguments, file) in [(&[][..], "adder.mcap"), (&["--record", "run.mcap"][..], "run.mcap")] {
-        let output = run(&folder, &[&["run", "robot.afg", "--robot", "Adder"], arguments].concat());
+    for (robot, arguments, file) in [
+        ("Adder", &[][..], "adder.mcap"),
+        ("Adder", &["--record", "run.mcap"][..], "run.mcap"),
+        // On its threads.
+        ("Apart", &[][..], "apart.mcap"),
+    ] {
+        let output = run(&folder, &[&["run", "robot.afg", "--robot", robot], arguments].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         assert!(stderr(&output).contains(&format!("{file}`\n")), "{}", stderr(&output));
         let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-        let (code, stdout, stderr) = replay(&folder, file);
+        let (code, stdout, stderr) = replay(&folder, file, robot);
         assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
         let rest = stdout.strip_prefix(printed.as_str()).expect("the robot prints the same");
         assert!(rest.starts_with("`scaled.out`: "), "{rest}");
@@ -127,7 +149,7 @@ fn a_run_is_recorded_and_repeated() {
 
     // A text that was changed.
     folder.file("robot.afg", text(4));
-    let (code, stdout, _) = replay(&folder, "run.mcap");
+    let (code, stdout, _) = replay(&folder, "run.mcap", "Adder");
     assert_eq!(code, Some(1), "{stdout}");
     assert!(stdout.contains("`scaled.out`: 0 of "), "{stdout}");
     assert!(stdout.contains("the first other one is number 1, at 0.0"), "{stdout}");
@@ -137,7 +159,7 @@ fn a_run_is_recorded_and_repeated() {
     let bytes = fs::read(folder.0.join("run.mcap")).expect("it was recorded");
     folder.file("robot.afg", text(3));
     folder.file("cut.mcap", &bytes[..bytes.len() / 2]);
-    let (code, stdout, _) = replay(&folder, "cut.mcap");
+    let (code, stdout, _) = replay(&folder, "cut.mcap", "Adder");
     assert!(code == Some(0) && stdout.contains("the recording is not whole: it was cut off"), "{code:?} {stdout}");
 
     // Another program.
@@ -174,7 +196,7 @@ fn what_cannot_be_replayed_is_said_before_a_build() {
         ("folder.mcap", "cannot read `folder.mcap`: it is a folder"),
         ("missing.mcap", "cannot read `missing.mcap`: No such file"),
     ] {
-        let (code, _, stderr) = replay(&folder, file);
+        let (code, _, stderr) = replay(&folder, file, "Adder");
         assert!(code == Some(2) && stderr.starts_with(&format!("error: {message}")), "{code:?} {stderr}");
     }
     for (file, message) in [

@@ -206,7 +206,8 @@ pub fn generate(
     let mut used = BTreeSet::new();
     let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
     let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
-    let channels = record::Channels::new(graph, &program.analysis, catalog);
+    let parts = program.split.as_ref().map_or(&[][..], |split| &split.parts);
+    let channels = record::Channels::new(graph, &program.analysis, catalog, parts);
     let channels = recordable.then_some(&channels);
     let generator = Generator { catalog, sources, names: &names, place, outer: None, part: None, cells, channels };
     let code = match &program.split {

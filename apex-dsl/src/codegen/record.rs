@@ -13,6 +13,7 @@ use crate::{
     catalog::Catalog,
     graph::{End, Graph, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
+    threads::Part,
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -31,13 +32,16 @@ enum Role {
 #[derive(Debug, Default)]
 pub struct Channels {
     rows: Vec<(End, Role)>,
+    /// The groups of threads, if there are several.
+    groups: Vec<String>,
     numbers: BTreeMap<End, usize>,
 }
 
 impl Channels {
-    /// Those of a program.
-    pub fn new(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Self {
-        let mut channels = Self::default();
+    /// Those of a program, which runs on these threads if they are several.
+    pub fn new(graph: &Graph, analysis: &Analysis, catalog: &Catalog, parts: &[Part]) -> Self {
+        let groups = parts.iter().map(|part| part.group.clone()).collect();
+        let mut channels = Self { groups, ..Self::default() };
         let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
         for node in boundaries(graph, comes_in) {
             channels.add(End { node, port: 0 }, Role::Mailbox);
@@ -61,6 +65,12 @@ impl Channels {
             entry.insert(self.rows.len());
             self.rows.push((end, role));
         }
+    }
+
+    /// The number of the group that a node belongs to: that of its part. Ports of the program belong to the main group.
+    fn group(&self, graph: &Graph, node: NodeId) -> usize {
+        let group = graph.group(node);
+        self.groups.iter().position(|g| g == group).unwrap_or(0)
     }
 
     fn number(&self, end: End, role: Role) -> Option<usize> {
@@ -107,15 +117,19 @@ impl Generator<'_> {
         let Some(channels) = self.channels else { return quote!() };
         let rows = channels.rows.iter().map(|(end, role)| {
             let (name, node, ty) = (graph.end_name(*end), self.index(end.node), self.token_type(graph, *end));
-            let role = ident(&format!("{role:?}"));
-            quote!(::apex_rt::__channel!(#name, #node, #role, #ty))
+            let (group, role) = (channels.group(graph, end.node), ident(&format!("{role:?}")));
+            quote!(::apex_rt::__channel!(#name, #node, #group, #role, #ty))
         });
         let file = graph.record.as_ref().map(|record| {
             let file = &record.file;
             quote! { const RECORD: ::core::option::Option<&'static str> = Some(#file); }
         });
+        let share = (!channels.groups.is_empty()).then(|| {
+            quote! { fn share_params(&mut self, tap: &mut ::apex_rt::record::Tap) { tap.set_params(self); } }
+        });
         quote! {
             #file
+            #share
             fn channels() -> ::apex_rt::record::Channels { ::apex_rt::record::Channels::from([#(#rows),*]) }
         }
     }
@@ -123,9 +137,41 @@ impl Generator<'_> {
     /// `react_with` of a program that can be recorded: around the reaction proper, what comes from outside between two
     /// reactions. `ports` has the mailboxes.
     pub fn recorded_react(&self, graph: &Graph, ports: &TokenStream) -> TokenStream {
-        let Some(channels) = self.channels else { return quote!() };
+        let (before, after) = self.mailboxes(graph, ports);
+        let before = quote! { tap.begin(now); tap.set_params(self); #before };
+        let after = quote! { tap.keep_params(self); #after tap.end(); };
+        self.recorded_around(&before, &quote!(self.reaction(now, observer)), &after)
+    }
+
+    /// The same for a thread group that runs beside others. Only the main group has `ports`; parameters do not change from
+    /// outside while threads run.
+    pub fn recorded_group(&self, graph: &Graph, ports: Option<&TokenStream>, react: &TokenStream) -> TokenStream {
+        let (before, after) = ports.map(|ports| self.mailboxes(graph, ports)).unwrap_or_default();
+        self.recorded_around(&quote! { tap.begin(now); #before }, react, &quote! { #after tap.end(); })
+    }
+
+    /// `react_with` with what is done before and after it, if the program can be recorded.
+    fn recorded_around(&self, before: &TokenStream, react: &TokenStream, after: &TokenStream) -> TokenStream {
+        let body = match self.channels {
+            None => quote!(#react),
+            Some(_) => quote! {
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) { #before }
+                let next = #react;
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) { #after }
+                next
+            },
+        };
+        quote! {
+            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
+                #body
+            }
+        }
+    }
+
+    /// What was put into the mailboxes before a reaction, and what they hold after it.
+    fn mailboxes(&self, graph: &Graph, ports: &TokenStream) -> (TokenStream, TokenStream) {
         let (mut before, mut after) = (quote!(), quote!());
-        for (number, (end, role)) in channels.rows.iter().enumerate() {
+        for (number, (end, role)) in self.channels.iter().flat_map(|channels| channels.rows.iter().enumerate()) {
             let name = ident(&graph.nodes[end.node].name);
             match role {
                 Role::Mailbox => {
@@ -140,21 +186,14 @@ impl Generator<'_> {
                 Role::Source | Role::Chosen => {}
             }
         }
-        quote! {
-            fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
-                if let Some(tap) = ::apex_rt::Observer::tap(observer) {
-                    tap.begin(now);
-                    tap.set_params(self);
-                    #before
-                }
-                let next = self.reaction(now, observer);
-                if let Some(tap) = ::apex_rt::Observer::tap(observer) {
-                    tap.keep_params(self);
-                    #after
-                    tap.end();
-                }
-                next
-            }
+        (before, after)
+    }
+
+    /// A look at a cell between two thread groups: what it finds is recorded, or comes from the recording.
+    pub fn look(&self, finds: TokenStream) -> TokenStream {
+        match self.channels {
+            Some(_) => quote!(::apex_rt::record::looked(observer, || #finds)),
+            None => finds,
         }
     }
 

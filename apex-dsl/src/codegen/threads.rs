@@ -135,8 +135,9 @@ impl Generator<'_> {
             .flatten()
             .map(|row| quote! { self.state.dispatcher.settle(&Self::CLUSTERS, #row); });
         let receiver = self.cell(far).1;
+        let is_free = self.look(quote!(ends.#cell.is_free()));
         quote! {
-            if !self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#free])) && ends.#cell.is_free() {
+            if !self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#free])) && #is_free {
                 if self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#token])) {
                     let state = &mut self.state;
                     state.dispatcher.clear(#token);
@@ -179,13 +180,14 @@ impl Generator<'_> {
         let pass = self.pass_activity(whole, node, &|end| Some(self.waits(graph, end)));
         let emit = self.emit(whole, bits, node, false);
         let serve = self.deliver(whole, &links.sends[node]);
+        let is_full = self.look(quote!(ends.#cell.is_full()));
         quote! {
             if self.state.#holding && #all_free {
                 self.state.#holding = false;
                 ends.#cell.release();
                 #told
             }
-            if !self.state.#holding && ends.#cell.is_full() #test {
+            if !self.state.#holding && #is_full #test {
                 let Self { nodes, state, .. } = self;
                 let mut stamp = now;
                 ends.#cell.take(|parcel| {
@@ -241,6 +243,9 @@ impl Program<'_> {
         let part = &self.split.parts[number];
         let (program, name) = (self.name(), ident(&part.graph.name));
         let (ends, handle) = (ends_name(&part.graph), format_ident!("{}Group", part.graph.name));
+        let call = quote!(self.part.react_part(now, true, &mut self.ends, &self.wake, observer));
+        let ports = quote!(self.part);
+        let react = self.generator.recorded_group(self.graph, (number == 0).then_some(&ports), &call);
         let fields = self.split.cells.iter().enumerate().flat_map(|(cell, c)| {
             let (field, ty) = (cell_name(cell), self.generator.token_type(self.graph, c.from));
             let sends = (c.sender == Some(number)).then(|| quote!(CellSender));
@@ -258,9 +263,7 @@ impl Program<'_> {
             impl<W: ::apex_rt::threads::Wake> ::apex_rt::Program for #handle<'_, W> {
                 const INFO: ::apex_rt::Info = <#program as ::apex_rt::Program>::INFO;
                 #[inline]
-                fn react_with<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
-                    self.part.react_part(now, true, &mut self.ends, &self.wake, observer)
-                }
+                #react
             }
             #[allow(unused, clippy::all)]
             impl<W: ::apex_rt::threads::Wake> ::apex_rt::threads::Group for #handle<'_, W> {

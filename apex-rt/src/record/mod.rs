@@ -3,7 +3,8 @@
 //!
 //! A program does the same again if it reacts at the same times, its sources send the same tokens, the same tokens are
 //! put into its mailboxes, its events are taken out at the same times, its parameters are set as they were, and its
-//! deadlines see the same delays. That is what is recorded; and, to be compared, what was chosen besides.
+//! deadlines see the same delays. Where it runs on several threads, these also find the same when they look at what is
+//! between them. That is what is recorded; and, to be compared, what was chosen besides.
 
 pub mod cdr;
 mod message;
@@ -14,7 +15,9 @@ mod run;
 mod sink;
 mod source;
 mod tap;
+mod threads;
 mod tokens;
+mod waits;
 
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
@@ -25,6 +28,9 @@ pub use report::{Compared, Difference, Report};
 pub use run::replay;
 pub(crate) use run::{Wish, drive};
 pub use tap::Tap;
+#[doc(hidden)]
+pub use tap::looked;
+pub use threads::record_on_threads;
 #[doc(hidden)]
 pub use tokens::tokens;
 
@@ -48,6 +54,8 @@ pub struct Channel {
     pub name: &'static str,
     /// The node that it belongs to.
     pub node: usize,
+    /// The group of threads that it belongs to.
+    pub group: usize,
     /// What passes it.
     pub role: Role,
     /// How its tokens are written; `None` if they cannot be.
@@ -74,10 +82,11 @@ macro_rules! __codec {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __channel {
-    ($name:literal, $node:literal, $role:ident, $ty:ty) => {
+    ($name:literal, $node:literal, $group:literal, $role:ident, $ty:ty) => {
         $crate::record::Channel {
             name: $name,
             node: $node,
+            group: $group,
             role: $crate::record::Role::$role,
             schema: $crate::__codec!($ty).map(|codec| codec.schema),
             show: |bytes| {

@@ -1,16 +1,19 @@
 use super::{
     Channel, Codec, Message as _,
     cdr::Writer,
-    sink::{ELAPSED, FIRST, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, free},
+    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS, free},
 };
 use crate::{
-    Mailbox, Parameters, Program, Time,
+    GroupInfo, Mailbox, Parameters, Program, Time,
     params::{Access, Given, ParamInfo, ParamVisitor},
 };
 use core::time::Duration;
 use std::{
+    collections::BTreeMap,
     io,
     path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    thread,
 };
 
 /// What happens when tokens come faster than they can be written.
@@ -22,10 +25,18 @@ pub enum WhenFull {
     Wait,
 }
 
-/// Records a run.
+/// How long one waits for room before one looks again.
+const PAUSE: Duration = Duration::from_micros(100);
+
+/// Records a run, or what one group of threads does in it.
 pub struct Recorder {
     channels: Vec<Channel>,
-    sink: Sink,
+    shared: Arc<Mutex<Shared>>,
+    frame: Frame,
+    /// The number of the group, if it is one of several that run side by side.
+    group: Option<u32>,
+    /// How often this reaction has looked at what is between groups.
+    looks: u32,
     when_full: WhenFull,
     path: PathBuf,
     now: Time,
@@ -39,6 +50,12 @@ pub struct Recorder {
     params_now: Vec<u8>,
     /// The reaction that goes on was dropped, and all in it.
     lost: bool,
+}
+
+/// What the recorders of all groups share.
+struct Shared {
+    sink: Sink,
+    /// How many messages were lost, by channel.
     dropped: Vec<u64>,
 }
 
@@ -63,25 +80,58 @@ impl Recorder {
     /// The same with another number of bytes that can wait to be written.
     #[doc(hidden)]
     pub fn with_room<P: Program>(path: &Path, when_full: WhenFull, room: usize) -> io::Result<Self> {
+        Self::new::<P>(path, when_full, room, &[])
+    }
+
+    /// A recording of a program whose `groups` run side by side: each has a recorder [`beside`](Self::beside) this one.
+    pub(super) fn of_threads<P: Program>(path: &Path, groups: &[GroupInfo]) -> io::Result<Self> {
+        Self::new::<P>(path, WhenFull::Drop, ROOM, groups)
+    }
+
+    fn new<P: Program>(path: &Path, when_full: WhenFull, room: usize, groups: &[GroupInfo]) -> io::Result<Self> {
         let (info, channels) = (const { &P::INFO }, P::channels());
         if let Some(message) = why_useless(&channels) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
         let path = free(path);
-        let sink = Sink::new(path.clone(), info.name, &channels, room)?;
-        Ok(Self {
-            sink,
+        let mut about = BTreeMap::from([("name".to_owned(), info.name.to_owned())]);
+        if !groups.is_empty() {
+            about.insert(THREADS.to_owned(), names(groups));
+        }
+        let sink = Sink::new(path.clone(), about, &channels, room)?;
+        let shared = Arc::new(Mutex::new(Shared { sink, dropped: vec![0; FIRST + channels.len()] }));
+        Ok(Self::sharing(shared, channels, when_full, path, info.nodes.len()))
+    }
+
+    fn sharing(
+        shared: Arc<Mutex<Shared>>,
+        channels: Vec<Channel>,
+        when_full: WhenFull,
+        path: PathBuf,
+        nodes: usize,
+    ) -> Self {
+        Self {
+            shared,
+            frame: Frame::default(),
+            group: None,
+            looks: 0,
             when_full,
             path,
             now: Time::ZERO,
-            calls: vec![0; info.nodes.len()],
+            calls: vec![0; nodes],
             full: vec![false; channels.len()],
             params: vec![],
             params_now: vec![],
             lost: false,
-            dropped: vec![0; FIRST + channels.len()],
             channels,
-        })
+        }
+    }
+
+    /// Records in the same file, where there are several groups what this `group` does.
+    pub(super) fn beside(&self, group: Option<usize>) -> Self {
+        let shared = Arc::clone(&self.shared);
+        let own = Self::sharing(shared, self.channels.clone(), self.when_full, self.path.clone(), self.calls.len());
+        Self { group: group.map(|group| group as u32), ..own }
     }
 
     /// The file.
@@ -93,25 +143,53 @@ impl Recorder {
     ///
     /// # Errors
     /// It could not be written.
-    pub fn finish(mut self) -> io::Result<Finished> {
+    pub fn finish(self) -> io::Result<Finished> {
         let own = OWN.iter().map(|(name, _)| *name);
         let names = own.chain(self.channels.iter().map(|c| c.name));
-        let lost = names.zip(&self.dropped).filter(|(_, count)| **count > 0);
+        let mut shared = self.shared();
+        let lost = names.zip(&shared.dropped).filter(|(_, count)| **count > 0);
         let dropped: Vec<(String, u64)> = lost.map(|(name, count)| (name.to_owned(), *count)).collect();
-        self.sink.finish(&dropped)?;
-        Ok(Finished { path: self.path.clone(), dropped })
+        shared.sink.finish(&dropped)?;
+        drop(shared);
+        Ok(Finished { path: self.path, dropped })
+    }
+
+    /// A thread that panicked while it had this left nothing half done.
+    fn shared(&self) -> MutexGuard<'_, Shared> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub(super) fn begin(&mut self, now: Time) {
         self.now = now;
         self.lost = false;
+        self.looks = 0;
         self.calls.fill(0);
+        let group = self.group.unwrap_or(0);
         let sent = self.own(REACTION, |message| {
-            // There is one group of threads.
-            message.u32(0);
+            message.u32(group);
             message.i64(now.as_nanos());
         });
         self.lost = !sent;
+    }
+
+    pub(super) fn end(&mut self) {
+        if let Some(group) = self.group {
+            self.own(ENDED, |message| message.u32(group));
+        }
+    }
+
+    /// A look at what is between groups found something, or not. Groups that run in turn always find the same.
+    pub(super) fn looked(&mut self, found: bool) -> bool {
+        let Some(group) = self.group else { return found };
+        let look = self.looks;
+        self.looks += 1;
+        if found {
+            self.own(LOOKED, |message| {
+                message.u32(group);
+                message.u32(look);
+            });
+        }
+        found
     }
 
     pub(super) fn calls(&mut self, node: usize) {
@@ -121,15 +199,18 @@ impl Recorder {
     pub(super) fn token<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
         let Some(codec) = codec else { return };
         let call = self.calls[self.channels[channel].node];
-        let frame = self.sink.begin((FIRST + channel) as u16, call, time(self.now));
-        if !(codec.write)(token, frame) || self.lost || !self.sink.end(self.when_full == WhenFull::Wait) {
-            self.dropped[FIRST + channel] += 1;
-        }
+        let frame = self.frame.begin((FIRST + channel) as u16, call, time(self.now));
+        let written = (codec.write)(token, frame);
+        self.send(FIRST + channel, written);
     }
 
     pub(super) fn elapsed(&mut self, elapsed: Duration) -> Duration {
         let nanos = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
-        self.own(ELAPSED, |message| message.u64(nanos));
+        let group = self.group.unwrap_or(0);
+        self.own(ELAPSED, |message| {
+            message.u64(nanos);
+            message.u32(group);
+        });
         elapsed
     }
 
@@ -172,14 +253,32 @@ impl Recorder {
 
     /// Sends a message on a channel that every recording has.
     fn own(&mut self, channel: u16, write: impl FnOnce(&mut Writer<'_>)) -> bool {
-        let frame = self.sink.begin(channel, 0, time(self.now));
+        let frame = self.frame.begin(channel, 0, time(self.now));
         write(&mut Writer::new(frame));
-        let sent = !self.lost && self.sink.end(self.when_full == WhenFull::Wait);
-        if !sent {
-            self.dropped[usize::from(channel)] += 1;
-        }
-        sent
+        self.send(usize::from(channel), true)
     }
+
+    /// Sends what was written of a message, or counts it as lost. Others can send while this one waits for room.
+    fn send(&mut self, channel: usize, written: bool) -> bool {
+        loop {
+            let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+            if written && !self.lost && shared.sink.send(&mut self.frame) {
+                return true;
+            }
+            let waits = written && !self.lost && self.when_full == WhenFull::Wait;
+            if !waits || !shared.sink.may_fit(&self.frame) {
+                shared.dropped[channel] += 1;
+                return false;
+            }
+            drop(shared);
+            thread::sleep(PAUSE);
+        }
+    }
+}
+
+/// The groups of threads, as the file says them.
+pub(super) fn names(groups: &[GroupInfo]) -> String {
+    groups.iter().map(|group| group.name).collect::<Vec<_>>().join(" ")
 }
 
 /// Why nothing would be gained by a recording.

@@ -4,6 +4,7 @@ use super::{
     report::{Compared, Difference},
     sink::OWN,
     source::{FileMessage, Source},
+    waits::{Waited, Waits},
 };
 use crate::{
     Parameters, Program, Time,
@@ -11,9 +12,10 @@ use crate::{
 };
 use core::{fmt, time::Duration};
 use std::{
-    collections::{BTreeMap, VecDeque},
+    collections::{BTreeMap, BTreeSet, VecDeque},
     io, mem,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 /// Why there is nothing to replay.
@@ -32,6 +34,15 @@ pub enum ReplayError {
         /// The program that was to replay it.
         wanted: &'static str,
     },
+    /// It was recorded on other groups of threads than the program has.
+    OtherThreads {
+        /// The file.
+        path: PathBuf,
+        /// The groups that ran side by side when it was recorded.
+        recorded: String,
+        /// Those of the program.
+        wanted: String,
+    },
 }
 
 impl fmt::Display for ReplayError {
@@ -43,6 +54,13 @@ impl fmt::Display for ReplayError {
             }
             Self::OtherProgram { path, recorded, wanted } => {
                 write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
+            }
+            Self::OtherThreads { path, recorded, wanted } => {
+                write!(f, "`{}` was recorded on the threads `{recorded}`", path.display())?;
+                match wanted.as_str() {
+                    "" => write!(f, ", but the program has a single one"),
+                    _ => write!(f, ", but the program has `{wanted}`: replay it with the `on` that it had"),
+                }
             }
         }
     }
@@ -57,6 +75,8 @@ enum Meaning {
     Elapsed,
     Parameter,
     Taken,
+    Looked,
+    Ended,
     /// A token of a channel of the program.
     Token(usize),
 }
@@ -67,6 +87,10 @@ struct Reaction {
     elapsed: VecDeque<Duration>,
     params: Vec<(String, String, bool)>,
     taken: Vec<String>,
+    /// The numbers of the looks that found something.
+    looks: BTreeSet<u32>,
+    /// It was recorded to its end.
+    ended: bool,
     /// Tokens of each channel, with the call of the node that they belong to.
     tokens: Vec<VecDeque<(u32, Vec<u8>)>>,
 }
@@ -94,14 +118,35 @@ pub struct Replay {
     report: Report,
     /// Where a token is written to be compared.
     bytes: Vec<u8>,
+    /// The group of threads that is repeated, if several ran side by side.
+    group: Option<Side>,
+    /// How often this reaction has looked at what is between groups.
+    looks: u32,
+    /// What it found would come from others, which end where the recording was cut: so does this one.
+    over: bool,
+}
+
+/// One of several groups that ran side by side.
+struct Side {
+    number: usize,
+    waits: Arc<Waits>,
 }
 
 impl Replay {
-    /// Opens a recording of a program of type `P`.
+    /// Opens a recording of a program of type `P` that reacted on one thread.
     ///
     /// # Errors
     /// It cannot be read, or is none of such a program.
-    pub fn open<P: Program>(path: &Path) -> Result<Self, ReplayError> {
+    pub(super) fn open<P: Program>(path: &Path) -> Result<Self, ReplayError> {
+        Self::new::<P>(path, None)
+    }
+
+    /// Opens a recording of groups that ran side by side, for what the group `number` did.
+    pub(super) fn of_group<P: Program>(path: &Path, number: usize, waits: Arc<Waits>) -> Result<Self, ReplayError> {
+        Self::new::<P>(path, Some(Side { number, waits }))
+    }
+
+    fn new<P: Program>(path: &Path, group: Option<Side>) -> Result<Self, ReplayError> {
         let info = const { &P::INFO };
         let at = |error| ReplayError::File(path.to_owned(), error);
         let channels = P::channels();
@@ -115,6 +160,9 @@ impl Replay {
             recorded: vec![false; info.nodes.len()],
             report: Report::default(),
             bytes: vec![],
+            group,
+            looks: 0,
+            over: false,
             channels,
         };
         replay.load().map_err(at)?;
@@ -142,7 +190,8 @@ impl Replay {
             self.source.channels.values().any(same)
         };
         let mut missing = vec![];
-        for channel in &self.channels {
+        let group = self.group.as_ref().map(|group| group.number);
+        for channel in self.channels.iter().filter(|c| group.is_none_or(|group| c.group == group)) {
             match (channel.role, known(channel)) {
                 (Role::Source, true) => self.recorded[channel.node] = true,
                 (Role::Chosen, true) => {
@@ -171,13 +220,13 @@ impl Replay {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn next_reaction(&mut self) -> Result<Option<Time>, io::Error> {
-        let Some(now) = self.next.take() else { return Ok(None) };
+    pub(super) fn next_reaction(&mut self) -> Result<Option<Time>, io::Error> {
+        let Some(now) = self.next.take().filter(|_| !self.over) else { return Ok(None) };
         self.now = now;
         self.reaction = Reaction::new(self.channels.len());
         self.load()?;
         // What was written of the last reaction is not all of it.
-        if self.next.is_none() && self.source.cut.is_some() {
+        if self.next.is_none() && self.source.cut.is_some() && !self.reaction.ended {
             return Ok(None);
         }
         self.report.reactions += 1;
@@ -188,7 +237,7 @@ impl Replay {
         while let Some(message) = self.source.next()? {
             match self.meaning(message.channel) {
                 Some(Meaning::Reaction) => {
-                    self.next = time_of(&message.data);
+                    self.next = time_of(&message.data).filter(|(group, _)| self.is_own(*group)).map(|(_, time)| time);
                     if self.next.is_some() {
                         return Ok(());
                     }
@@ -206,7 +255,8 @@ impl Replay {
             return *known;
         }
         let name = self.source.channels.get(&id).map_or("", |c| c.name.as_str());
-        let own = [Meaning::Reaction, Meaning::Elapsed, Meaning::Parameter, Meaning::Taken];
+        let own =
+            [Meaning::Reaction, Meaning::Elapsed, Meaning::Parameter, Meaning::Taken, Meaning::Looked, Meaning::Ended];
         let meaning = match OWN.iter().position(|(own, _)| *own == name) {
             Some(index) => Some(own[index]),
             None => self.channels.iter().position(|c| c.name == name).map(Meaning::Token),
@@ -215,35 +265,80 @@ impl Replay {
         meaning
     }
 
+    /// Whether what belongs to a group is repeated here.
+    fn is_own(&self, group: u32) -> bool {
+        self.group.as_ref().is_none_or(|own| own.number == group as usize)
+    }
+
     fn keep(&mut self, meaning: Meaning, message: FileMessage) {
         let Some(mut fields) = Reader::new(&message.data).or_else(|| Reader::new(&[0, 1, 0, 0])) else { return };
-        let reaction = &mut self.reaction;
         match meaning {
             Meaning::Reaction => {}
-            Meaning::Elapsed => reaction.elapsed.extend(fields.u64().map(Duration::from_nanos)),
+            Meaning::Elapsed => {
+                let elapsed = fields.u64().map(Duration::from_nanos);
+                // Older recordings have one group.
+                if self.is_own(fields.u32().unwrap_or(0)) {
+                    self.reaction.elapsed.extend(elapsed);
+                }
+            }
             Meaning::Parameter => {
                 if let (Some(name), Some(value)) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned))
                 {
-                    reaction.params.push((name, value, bool::read(&mut fields).unwrap_or(true)));
+                    self.reaction.params.push((name, value, bool::read(&mut fields).unwrap_or(true)));
                 }
             }
-            Meaning::Taken => reaction.taken.extend(fields.text().map(str::to_owned)),
-            Meaning::Token(channel) => reaction.tokens[channel].push_back((message.sequence, message.data)),
+            Meaning::Taken => self.reaction.taken.extend(fields.text().map(str::to_owned)),
+            Meaning::Looked => {
+                if let (Some(group), Some(look)) = (fields.u32(), fields.u32())
+                    && self.is_own(group)
+                {
+                    self.reaction.looks.insert(look);
+                }
+            }
+            Meaning::Ended => self.reaction.ended |= fields.u32().is_some_and(|group| self.is_own(group)),
+            Meaning::Token(channel) if self.is_own(self.channels[channel].group as u32) => {
+                self.reaction.tokens[channel].push_back((message.sequence, message.data));
+            }
+            Meaning::Token(_) => {}
         }
     }
 
     /// What came of it.
-    pub fn finish(mut self) -> Report {
+    pub(super) fn finish(mut self) -> Report {
         self.report.cut = self.source.cut.take();
         self.report.dropped = mem::take(&mut self.source.dropped);
         self.report
     }
 
     pub(super) fn begin(&mut self) {
+        self.looks = 0;
         self.calls.fill(0);
     }
 
+    /// A look at what is between groups finds what it found when it was recorded.
+    pub(super) fn looked(&mut self, finds: impl Fn() -> bool) -> bool {
+        let Some(group) = &self.group else { return finds() };
+        let look = self.looks;
+        self.looks += 1;
+        if self.over || !self.reaction.looks.remove(&look) {
+            return false;
+        }
+        match group.waits.wait(group.number, finds) {
+            Waited::Found => return true,
+            Waited::Missed => self.report.missed += 1,
+            Waited::Cut => {
+                self.over = true;
+                // This one is not whole.
+                self.report.reactions -= 1;
+            }
+        }
+        false
+    }
+
     pub(super) fn end(&mut self) {
+        if self.over {
+            return;
+        }
         for channel in 0..self.channels.len() {
             if self.channels[channel].role == Role::Chosen {
                 while let Some((_, was)) = self.reaction.tokens[channel].pop_front() {
@@ -298,7 +393,7 @@ impl Replay {
     }
 
     pub(super) fn compare<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let Some(codec) = codec else { return };
+        let Some(codec) = codec.filter(|_| !self.over) else { return };
         let mut bytes = mem::take(&mut self.bytes);
         bytes.clear();
         (codec.write)(token, &mut bytes);
@@ -323,10 +418,10 @@ impl Replay {
     }
 }
 
-fn time_of(reaction: &[u8]) -> Option<Time> {
+/// The group and the time of a reaction.
+fn time_of(reaction: &[u8]) -> Option<(u32, Time)> {
     let mut fields = Reader::new(reaction)?;
-    fields.u32()?;
-    fields.i64().map(Time::from_nanos)
+    Some((fields.u32()?, Time::from_nanos(fields.i64()?)))
 }
 
 /// The value of a parameter, as TOML spells it.

@@ -1,4 +1,4 @@
-use super::Role;
+use super::{Channel, Role};
 use crate::Time;
 use core::fmt::{self, Display, Formatter};
 
@@ -19,6 +19,8 @@ pub struct Report {
     pub dropped: Vec<(String, u64)>,
     /// Tokens of the recording that are no values of their types any more.
     pub unreadable: u64,
+    /// How often a thread waited in vain for what it had found between it and another one.
+    pub missed: u64,
     /// Why the recording ends before the run did.
     pub cut: Option<String>,
 }
@@ -58,7 +60,31 @@ impl Compared {
 impl Report {
     /// Whether all tokens that could be compared were the same.
     pub fn is_same(&self) -> bool {
-        self.compared.iter().all(|c| c.different == 0)
+        self.missed == 0 && self.compared.iter().all(|c| c.different == 0)
+    }
+
+    /// What came of all groups of a program, each of which has a report of its own; that of the main group is the first.
+    pub(super) fn of_groups(reports: Vec<Self>, channels: &[Channel]) -> Self {
+        let mut all = Self::default();
+        for (group, report) in reports.into_iter().enumerate() {
+            all.reactions += report.reactions;
+            all.unreadable += report.unreadable;
+            all.missed += report.missed;
+            all.compared.extend(report.compared);
+            all.missing.extend(report.missing);
+            // What is said of the whole file is the same in all of them; one that ended early may not know it.
+            all.cut = all.cut.or(report.cut);
+            if all.dropped.is_empty() {
+                all.dropped = report.dropped;
+            }
+            if group == 0 {
+                (all.gone, all.params) = (report.gone, report.params);
+            }
+        }
+        let place = |name: &str| channels.iter().position(|c| c.name == name);
+        all.compared.sort_by_key(|c| place(c.name));
+        all.missing.sort_by_key(|(name, _)| place(name));
+        all
     }
 }
 
@@ -75,6 +101,9 @@ impl Display for Report {
         }
         if self.unreadable > 0 {
             writeln!(f, "{} recorded tokens are no values of their types any more", self.unreadable)?;
+        }
+        if self.missed > 0 {
+            writeln!(f, "{} times a thread waited in vain for another one, as it had not when recorded", self.missed)?;
         }
         for line in &self.params {
             writeln!(f, "parameter {line}")?;

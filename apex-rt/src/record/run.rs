@@ -1,6 +1,9 @@
 //! What [`drive`](crate::drive) and the `apex` command do.
 
-use super::{Recorder, Replay, ReplayError, Report, Tap, WhenFull};
+use super::{
+    Finished, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
+    threads::{record_on_threads, recorded_threads, replay_on_threads},
+};
 use crate::{Clock, Observer, Program, StdErr, UntilStopped, drive_with};
 use std::{
     env, io,
@@ -50,12 +53,12 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, wish: &Wish) -> 
     }
 }
 
-fn record<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> io::Result<u8> {
-    let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
-    let mut tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
-    let code = drive_with(program, UntilStopped::ctrl_c_if_free(clock), (StdErr(const { &P::INFO }), &mut tap));
-    let Tap::Record(recorder) = tap else { return Ok(code) };
-    let finished = recorder.finish()?;
+fn record<P: Program, C: Clock>(mut program: P, clock: C, path: &Path) -> io::Result<u8> {
+    let clock = UntilStopped::ctrl_c_if_free(clock);
+    let (code, finished) = match clock.pace().filter(|_| !P::INFO.groups.is_empty()) {
+        Some(pace) => record_on_threads(&mut program, pace, path, |_| StdErr(const { &P::INFO }))?,
+        None => record_in_turn(program, clock, path)?,
+    };
     eprintln!("recorded to `{}`", finished.path.display());
     for (channel, count) in finished.dropped {
         eprintln!("warning: {count} messages of `{channel}` were lost: the file could not be written as fast");
@@ -63,11 +66,28 @@ fn record<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> io::Result
     Ok(code)
 }
 
-/// Lets a program react as it did when `path` was recorded, and says what came out differently.
+/// Records a program on one thread.
+fn record_in_turn<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> io::Result<(u8, Finished)> {
+    let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
+    let mut tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
+    let code = drive_with(program, clock, (StdErr(const { &P::INFO }), &mut tap));
+    let Tap::Record(recorder) = tap else { unreachable!("it was made so") };
+    Ok((code, recorder.finish()?))
+}
+
+/// Lets a program react as it did when `path` was recorded, and says what came out differently. If its groups of threads ran
+/// side by side, they do so again, each with an observer of its own.
 ///
 /// # Errors
 /// The file is no recording of such a program, or cannot be read.
-pub fn replay<P: Program>(mut program: P, path: &Path, mut observer: impl Observer) -> Result<Report, ReplayError> {
+pub fn replay<P: Program>(
+    mut program: P,
+    path: &Path,
+    mut observer: impl Observer + Send + Clone,
+) -> Result<Report, ReplayError> {
+    if let Some(threads) = recorded_threads(path)? {
+        return replay_on_threads(&mut program, path, &threads, &observer);
+    }
     let mut tap = Tap::Replay(Replay::open::<P>(path)?);
     loop {
         let Tap::Replay(replay) = &mut tap else { unreachable!("it was made so") };

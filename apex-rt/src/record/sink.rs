@@ -33,15 +33,21 @@ pub const ELAPSED: u16 = 1;
 pub const PARAMETER: u16 = 2;
 /// Events of the program that were taken out.
 pub const TAKEN: u16 = 3;
+/// Looks at what is between groups of threads that found something.
+pub const LOOKED: u16 = 4;
+/// The end of a reaction of a group of threads.
+pub const ENDED: u16 = 5;
 /// The first channel of the program.
-pub const FIRST: usize = 4;
+pub const FIRST: usize = 6;
 
 /// The names and messages of the channels that every recording has.
 pub const OWN: [(&str, Schema); FIRST] = [
     ("apex/reaction", own("apex_msgs/msg/Reaction", "uint32 group\nint64 nanoseconds")),
-    ("apex/elapsed", own("apex_msgs/msg/Elapsed", "uint64 nanoseconds")),
+    ("apex/elapsed", own("apex_msgs/msg/Elapsed", "uint64 nanoseconds\nuint32 group")),
     ("apex/parameter", own("apex_msgs/msg/Parameter", "string name\nstring value\nbool changed")),
     ("apex/taken", own("apex_msgs/msg/Taken", "string event")),
+    ("apex/looked", own("apex_msgs/msg/Looked", "uint32 group\nuint32 look")),
+    ("apex/ended", own("apex_msgs/msg/Ended", "uint32 group")),
 ];
 
 const fn own(name: &'static str, definition: &'static str) -> Schema {
@@ -53,13 +59,38 @@ pub const DROPPED: &str = "apex/dropped";
 /// The name under which the file says what program was recorded.
 pub const PROGRAM: &str = "apex/program";
 
+/// In what the file says of the program: the groups of threads that ran side by side, if any did.
+pub const THREADS: &str = "threads";
+
 /// Bytes before each frame: channel, call, time, length.
 const HEADER: usize = 2 + 4 + 8 + 4;
+
+/// A message on its way to the ring.
+#[derive(Default)]
+pub struct Frame(Vec<u8>);
+
+impl Frame {
+    /// Begins a message; what is in it is written behind.
+    pub fn begin(&mut self, channel: u16, call: u32, time: u64) -> &mut Vec<u8> {
+        self.0.clear();
+        self.0.extend_from_slice(&channel.to_le_bytes());
+        self.0.extend_from_slice(&call.to_le_bytes());
+        self.0.extend_from_slice(&time.to_le_bytes());
+        self.0.extend_from_slice(&[0; 4]);
+        &mut self.0
+    }
+
+    /// The bytes with their length; `None` if they are too many.
+    fn whole(&mut self) -> Option<&[u8]> {
+        let length = u32::try_from(self.0.len() - HEADER).ok()?;
+        self.0[HEADER - 4..HEADER].copy_from_slice(&length.to_le_bytes());
+        Some(&self.0)
+    }
+}
 
 /// The near end of the ring.
 pub struct Sink {
     ring: Producer<u8>,
-    frame: Vec<u8>,
     over: Arc<AtomicBool>,
     thread: Option<JoinHandle<io::Result<()>>>,
     /// Bytes of the largest frame that ever fits.
@@ -67,50 +98,37 @@ pub struct Sink {
 }
 
 impl Sink {
-    /// Makes the file and begins to write. `room` bytes can wait.
-    pub fn new(path: PathBuf, program: &str, channels: &[Channel], room: usize) -> io::Result<Self> {
+    /// Makes the file and begins to write. `about` says what program it is, and `room` bytes can wait.
+    pub fn new(path: PathBuf, about: BTreeMap<String, String>, channels: &[Channel], room: usize) -> io::Result<Self> {
         let (ring, taken) = RingBuffer::new(room);
         let file = File::create_new(&path)?;
-        let writer = open(file.try_clone()?, program, channels).map_err(as_io)?;
+        let writer = open(file.try_clone()?, about, channels).map_err(as_io)?;
         let over = Arc::new(AtomicBool::new(false));
         let far = Far { ring: taken, writer, file, over: Arc::clone(&over), frame: vec![], path };
         let thread = thread::Builder::new().name("apex-record".to_owned()).spawn(move || far.run())?;
-        Ok(Self { ring, frame: vec![], over, thread: Some(thread), room })
+        Ok(Self { ring, over, thread: Some(thread), room })
     }
 
-    /// Begins a frame, which `end` sends; what is in it is written behind.
-    pub fn begin(&mut self, channel: u16, call: u32, time: u64) -> &mut Vec<u8> {
-        self.frame.clear();
-        self.frame.extend_from_slice(&channel.to_le_bytes());
-        self.frame.extend_from_slice(&call.to_le_bytes());
-        self.frame.extend_from_slice(&time.to_le_bytes());
-        self.frame.extend_from_slice(&[0; 4]);
-        &mut self.frame
+    /// Sends a message; whether there was room for it.
+    pub fn send(&mut self, frame: &mut Frame) -> bool {
+        frame.whole().is_some_and(|bytes| self.ring.push_entire_slice(bytes).is_ok())
     }
 
-    /// Sends the frame; `false` if there is no room for it, however long one waits if one `waits`.
-    pub fn end(&mut self, waits: bool) -> bool {
-        let Ok(length) = u32::try_from(self.frame.len() - HEADER) else { return false };
-        self.frame[HEADER - 4..HEADER].copy_from_slice(&length.to_le_bytes());
-        loop {
-            if self.ring.push_entire_slice(&self.frame).is_ok() {
-                return true;
-            }
-            if !waits || self.frame.len() > self.room || self.ring.is_abandoned() {
-                return false;
-            }
-            thread::sleep(Duration::from_micros(100));
-        }
+    /// Whether there will be room for a message, if one waits.
+    pub fn may_fit(&self, frame: &Frame) -> bool {
+        frame.0.len() <= self.room && !self.ring.is_abandoned()
     }
 
     /// Writes what is left, and what was lost, and ends the file.
     pub fn finish(&mut self, dropped: &[(String, u64)]) -> io::Result<()> {
         let Some(thread) = self.thread.take() else { return Ok(()) };
         let fields: BTreeMap<String, String> = dropped.iter().map(|(name, n)| (name.clone(), n.to_string())).collect();
-        self.frame.clear();
         if let Ok(text) = postcard::to_allocvec(&fields) {
-            self.begin(u16::MAX, 0, 0).extend_from_slice(&text);
-            self.end(true);
+            let mut frame = Frame::default();
+            frame.begin(u16::MAX, 0, 0).extend_from_slice(&text);
+            while !self.send(&mut frame) && self.may_fit(&frame) {
+                thread::sleep(NAP);
+            }
         }
         self.over.store(true, Ordering::Release);
         thread.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")))
@@ -125,7 +143,7 @@ impl Drop for Sink {
 
 type Out = Writer<BufWriter<File>>;
 
-fn open(file: File, program: &str, channels: &[Channel]) -> mcap::McapResult<Out> {
+fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mcap::McapResult<Out> {
     let options = WriteOptions::new()
         .compression(None)
         .chunk_size(Some(CHUNK))
@@ -134,8 +152,7 @@ fn open(file: File, program: &str, channels: &[Channel]) -> mcap::McapResult<Out
         .profile("ros2")
         .library(concat!("apex ", env!("CARGO_PKG_VERSION")));
     let mut writer = options.create(BufWriter::new(file))?;
-    let fields = BTreeMap::from([("name".to_owned(), program.to_owned())]);
-    writer.write_metadata(&Metadata { name: PROGRAM.to_owned(), metadata: fields })?;
+    writer.write_metadata(&Metadata { name: PROGRAM.to_owned(), metadata: about })?;
     let own = OWN.iter().map(|(name, schema)| (*name, Some(*schema)));
     for (index, (name, schema)) in own.chain(channels.iter().map(|c| (c.name, c.schema))).enumerate() {
         let Some(schema) = schema else { continue };

@@ -1,7 +1,7 @@
 //! Reads an MCAP file from its beginning, one message after the other, as far as it goes: also a file that was cut off in
 //! the middle of a chunk, or has wrong bytes in it.
 
-use super::sink::{DROPPED, PROGRAM};
+use super::sink::{DROPPED, PROGRAM, THREADS};
 use mcap::{MAGIC, McapError, parse_record, records::Record};
 use std::{
     collections::BTreeMap,
@@ -49,6 +49,8 @@ pub struct Source {
     pub channels: BTreeMap<u16, FileChannel>,
     /// The program that was recorded, as soon as it is known.
     pub program: Option<String>,
+    /// The groups of threads that ran side by side, if any did.
+    pub threads: Option<String>,
     /// What was lost, as the file says at its end.
     pub dropped: Vec<(String, u64)>,
     /// Why it could not be read to its end.
@@ -88,6 +90,7 @@ impl Source {
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
             program: None,
+            threads: None,
             dropped: vec![],
             cut: None,
             over: false,
@@ -170,6 +173,7 @@ impl Source {
             }
             Record::Metadata(metadata) if metadata.name == PROGRAM => {
                 self.program = metadata.metadata.get("name").cloned();
+                self.threads = metadata.metadata.get(THREADS).cloned();
             }
             Record::Metadata(metadata) if metadata.name == DROPPED => {
                 let counts = metadata.metadata.into_iter();

@@ -30,10 +30,19 @@ impl Tap {
         }
     }
 
+    /// A group looks at what is between it and another one: whether it finds something.
+    pub fn looked(&mut self, finds: impl Fn() -> bool) -> bool {
+        match self {
+            Self::Record(recorder) => recorder.looked(finds()),
+            Self::Replay(replay) => replay.looked(finds),
+        }
+    }
+
     /// The reaction has ended.
     pub fn end(&mut self) {
-        if let Self::Replay(replay) = self {
-            replay.end();
+        match self {
+            Self::Record(recorder) => recorder.end(),
+            Self::Replay(replay) => replay.end(),
         }
     }
 
@@ -126,5 +135,15 @@ impl Tap {
             Self::Record(recorder) => recorder.elapsed(elapsed),
             Self::Replay(replay) => replay.elapsed().unwrap_or(elapsed),
         }
+    }
+}
+
+/// Whether a group finds something between it and another one, for generated code: what it found when it was recorded.
+#[doc(hidden)]
+#[inline]
+pub fn looked<O: Observer>(observer: &mut O, finds: impl Fn() -> bool) -> bool {
+    match observer.tap() {
+        Some(tap) => tap.looked(finds),
+        None => finds(),
     }
 }

@@ -1,0 +1,149 @@
+//! How groups of threads wait for each other in a replay, and when one waits for what cannot come any more.
+
+use std::{
+    sync::{Mutex, MutexGuard, PoisonError},
+    thread,
+    time::Duration,
+};
+
+/// So often a group looks again before it sleeps.
+const SPINS: u32 = 100;
+/// How long it sleeps between two looks.
+const PAUSE: Duration = Duration::from_micros(50);
+
+/// What the groups of a replay know of each other.
+#[derive(Debug)]
+pub struct Waits(Mutex<State>);
+
+#[derive(Debug)]
+struct State {
+    groups: Vec<Group>,
+    /// Counts what happens to `groups`.
+    changes: u64,
+    /// A group ended because the recording was cut there.
+    cut: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Group {
+    Runs,
+    /// It has looked in vain after so many changes.
+    Waits(u64),
+    Ended,
+}
+
+/// What comes of a wait.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Waited {
+    /// What was recorded.
+    Found,
+    /// It does not come any more: this run is another one.
+    Missed,
+    /// It would come from what was not recorded any more.
+    Cut,
+}
+
+impl Waits {
+    /// So many groups run.
+    pub fn new(groups: usize) -> Self {
+        Self(Mutex::new(State { groups: vec![Group::Runs; groups], changes: 0, cut: false }))
+    }
+
+    /// Group `group` waits until it `finds` what it is looking for, or until this cannot come any more.
+    pub fn wait(&self, group: usize, finds: impl Fn() -> bool) -> Waited {
+        for _ in 0..SPINS {
+            if finds() {
+                return Waited::Found;
+            }
+            thread::yield_now();
+        }
+        let mut seen = self.state().change(group, Group::Waits(0));
+        loop {
+            if finds() {
+                self.state().change(group, Group::Runs);
+                return Waited::Found;
+            }
+            let mut state = self.state();
+            // Others may have changed something after this group looked: then `seen` is not the last change.
+            state.groups[group] = Group::Waits(seen);
+            if state.gives_up(group) {
+                state.change(group, Group::Runs);
+                return if state.cut { Waited::Cut } else { Waited::Missed };
+            }
+            seen = state.changes;
+            drop(state);
+            thread::sleep(PAUSE);
+        }
+    }
+
+    /// Group `group` does nothing any more.
+    pub fn end(&self, group: usize, cut: bool) {
+        let mut state = self.state();
+        state.cut |= cut;
+        state.change(group, Group::Ended);
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    fn change(&mut self, group: usize, to: Group) -> u64 {
+        self.changes += 1;
+        self.groups[group] = to;
+        self.changes
+    }
+
+    /// Whether all groups have ended or have looked in vain since the last change, and `group` is the first of those that
+    /// wait: which one gives up is then the same each time.
+    fn gives_up(&self, group: usize) -> bool {
+        let stuck = |g: &Group| matches!(*g, Group::Ended) || *g == Group::Waits(self.changes);
+        let first = self.groups.iter().position(|g| matches!(g, Group::Waits(_)));
+        first == Some(group) && self.groups.iter().all(stuck)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    #[test]
+    fn one_that_waits_for_another_finds_what_comes() {
+        let (waits, there) = (Waits::new(2), AtomicBool::new(false));
+        thread::scope(|scope| {
+            let waiting = scope.spawn(|| waits.wait(0, || there.load(Ordering::Acquire)));
+            thread::sleep(Duration::from_millis(20));
+            there.store(true, Ordering::Release);
+            waits.end(1, false);
+            assert_eq!(waiting.join().ok(), Some(Waited::Found));
+        });
+    }
+
+    #[test]
+    fn the_first_of_those_that_wait_in_vain_gives_up_and_others_may_go_on() {
+        let (waits, there) = (Waits::new(3), AtomicBool::new(false));
+        thread::scope(|scope| {
+            let second = scope.spawn(|| waits.wait(1, || there.load(Ordering::Acquire)));
+            let first = scope.spawn(|| {
+                let waited = waits.wait(0, || false);
+                there.store(true, Ordering::Release);
+                waits.end(0, false);
+                waited
+            });
+            thread::sleep(Duration::from_millis(20));
+            assert!(!first.is_finished(), "the last group still runs");
+            waits.end(2, false);
+            assert_eq!(first.join().ok(), Some(Waited::Missed));
+            assert_eq!(second.join().ok(), Some(Waited::Found));
+        });
+    }
+
+    #[test]
+    fn what_would_come_after_a_cut_is_told_apart() {
+        let waits = Waits::new(2);
+        waits.end(1, true);
+        assert_eq!(waits.wait(0, || false), Waited::Cut);
+    }
+}
