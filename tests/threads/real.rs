@@ -1,6 +1,6 @@
 //! Programs on real threads: nothing is lost, their ends are clean, and nobody waits awake.
 
-use crate::groups::{Enough, Hangs, Match, Panics, There};
+use crate::groups::{Enough, Hangs, Match, Panics, Strict, There, Warned};
 use apex_rt::{prelude::*, threads};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
@@ -158,6 +158,12 @@ fn a_token_at_exit_ends_all_threads() {
     for _ in 0..20 {
         assert_eq!(drive(&mut Enough::new()), 0);
     }
+}
+
+#[test]
+fn rights_that_are_missing_end_the_program_only_if_it_says_so() {
+    assert_eq!(drive(&mut Strict::new()), 1);
+    assert_eq!(drive(&mut Warned::new()), 0);
 }
 
 #[test]
