@@ -4,8 +4,8 @@ use super::{
     Flag, Generator,
     activity::Whole,
     bits::Bits,
+    cells::{ends_name, receivers},
     state::{Kept, Kind},
-    threads::{ends_name, receivers},
     types::ident,
 };
 use crate::{

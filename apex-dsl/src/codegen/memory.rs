@@ -4,9 +4,10 @@ use super::{
     Generator, Names,
     activity::Whole,
     bits::Bits,
+    cells::cell_name,
     program::{Field, boundaries},
     state::Kind,
-    threads::{cell_name, part_name},
+    threads::part_name,
     types::ident,
 };
 use crate::{

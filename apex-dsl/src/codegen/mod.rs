@@ -2,6 +2,7 @@
 
 mod activity;
 mod bits;
+mod cells;
 mod claims;
 mod deliver;
 mod dispatch;

@@ -4,9 +4,9 @@ use super::{
     Flag, Generator,
     activity::{Carries, Whole, carries},
     bits::Bits,
+    cells::carries_missing,
     plan::is_buffer,
     test::probe,
-    threads::carries_missing,
     types::ident,
 };
 use crate::{

@@ -2,17 +2,16 @@
 //! one thread or is handed out to several.
 
 use super::{
-    Flag, Generator, Names,
+    Generator, Names,
     activity::Whole,
     bits::Bits,
-    plan::is_buffer,
+    cells::{cell_name, ends_name},
     program::{Field, node_structs},
     types::{duration, ident},
 };
 use crate::{
     analyse::Analysis,
-    graph::{End, Far, Flow, Graph, NodeId, NodeKind},
-    syntax::tree::PortKind,
+    graph::{Graph, NodeId, NodeKind},
     threads::{Origin, Part, Split},
 };
 use proc_macro2::TokenStream;
@@ -20,45 +19,12 @@ use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
-/// The struct with a part's ends of cells.
-pub fn ends_name(graph: &Graph) -> Ident {
-    format_ident!("{}Ends", graph.name)
-}
-
 /// The field of a part in the whole program.
 pub fn part_name(part: &Part) -> Ident {
     format_ident!("on_{}", part.group)
 }
 
-/// The cells that a part takes tokens from, with the nodes where they come in.
-pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
-    graph.nodes.iter().enumerate().filter_map(|(id, node)| match node.kind {
-        NodeKind::Receiver(far) => Some((far.cell, id)),
-        _ => None,
-    })
-}
-
-/// Whether ⊥ goes over an asynchronous connection of a part: it belongs to synchronous data flow between two groups.
-pub fn carries_missing(graph: &Graph, connection: usize) -> bool {
-    let c = &graph.connections[connection];
-    match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
-        (_, NodeKind::Sender(_)) => graph.port(c.to).optional,
-        (NodeKind::Receiver(_), _) => graph.port(c.from).optional && graph.flow(c) == Flow::ToInput && !c.relayed,
-        _ => false,
-    }
-}
-
-/// The field of a cell.
-pub fn cell_name(cell: usize) -> Ident {
-    format_ident!("cell_{cell}")
-}
-
 impl Generator<'_> {
-    /// The flag that says that a token from a cell is not done with.
-    pub fn holding(cell: usize) -> Ident {
-        format_ident!("holding_{cell}")
-    }
-
     /// All items of a program on several threads.
     pub fn threads(
         &self,
@@ -102,112 +68,6 @@ impl Generator<'_> {
         let mut fields = Fields::default();
         self.node_fields(graph, analysis, &mut fields.nodes, &mut fields.handed_in);
         fields
-    }
-
-    /// A token goes into its cell, or the other side is done with it.
-    pub fn send_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
-        let Whole { graph, analysis, links } = whole;
-        let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else {
-            return quote!();
-        };
-        let (Some(free), Some(token)) = (bits.free(index), bits.token(index)) else { return quote!() };
-        let (cell, name) = (cell_name(far.cell), self.name(c.from));
-        let value = match is_buffer(graph, self.catalog, c.from) {
-            true => quote!(state.#name.get()),
-            false => quote!(state.#name.as_ref()),
-        };
-        let active = analysis.active.contains(&node);
-        let carries = active.then(|| {
-            let (gains, here) = (self.flag(Flag::Gains, node), self.flag(Flag::Active, node));
-            quote! { parcel.active = ::core::mem::take(&mut state.#gains); state.#here = parcel.active; }
-        });
-        let carries = carries.filter(|_| !far.takes_activity);
-        let left = carries.is_some().then(|| {
-            let here = self.flag(Flag::Active, node);
-            quote! { state.#here = false; }
-        });
-        let stamp = analysis.stamps.connections.contains(&index).then(|| {
-            let stamp = super::stamps::of_connection(index);
-            quote! { parcel.stamp = state.#stamp; }
-        });
-        let settle = (graph.port(c.from).kind == PortKind::Output)
-            .then(|| bits.row(analysis.cluster_of[c.from.node]))
-            .flatten()
-            .map(|row| quote! { self.state.dispatcher.settle(&Self::CLUSTERS, #row); });
-        let receiver = self.cell(far).1;
-        let is_free = self.look(quote!(ends.#cell.is_free()));
-        quote! {
-            if !self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#free])) && #is_free {
-                if self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#token])) {
-                    let state = &mut self.state;
-                    state.dispatcher.clear(#token);
-                    ends.#cell.put(|parcel| {
-                        ::apex_rt::store(&mut parcel.token, #value);
-                        #carries
-                        #stamp
-                    });
-                    wake.wake(#receiver);
-                } else {
-                    self.state.dispatcher.raise(#free);
-                    #settle
-                    let state = &mut self.state;
-                    #left
-                    quiet = false;
-                }
-            }
-        }
-    }
-
-    /// A token comes out of its cell, or all that it caused has finished.
-    pub fn receive_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
-        let Whole { graph, analysis, links } = whole;
-        let end = End { node, port: 0 };
-        let (cell, holding, name, sender) =
-            (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
-        let told = sender.map(|sender| quote! { wake.wake(#sender); });
-        let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
-        let all_free = match free.is_empty() {
-            true => quote!(true),
-            false => quote!(self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*]))),
-        };
-        let test = self.allows(whole, &[]);
-        let carries = (analysis.active.contains(&node) && !far.takes_activity).then(|| {
-            let flag = self.flag(Flag::Active, node);
-            quote! { state.#flag = ::core::mem::take(&mut parcel.active); }
-        });
-        let stamped = links.sends[node].iter().any(|c| analysis.stamps.connections.contains(c));
-        let since = stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
-        let pass = self.pass_activity(whole, node, &|end| Some(self.waits(graph, end)));
-        let emit = self.emit(whole, bits, node, false);
-        let serve = self.deliver(whole, &links.sends[node]);
-        let is_full = self.look(quote!(ends.#cell.is_full()));
-        quote! {
-            if self.state.#holding && #all_free {
-                self.state.#holding = false;
-                ends.#cell.release();
-                #told
-            }
-            if !self.state.#holding && #is_full #test {
-                let Self { nodes, state, .. } = self;
-                let mut stamp = now;
-                ends.#cell.take(|parcel| {
-                    ::core::mem::swap(&mut state.#name, &mut parcel.token);
-                    stamp = parcel.stamp;
-                    #carries
-                });
-                state.#holding = true;
-                #since
-                #pass
-                #emit
-                #serve
-                quiet = false;
-            }
-        }
-    }
-
-    /// The groups at both ends of a cell.
-    fn cell(&self, far: Far) -> (Option<usize>, usize) {
-        self.cells.get(far.cell).map_or((None, 0), |cell| (cell.sender, cell.receiver))
     }
 }
 
