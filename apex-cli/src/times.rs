@@ -78,6 +78,8 @@ struct Thread<'a> {
     busy: f64,
     /// For each cluster that fires: its number, its nodes, and the sum of their longest calls in µs.
     clusters: Vec<(usize, Vec<String>, f64)>,
+    /// The nodes of which only slots are called, with the longest call in µs.
+    slots: Vec<(String, f64)>,
 }
 
 fn threads<'a>(program: &'a Program, profile: &Profile) -> Vec<Thread<'a>> {
@@ -96,7 +98,11 @@ fn thread<'a>(name: &'a str, graph: &Graph, analysis: &Analysis, profile: &Profi
         let longest = |node: &usize| measured(*node).map_or(0.0, |m| m.longest) * analysis.repetitions[*node] as f64;
         (number, nodes.iter().map(|node| graph.path(*node)).collect(), nodes.iter().map(longest).sum())
     });
-    Thread { name, busy: 100.0 * all / profile.span.max(f64::MIN_POSITIVE), clusters: clusters.collect() }
+    let clusters: Vec<(usize, Vec<String>, f64)> = clusters.collect();
+    let is_in_none = |node: &usize| !clusters.iter().any(|(_, nodes, _)| nodes.contains(&graph.path(*node)));
+    let slots = (0..graph.nodes.len()).filter(is_in_none);
+    let slots = slots.filter_map(|node| Some((graph.path(node), measured(node)?.longest))).collect();
+    Thread { name, busy: 100.0 * all / profile.span.max(f64::MIN_POSITIVE), clusters, slots }
 }
 
 fn text(program: &Program, profile: &Profile) -> String {
@@ -105,6 +111,9 @@ fn text(program: &Program, profile: &Profile) -> String {
         let _ = writeln!(text, "  thread {}: {:.1} % of the time at work", thread.name, thread.busy);
         for (number, nodes, longest) in thread.clusters.iter().filter(|(_, nodes, _)| !nodes.is_empty()) {
             let _ = writeln!(text, "    cluster {number}: at worst {longest:.1} µs ({})", nodes.join(", "));
+        }
+        for (node, longest) in &thread.slots {
+            let _ = writeln!(text, "    slots of {node}: at worst {longest:.1} µs a call");
         }
     }
     text.push_str("  at worst: all nodes of the cluster as slow as each of them ever was\n");
@@ -118,7 +127,9 @@ fn json_of(program: &Program, profile: &Profile) -> Value {
             .iter()
             .map(|(number, nodes, longest)| json!({ "cluster": number, "nodes": nodes, "worst_us": longest }))
             .collect();
-        json!({ "name": thread.name, "busy_percent": thread.busy, "clusters": clusters })
+        let slots: Vec<Value> =
+            thread.slots.iter().map(|(node, longest)| json!({ "node": node, "worst_us": longest })).collect();
+        json!({ "name": thread.name, "busy_percent": thread.busy, "clusters": clusters, "slots": slots })
     });
     json!({ "name": profile.program, "measured_us": profile.span, "threads": threads.collect::<Vec<Value>>() })
 }

@@ -12,6 +12,7 @@ mod import;
 mod memory;
 mod new;
 mod record;
+mod times;
 mod watch;
 
 /// Where all that these tests make is built, so that what it needs is built once.
