@@ -112,7 +112,7 @@ fn all_graphs() -> Vec<Graph> {
         .iter()
         .map(|case| Graph { name: case.name, hand: case.hand, apex: Some(case.apex), stamped: stamped(case.name) })
         .collect();
-    // Compiled graphs run on one thread so far; what one on two threads takes goes here.
+    // `apex-bench threads` measures the compiled one, whose regions wait for each other.
     graphs.push(Graph { name: "tworegion", hand: tworegion::hand, apex: None, stamped: None });
     graphs
 }

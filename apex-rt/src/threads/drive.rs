@@ -14,7 +14,7 @@ use std::{
         atomic::{AtomicBool, AtomicU8, Ordering},
     },
     thread::{self, Scope, ScopedJoinHandle, Thread},
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 /// What sets the pace of threads: the machine's clock, until somebody ends it.
@@ -25,6 +25,9 @@ pub struct Pace {
     /// The program ends when this is set.
     pub stopped: Option<&'static AtomicBool>,
 }
+
+/// How long a thread stays awake after it has slept for less than this.
+const LINGER: Duration = Duration::from_micros(50);
 
 /// How long it may take until [`Pace::stopped`] is noticed.
 const NOTICED: Duration = Duration::from_millis(20);
@@ -39,6 +42,8 @@ struct Run {
     pulses: Box<[Pulse]>,
     /// Ends the watch over them.
     off: Off,
+    /// There is a core for each group: who stays awake takes it from nobody.
+    has_cores: bool,
 }
 
 /// How long groups run.
@@ -93,8 +98,9 @@ pub fn react_on_threads<P: Program, O: Observer + Send>(
 fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, observer: impl Fn(usize) -> O) -> u8 {
     let groups = P::INFO.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
+    let has_cores = thread::available_parallelism().is_ok_and(|cores| cores.get() >= groups);
     let pulses = (0..groups).map(|_| Pulse::default()).collect();
-    let run = Run { sleep, time, code: AtomicU8::new(0), pulses, off: Off::default() };
+    let run = Run { sleep, time, code: AtomicU8::new(0), pulses, off: Off::default(), has_cores };
     let panicked = thread::scope(|scope| {
         let info = const { &P::INFO };
         let mut spawner = Spawner { scope, run: &run, observer, info, hung: vec![], threads: vec![] };
@@ -195,6 +201,7 @@ impl Run {
     fn drive<G: Group, O: Observer>(&self, group: usize, mut part: G, observer: O, pace: Pace) {
         let (mut clock, mut other) = (pace.clock, pace.clock);
         let mut observer = (observer, crate::run::Stopwatch { clock: &mut other, start: Time::ZERO });
+        let mut short = false;
         while !self.sleep.is_stopped() {
             self.sleep.begin(group);
             let now = clock.now();
@@ -203,9 +210,27 @@ impl Run {
                 Next::Exit(code) => self.end(code),
                 Next::Now => self.look(pace),
                 Next::At(time) => self.wait_until(group, pace, time),
-                Next::Input => self.idle(group, Some(pace)),
+                Next::Input => {
+                    let since = Instant::now();
+                    if !short || !self.lingers(group, since) {
+                        self.idle(group, Some(pace));
+                    }
+                    short = since.elapsed() < LINGER;
+                }
             }
         }
+    }
+
+    /// Whether group `group` is woken soon. Where tokens go to and fro quickly, falling asleep and waking up would take most of
+    /// the time; who slept for long before sleeps at once.
+    fn lingers(&self, group: usize, since: Instant) -> bool {
+        while self.has_cores && since.elapsed() < LINGER && !self.sleep.is_stopped() {
+            if self.sleep.is_woken(group) {
+                return true;
+            }
+            std::hint::spin_loop();
+        }
+        false
     }
 
     fn react<G: Group, O: Observer>(&self, group: usize, mut part: G, mut observer: O, now: Time) {

@@ -93,6 +93,11 @@ impl<T: Alarm> Shared<T> {
         idle
     }
 
+    /// Whether group `group` was told of something since it began.
+    pub fn is_woken(&self, group: usize) -> bool {
+        self.groups[group].state.load(Ordering::Acquire) == WOKEN
+    }
+
     /// Whether group `group` still sleeps.
     pub fn sleeps(&self, group: usize) -> bool {
         self.groups[group].state.load(Ordering::Acquire) == IDLE && !self.is_stopped()
