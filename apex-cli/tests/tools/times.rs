@@ -68,7 +68,7 @@ fn what_is_no_profile_of_the_text_is_refused() {
     let folder = Folder::new("times-wrong");
     package(&folder, NODES);
     let text = folder.file("talk.afg", TEXT);
-    let other = folder.file("other.json", &PROFILE.replace("Talk", "Other"));
+    let other = folder.file("other.json", PROFILE.replace("Talk", "Other"));
     for (profile, message) in [
         (other.as_path(), "the profile is of `Other`"),
         (text.as_path(), "it is not what `apex run --profile` writes"),
