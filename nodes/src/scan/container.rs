@@ -8,7 +8,7 @@ use heapless::Vec;
 
 /// A container that was found in a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Container {
     /// Its centre and heading in the frame of the scanner. The heading leads from its near wheels to its far ones.
     pub pose: Pose2,

@@ -5,7 +5,7 @@ use core::{
 
 /// A point or vector in the plane, in metres.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Point2 {
     /// Forward.
     pub x: f32,
@@ -80,7 +80,7 @@ impl Sub for Point2 {
 
 /// A pose in the plane: where a frame lies in another one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose2 {
     /// Forward, in m.
     pub x: f32,

@@ -11,7 +11,7 @@ pub type Segments = Vec<Segment, MAX_SEGMENTS>;
 
 /// Neighbouring points of a scan that belong together: a range of beams and the box around their points.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Segment {
     /// Its first beam.
     pub first: u16,
