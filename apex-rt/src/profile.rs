@@ -1,7 +1,7 @@
 //! Where the time goes: how long every firing and every call of a slot takes, as a table by node and as a trace that
 //! Perfetto and Chrome show (`ui.perfetto.dev`, `chrome://tracing`), active nodes in another colour.
 
-use crate::{Clock, Info, Observer, Program, StdErr, UntilStopped, drive_with, threads::drive_on_threads};
+use crate::{Clock, Info, Observer, Program, StdErr, UntilStopped, run::drive_groups};
 use hdrhistogram::Histogram;
 use std::{
     fmt::Write as _,
@@ -174,14 +174,7 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> 
         }
     };
     let observer = |group| (StdErr(info), Profile::of_group(&profile, group));
-    let clock = UntilStopped::ctrl_c_if_free(clock);
-    let code = match clock.pace().filter(|_| !info.groups.is_empty()) {
-        Some(pace) => {
-            let mut program = program;
-            drive_on_threads(&mut program, pace, observer)
-        }
-        None => drive_with(program, clock, observer(0)),
-    };
+    let code = drive_groups(program, UntilStopped::ctrl_c_if_free(clock), observer);
     let mut profile = profile.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Err(error) = profile.finish() {
         cannot_write(error);

@@ -151,15 +151,29 @@ pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
         return crate::record::drive(program, clock, &wish);
     }
     #[cfg(feature = "std")]
-    if let Some(pace) = clock.pace().filter(|_| !P::INFO.groups.is_empty()) {
-        let mut program = program;
-        return crate::threads::drive_on_threads(&mut program, pace, |_| crate::StdErr(const { &P::INFO }));
-    }
-    #[cfg(feature = "std")]
-    let observer = crate::StdErr(const { &P::INFO });
+    return drive_groups(program, clock, |_| crate::StdErr(const { &P::INFO }));
     #[cfg(not(feature = "std"))]
-    let observer = ();
-    drive_with(program, clock, observer)
+    drive_with(program, clock, ())
+}
+
+/// Drives a program with an observer for each of its thread groups: on threads if it has groups and the clock is the
+/// machine's, else in turn.
+#[cfg(feature = "std")]
+pub(crate) fn drive_groups<P: Program, C: Clock, O: Observer + Send>(
+    mut program: P,
+    clock: C,
+    observer: impl Fn(usize) -> O,
+) -> u8 {
+    match pace_of_threads::<P, C>(&clock) {
+        Some(pace) => crate::threads::drive_on_threads(&mut program, pace, observer),
+        None => drive_with(program, clock, observer(0)),
+    }
+}
+
+/// What sets the pace of the threads of a program, if it runs on threads of its own.
+#[cfg(feature = "std")]
+pub(crate) fn pace_of_threads<P: Program, C: Clock>(clock: &C) -> Option<crate::threads::Pace> {
+    clock.pace().filter(|_| !P::INFO.groups.is_empty())
 }
 
 /// As [`drive`], with an observer of one's own. Nothing is written to standard error then: that is what

@@ -16,15 +16,7 @@ impl Message for Warmth {
     const DEFINITION: &'static str = "\
 std_msgs/Header header
 float64 temperature
-float64 variance
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec";
+float64 variance";
 
     fn write(&self, message: &mut Writer<'_>) {
         message.header(Time::ZERO, "stove");

@@ -4,17 +4,8 @@ use apex_rt::prelude::*;
 
 /// A source.
 #[node]
-#[derive(Default)]
-pub struct Ramp {
-    next: u64,
-}
-
-#[node]
-impl Ramp {
-    fn process(&mut self) -> u64 {
-        self.next += 1;
-        self.next
-    }
+pub fn one() -> u64 {
+    1
 }
 
 /// Keeps all that it sees.

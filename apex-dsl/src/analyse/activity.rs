@@ -11,7 +11,7 @@ pub fn reachable(graph: &Graph) -> BTreeSet<NodeId> {
     }
     let begins = |n: &NodeId| {
         let node = &graph.nodes[*n];
-        node.starts_active || matches!(node.kind, NodeKind::Start | NodeKind::Receiver(_))
+        node.starts_active || matches!(node.kind, NodeKind::Start | NodeKind::Receiver(_)) && !next[*n].is_empty()
     };
     let mut found: BTreeSet<NodeId> = BTreeSet::new();
     let mut stack: Vec<NodeId> = (0..graph.nodes.len()).filter(begins).collect();

@@ -65,6 +65,14 @@ pub struct Analysis {
     pub claims: Decided,
 }
 
+impl Analysis {
+    /// The cluster that a node fires in. A node that only has slots is in none.
+    fn fires_in(&self, node: NodeId) -> Option<usize> {
+        let cluster = self.cluster_of[node];
+        self.clusters.get(cluster).is_some_and(|c| c.nodes.contains(&node)).then_some(cluster)
+    }
+}
+
 /// How nodes hang together: who sends to whom, by node.
 #[derive(Debug)]
 pub struct Links {

@@ -36,11 +36,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
         let mut sent_on: Vec<usize> = vec![];
         match next {
             Asks::Node(node) => {
-                let cluster = analysis.cluster_of[node];
-                // A node that only has slots is in no cluster.
-                if analysis.clusters.get(cluster).is_some_and(|c| c.nodes.contains(&node)) {
-                    open.push(Asks::Cluster(cluster));
-                }
+                open.extend(analysis.fires_in(node).map(Asks::Cluster));
                 sent_on.extend(slots_of.get(&node).into_iter().flatten());
                 if let NodeKind::Sender(_) = graph.nodes[node].kind {
                     sent_on.extend(&analysis.links.inputs[node]);

@@ -42,12 +42,8 @@ impl Analysis {
             match graph.flow(c) {
                 _ if !self.asynchronous.live[*connection] => None,
                 Flow::ToSlot => Some(Step::Slot(*connection)),
-                Flow::ToInput
-                    if self.clusters.get(self.cluster_of[c.to.node]).is_some_and(|k| k.nodes.contains(&c.to.node)) =>
-                {
-                    Some(Step::Cluster(self.cluster_of[c.to.node]))
-                }
-                Flow::ToInput | Flow::Synchronous => None,
+                Flow::ToInput => self.fires_in(c.to.node).map(Step::Cluster),
+                Flow::Synchronous => None,
             }
         };
         match step {

@@ -316,11 +316,14 @@ impl Catalog {
         let slots = methods.iter().flat_map(|m| &m.slots).enumerate().map(|(i, slot)| builder.slot(slot, i)).collect();
         let ports = builder.ports;
         let params: Vec<ParamSig> = node.params.iter().map(|p| self.param(p, def.module, &node.generics)).collect();
-        let types = ports.iter().map(|p| p.ty.clone()).chain(params.iter().map(|p| p.ty.clone()));
-        let types: Vec<Type> =
-            types.chain(node.state.iter().map(|ty| self.type_of(ty, def.module, &node.generics))).collect();
+        let state = node.state.iter().map(|ty| self.type_of(ty, def.module, &node.generics));
+        // Most crates lack nothing.
+        let needs = self.lacks().and_then(|_| {
+            let ports = ports.iter().map(|p| p.ty.needs());
+            self.needs(def, ports.chain(params.iter().map(|p| p.ty.needs())).chain(state.map(|ty| ty.needs())))
+        });
         Signature {
-            needs: self.needs(def, &types),
+            needs,
             name: def.name.clone(),
             docs: node.docs.clone(),
             file: def.file.strip_prefix(&self.crates.root).unwrap_or(&def.file).to_owned(),
@@ -341,8 +344,8 @@ impl Catalog {
         }
     }
 
-    /// What a node with tokens, parameters and state of these types cannot do without.
-    fn needs(&self, def: &Def, types: &[Type]) -> Option<(Need, String)> {
+    /// What a node cannot do without whose tokens, parameters and state need this.
+    fn needs(&self, def: &Def, types: impl Iterator<Item = Option<(Need, String)>>) -> Option<(Need, String)> {
         let krate = self.tree.modules[def.module].krate;
         let name = &self.crates.all[krate].name;
         if !self.tree.does_without[krate].can_lack_std {
@@ -354,9 +357,8 @@ impl Catalog {
             Some(Need::Heap) => return Some((Need::Heap, feature("alloc"))),
             None => {}
         }
-        let found =
-            types.iter().filter_map(|ty| ty.needs().map(|(need, of)| (need, format!("it has to do with `{of}`"))));
-        found.max_by_key(|(need, _)| *need)
+        let (need, of) = types.flatten().max_by_key(|(need, _)| *need)?;
+        Some((need, format!("it has to do with `{of}`")))
     }
 
     /// What the crate that the program becomes part of does without, if it says so.

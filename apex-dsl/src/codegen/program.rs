@@ -251,10 +251,8 @@ impl Generator<'_> {
         if whole.analysis.active.is_empty() {
             return quote!();
         }
-        let is_node = |n: &&NodeId| {
-            !matches!(whole.graph.nodes[**n].kind, NodeKind::Delay(_) | NodeKind::Sender(_) | NodeKind::Receiver(_))
-                && self.index(**n) != usize::MAX
-        };
+        // What only passes tokens on between groups has no number.
+        let is_node = |n: &&NodeId| !whole.graph.nodes[**n].is_delay() && self.index(**n) != usize::MAX;
         let nodes = whole.analysis.active.iter().filter(is_node);
         let arms = nodes.map(|node| {
             let (index, flag) = (self.index(*node), self.flag(Flag::Active, *node));

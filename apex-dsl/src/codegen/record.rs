@@ -335,10 +335,13 @@ impl Emitter<'_> {
         let (name, codec) = (generator.name(end), generator.codec(graph, end));
         let is_event = graph.port(end).kind == PortKind::Event;
         let token = if is_event { quote!(state.#name.as_ref()) } else { self.option(end, block) };
-        code.takes.push(quote!(tap.take(#number, #codec)));
         code.sends.push(quote! { tap.sent(#number, #codec, #token); });
         let local = format_ident!("recorded_{number}");
         let always = !is_event && self.plan.storage(end) == Storage::Local;
+        code.takes.push(match always {
+            true => quote!(tap.take_or_last(#number, #codec)),
+            false => quote!(tap.take(#number, #codec)),
+        });
         code.patterns.push(if always { quote!(Some(#local)) } else { quote!(#local) });
         if is_event {
             code.set.push(quote! { state.#name = #local; });

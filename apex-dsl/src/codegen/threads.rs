@@ -24,6 +24,11 @@ pub fn part_name(part: &Part) -> Ident {
     format_ident!("on_{}", part.group)
 }
 
+/// The struct by which a part is handed out.
+fn handle_name(graph: &Graph) -> Ident {
+    format_ident!("{}Group", graph.name)
+}
+
 impl Generator<'_> {
     /// All items of a program on several threads.
     pub fn threads(
@@ -102,17 +107,14 @@ impl Program<'_> {
     fn handle(&self, number: usize) -> TokenStream {
         let part = &self.split.parts[number];
         let (program, name) = (self.name(), ident(&part.graph.name));
-        let (ends, handle) = (ends_name(&part.graph), format_ident!("{}Group", part.graph.name));
+        let (ends, handle) = (ends_name(&part.graph), handle_name(&part.graph));
         let call = quote!(self.part.react_part(now, true, &mut self.ends, &self.wake, observer));
         let ports = quote!(self.part);
         let react = self.generator.recorded_group(self.graph, (number == 0).then_some(&ports), &call);
-        let fields = self.split.cells.iter().enumerate().flat_map(|(cell, c)| {
-            let (field, ty) = (cell_name(cell), self.generator.token_type(self.graph, c.from));
-            let sends = (c.sender == Some(number)).then(|| quote!(CellSender));
-            let takes = (c.receiver == number).then(|| quote!(CellReceiver));
-            let end = sends.into_iter().chain(takes);
-            end.map(move |end| quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, })
-                .collect::<Vec<_>>()
+        let fields = self.ends(number).map(|(cell, sends)| {
+            let ty = self.generator.token_type(self.graph, self.split.cells[cell].from);
+            let (field, end) = (cell_name(cell), if sends { quote!(CellSender) } else { quote!(CellReceiver) });
+            quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, }
         });
         quote! {
             #[allow(private_interfaces)]
@@ -232,7 +234,6 @@ impl Program<'_> {
         let (name, parts) = (self.name(), &self.split.parts);
         let count = parts.len();
         let fields: Vec<Ident> = parts.iter().map(part_name).collect();
-        let handles: Vec<Ident> = parts.iter().map(|p| format_ident!("{}Group", p.graph.name)).collect();
         let numbers: Vec<syn::Index> = (0..count).map(syn::Index::from).collect();
         let (groups, receiving) = (self.groups(), self.receiving());
         let watch = self.watch(count);
@@ -313,7 +314,6 @@ impl Program<'_> {
                 fn waiting(&self, mut found: impl FnMut(usize)) { #(self.#waiting.waiting(&mut found);)* }
             }
             #parameters
-            const _: () = { fn _handles<'a, W>(#(_: #handles<'a, W>),*) {} };
         }
     }
 
@@ -326,16 +326,11 @@ impl Program<'_> {
         });
         let (mut types, mut makes) = (vec![], vec![]);
         for (number, part) in self.split.parts.iter().enumerate() {
-            let (handle, ends, field) =
-                (format_ident!("{}Group", part.graph.name), ends_name(&part.graph), part_name(part));
-            let own = self.split.cells.iter().enumerate().filter_map(|(cell, c)| {
-                let name = cell_name(cell);
-                let end = match number {
-                    n if Some(n) == c.sender => format_ident!("sender_{cell}"),
-                    n if n == c.receiver => format_ident!("receiver_{cell}"),
-                    _ => return None,
-                };
-                Some(quote! { #name: #end, })
+            let (handle, ends, field) = (handle_name(&part.graph), ends_name(&part.graph), part_name(part));
+            let own = self.ends(number).map(|(cell, sends)| {
+                let (name, side) = (cell_name(cell), if sends { "sender" } else { "receiver" });
+                let end = format_ident!("{side}_{cell}");
+                quote! { #name: #end, }
             });
             types.push(quote!(#handle<'_, W>));
             makes.push(quote! {
@@ -346,11 +341,19 @@ impl Program<'_> {
         let watched = self.watched().map(|cell| format_ident!("sender_{cell}"));
         let watched_types = self.watched().map(|_| quote!(::apex_rt::CellSender<'_, ::apex_rt::threads::Parcel<()>>));
         quote! {
-            fn groups<W: ::apex_rt::threads::Wake + ::core::marker::Copy>(&mut self, wake: W) -> (#(#types,)* [(); 0], #(#watched_types,)*) {
+            fn groups<W: ::apex_rt::threads::Wake + ::core::marker::Copy>(&mut self, wake: W) -> (#(#types,)* #(#watched_types,)*) {
                 #(#cells)*
-                (#(#makes,)* [], #(#watched,)*)
+                (#(#makes,)* #(#watched,)*)
             }
         }
+    }
+
+    /// The cells that a group has an end of, and whether it sends.
+    fn ends(&self, group: usize) -> impl Iterator<Item = (usize, bool)> + '_ {
+        let cells = self.split.cells.iter().enumerate();
+        cells
+            .filter(move |(_, c)| c.sender == Some(group) || c.receiver == group)
+            .map(move |(cell, c)| (cell, c.receiver != group))
     }
 
     /// The cells that only those use who watch over the threads.
@@ -358,10 +361,10 @@ impl Program<'_> {
         self.split.cells.iter().enumerate().filter(|(_, cell)| cell.sender.is_none()).map(|(number, _)| number)
     }
 
-    /// Hands out the cells for the event that a node hangs; behind the groups and an empty place.
+    /// Hands out the cells for the event that a node hangs, which stand behind the groups.
     fn watch(&self, groups: usize) -> TokenStream {
         let tells = self.watched().enumerate().map(|(i, cell)| {
-            let (place, receiver) = (syn::Index::from(groups + 1 + i), self.split.cells[cell].receiver);
+            let (place, receiver) = (syn::Index::from(groups + i), self.split.cells[cell].receiver);
             quote! { spawn.watch(#receiver, groups.#place); }
         });
         quote! { #(#tells)* }

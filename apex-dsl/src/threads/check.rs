@@ -14,7 +14,11 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
             check_body(&each.body, diagnostics);
         }
     }
-    check_watch(graph, diagnostics);
+    let is_alone = super::groups(graph).len() < 2;
+    check_watch(graph, is_alone, diagnostics);
+    if is_alone {
+        return;
+    }
     check_loops(graph, diagnostics);
     check_rates(graph, analysis, diagnostics);
     check_reset(graph, analysis, diagnostics);
@@ -32,7 +36,7 @@ fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
 }
 
 /// What is done when a node hangs can be done only by another thread, and somebody has to say what that is.
-fn check_watch(graph: &Graph, diagnostics: &mut Diagnostics) {
+fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
     let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Hung)) else { return };
     if graph.threads.iter().all(|t| t.hang.is_none()) {
         let error =
@@ -40,9 +44,8 @@ fn check_watch(graph: &Graph, diagnostics: &mut Diagnostics) {
         let note = "say in a `robot` how long a node may run: `thread main { hang = 500ms }`";
         diagnostics.push(error.note(note));
     }
-    let alone = super::groups(graph).len() < 2;
     let is_called = |c: &&Connection| c.from.node == hung && !matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
-    for c in graph.connections.iter().filter(is_called).filter(|_| alone) {
+    for c in graph.connections.iter().filter(is_called).filter(|_| is_alone) {
         let node = graph.path(c.to.node);
         let message = format!("`{node}` runs on the thread that hangs: nobody can call it then");
         let error = Diagnostic::error("threads", c.span, message);
@@ -63,9 +66,6 @@ fn groups(graph: &Graph, from: NodeId, to: NodeId) -> String {
 
 /// The delays of a loop send when an iteration begins, which one thread has to decide.
 fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
-    if synchronous(graph).next().is_none() {
-        return;
-    }
     let circle = circles(graph);
     for c in synchronous(graph).filter(|c| circle[c.from.node] == circle[c.to.node]) {
         let message = "a loop of synchronous connections cannot lead through two threads";

@@ -25,8 +25,10 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
         drafts: groups.iter().map(|group| Draft::new(whole, group)).collect(),
         placed: vec![NodeId::MAX; whole.nodes.len()],
         cells: vec![],
+        shared: BTreeMap::new(),
         ends: BTreeMap::new(),
     };
+    splitter.gather();
     splitter.place_nodes();
     for index in 0..whole.connections.len() {
         splitter.place_connection(index);
@@ -98,11 +100,21 @@ struct Splitter<'a> {
     /// The number of each node in its part.
     placed: Vec<NodeId>,
     cells: Vec<Cell>,
-    /// For each cell, by the port that it takes tokens from and the group that they go to: its number, and its end there.
-    ends: BTreeMap<(End, usize), (usize, NodeId)>,
+    /// The connections from each port to each group.
+    shared: BTreeMap<(End, usize), Vec<usize>>,
+    /// The far end of each cell, by the port that it takes tokens from and the group that they go to.
+    ends: BTreeMap<(End, usize), NodeId>,
 }
 
 impl Splitter<'_> {
+    fn gather(&mut self) {
+        for (index, c) in self.whole.connections.iter().enumerate() {
+            if let Some(receiver) = self.group_of[c.to.node] {
+                self.shared.entry((c.from, receiver)).or_default().push(index);
+            }
+        }
+    }
+
     fn place_nodes(&mut self) {
         for (id, node) in self.whole.nodes.iter().enumerate() {
             if let Some(group) = self.group_of[id] {
@@ -134,7 +146,7 @@ impl Splitter<'_> {
             c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
         let (leaving, entering) = c.crossings.split_at(enters);
         let node = match self.ends.get(&(c.from, receiver)) {
-            Some((_, node)) => *node,
+            Some(node) => *node,
             None => self.add_cell(index, receiver, leaving.to_vec()),
         };
         let connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
@@ -145,12 +157,7 @@ impl Splitter<'_> {
     fn add_cell(&mut self, index: usize, receiver: usize, leaving: Vec<Crossing>) -> NodeId {
         let first = self.whole.connections[index].clone();
         let sender = self.group_of[first.from.node];
-        let shared: Vec<usize> = (0..self.whole.connections.len())
-            .filter(|c| {
-                let c = &self.whole.connections[*c];
-                c.from == first.from && self.group_of[c.to.node] == Some(receiver)
-            })
-            .collect();
+        let shared = &self.shared[&(first.from, receiver)];
         let cell = self.cells.len();
         self.cells.push(Cell { from: first.from, sender, receiver });
         let far = Far {
@@ -168,7 +175,7 @@ impl Splitter<'_> {
         let end = |kind, port| node(&self.whole.nodes[first.from.node], &name, kind, vec![port]);
         let (from, to) = (end(NodeKind::Sender(far), input), end(NodeKind::Receiver(far), output));
         let giver = self.drafts[receiver].add(to, Origin::Token(first.from));
-        self.ends.insert((first.from, receiver), (cell, giver));
+        self.ends.insert((first.from, receiver), giver);
         let Some(sender) = sender else { return giver };
         let from_end = self.place(first.from);
         let draft = &mut self.drafts[sender];

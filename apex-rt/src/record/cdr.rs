@@ -3,6 +3,17 @@
 
 use crate::Time;
 
+/// What a `std_msgs/Header` is, and what is in it.
+pub const STD_HEADER: &str = "
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec";
+
 /// Before each message: little endian, no options.
 const HEADER: [u8; 4] = [0, 1, 0, 0];
 

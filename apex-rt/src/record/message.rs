@@ -12,7 +12,8 @@ use serde::{Serialize, de::DeserializeOwned};
 pub trait Message: Sized {
     /// The name of the message: `sensor_msgs/msg/LaserScan`.
     const NAME: &'static str;
-    /// Its definition, and after lines of `=` those of the messages in it, as a `.msg` file has them.
+    /// Its definition, and after lines of `=` those of the messages in it, as a `.msg` file has them. That of
+    /// `std_msgs/Header` is added.
     const DEFINITION: &'static str;
 
     /// Writes the fields in the order of the definition.
@@ -27,7 +28,7 @@ pub trait Message: Sized {
 pub struct Schema {
     /// The name of the message, or of the Rust type.
     pub name: &'static str,
-    /// The definition of the message; nothing for a Rust type.
+    /// The definition of the message, without that of its header; nothing for a Rust type.
     pub definition: &'static str,
     /// How tokens are written: `cdr` or `postcard`.
     pub encoding: &'static str,

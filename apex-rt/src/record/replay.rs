@@ -115,6 +115,8 @@ pub struct Replay {
     calls: Vec<u32>,
     /// Which nodes are sources that were recorded, and are not called.
     recorded: Vec<bool>,
+    /// The token of each channel that was taken last.
+    last: Vec<Option<Vec<u8>>>,
     report: Report,
     /// Where a token is written to be compared.
     bytes: Vec<u8>,
@@ -158,6 +160,7 @@ impl Replay {
             reaction: Reaction::new(channels.len()),
             calls: vec![0; info.nodes.len()],
             recorded: vec![false; info.nodes.len()],
+            last: vec![None; channels.len()],
             report: Report::default(),
             bytes: vec![],
             group,
@@ -377,10 +380,19 @@ impl Replay {
         }
         let (_, bytes) = if waiting.front()?.0 == call { waiting.pop_front()? } else { return None };
         let token = codec.and_then(|codec| (codec.read)(&bytes));
-        if token.is_none() {
-            self.report.unreadable += 1;
+        match token {
+            Some(_) => self.last[channel] = Some(bytes),
+            None => self.report.unreadable += 1,
         }
         token
+    }
+
+    pub(super) fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
+        self.take(channel, codec).or_else(|| {
+            let token = codec.and_then(|codec| (codec.read)(self.last[channel].as_ref()?))?;
+            self.report.repeated += 1;
+            Some(token)
+        })
     }
 
     pub(super) fn was_taken(&self, channel: usize) -> bool {

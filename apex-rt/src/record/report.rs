@@ -19,6 +19,8 @@ pub struct Report {
     pub dropped: Vec<(String, u64)>,
     /// Tokens of the recording that are no values of their types any more.
     pub unreadable: u64,
+    /// How often a source that always sends was due where it had sent nothing, and sent its last token again.
+    pub repeated: u64,
     /// How often a thread waited in vain for what it had found between it and another one.
     pub missed: u64,
     /// Why the recording ends before the run did.
@@ -69,6 +71,7 @@ impl Report {
         for (group, report) in reports.into_iter().enumerate() {
             all.reactions += report.reactions;
             all.unreadable += report.unreadable;
+            all.repeated += report.repeated;
             all.missed += report.missed;
             all.compared.extend(report.compared);
             all.missing.extend(report.missing);
@@ -104,6 +107,13 @@ impl Display for Report {
         }
         if self.missed > 0 {
             writeln!(f, "{} times a thread waited in vain for another one, as it had not when recorded", self.missed)?;
+        }
+        if self.repeated > 0 {
+            let count = self.repeated;
+            writeln!(
+                f,
+                "{count} times a source was due, as it had not been when recorded, and sent its last token again"
+            )?;
         }
         for line in &self.params {
             writeln!(f, "parameter {line}")?;

@@ -4,7 +4,7 @@ use super::{
     Finished, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
     threads::{record_on_threads, recorded_threads, replay_on_threads},
 };
-use crate::{Clock, Observer, Program, StdErr, UntilStopped, drive_with};
+use crate::{Clock, Observer, Program, StdErr, UntilStopped, drive_with, run::pace_of_threads};
 use std::{
     env, io,
     path::{Path, PathBuf},
@@ -55,7 +55,7 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, wish: &Wish) -> 
 
 fn record<P: Program, C: Clock>(mut program: P, clock: C, path: &Path) -> io::Result<u8> {
     let clock = UntilStopped::ctrl_c_if_free(clock);
-    let (code, finished) = match clock.pace().filter(|_| !P::INFO.groups.is_empty()) {
+    let (code, finished) = match pace_of_threads::<P, _>(&clock) {
         Some(pace) => record_on_threads(&mut program, pace, path, |_| StdErr(const { &P::INFO }))?,
         None => record_in_turn(program, clock, path)?,
     };

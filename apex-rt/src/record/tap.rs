@@ -120,6 +120,14 @@ impl Tap {
         }
     }
 
+    /// As [`take`](Self::take), of a source that always sends: where nothing was recorded, the one before again.
+    pub fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
+        match self {
+            Self::Record(_) => None,
+            Self::Replay(replay) => replay.take_or_last(channel, codec),
+        }
+    }
+
     /// A token passed a port that was chosen.
     pub fn token<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: Option<&T>) {
         let Some(token) = token else { return };

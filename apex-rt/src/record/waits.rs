@@ -1,6 +1,7 @@
 //! How groups of threads wait for each other in a replay, and when one waits for what cannot come any more.
 
 use std::{
+    hint,
     sync::{Mutex, MutexGuard, PoisonError},
     thread,
     time::Duration,
@@ -55,7 +56,7 @@ impl Waits {
             if finds() {
                 return Waited::Found;
             }
-            thread::yield_now();
+            hint::spin_loop();
         }
         let mut seen = self.state().change(group, Group::Waits(0));
         loop {

@@ -6,7 +6,7 @@ use super::{
     settings,
     watch::{Felt, Off, Pulse, watch},
 };
-use crate::{CellSender, Clock, Info, Next, Observer, Program, Time, WallClock};
+use crate::{CellSender, Clock, Info, Next, Observer, Program, Time, WallClock, run::Stopwatch};
 use std::{
     panic::resume_unwind,
     sync::{
@@ -34,6 +34,7 @@ const NOTICED: Duration = Duration::from_millis(20);
 
 /// What all threads of a program share.
 struct Run {
+    info: &'static Info,
     sleep: Shared<Sleeping>,
     time: Timing,
     /// The exit code, once a group has one.
@@ -96,14 +97,14 @@ pub fn react_on_threads<P: Program, O: Observer + Send>(
 }
 
 fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, observer: impl Fn(usize) -> O) -> u8 {
-    let groups = P::INFO.groups.len().max(1);
+    let info = const { &P::INFO };
+    let groups = info.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
     let has_cores = thread::available_parallelism().is_ok_and(|cores| cores.get() >= groups);
     let pulses = (0..groups).map(|_| Pulse::default()).collect();
-    let run = Run { sleep, time, code: AtomicU8::new(0), pulses, off: Off::default(), has_cores };
+    let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: Off::default(), has_cores };
     let panicked = thread::scope(|scope| {
-        let info = const { &P::INFO };
-        let mut spawner = Spawner { scope, run: &run, observer, info, hung: vec![], threads: vec![] };
+        let mut spawner = Spawner { scope, run: &run, observer, hung: vec![], threads: vec![] };
         program.on_threads(&run, &mut spawner);
         run.off.end();
         let ends = spawner.threads.into_iter().map(ScopedJoinHandle::join);
@@ -119,25 +120,28 @@ struct Spawner<'scope, 'env, F> {
     scope: &'scope Scope<'scope, 'env>,
     run: &'env Run,
     observer: F,
-    info: &'static Info,
     /// The ways to tell groups that a node hangs.
     hung: Vec<(usize, CellSender<'env, Parcel<()>>)>,
     threads: Vec<ScopedJoinHandle<'scope, ()>>,
 }
 
-impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner<'_, 'env, F> {
-    fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
-        let (run, info) = (self.run, self.info);
-        let observer = run.felt(info, group, (self.observer)(group));
-        let name = info.groups[group].name.to_owned();
-        let body = move || run.group(group, part, observer, info);
-        match thread::Builder::new().name(name).spawn_scoped(self.scope, body) {
+impl<'env, F> Spawner<'_, 'env, F> {
+    /// Begins a thread, without which the program cannot run.
+    fn thread(&mut self, name: &str, body: impl FnOnce() + Send + 'env) {
+        match thread::Builder::new().name(name.to_owned()).spawn_scoped(self.scope, body) {
             Ok(thread) => self.threads.push(thread),
             Err(error) => {
-                eprintln!("{}: no thread for `{}` could be made: {error}", info.name, info.groups[group].name);
-                run.end(1);
+                eprintln!("{}: no thread for `{name}` could be made: {error}", self.run.info.name);
+                self.run.end(1);
             }
         }
+    }
+}
+
+impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner<'_, 'env, F> {
+    fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
+        let (run, observer) = (self.run, (self.observer)(group));
+        self.thread(run.info.groups[group].name, move || run.group(group, part, observer));
     }
 
     fn watch(&mut self, group: usize, hung: CellSender<'env, Parcel<()>>) {
@@ -145,14 +149,13 @@ impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner
     }
 
     fn stay<G: Group + 'env>(&mut self, group: usize, part: G) {
-        let (run, info, hung) = (self.run, self.info, std::mem::take(&mut self.hung));
-        let observer = (self.observer)(info.groups.len());
-        let body = move || watch(info, &run.pulses, &run.off, hung, &|group| run.sleep.wake(group), observer);
-        if run.is_watched(info) {
-            self.threads.extend(thread::Builder::new().name("watch".to_owned()).spawn_scoped(self.scope, body));
+        let run = self.run;
+        if run.is_watched() {
+            let (hung, observer) = (std::mem::take(&mut self.hung), (self.observer)(run.info.groups.len()));
+            let wake = |group| run.sleep.wake(group);
+            self.thread("watch", move || watch(run.info, &run.pulses, &run.off, hung, &wake, observer));
         }
-        let observer = run.felt(info, group, (self.observer)(group));
-        run.group(group, part, observer, info);
+        run.group(group, part, (self.observer)(group));
     }
 }
 
@@ -169,13 +172,8 @@ impl Drop for EndOnPanic<'_> {
 
 impl Run {
     /// Whether somebody looks for nodes that hang.
-    fn is_watched(&self, info: &Info) -> bool {
-        matches!(self.time, Timing::Paced(_)) && info.groups.iter().any(|g| g.hang.is_some())
-    }
-
-    fn felt<O>(&self, info: &'static Info, group: usize, observer: O) -> Felt<'_, O> {
-        let pulse = self.pulses.get(group).filter(|_| info.groups.get(group).is_some_and(|g| g.hang.is_some()));
-        Felt { observer, pulse, info }
+    fn is_watched(&self) -> bool {
+        matches!(self.time, Timing::Paced(_)) && self.info.groups.iter().any(|g| g.hang.is_some())
     }
 
     fn end(&self, code: u8) {
@@ -185,28 +183,29 @@ impl Run {
     }
 
     /// What the thread of a group does.
-    fn group<G: Group, O: Observer>(&self, group: usize, part: G, observer: O, info: &'static Info) {
+    fn group<G: Group, O: Observer>(&self, group: usize, part: G, observer: O) {
         let _guard = EndOnPanic(self);
         let _ = self.sleep.alarm(group).0.set(thread::current());
-        if let Some(Err(reason)) = info.groups.get(group).map(|group| settings::apply(info, group)) {
+        let settings = self.info.groups.get(group);
+        if let Some(Err(reason)) = settings.map(|group| settings::apply(self.info, group)) {
             eprintln!("{reason}");
             self.end(1);
         }
+        let pulse = self.pulses.get(group).filter(|_| settings.is_some_and(|group| group.hang.is_some()));
+        let observer = Felt { observer, pulse, info: self.info };
         match self.time {
             Timing::Paced(pace) => self.drive(group, part, observer, pace),
             Timing::Once(now) => self.react(group, part, observer, now),
         }
     }
 
-    fn drive<G: Group, O: Observer>(&self, group: usize, mut part: G, observer: O, pace: Pace) {
-        let (mut clock, mut other) = (pace.clock, pace.clock);
-        let mut observer = (observer, crate::run::Stopwatch { clock: &mut other, start: Time::ZERO });
-        let mut short = false;
+    fn drive<G: Group, O: Observer>(&self, group: usize, mut part: G, mut observer: O, pace: Pace) {
+        let (mut clock, mut short) = (pace.clock, false);
         while !self.sleep.is_stopped() {
             self.sleep.begin(group);
             let now = clock.now();
-            observer.1.start = now;
-            match part.react_with(now, &mut observer) {
+            let stopwatch = Stopwatch { clock: &mut clock, start: now };
+            match part.react_with(now, &mut (&mut observer, stopwatch)) {
                 Next::Exit(code) => self.end(code),
                 Next::Now => self.look(pace),
                 Next::At(time) => self.wait_until(group, pace, time),

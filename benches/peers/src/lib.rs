@@ -56,9 +56,9 @@ peers! {
         throttle = dfir::throttle, rate23 = dfir::rate23, nested1000 = dfir::nested1000,
         pingpong = dfir::pingpong, mpse8 = dfir::mpse8;
     "dfir-batch": chain3 = dfir::chain3_batch, chain10 = dfir::chain10_batch, chain100 = dfir::chain100_batch;
-    "rayon": chain3 = pool::chain3, chain10 = pool::chain10, chain100 = pool::chain100, diamond8 = pool::diamond8, diamond64 = pool::diamond64, nested1000 = pool::nested1000;
+    "rayon": chain3 = pool::chain::<3>, chain10 = pool::chain::<10>, chain100 = pool::chain::<100>, diamond8 = pool::diamond::<8>, diamond64 = pool::diamond::<64>, nested1000 = pool::nested1000;
     "rxrust": chain3 = reactive::chain3, chain10 = reactive::chain10, chain100 = reactive::chain100, diamond8 = reactive::diamond8, diamond64 = reactive::diamond64, bot100 = reactive::bot100, throttle = reactive::throttle, rate23 = reactive::rate23, nested1000 = reactive::nested1000, mpse8 = reactive::mpse8;
-    "tokio-ct": chain3 = tasks::chain3, chain10 = tasks::chain10, chain100 = tasks::chain100, diamond8 = tasks::diamond8, diamond64 = tasks::diamond64, bot100 = tasks::bot100, throttle = tasks::throttle, pingpong = tasks::pingpong, mpse8 = tasks::mpse8;
+    "tokio-ct": chain3 = tasks::chain::<3>, chain10 = tasks::chain::<10>, chain100 = tasks::chain::<100>, diamond8 = tasks::diamond::<8>, diamond64 = tasks::diamond::<64>, bot100 = tasks::bot100, throttle = tasks::throttle, pingpong = tasks::pingpong, mpse8 = tasks::mpse8;
     "timely": chain3 = dataflow::chain3, chain10 = dataflow::chain10, chain100 = dataflow::chain100, bot100 = dataflow::bot100;
     "statig": fsm16 = machines::statig::fsm16;
     "smlang": fsm16 = machines::smlang::fsm16;

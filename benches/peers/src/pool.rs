@@ -28,43 +28,18 @@ fn step<'a>(scope: &Scope<'a>, x: u64, k: u64, n: u64, last: &'a AtomicU64) {
     });
 }
 
-macro_rules! chain {
-    ($($name:ident: $n:literal;)*) => {
-        $(
-            #[doc = concat!(stringify!($n), " operations in a row.")]
-            pub fn $name(ticks: u64) -> Ran {
-                let last = AtomicU64::new(0);
-                in_pool(ticks, |x| {
-                    rayon::scope(|scope| step(scope, x, 1, $n, &last));
-                    last.load(Ordering::Relaxed)
-                })
-            }
-        )*
-    };
+/// `N` operations in a row.
+pub fn chain<const N: u64>(ticks: u64) -> Ran {
+    let last = AtomicU64::new(0);
+    in_pool(ticks, |x| {
+        rayon::scope(|scope| step(scope, x, 1, N, &last));
+        last.load(Ordering::Relaxed)
+    })
 }
 
-chain! {
-    chain3: 3;
-    chain10: 10;
-    chain100: 100;
-}
-
-macro_rules! diamond {
-    ($($name:ident: $n:literal;)*) => {
-        $(
-            #[doc = concat!(stringify!($n), " operations side by side.")]
-            pub fn $name(ticks: u64) -> Ran {
-                in_pool(ticks, |x| {
-                    (1..=$n).into_par_iter().map(|k| op(&x, k)).reduce(|| 0, u64::wrapping_add)
-                })
-            }
-        )*
-    };
-}
-
-diamond! {
-    diamond8: 8u64;
-    diamond64: 64u64;
+/// `N` operations side by side.
+pub fn diamond<const N: u64>(ticks: u64) -> Ran {
+    in_pool(ticks, |x| (1..=N).into_par_iter().map(|k| op(&x, k)).reduce(|| 0, u64::wrapping_add))
 }
 
 /// Three operations for each of 1000 elements.

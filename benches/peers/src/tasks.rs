@@ -83,39 +83,14 @@ fn lockstep(ticks: u64, graph: impl FnOnce(Receiver<Token>) -> Receiver<Token>) 
     })
 }
 
-macro_rules! chain {
-    ($($name:ident: $n:literal;)*) => {
-        $(
-            #[doc = concat!(stringify!($n), " operations in a row.")]
-            pub fn $name(ticks: u64) -> Ran {
-                lockstep(ticks, |input| ops(input, 1..=$n))
-            }
-        )*
-    };
+/// `N` operations in a row.
+pub fn chain<const N: u64>(ticks: u64) -> Ran {
+    lockstep(ticks, |input| ops(input, 1..=N))
 }
 
-chain! {
-    chain3: 3;
-    chain10: 10;
-    chain100: 100;
-}
-
-macro_rules! diamond {
-    ($($name:ident: $n:literal;)*) => {
-        $(
-            #[doc = concat!(stringify!($n), " operations side by side.")]
-            pub fn $name(ticks: u64) -> Ran {
-                lockstep(ticks, |input| {
-                    join((1..).zip(tee(input, $n)).map(|(k, branch)| ops(branch, k..=k)).collect())
-                })
-            }
-        )*
-    };
-}
-
-diamond! {
-    diamond8: 8;
-    diamond64: 64;
+/// `N` operations side by side.
+pub fn diamond<const N: usize>(ticks: u64) -> Ran {
+    lockstep(ticks, |input| join((1..).zip(tee(input, N)).map(|(k, branch)| ops(branch, k..=k)).collect()))
 }
 
 /// A filter that passes 1 % in front of 98 operations.

@@ -24,15 +24,7 @@ float32 scan_time
 float32 range_min
 float32 range_max
 float32[] ranges
-float32[] intensities
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec";
+float32[] intensities";
 
     fn write(&self, message: &mut Writer<'_>) {
         message.header(self.stamp, FRAME);
@@ -73,14 +65,6 @@ impl Message for Pose2 {
     const DEFINITION: &'static str = "\
 std_msgs/Header header
 geometry_msgs/Pose pose
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
 ================================================================================
 MSG: geometry_msgs/Pose
 geometry_msgs/Point position
