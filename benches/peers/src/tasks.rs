@@ -31,7 +31,7 @@ fn ops(from: Receiver<Token>, numbers: impl Iterator<Item = u64>) -> Receiver<To
 }
 
 /// Gives each token to all.
-fn tee(mut from: Receiver<Token>, count: u64) -> Vec<Receiver<Token>> {
+fn tee(mut from: Receiver<Token>, count: usize) -> Vec<Receiver<Token>> {
     let (senders, receivers): (Vec<Sender<Token>>, Vec<_>) = (0..count).map(|_| channel(1)).unzip();
     spawn(async move {
         while let Some(token) = from.recv().await {
