@@ -1,0 +1,276 @@
+use crate::scan::Point2;
+use core::fmt;
+
+/// The most cells of a [`Grid`]: 400 m by 400 m at 5 cm.
+pub const MAX_CELLS: usize = 1 << 26;
+
+/// How a rectangle of the plane is divided into square cells. Its sides are parallel to the axes of its frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Raster {
+    /// The corner with the least x and y, in m.
+    pub corner: Point2,
+    /// The side of a cell, in m.
+    pub resolution: f32,
+    /// Cells along x.
+    pub width: usize,
+    /// Cells along y.
+    pub height: usize,
+}
+
+/// The place of a cell: its column (along x) and its row (along y).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Cell {
+    /// Counted from the corner along x.
+    pub x: usize,
+    /// Counted from the corner along y.
+    pub y: usize,
+}
+
+/// A value for each cell of a raster, row by row from the least y.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid<T> {
+    raster: Raster,
+    cells: Vec<T>,
+}
+
+/// What is known of a cell of a map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum Occupancy {
+    /// Nothing.
+    #[default]
+    Unknown,
+    /// Nothing is there.
+    Free,
+    /// Something is there.
+    Occupied,
+}
+
+/// A raster that is too large, or has no size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TooManyCells(pub Raster);
+
+impl fmt::Display for TooManyCells {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Raster { width, height, resolution, .. } = self.0;
+        write!(f, "a grid of {width} x {height} cells of {resolution} m is not possible: ")?;
+        write!(f, "at most {MAX_CELLS} cells of a positive size are")
+    }
+}
+
+impl std::error::Error for TooManyCells {}
+
+impl Cell {
+    /// The cell in column `x` and row `y`.
+    pub const fn new(x: usize, y: usize) -> Self {
+        Self { x, y }
+    }
+}
+
+impl Raster {
+    /// The smallest raster of cells of `resolution` m that covers all of `points` with `margin` m around them. Its
+    /// corner is a multiple of the resolution, so that cells of two rasters of one resolution lie on each other.
+    pub fn around(points: impl IntoIterator<Item = Point2>, margin: f32, resolution: f32) -> Self {
+        let (mut low, mut high) = (Point2::new(f32::MAX, f32::MAX), Point2::new(f32::MIN, f32::MIN));
+        for p in points {
+            low = Point2::new(low.x.min(p.x), low.y.min(p.y));
+            high = Point2::new(high.x.max(p.x), high.y.max(p.y));
+        }
+        if low.x > high.x {
+            (low, high) = Default::default();
+        }
+        let first = |low: f32| ((low - margin) / resolution).floor();
+        let (x, y) = (first(low.x), first(low.y));
+        // Casts of what is too large give the largest number, which no grid has room for.
+        let count =
+            |high: f32, first: f32| ((((high + margin) / resolution).floor() - first) as usize).saturating_add(1);
+        Self {
+            corner: Point2::new(x * resolution, y * resolution),
+            resolution,
+            width: count(high.x, x),
+            height: count(high.y, y),
+        }
+    }
+
+    /// The cell that contains a point; `None` outside.
+    #[inline]
+    pub fn cell(&self, point: Point2) -> Option<Cell> {
+        let d = point - self.corner;
+        let (x, y) = (d.x / self.resolution, d.y / self.resolution);
+        // False for NaN.
+        let inside = x >= 0.0 && y >= 0.0 && x < self.width as f32 && y < self.height as f32;
+        inside.then_some(Cell::new(x as usize, y as usize))
+    }
+
+    /// The centre of a cell, in m.
+    #[inline]
+    pub fn centre(&self, cell: Cell) -> Point2 {
+        self.corner + Point2::new(cell.x as f32 + 0.5, cell.y as f32 + 0.5).scaled(self.resolution)
+    }
+
+    /// Whether there is such a cell.
+    #[inline]
+    pub const fn contains(&self, cell: Cell) -> bool {
+        cell.x < self.width && cell.y < self.height
+    }
+
+    /// The cells along a line, ends included (Bresenham 1965). The first one is that of `from`.
+    pub fn line(from: Cell, to: Cell) -> impl Iterator<Item = Cell> {
+        let (dx, dy) = (from.x.abs_diff(to.x) as i64, from.y.abs_diff(to.y) as i64);
+        let (mut at, mut error) = (from, dx - dy);
+        (0..=dx.max(dy)).map(move |_| {
+            let here = at;
+            let twice = 2 * error;
+            if twice > -dy && at.x != to.x {
+                error -= dy;
+                at.x = if to.x > at.x { at.x + 1 } else { at.x - 1 };
+            }
+            if twice < dx && at.y != to.y {
+                error += dx;
+                at.y = if to.y > at.y { at.y + 1 } else { at.y - 1 };
+            }
+            here
+        })
+    }
+}
+
+/// No cells.
+impl Default for Raster {
+    fn default() -> Self {
+        Self { corner: Point2::default(), resolution: 1.0, width: 0, height: 0 }
+    }
+}
+
+impl<T: Clone> Grid<T> {
+    /// A grid with the same value in all cells.
+    ///
+    /// # Errors
+    /// There would be more than [`MAX_CELLS`] cells, or they would have no size.
+    pub fn new(raster: Raster, value: T) -> Result<Self, TooManyCells> {
+        let mut grid = Self::default();
+        grid.reset(raster, value)?;
+        Ok(grid)
+    }
+
+    /// As [`new`](Self::new), in the storage that it has.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the grid stays as it is.
+    pub fn reset(&mut self, raster: Raster, value: T) -> Result<(), TooManyCells> {
+        let count = raster.width.checked_mul(raster.height).filter(|&count| count <= MAX_CELLS);
+        let sized = raster.resolution.is_finite() && raster.resolution > 0.0;
+        let Some(count) = count.filter(|_| sized) else { return Err(TooManyCells(raster)) };
+        self.raster = raster;
+        self.cells.clear();
+        self.cells.resize(count, value);
+        Ok(())
+    }
+}
+
+impl<T> Grid<T> {
+    /// Where its cells lie.
+    #[inline]
+    pub const fn raster(&self) -> &Raster {
+        &self.raster
+    }
+
+    /// The values, row by row from the least y.
+    pub fn cells(&self) -> &[T] {
+        &self.cells
+    }
+
+    /// The values, to be changed.
+    pub fn cells_mut(&mut self) -> &mut [T] {
+        &mut self.cells
+    }
+
+    /// The value of a cell; `None` if there is no such cell.
+    #[inline]
+    pub fn get(&self, cell: Cell) -> Option<&T> {
+        if self.raster.contains(cell) { self.cells.get(cell.y * self.raster.width + cell.x) } else { None }
+    }
+
+    /// The value of a cell, to be changed.
+    #[inline]
+    pub fn get_mut(&mut self, cell: Cell) -> Option<&mut T> {
+        if self.raster.contains(cell) { self.cells.get_mut(cell.y * self.raster.width + cell.x) } else { None }
+    }
+
+    /// The value at a point; `None` outside.
+    #[inline]
+    pub fn at(&self, point: Point2) -> Option<&T> {
+        self.raster.cell(point).and_then(|cell| self.get(cell))
+    }
+
+    /// All cells with their values.
+    pub fn iter(&self) -> impl Iterator<Item = (Cell, &T)> {
+        let width = self.raster.width.max(1);
+        self.cells.iter().enumerate().map(move |(i, value)| (Cell::new(i % width, i / width), value))
+    }
+}
+
+/// Without cells.
+impl<T> Default for Grid<T> {
+    fn default() -> Self {
+        Self { raster: Raster::default(), cells: Vec::new() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn raster() -> Raster {
+        Raster { corner: Point2::new(-1.0, 2.0), resolution: 0.5, width: 4, height: 3 }
+    }
+
+    #[test]
+    fn points_are_in_the_cells_around_them() {
+        let raster = raster();
+        for y in 0..raster.height {
+            for x in 0..raster.width {
+                assert_eq!(raster.cell(raster.centre(Cell::new(x, y))), Some(Cell::new(x, y)));
+            }
+        }
+        assert_eq!(raster.cell(Point2::new(-1.0, 2.0)), Some(Cell::new(0, 0)));
+        for outside in [(1.0, 2.0), (-1.01, 2.0), (0.0, 3.5), (f32::NAN, 2.0)] {
+            assert_eq!(raster.cell(Point2::new(outside.0, outside.1)), None);
+        }
+    }
+
+    #[test]
+    fn values_are_kept_by_cell() {
+        let mut grid = Grid::new(raster(), 0).expect("twelve cells");
+        *grid.get_mut(Cell::new(3, 1)).expect("inside") = 7;
+        assert_eq!((grid.at(Point2::new(0.9, 2.6)), grid.get(Cell::new(4, 0))), (Some(&7), None));
+        assert_eq!(grid.iter().filter(|(_, v)| **v == 7).map(|(cell, _)| cell).collect::<Vec<_>>(), [Cell::new(3, 1)]);
+    }
+
+    #[test]
+    fn a_raster_covers_its_points_and_lies_on_others() {
+        let points = [Point2::new(-0.26, 1.0), Point2::new(3.0, 7.9)];
+        let raster = Raster::around(points, 0.1, 0.25);
+        assert!(points.iter().all(|p| raster.cell(*p).is_some()));
+        assert_eq!((raster.corner, raster.width, raster.height), (Point2::new(-0.5, 0.75), 15, 30));
+        assert_eq!(Raster::around([], 0.0, 0.25).width, 1);
+    }
+
+    #[test]
+    fn impossible_sizes_are_errors() {
+        for (resolution, width) in [(0.0, 1), (f32::NAN, 1), (-1.0, 1), (1.0, MAX_CELLS), (1.0, usize::MAX)] {
+            let raster = Raster { resolution, width, height: 2, ..Raster::default() };
+            assert_eq!(Grid::new(raster, 0_u8).map_err(|e| e.0.width), Err(width), "{resolution}");
+        }
+        let far = Raster::around([Point2::new(f32::MAX, 0.0), Point2::default()], 1.0, 0.05);
+        assert!(Grid::new(far, 0_u8).is_err());
+    }
+
+    #[test]
+    fn lines_reach_from_end_to_end() {
+        for (to, count) in [((5, 2), 4), ((0, 0), 3), ((2, 9), 8), ((2, 2), 1)] {
+            let (from, to) = (Cell::new(2, 2), Cell::new(to.0, to.1));
+            let line: Vec<Cell> = Raster::line(from, to).collect();
+            assert_eq!((line.len(), line[0], line[line.len() - 1]), (count, from, to));
+            assert!(line.windows(2).all(|w| w[0].x.abs_diff(w[1].x) <= 1 && w[0].y.abs_diff(w[1].y) <= 1));
+        }
+    }
+}
