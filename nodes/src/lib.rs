@@ -1,7 +1,7 @@
 //! The node library of Apex: one module per field.
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default)
-//! adds `io` (readers, writers and pictures) and `map` (grid maps).
+//! adds `io` (readers, writers and pictures), `map` (grid maps), and of `nav` what plans and follows paths.
 //!
 //! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -13,4 +13,5 @@ pub mod io;
 #[cfg(feature = "std")]
 pub mod map;
 pub mod math;
+pub mod nav;
 pub mod scan;
