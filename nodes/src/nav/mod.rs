@@ -8,9 +8,15 @@
 #[cfg(feature = "std")]
 mod costs;
 #[cfg(feature = "std")]
+mod follow;
+#[cfg(feature = "std")]
+mod law;
+#[cfg(feature = "std")]
 mod path;
+mod pid;
 #[cfg(feature = "std")]
 mod plan;
+mod safety;
 #[cfg(feature = "std")]
 mod search;
 #[cfg(feature = "std")]
@@ -20,9 +26,15 @@ mod twist;
 #[cfg(feature = "std")]
 pub use costs::{CostMap, write_costs};
 #[cfg(feature = "std")]
+pub use follow::PathFollower;
+#[cfg(feature = "std")]
+pub use law::FollowingLaw;
+#[cfg(feature = "std")]
 pub use path::{Path, Projection};
+pub use pid::Pid;
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner};
+pub use safety::{Field, SafetyField};
 #[cfg(feature = "std")]
 pub use search::{NoPath, Search, Terrain};
 #[cfg(feature = "std")]

@@ -116,7 +116,8 @@ fn length(points: &[Point2]) -> f32 {
     points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
 }
 
-fn nearest_on(a: Point2, b: Point2, position: Point2) -> Point2 {
+/// The point of the line from `a` to `b` that is nearest to a position.
+pub(super) fn nearest_on(a: Point2, b: Point2, position: Point2) -> Point2 {
     let along = b - a;
     let t = (position - a).dot(along) / along.norm_squared();
     // NaN where both ends are one.
