@@ -11,6 +11,7 @@ mod costs;
 mod follow;
 #[cfg(feature = "std")]
 mod law;
+mod motion;
 #[cfg(feature = "std")]
 mod path;
 mod pid;
@@ -29,6 +30,7 @@ pub use costs::{CostMap, write_costs};
 pub use follow::PathFollower;
 #[cfg(feature = "std")]
 pub use law::FollowingLaw;
+pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
 pub use pid::Pid;

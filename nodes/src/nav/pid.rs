@@ -7,7 +7,7 @@ pub struct Pid {
     pub integral: f32,
     /// Output per error by second.
     pub derivative: f32,
-    /// The most that comes out, to both sides.
+    /// The most that comes out, to both sides; at least 0.
     pub limit: f32,
     sum: f32,
     last: Option<f32>,
@@ -30,7 +30,7 @@ impl Pid {
             _ => 0.0,
         };
         let output = self.proportional * error + self.integral * (self.sum + error * dt) + self.derivative * slope;
-        let limited = output.clamp(-self.limit.abs(), self.limit.abs());
+        let limited = output.max(-self.limit).min(self.limit);
         // What the limit cuts off is not summed up: it would have to be undone later.
         if limited == output || (output > 0.0) != (error > 0.0) {
             self.sum += error * dt;
