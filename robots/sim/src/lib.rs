@@ -5,9 +5,8 @@
 //! Units are SI, axes follow the ROS convention.
 
 mod laser;
-mod random;
 mod world;
 
+pub use apex_nodes::math::Random;
 pub use laser::Laser;
-pub use random::Random;
 pub use world::{Disc, Wall, World};
