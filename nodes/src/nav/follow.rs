@@ -13,7 +13,7 @@ const PROGRESS: f32 = 0.02;
 /// robot; without one, nothing is in the way. It sends twists while it has a path, and drops it when it
 /// * has `reached` the goal,
 /// * is `blocked`: something stands on the path ahead, or the robot has made no way, for longer than its patience,
-/// * has `failed`: it is too far away from the path,
+/// * is `off_path`: too far away from it,
 /// * is no longer active.
 ///
 /// What stands around the goal is not on the path, as a goal may be close to a wall.
@@ -112,7 +112,7 @@ struct Motion {
 enum End {
     Reached,
     Blocked,
-    Failed,
+    OffPath,
 }
 
 #[node]
@@ -126,7 +126,7 @@ impl PathFollower {
         scan: Option<&Scan>,
         reached: Event<()>,
         blocked: Event<()>,
-        failed: Event<()>,
+        off_path: Event<()>,
     ) -> Option<Twist> {
         if let Some(path) = path {
             self.begin(path);
@@ -144,7 +144,7 @@ impl PathFollower {
             None => return Some(self.drive(pose, goal, &projection, ctx.now())),
             Some(End::Reached) => reached.emit(()),
             Some(End::Blocked) => blocked.emit(()),
-            Some(End::Failed) => failed.emit(()),
+            Some(End::OffPath) => off_path.emit(()),
         }
         self.give_up();
         Some(Twist::ZERO)
@@ -215,7 +215,7 @@ impl PathFollower {
             return Some(End::Reached);
         }
         if projection.offset.abs() > self.max_offset {
-            return Some(End::Failed);
+            return Some(End::OffPath);
         }
         let made_way = self.progress.least.is_none_or(|(least, _)| projection.remaining < least - PROGRESS);
         if made_way || arriving {
@@ -311,13 +311,13 @@ mod tests {
         }
 
         fn react(&mut self, path: Option<&Path>, scan: Option<&Scan>) -> (Option<Twist>, Option<End>) {
-            let (mut reached, mut blocked, mut failed) = (None, None, None);
+            let (mut reached, mut blocked, mut off_path) = (None, None, None);
             let ctx = Ctx::new(Time::from_millis(20 * self.step));
             self.step += 1;
             let (a, b, c) =
-                (Event::into_slot(&mut reached), Event::into_slot(&mut blocked), Event::into_slot(&mut failed));
+                (Event::into_slot(&mut reached), Event::into_slot(&mut blocked), Event::into_slot(&mut off_path));
             let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c);
-            let ends = [(reached, End::Reached), (blocked, End::Blocked), (failed, End::Failed)];
+            let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
             (twist, end)
         }
@@ -428,7 +428,7 @@ mod tests {
     fn it_gives_up_far_from_the_path_and_when_it_is_no_longer_active() {
         let way = path(&[(0.0, 0.0), (3.0, 0.0)], 0.0);
         let mut robot = Robot::new(follower(), Pose2::new(0.0, 1.5, 0.0));
-        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), Some(End::Failed)));
+        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), Some(End::OffPath)));
         robot.pose = Pose2::new(f32::NAN, 0.0, 0.0);
         assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), None));
         robot.pose = Pose2::default();
