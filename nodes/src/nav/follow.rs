@@ -132,10 +132,9 @@ impl PathFollower {
             self.begin(path);
         }
         let (pose, goal) = (pose?, self.path.goal()?);
-        // As long as the pose is no number, nothing is known.
-        let Some(projection) = self.path.project(pose.position(), self.progress.segment, self.reach()) else {
-            return Some(Twist::ZERO);
-        };
+        let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
+        // What is no number tells nothing: it waits for a better pose.
+        let Some(projection) = projection.filter(|_| pose.is_finite()) else { return Some(Twist::ZERO) };
         self.progress.segment = projection.segment;
         if let Some(scan) = scan {
             self.look(scan, pose, &projection, ctx.now());
@@ -282,6 +281,7 @@ impl PathFollower {
 mod tests {
     use super::*;
     use apex_rt::Construct;
+    use apex_sim::Random;
     use core::f32::consts::FRAC_PI_2;
     use std::{fs, path::PathBuf};
 
@@ -429,13 +429,37 @@ mod tests {
         let way = path(&[(0.0, 0.0), (3.0, 0.0)], 0.0);
         let mut robot = Robot::new(follower(), Pose2::new(0.0, 1.5, 0.0));
         assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), Some(End::OffPath)));
-        robot.pose = Pose2::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), None));
+        for odd in [Pose2::new(f32::NAN, 0.0, 0.0), Pose2::new(0.0, 0.0, f32::INFINITY)] {
+            robot.pose = odd;
+            assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), None));
+        }
         robot.pose = Pose2::default();
         assert!(robot.react(None, None).0.is_some());
         robot.node.give_up();
         assert_eq!(robot.react(None, None), (None, None));
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    #[test]
+    fn whatever_comes_in_what_goes_out_is_finite() {
+        let mut random = Random::new(11);
+        let odd = [0.0, -0.0, 1e-30, 0.1, -1.0, 3.0, 1e20, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
+        let mut number = || match random.uniform(0.0, 30.0) as usize {
+            i if i < odd.len() => odd[i],
+            _ => random.uniform(-1.0, 1.0),
+        };
+        for _ in 0..20_000 {
+            let mut robot = Robot::new(follower(), Pose2::new(number(), number(), number()));
+            let points: Vec<(f32, f32)> = (0..5).map(|_| (number(), number())).collect();
+            let mut scan = Scan { angle_min: number(), angle_increment: number(), ..Scan::default() };
+            scan.ranges.extend([number(), number(), number()]);
+            let way = path(&points[..(number().abs() * 5.0).min(5.0) as usize], number());
+            for path in [Some(&way), None, None] {
+                let (twist, _) = robot.react(path, Some(&scan));
+                assert!(twist.is_none_or(|twist| twist.is_finite()), "{twist:?} on {way:?} at {:?}", robot.pose);
+                robot.pose.x += 0.1;
+            }
+        }
     }
 
     /// The centre line of a race track in a scale of 1:50, or `None` (with a message) if it is not there.

@@ -40,8 +40,7 @@ pub struct MoveRobot {
 #[node]
 impl MoveRobot {
     fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
-        let is_known = pose.x.is_finite() && pose.y.is_finite() && pose.theta.is_finite();
-        if !ctx.active() || !is_known {
+        if !ctx.active() || !pose.is_finite() {
             return None;
         }
         let start = *self.start.get_or_insert(*pose);
@@ -149,8 +148,7 @@ impl PositionToTarget {
             return None;
         }
         let place = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI)));
-        let is_known = |p: &Pose2| p.x.is_finite() && p.y.is_finite() && p.theta.is_finite();
-        let Some(place) = place.filter(is_known) else {
+        let Some(place) = place.filter(Pose2::is_finite) else {
             if ctx.now().since(*self.seen.get_or_insert(ctx.now())).as_secs_f32() > self.patience {
                 self.forget();
                 lost.emit(());
