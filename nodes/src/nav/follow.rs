@@ -280,6 +280,10 @@ impl PathFollower {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        map::{DistanceTransform, Grid, Occupancy, Raster, grow},
+        nav::{Planner, Smoothing, Terrain},
+    };
     use apex_rt::Construct;
     use apex_sim::Random;
     use core::f32::consts::FRAC_PI_2;
@@ -438,6 +442,43 @@ mod tests {
         robot.node.give_up();
         assert_eq!(robot.react(None, None), (None, None));
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    /// A hall of 8 m by 6 m with posts in it, and the same with all obstacles grown by 20 cm.
+    fn posts(random: &mut Random) -> [Grid<Occupancy>; 2] {
+        let raster = Raster { resolution: 0.1, width: 80, height: 60, ..Raster::default() };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("a small map");
+        for cell in map.cells_mut() {
+            if random.chance(0.01) {
+                *cell = Occupancy::Occupied;
+            }
+        }
+        let (mut distances, mut grown) = (Grid::default(), map.clone());
+        DistanceTransform::default().run(&map, |cell| *cell == Occupancy::Occupied, &mut distances);
+        grow(&mut grown, &distances, 0.2, &[], 0.0);
+        [map, grown]
+    }
+
+    #[test]
+    fn it_touches_nothing_on_planned_paths() {
+        let (mut random, mut planner, mut way) = (Random::new(21), Planner::default(), Path::default());
+        let (mut reached, mut length) = (0, 0.0);
+        for _ in 0..60 {
+            let [map, grown] = posts(&mut random);
+            let terrain = Terrain { map: &grown, costs: None, unknown_is_open: false };
+            let mut pose = || Pose2::new(random.uniform(0.0, 8.0), random.uniform(0.0, 6.0), random.uniform(-3.0, 3.0));
+            let (start, goal) = (pose(), pose());
+            if planner.plan(&terrain, &start, &goal, Smoothing { spacing: 0.1, rounds: 30 }, &mut way).is_err() {
+                continue;
+            }
+            let end = Robot::new(follower(), start).follow(&way, |pose, _| {
+                assert_eq!(map.at(pose.position()).unwrap_or(&Occupancy::Free), &Occupancy::Free, "{pose:?}");
+            });
+            assert_eq!(end, End::Reached);
+            reached += 1;
+            length += way.length();
+        }
+        assert!(reached > 20 && length > 80.0, "only {reached} paths of {length} m");
     }
 
     #[test]

@@ -71,7 +71,7 @@ impl MoveRobot {
 /// Drives straight ahead until something is near (thesis 8.1.1, to a station of 4.3.7). `done` comes with a twist of zero.
 ///
 /// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still: it would not know
-/// where to stop.
+/// where to stop. A safety field behind this node needs a margin below `distance`, or the robot never gets there.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveToObstacle {
