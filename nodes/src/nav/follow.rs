@@ -1,11 +1,13 @@
 use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on};
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
-use core::f32::consts::TAU;
+use core::f32::consts::{PI, TAU};
 use libm::remainderf;
 
 /// Less than this is no way that was made, in m.
 const PROGRESS: f32 = 0.02;
+/// So much way is a turn at the goal, in m/rad.
+const TURN: f32 = 0.1;
 
 /// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
 ///
@@ -89,7 +91,7 @@ pub struct PathFollower {
 #[derive(Debug, Clone, Default)]
 struct Progress {
     segment: usize,
-    /// The least that remained, in m, and since when.
+    /// The least that was left to do, in m, and since when.
     least: Option<(f32, Time)>,
     obstructed_since: Option<Time>,
     /// The distance to the nearest obstacle, in m.
@@ -208,17 +210,19 @@ impl PathFollower {
     }
 
     fn end(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Option<End> {
+        let distance = (goal - pose.position()).norm();
+        let turn = remainderf(self.path.heading - pose.theta, TAU).abs();
         let arriving = self.is_arriving(projection);
-        let turn = remainderf(self.path.heading - pose.theta, TAU);
-        if arriving && (goal - pose.position()).norm() <= self.tolerance && turn.abs() <= self.heading_tolerance {
+        if arriving && distance <= self.tolerance && turn <= self.heading_tolerance {
             return Some(End::Reached);
         }
         if projection.offset.abs() > self.max_offset {
             return Some(End::OffPath);
         }
-        let made_way = self.progress.least.is_none_or(|(least, _)| projection.remaining < least - PROGRESS);
-        if made_way || arriving {
-            self.progress.least = Some((projection.remaining, now));
+        let left =
+            if arriving { distance + TURN * turn } else { projection.remaining + projection.offset.abs() + TURN * PI };
+        if self.progress.least.is_none_or(|(least, _)| left < least - PROGRESS) {
+            self.progress.least = Some((left, now));
         }
         let stuck_since = self.progress.least.map(|(_, since)| since);
         let too_long = |since: Option<Time>| since.is_some_and(|t| now.since(t).as_secs_f32() > self.patience);
@@ -422,10 +426,15 @@ mod tests {
 
     #[test]
     fn a_robot_that_makes_no_way_is_blocked() {
-        let mut robot = Robot::new(follower(), Pose2::default());
-        robot.react(Some(&path(&[(0.0, 0.0), (3.0, 0.0)], 0.0)), None);
-        let end = (0..200).find_map(|_| robot.react(None, None).1);
-        assert_eq!((end, robot.step), (Some(End::Blocked), 102));
+        // At the start, just before the goal, and at the goal in the wrong direction.
+        for pose in [Pose2::default(), Pose2::new(2.93, 0.0, 0.0), Pose2::new(3.0, 0.0, 1.0)] {
+            let mut robot = Robot::new(follower(), pose);
+            let mut end = robot.react(Some(&path(&[(0.0, 0.0), (1.0, 0.0), (3.0, 0.0)], 0.0)), None).1;
+            while end.is_none() && robot.step < 200 {
+                end = robot.react(None, None).1;
+            }
+            assert_eq!((end, robot.step), (Some(End::Blocked), 102), "{pose:?}");
+        }
     }
 
     #[test]
