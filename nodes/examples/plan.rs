@@ -9,7 +9,7 @@
 
 use apex_nodes::{
     map::{Cell, DistanceTransform, Grid, Occupancy, Raster, UnknownRegions, grow},
-    nav::{Path, Planner, Terrain, write_costs},
+    nav::{Path, Planner, Smoothing, Terrain, write_costs},
     scan::{Point2, Pose2},
 };
 use image::{GrayImage, Luma, Rgb, RgbImage};
@@ -30,8 +30,7 @@ const HIGHEST: f32 = 4.0;
 const REACH: f32 = 2.5;
 /// Unknown regions up to this size are filled, in m².
 const LARGEST_UNKNOWN: f32 = 0.25;
-/// The distance between points of the path in m, and how often it is smoothed.
-const MANNER: (f32, usize) = (0.1, 30);
+const SMOOTHING: Smoothing = Smoothing { spacing: 0.1, rounds: 30 };
 
 /// What the command line asks for.
 struct Request {
@@ -114,25 +113,25 @@ fn plan(map: &Grid<Occupancy>, request: &Request) -> Result<(Grid<f32>, Path), F
     let mut transform = DistanceTransform::default();
     let (mut planner, mut path) = (Planner::default(), Path::default());
     let is_occupied = |cell: &Occupancy| *cell == Occupancy::Occupied;
-    let ends = (&request.start, &request.goal);
+    let Request { start, goal, .. } = request;
 
-    let closing = timed(|| UnknownRegions::default().close(&mut grown, LARGEST_UNKNOWN)).0;
-    let growing = timed(|| {
+    let (closing, ()) = timed(|| UnknownRegions::default().close(&mut grown, LARGEST_UNKNOWN));
+    let (growing, ()) = timed(|| {
         transform.run(&grown, is_occupied, &mut distances);
-        grow(&mut grown, &distances, RADIUS, &[ends.0.position(), ends.1.position()], KEPT);
+        grow(&mut grown, &distances, RADIUS, &[start.position(), goal.position()], KEPT);
     });
-    let costing = timed(|| {
+    let (costing, ()) = timed(|| {
         transform.run(&grown, is_occupied, &mut distances);
         write_costs(&distances, HIGHEST, REACH, &mut costs);
     });
     let terrain = Terrain { map: &grown, costs: Some(&costs), unknown_is_open: false };
-    let (planning, result) = timed(|| planner.plan(&terrain, ends, MANNER, &mut path));
+    let (planning, result) = timed(|| planner.plan(&terrain, start, goal, SMOOTHING, &mut path));
     result.map_err(|why| Failure(1, format!("no path: {why}")))?;
 
     let Raster { width, height, resolution, .. } = map.raster();
     println!("map       {width} x {height} cells of {resolution} m");
     println!("path      {:.2} m, {} points", path.length(), path.points.len());
-    for (step, took) in [("unknown", closing), ("grow", growing.0), ("costs", costing.0), ("plan", planning)] {
+    for (step, took) in [("unknown", closing), ("grow", growing), ("costs", costing), ("plan", planning)] {
         println!("{step:9} {:.2} ms", took.as_secs_f64() * 1e3);
     }
     Ok((costs, path))

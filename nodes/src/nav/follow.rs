@@ -1,11 +1,13 @@
 use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on};
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
-use core::f32::consts::TAU;
+use core::f32::consts::{PI, TAU};
 use libm::remainderf;
 
 /// Less than this is no way that was made, in m.
 const PROGRESS: f32 = 0.02;
+/// So much way is a turn at the goal, in m/rad.
+const TURN: f32 = 0.1;
 
 /// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
 ///
@@ -13,7 +15,7 @@ const PROGRESS: f32 = 0.02;
 /// robot; without one, nothing is in the way. It sends twists while it has a path, and drops it when it
 /// * has `reached` the goal,
 /// * is `blocked`: something stands on the path ahead, or the robot has made no way, for longer than its patience,
-/// * has `failed`: it is too far away from the path,
+/// * is `off_path`: too far away from it,
 /// * is no longer active.
 ///
 /// What stands around the goal is not on the path, as a goal may be close to a wall.
@@ -89,7 +91,7 @@ pub struct PathFollower {
 #[derive(Debug, Clone, Default)]
 struct Progress {
     segment: usize,
-    /// The least that remained, in m, and since when.
+    /// The least that was left to do, in m, and since when.
     least: Option<(f32, Time)>,
     obstructed_since: Option<Time>,
     /// The distance to the nearest obstacle, in m.
@@ -112,7 +114,7 @@ struct Motion {
 enum End {
     Reached,
     Blocked,
-    Failed,
+    OffPath,
 }
 
 #[node]
@@ -126,16 +128,15 @@ impl PathFollower {
         scan: Option<&Scan>,
         reached: Event<()>,
         blocked: Event<()>,
-        failed: Event<()>,
+        off_path: Event<()>,
     ) -> Option<Twist> {
         if let Some(path) = path {
             self.begin(path);
         }
         let (pose, goal) = (pose?, self.path.goal()?);
-        // As long as the pose is no number, nothing is known.
-        let Some(projection) = self.path.project(pose.position(), self.progress.segment, self.reach()) else {
-            return Some(Twist::ZERO);
-        };
+        let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
+        // What is no number tells nothing: it waits for a better pose.
+        let Some(projection) = projection.filter(|_| pose.is_finite()) else { return Some(Twist::ZERO) };
         self.progress.segment = projection.segment;
         if let Some(scan) = scan {
             self.look(scan, pose, &projection, ctx.now());
@@ -144,7 +145,7 @@ impl PathFollower {
             None => return Some(self.drive(pose, goal, &projection, ctx.now())),
             Some(End::Reached) => reached.emit(()),
             Some(End::Blocked) => blocked.emit(()),
-            Some(End::Failed) => failed.emit(()),
+            Some(End::OffPath) => off_path.emit(()),
         }
         self.give_up();
         Some(Twist::ZERO)
@@ -209,17 +210,19 @@ impl PathFollower {
     }
 
     fn end(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Option<End> {
+        let distance = (goal - pose.position()).norm();
+        let turn = remainderf(self.path.heading - pose.theta, TAU).abs();
         let arriving = self.is_arriving(projection);
-        let turn = remainderf(self.path.heading - pose.theta, TAU);
-        if arriving && (goal - pose.position()).norm() <= self.tolerance && turn.abs() <= self.heading_tolerance {
+        if arriving && distance <= self.tolerance && turn <= self.heading_tolerance {
             return Some(End::Reached);
         }
         if projection.offset.abs() > self.max_offset {
-            return Some(End::Failed);
+            return Some(End::OffPath);
         }
-        let made_way = self.progress.least.is_none_or(|(least, _)| projection.remaining < least - PROGRESS);
-        if made_way || arriving {
-            self.progress.least = Some((projection.remaining, now));
+        let left =
+            if arriving { distance + TURN * turn } else { projection.remaining + projection.offset.abs() + TURN * PI };
+        if self.progress.least.is_none_or(|(least, _)| left < least - PROGRESS) {
+            self.progress.least = Some((left, now));
         }
         let stuck_since = self.progress.least.map(|(_, since)| since);
         let too_long = |since: Option<Time>| since.is_some_and(|t| now.since(t).as_secs_f32() > self.patience);
@@ -281,7 +284,12 @@ impl PathFollower {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        map::{DistanceTransform, Grid, Occupancy, Raster, grow},
+        nav::{Planner, Smoothing, Terrain},
+    };
     use apex_rt::Construct;
+    use apex_sim::Random;
     use core::f32::consts::FRAC_PI_2;
     use std::{fs, path::PathBuf};
 
@@ -311,13 +319,13 @@ mod tests {
         }
 
         fn react(&mut self, path: Option<&Path>, scan: Option<&Scan>) -> (Option<Twist>, Option<End>) {
-            let (mut reached, mut blocked, mut failed) = (None, None, None);
+            let (mut reached, mut blocked, mut off_path) = (None, None, None);
             let ctx = Ctx::new(Time::from_millis(20 * self.step));
             self.step += 1;
             let (a, b, c) =
-                (Event::into_slot(&mut reached), Event::into_slot(&mut blocked), Event::into_slot(&mut failed));
+                (Event::into_slot(&mut reached), Event::into_slot(&mut blocked), Event::into_slot(&mut off_path));
             let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c);
-            let ends = [(reached, End::Reached), (blocked, End::Blocked), (failed, End::Failed)];
+            let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
             (twist, end)
         }
@@ -418,24 +426,90 @@ mod tests {
 
     #[test]
     fn a_robot_that_makes_no_way_is_blocked() {
-        let mut robot = Robot::new(follower(), Pose2::default());
-        robot.react(Some(&path(&[(0.0, 0.0), (3.0, 0.0)], 0.0)), None);
-        let end = (0..200).find_map(|_| robot.react(None, None).1);
-        assert_eq!((end, robot.step), (Some(End::Blocked), 102));
+        // At the start, just before the goal, and at the goal in the wrong direction.
+        for pose in [Pose2::default(), Pose2::new(2.93, 0.0, 0.0), Pose2::new(3.0, 0.0, 1.0)] {
+            let mut robot = Robot::new(follower(), pose);
+            let mut end = robot.react(Some(&path(&[(0.0, 0.0), (1.0, 0.0), (3.0, 0.0)], 0.0)), None).1;
+            while end.is_none() && robot.step < 200 {
+                end = robot.react(None, None).1;
+            }
+            assert_eq!((end, robot.step), (Some(End::Blocked), 102), "{pose:?}");
+        }
     }
 
     #[test]
     fn it_gives_up_far_from_the_path_and_when_it_is_no_longer_active() {
         let way = path(&[(0.0, 0.0), (3.0, 0.0)], 0.0);
         let mut robot = Robot::new(follower(), Pose2::new(0.0, 1.5, 0.0));
-        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), Some(End::Failed)));
-        robot.pose = Pose2::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), None));
+        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), Some(End::OffPath)));
+        for odd in [Pose2::new(f32::NAN, 0.0, 0.0), Pose2::new(0.0, 0.0, f32::INFINITY)] {
+            robot.pose = odd;
+            assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), None));
+        }
         robot.pose = Pose2::default();
         assert!(robot.react(None, None).0.is_some());
         robot.node.give_up();
         assert_eq!(robot.react(None, None), (None, None));
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    /// A hall of 8 m by 6 m with posts in it, and the same with all obstacles grown by 20 cm.
+    fn posts(random: &mut Random) -> [Grid<Occupancy>; 2] {
+        let raster = Raster { resolution: 0.1, width: 80, height: 60, ..Raster::default() };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("a small map");
+        for cell in map.cells_mut() {
+            if random.chance(0.01) {
+                *cell = Occupancy::Occupied;
+            }
+        }
+        let (mut distances, mut grown) = (Grid::default(), map.clone());
+        DistanceTransform::default().run(&map, |cell| *cell == Occupancy::Occupied, &mut distances);
+        grow(&mut grown, &distances, 0.2, &[], 0.0);
+        [map, grown]
+    }
+
+    #[test]
+    fn it_touches_nothing_on_planned_paths() {
+        let (mut random, mut planner, mut way) = (Random::new(21), Planner::default(), Path::default());
+        let (mut reached, mut length) = (0, 0.0);
+        for _ in 0..60 {
+            let [map, grown] = posts(&mut random);
+            let terrain = Terrain { map: &grown, costs: None, unknown_is_open: false };
+            let mut pose = || Pose2::new(random.uniform(0.0, 8.0), random.uniform(0.0, 6.0), random.uniform(-3.0, 3.0));
+            let (start, goal) = (pose(), pose());
+            if planner.plan(&terrain, &start, &goal, Smoothing { spacing: 0.1, rounds: 30 }, &mut way).is_err() {
+                continue;
+            }
+            let end = Robot::new(follower(), start).follow(&way, |pose, _| {
+                assert_eq!(map.at(pose.position()).unwrap_or(&Occupancy::Free), &Occupancy::Free, "{pose:?}");
+            });
+            assert_eq!(end, End::Reached);
+            reached += 1;
+            length += way.length();
+        }
+        assert!(reached > 20 && length > 80.0, "only {reached} paths of {length} m");
+    }
+
+    #[test]
+    fn whatever_comes_in_what_goes_out_is_finite() {
+        let mut random = Random::new(11);
+        let odd = [0.0, -0.0, 1e-30, 0.1, -1.0, 3.0, 1e20, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
+        let mut number = || match random.uniform(0.0, 30.0) as usize {
+            i if i < odd.len() => odd[i],
+            _ => random.uniform(-1.0, 1.0),
+        };
+        for _ in 0..20_000 {
+            let mut robot = Robot::new(follower(), Pose2::new(number(), number(), number()));
+            let points: Vec<(f32, f32)> = (0..5).map(|_| (number(), number())).collect();
+            let mut scan = Scan { angle_min: number(), angle_increment: number(), ..Scan::default() };
+            scan.ranges.extend([number(), number(), number()]);
+            let way = path(&points[..(number().abs() * 5.0).min(5.0) as usize], number());
+            for path in [Some(&way), None, None] {
+                let (twist, _) = robot.react(path, Some(&scan));
+                assert!(twist.is_none_or(|twist| twist.is_finite()), "{twist:?} on {way:?} at {:?}", robot.pose);
+                robot.pose.x += 0.1;
+            }
+        }
     }
 
     /// The centre line of a race track in a scale of 1:50, or `None` (with a message) if it is not there.

@@ -35,8 +35,8 @@ pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 pub use path::{Path, Projection};
 pub use pid::Pid;
 #[cfg(feature = "std")]
-pub use plan::{PathPlanner, Planner};
-pub use safety::{Field, SafetyField};
+pub use plan::{PathPlanner, Planner, Smoothing};
+pub use safety::{ProtectiveField, SafetyField};
 #[cfg(feature = "std")]
 pub use search::{NoPath, Search, Terrain};
 #[cfg(feature = "std")]

@@ -40,8 +40,7 @@ pub struct MoveRobot {
 #[node]
 impl MoveRobot {
     fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
-        let is_known = pose.x.is_finite() && pose.y.is_finite() && pose.theta.is_finite();
-        if !ctx.active() || !is_known {
+        if !ctx.active() || !pose.is_finite() {
             return None;
         }
         let start = *self.start.get_or_insert(*pose);
@@ -72,7 +71,7 @@ impl MoveRobot {
 /// Drives straight ahead until something is near (thesis 8.1.1, to a station of 4.3.7). `done` comes with a twist of zero.
 ///
 /// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still: it would not know
-/// where to stop.
+/// where to stop. A safety field behind this node needs a margin below `distance`, or the robot never gets there.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveToObstacle {
@@ -149,8 +148,7 @@ impl PositionToTarget {
             return None;
         }
         let place = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI)));
-        let is_known = |p: &Pose2| p.x.is_finite() && p.y.is_finite() && p.theta.is_finite();
-        let Some(place) = place.filter(is_known) else {
+        let Some(place) = place.filter(Pose2::is_finite) else {
             if ctx.now().since(*self.seen.get_or_insert(ctx.now())).as_secs_f32() > self.patience {
                 self.forget();
                 lost.emit(());

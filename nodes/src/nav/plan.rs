@@ -5,6 +5,15 @@ use crate::{
 };
 use apex_rt::{Event, Out, node};
 
+/// How fine and how smooth a path becomes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Smoothing {
+    /// The distance between points of the path, about, in m.
+    pub spacing: f32,
+    /// How often the path is smoothed.
+    pub rounds: usize,
+}
+
 /// Plans paths: searches, simplifies, adds points and smooths (thesis 4.3.6). Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct Planner {
@@ -15,16 +24,16 @@ pub struct Planner {
 }
 
 impl Planner {
-    /// Writes a path from `start` to `goal` into `path`, with points no more than about `spacing` m apart, smoothed in
-    /// so many `rounds`. All cells that it touches are open.
+    /// Writes a path from `start` to `goal` into `path`. All cells that it touches are open.
     ///
     /// # Errors
     /// There is no such path. Then `path` has no points.
     pub fn plan(
         &mut self,
         terrain: &Terrain<'_>,
-        (start, goal): (&Pose2, &Pose2),
-        (spacing, rounds): (f32, usize),
+        start: &Pose2,
+        goal: &Pose2,
+        smoothing: Smoothing,
         path: &mut Path,
     ) -> Result<(), NoPath> {
         path.points.clear();
@@ -40,8 +49,8 @@ impl Planner {
         self.rough.extend(inner.iter().map(|cell| raster.centre(*cell)));
         self.rough.push(goal.position());
         simplify(terrain, &self.rough, &mut self.simple);
-        subdivide(&self.simple, spacing, &mut path.points);
-        smooth(terrain, &mut path.points, rounds);
+        subdivide(&self.simple, smoothing.spacing, &mut path.points);
+        smooth(terrain, &mut path.points, smoothing.rounds);
         Ok(())
     }
 }
@@ -50,7 +59,7 @@ impl Planner {
 /// the frame of the map; the map has its obstacles grown, and `costs` are those of `CostMap`. Without costs the path is
 /// the shortest one.
 ///
-/// If there is no path, it sends ⊥ and says why over `failed`.
+/// If there is no path, it sends ⊥ and says why over `no_path`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PathPlanner {
@@ -75,13 +84,13 @@ impl PathPlanner {
         map: &Grid<Occupancy>,
         costs: Option<&Grid<f32>>,
         path: &mut Out<Path>,
-        failed: Event<NoPath>,
+        no_path: Event<NoPath>,
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: self.unknown_is_open };
-        let manner = (self.spacing, self.rounds);
-        if let Err(why) = self.planner.plan(&terrain, (start, goal), manner, path.get_mut()) {
+        let smoothing = Smoothing { spacing: self.spacing, rounds: self.rounds };
+        if let Err(why) = self.planner.plan(&terrain, start, goal, smoothing, path.get_mut()) {
             path.clear();
-            failed.emit(why);
+            no_path.emit(why);
         }
     }
 }
@@ -92,6 +101,8 @@ mod tests {
     use crate::map::Raster;
     use apex_rt::Construct;
     use apex_sim::Random;
+
+    const SMOOTHING: Smoothing = Smoothing { spacing: 0.1, rounds: 30 };
 
     fn random_map(random: &mut Random, density: f32) -> Grid<Occupancy> {
         let raster = Raster { resolution: 0.1, width: 60, height: 45, corner: Point2::new(-1.0, -2.0) };
@@ -114,7 +125,7 @@ mod tests {
             let mut pose =
                 || Pose2::new(random.uniform(-1.0, 5.0), random.uniform(-2.0, 2.5), random.uniform(-3.0, 3.0));
             let (start, goal) = (pose(), pose());
-            if planner.plan(&terrain, (&start, &goal), (0.1, 30), &mut path).is_err() {
+            if planner.plan(&terrain, &start, &goal, SMOOTHING, &mut path).is_err() {
                 assert!(path.points.is_empty());
                 continue;
             }
@@ -135,7 +146,7 @@ mod tests {
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
         let mut path = Path::default();
         let (start, goal) = (Pose2::new(-0.9, -1.9, 0.0), Pose2::new(4.7, 0.3, 1.0));
-        Planner::default().plan(&terrain, (&start, &goal), (0.1, 30), &mut path).expect("nothing is in the way");
+        Planner::default().plan(&terrain, &start, &goal, SMOOTHING, &mut path).expect("nothing is in the way");
         assert!((path.length() - (goal.position() - start.position()).norm()).abs() < 1e-3);
         assert!(path.points.len() > 50);
     }

@@ -3,9 +3,9 @@ use crate::scan::{Point2, Scan};
 use apex_rt::{Ctx, Time, node};
 use libm::{fmaxf, sqrtf};
 
-/// The strip before a round robot that has to be free, as wide as the robot and as long as it takes to stop.
+/// The strip before a round robot that has to be free: as wide as the robot, and as long as it takes to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Field {
+pub struct ProtectiveField {
     /// The radius of the robot, in m.
     pub radius: f32,
     /// How far away from obstacles it has to come to a stand, in m.
@@ -16,7 +16,7 @@ pub struct Field {
     pub latency: f32,
 }
 
-impl Field {
+impl ProtectiveField {
     /// How far the robot can go in a direction before an obstacle is within its margin, in m: infinite if none ever
     /// is, and 0 if one is there already. What is beside or behind does not count.
     pub fn gap(&self, direction: Point2, points: impl Iterator<Item = Point2>) -> f32 {
@@ -82,7 +82,7 @@ impl SafetyField {
             self.last = Some((ctx.now(), scan.clone()));
         }
         let Self { radius, margin, deceleration, latency, .. } = *self;
-        let field = Field { radius, margin, deceleration, latency };
+        let field = ProtectiveField { radius, margin, deceleration, latency };
         match &self.last {
             Some((at, scan)) if twist.is_finite() && ctx.now().since(*at).as_secs_f32() <= self.max_age => {
                 field.limit(twist, scan.points().map(|(_, point)| point))
@@ -98,7 +98,7 @@ mod tests {
     use apex_rt::Construct;
     use core::f32::consts::{PI, TAU};
 
-    const FIELD: Field = Field { radius: 0.3, margin: 0.1, deceleration: 1.0, latency: 0.0 };
+    const FIELD: ProtectiveField = ProtectiveField { radius: 0.3, margin: 0.1, deceleration: 1.0, latency: 0.0 };
 
     fn gap(direction: (f32, f32), point: (f32, f32)) -> f32 {
         let at = |(x, y)| Point2::new(x, y);
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn it_stops_within_the_gap() {
         for latency in [0.0, 0.2] {
-            let field = Field { latency, ..FIELD };
+            let field = ProtectiveField { latency, ..FIELD };
             for distance in [0.01, 0.5, 3.0] {
                 let v = field.highest_speed(distance);
                 assert!((v * v / 2.0 + v * latency - distance).abs() < 1e-5);

@@ -149,11 +149,6 @@ impl Search {
         Err(NoPath::Unreachable)
     }
 
-    /// How many cells the last search closed.
-    pub fn closed(&self) -> usize {
-        self.nodes.iter().filter(|node| node.round == self.round && node.closed).count()
-    }
-
     fn begin(&mut self, cells: usize) {
         self.open.clear();
         self.round = self.round.wrapping_add(1);
