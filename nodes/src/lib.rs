@@ -1,7 +1,8 @@
 //! The node library of Apex: one module per field.
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default)
-//! adds `io` (readers, writers and pictures) and `map` (grid maps); features of their own add `image` (camera images).
+//! adds `io` (readers, writers and pictures) and `map` (grid maps); features of their own add `image` (camera
+//! images) and `learn` (networks that learn from examples).
 //!
 //! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -12,6 +13,8 @@ pub mod flow;
 pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
+#[cfg(feature = "learn")]
+pub mod learn;
 #[cfg(feature = "std")]
 pub mod map;
 pub mod math;
