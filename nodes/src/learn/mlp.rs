@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 /// The most inputs of a network.
 pub const MAX_FEATURES: usize = 1024;
 
+/// What a classifier looks at.
+pub type Features = heapless::Vec<f32, MAX_FEATURES>;
+
 /// A multilayer perceptron: tanh in the hidden layers, softmax at the end, so that its outputs are the probabilities of
 /// the classes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

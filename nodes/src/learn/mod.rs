@@ -15,14 +15,11 @@ mod train;
 pub use classifier::{Class, Classifier};
 #[cfg(feature = "image")]
 pub use glyph::{GLYPH_SIDE, glyph_features};
-pub use mlp::{Activity, Layer, MAX_FEATURES, Mlp};
+pub use mlp::{Activity, Features, Layer, MAX_FEATURES, Mlp};
 pub use model::{BadModel, Model};
 #[cfg(feature = "image")]
 pub use patch::{PATCH_SIDE, deviation, patch_features};
 pub use train::{Example, Trainer};
-
-/// What a classifier looks at.
-pub type Features = heapless::Vec<f32, MAX_FEATURES>;
 
 /// Reads the digits 0 to 9 from a [`glyph_features`]; class and digit are the same. Made by the example `train_digits`, from
 /// digits that it draws itself.
