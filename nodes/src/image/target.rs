@@ -122,8 +122,7 @@ impl TargetPose {
             return None;
         }
         let wall = Wall::fit(&self.points);
-        // False for NaN.
-        if !(wall.deviation <= self.roughness) {
+        if wall.deviation.is_nan() || wall.deviation > self.roughness {
             return None;
         }
         // The normal that looks back at the camera.
