@@ -5,8 +5,9 @@
 use apex_nodes::{
     image::{
         BlackHat, Components, Edges, GrayImage, Normalize, ProbabilisticHough, Region, Target, TargetLines, bar_code,
+        largest,
     },
-    learn::{Activity, DIGITS, Example, Features, Mlp, Model, Trainer, glyph_features},
+    learn::{Activity, Classifier, DIGITS, Example, Features, Mlp, Model, Trainer, glyph_features},
     math::Random,
 };
 use apex_rt::{Construct, Out};
@@ -16,6 +17,9 @@ use std::{
     io::Read,
     path::{Path, PathBuf},
 };
+
+#[path = "../examples/train_digits/pen.rs"]
+mod pen;
 
 /// A folder of the data, or `None` (with a message) if it is not there.
 fn data(name: &str) -> Option<PathBuf> {
@@ -168,4 +172,51 @@ fn printed_digits_are_read() {
     println!("{:.1} % of {all} printed digits", 100.0 * f64::from(right) / f64::from(all));
     assert_eq!(all, 2812);
     assert!(f64::from(right) >= 0.9 * f64::from(all));
+}
+
+/// A number sign of white paper on a wall, in uneven light.
+fn sign(digit: usize, random: &mut Random) -> GrayImage {
+    let drawn = pen::draw(digit, random).pixels;
+    let side = random.uniform(70.0, 140.0) as u32;
+    let paper = image::imageops::resize(&drawn, side, side, image::imageops::FilterType::Triangle);
+    let dark = paper[(0, 0)].0[0] > 128;
+    let (left, top) = (random.uniform(20.0, 150.0) as u32, random.uniform(20.0, 80.0) as u32);
+    let pixels = ImageBuffer::from_fn(320, 240, |x, y| {
+        let on_paper = x.checked_sub(left).zip(y.checked_sub(top)).and_then(|(x, y)| paper.get_pixel_checked(x, y));
+        let shade = on_paper.map_or(110.0, |p| f32::from(if dark { p.0[0] } else { 255 - p.0[0] }));
+        Luma([(shade * (0.5 + x as f32 / 640.0) + random.normal(2.0)) as u8])
+    });
+    pixels.into()
+}
+
+/// From the image to the number (thesis 4.3.2, figure 4.5): the digit is the largest dark thing on light ground.
+fn read_sign(image: &GrayImage, classifier: &mut Classifier) -> Option<u32> {
+    let (mut hat, mut regions, mut features, mut class) = (Out::new(), Out::new(), Out::new(), Out::new());
+    BlackHat::construct((25,)).process(image, &mut hat);
+    Components::construct((40, 6, 200)).process(hat.get()?, &mut regions);
+    glyph_features(image, &largest(regions.get()?)?.grown(3, image.size()), &mut features);
+    classifier.process(features.get()?, &mut class).expect("the model of the library");
+    class.get().map(|class| class.number)
+}
+
+/// The signs are drawn by the program that drew those for the training, but from another seed.
+#[test]
+fn number_signs_are_read_in_images() {
+    let mut random = Random::new(1_000_001);
+    let mut classifier = Classifier::construct((DIGITS, 0.8));
+    let (mut right, mut wrong) = (0, 0);
+    for i in 0..100 {
+        let digit = 1 + i % 4;
+        let image = sign(digit, &mut random);
+        match read_sign(&image, &mut classifier) {
+            Some(number) if number as usize == digit => right += 1,
+            Some(_) => wrong += 1,
+            None => {}
+        }
+    }
+    println!("{right} of 100 signs read, {wrong} wrong");
+    assert!(right >= 90 && wrong <= 4);
+    for (width, height) in [(0, 0), (1, 1), (320, 240)] {
+        assert_eq!(read_sign(&ImageBuffer::from_pixel(width, height, Luma([0])).into(), &mut classifier), None);
+    }
 }

@@ -23,5 +23,5 @@ pub use edges::Edges;
 pub use hough::{Line, Lines, MAX_LINES, ProbabilisticHough};
 pub use mask::LaserMask;
 pub use picture::{ColorImage, GrayImage, Image, to_gray};
-pub use region::{BlackHat, Components, MAX_REGIONS, Normalize, Region, Regions};
-pub use target::{Target, TargetLines, TargetPose};
+pub use region::{BlackHat, Components, MAX_REGIONS, Normalize, Region, Regions, largest};
+pub use target::{Target, TargetLines, TargetPose, region_target};

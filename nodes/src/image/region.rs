@@ -124,7 +124,8 @@ impl BlackHat {
 
 /// Finds the things in an image (thesis 4.3.1): connected pixels that are light enough, neighbours by side or corner.
 ///
-/// The [`MAX_REGIONS`] with the most pixels, in the order of their uppermost pixels; maybe none.
+/// The [`MAX_REGIONS`] with the most pixels, in the order of their uppermost pixels; maybe none. What reaches the border
+/// of the image is cut off there, and left out.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Components {
@@ -156,7 +157,9 @@ impl Components {
             }
         }
         let sides = self.min_side..=self.max_side;
-        found.retain(|r| sides.contains(&r.width) && sides.contains(&r.height));
+        let (width, height) = image.size();
+        let whole = |r: &Region| r.left > 0 && r.top > 0 && r.left + r.width < width && r.top + r.height < height;
+        found.retain(|r| sides.contains(&r.width) && sides.contains(&r.height) && whole(r));
         found.sort_by_key(|r| std::cmp::Reverse(r.area));
         found.truncate(MAX_REGIONS);
         found.sort_by_key(|r| (r.top, r.left));
@@ -164,6 +167,13 @@ impl Components {
         regions.clear();
         regions.extend(found.iter().copied());
     }
+}
+
+/// The region with the most pixels in its rectangle; the first of equal ones. ⊥ without regions.
+#[node]
+pub fn largest(regions: &Regions) -> Option<Region> {
+    let size = |region: &&Region| u64::from(region.width) * u64::from(region.height);
+    regions.iter().rev().max_by_key(size).copied()
 }
 
 /// Stretches the intensities in each region so that the darkest becomes black and the lightest white (thesis 4.3.1):
@@ -250,11 +260,12 @@ mod tests {
 
     #[test]
     fn components_are_boxes_around_what_hangs_together() {
-        // A diagonal, a block, and a pixel that is too small.
+        // A diagonal, a block, a pixel that is too small, and what the border cuts off.
         let picture = image(30, 20, |x, y| match (x, y) {
             (2..8, 2..8) if x == y => 90,
             (15..20, 1..12) => 200,
-            (28, 18) => 255,
+            (27, 17) => 255,
+            (0, 10..18) => 255,
             _ => 10,
         });
         let regions = run(|out| Components::construct((50, 5, 15)).process(&picture, out));
@@ -268,9 +279,18 @@ mod tests {
 
     #[test]
     fn of_many_components_the_largest_stay() {
-        let dots = image(200, 200, |x, y| if x % 2 == 0 && y % 2 == 0 || x < 2 && y < 8 { 255 } else { 0 });
+        let dots = image(200, 200, |x, y| {
+            if x % 2 == 0 && y % 2 == 0 || (2..4).contains(&x) && (2..9).contains(&y) { 255 } else { 0 }
+        });
         let regions = run(|out| Components::construct((1, 1, 300)).process(&dots, out));
-        assert_eq!((regions.len(), regions[0].top, regions[0].area > 8), (MAX_REGIONS, 0, true));
+        assert_eq!((regions.len(), regions[0].top, regions[0].area > 8), (MAX_REGIONS, 2, true));
+    }
+
+    #[test]
+    fn the_largest_region_is_the_first_of_equal_ones() {
+        let region = |left: u32, width: u32| Region { left, top: 0, width, height: 5, area: 1 };
+        let regions = [region(0, 3), region(1, 7), region(2, 7)].into();
+        assert_eq!((largest(&regions), largest(&Regions::new())), (Some(region(1, 7)), None));
     }
 
     #[test]

@@ -77,6 +77,13 @@ impl TargetLines {
     }
 }
 
+/// A region as a target with its centre in the middle, so that [`TargetPose`] tells where a number sign is (thesis
+/// 4.3.2).
+#[node]
+pub fn region_target(region: &Region) -> Target {
+    Target { centre: region.middle(), region: *region }
+}
+
 /// Where a target is, in the frame of the robot: on the wall that the laser sees in its direction (thesis 4.3.1).
 ///
 /// The x axis of the pose points out of the wall, towards the robot. The wall is a straight line that is fitted to the
@@ -203,8 +210,8 @@ mod tests {
             let across = (eye + Point2::new(x, y).scaled(far) - pose.position()).dot(normal.perpendicular());
             if far > 0.0 { sign(across, camera.position[2] + far * z - 0.5, cross) } else { 60.0 }
         };
-        let sub = [-0.33, 0.0, 0.33];
-        let mean = |u: f32, v: f32| sub.iter().flat_map(|a| sub.map(|b| shade(u + a, v + b))).sum::<f32>() / 9.0;
+        let sub = [-0.25, 0.25];
+        let mean = |u: f32, v: f32| sub.iter().flat_map(|a| sub.map(|b| shade(u + a, v + b))).sum::<f32>() / 4.0;
         let pixels = ImageBuffer::from_fn(camera.width, camera.height, |u, v| {
             Luma([(0.8 * mean(u as f32, v as f32) + random.normal(4.0)) as u8])
         });
@@ -218,7 +225,7 @@ mod tests {
     /// Poses in front of the robot, up to 2 m away, the wall turned up to 25°.
     fn poses() -> impl Iterator<Item = Pose2> {
         let mut random = Random::new(5);
-        (0..20).map(move |_| {
+        (0..12).map(move |_| {
             let (far, side) = (random.uniform(0.7, 2.0), random.uniform(-0.25, 0.25));
             Pose2::new(0.1 + far, side * far, PI + random.uniform(-0.4, 0.4))
         })
@@ -237,7 +244,7 @@ mod tests {
                 println!("not found: {pose:?}");
             }
         }
-        assert!(found >= 18, "{found} of 20 found");
+        assert!(found >= 11, "{found} of 12 found");
     }
 
     #[test]
