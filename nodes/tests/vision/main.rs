@@ -1,12 +1,9 @@
-//! Vision on real images (thesis 4.3.1 to 4.3.3): bar codes, digits, and what is no target.
+//! Vision as a robot uses it (thesis 4.3.1 to 4.3.3): targets, number signs, digits and bar codes, drawn and real ones.
 //!
-//! The images are not part of the project: without them the tests say so and pass, unless they run with `CI=true`.
+//! The real images are not part of the project: without them the tests say so and pass, unless they run with `CI=true`.
 
 use apex_nodes::{
-    image::{
-        BlackHat, Components, Edges, GrayImage, Normalize, ProbabilisticHough, Region, Target, TargetLines, bar_code,
-        largest,
-    },
+    image::{BlackHat, Components, GrayImage, Region, bar_code, largest},
     learn::{Activity, Classifier, DIGITS, Example, Features, Mlp, Model, Trainer, glyph_features},
     math::Random,
 };
@@ -18,8 +15,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-#[path = "../examples/train_digits/pen.rs"]
+#[path = "../../examples/train_digits/pen.rs"]
 mod pen;
+mod targets;
 
 /// A folder of the data, or `None` (with a message) if it is not there.
 fn data(name: &str) -> Option<PathBuf> {
@@ -58,27 +56,6 @@ fn bar_codes_are_read_exactly() {
     }
     println!("{right} of {all} bar codes read exactly");
     assert_eq!((right, all), (23, 23));
-}
-
-/// All nodes from the image to the target, at their defaults.
-fn detect(image: &GrayImage) -> Option<Target> {
-    let (mut hat, mut regions, mut normal, mut edges, mut lines) =
-        (Out::new(), Out::new(), Out::new(), Out::new(), Out::new());
-    BlackHat::construct((10,)).process(image, &mut hat);
-    Components::construct((40, 20, 500)).process(hat.get()?, &mut regions);
-    let regions = regions.get()?;
-    Normalize::construct((4, 0.02)).process(image, regions, &mut normal);
-    Edges::construct((150.0, 60.0, 4)).process(normal.get()?, regions, &mut edges);
-    ProbabilisticHough::construct((12, 15.0, 12, 1)).process(edges.get()?, &mut lines);
-    TargetLines::construct((0.35, 0.26, 0.6, 0.12)).process(lines.get()?, regions)
-}
-
-#[test]
-fn other_rings_are_no_targets() {
-    let Some(folder) = data("fiducials") else { return };
-    for name in ["01.png", "maxicode/1.png", "maxicode/MODE3.png", "maxicode/MODE5.png"] {
-        assert_eq!(detect(&open(folder.join(name))), None, "{name}");
-    }
 }
 
 fn features(image: &GrayImage) -> Option<Features> {
