@@ -2,7 +2,7 @@
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default)
 //! adds `io` (readers, writers and pictures), `map` (grid maps), and of `nav` what plans and follows paths; features of
-//! their own add `image` (camera images).
+//! their own add `image` (camera images) and `learn` (networks that learn from examples).
 //!
 //! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -13,6 +13,8 @@ pub mod flow;
 pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
+#[cfg(feature = "learn")]
+pub mod learn;
 #[cfg(feature = "std")]
 pub mod map;
 pub mod math;

@@ -1,11 +1,16 @@
-//! Grid maps of the plane, and what is done to them before a path is planned (feature `std`).
+//! Grid maps of the plane, what is found in them, and what is done to them before a path is planned; maps of signs
+//! (feature `std`).
 
 mod distance;
 mod grid;
 mod mark;
 mod morphology;
+mod octagon;
+mod signs;
 
 pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
 pub use mark::MarkScan;
 pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
+pub use octagon::{Octagon, OctagonSearch, Station, Stations};
+pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};
