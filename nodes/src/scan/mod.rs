@@ -12,7 +12,7 @@ mod message;
 mod segment;
 
 pub use container::{Container, ContainerSearch};
-pub use filter::{MedianFilter, RangeFilter};
+pub use filter::{MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{Point2, Pose2};
 pub use laser::{MAX_BEAMS, Scan};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};
