@@ -2,7 +2,8 @@
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default)
 //! adds `io` (readers, writers and pictures), `map` (grid maps), and of `nav` what plans and follows paths; features of
-//! their own add `image` (camera images) and `learn` (networks that learn from examples).
+//! their own add `image` (camera images), `learn` (networks that learn from examples) and `slam` (localization and
+//! mapping).
 //!
 //! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -20,3 +21,5 @@ pub mod map;
 pub mod math;
 pub mod nav;
 pub mod scan;
+#[cfg(feature = "slam")]
+pub mod slam;

@@ -7,6 +7,7 @@ mod mark;
 mod morphology;
 mod octagon;
 mod signs;
+mod occupancy;
 
 pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
@@ -14,3 +15,4 @@ pub use mark::MarkScan;
 pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
 pub use octagon::{Octagon, OctagonSearch, Station, Stations};
 pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};
+pub use occupancy::{OccupancyBuilder, RayCount};
