@@ -5,14 +5,14 @@ mod distance;
 mod grid;
 mod mark;
 mod morphology;
+mod occupancy;
 mod octagon;
 mod signs;
-mod occupancy;
 
 pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
 pub use mark::MarkScan;
 pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
+pub use occupancy::{OccupancyBuilder, RayCount};
 pub use octagon::{Octagon, OctagonSearch, Station, Stations};
 pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};
-pub use occupancy::{OccupancyBuilder, RayCount};
