@@ -1,4 +1,4 @@
-//! Vision as a robot uses it (thesis 4.3.1 to 4.3.3): targets, number signs, digits and bar codes, drawn and real ones.
+//! Vision as a robot uses it (thesis 4.3.2, 4.3.3): number signs, digits and bar codes, drawn and real ones.
 //!
 //! The real images are not part of the project: without them the tests say so and pass, unless they run with `CI=true`.
 
@@ -17,7 +17,6 @@ use std::{
 
 #[path = "../../examples/train_digits/pen.rs"]
 mod pen;
-mod targets;
 
 /// A folder of the data, or `None` (with a message) if it is not there.
 fn data(name: &str) -> Option<PathBuf> {

@@ -1,0 +1,55 @@
+use crate::Arena;
+use apex_nodes::{
+    image::{Camera, GrayImage},
+    nav::Twist,
+    scan::{Pose2, Scan},
+};
+use apex_rt::Time;
+use apex_sim::{Laser, Light, NotLevel, Photographer, Random};
+
+/// The scanner at the front of the robot, at the origin of its frame.
+pub const LASER: Laser = Laser::LMS100;
+
+/// The camera at the front: level, 40 cm above the floor, and 70° wide.
+pub fn camera() -> Camera {
+    Camera { position: [0.05, 0.0, 0.4], ..Camera::new(640, 480, 70.0_f32.to_radians()) }
+}
+
+/// What the robot sees at one moment.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct View {
+    /// From the camera.
+    pub image: GrayImage,
+    /// From the scanner.
+    pub scan: Scan,
+}
+
+/// The camera and the scanner of the robot.
+#[derive(Debug, Clone)]
+pub struct Eyes {
+    photographer: Photographer,
+}
+
+impl Eyes {
+    /// The eyes of the robot.
+    ///
+    /// # Errors
+    /// The [`camera`] is not level.
+    pub fn new() -> Result<Self, NotLevel> {
+        Ok(Self { photographer: Photographer::new(camera())? })
+    }
+
+    /// What is seen at a pose in the arena by a robot that turns, in rad/s.
+    pub fn see(&mut self, arena: &Arena, pose: &Pose2, turn: f32, light: &Light, random: &mut Random) -> View {
+        let mut view = View::default();
+        LASER.measure(&arena.world, pose, random, &mut view.scan);
+        let twist = Twist { omega: turn, ..Twist::ZERO };
+        self.photographer.take(&arena.scene, pose, &twist, light, Time::ZERO, random, &mut view.image);
+        view
+    }
+}
+
+/// Light as in a hall: some more, some less, some from the side.
+pub fn hall_light(random: &mut Random) -> Light {
+    Light { gain: random.uniform(0.6, 1.1), slope: random.uniform(-0.3, 0.3), haze: random.uniform(0.0, 20.0) }
+}
