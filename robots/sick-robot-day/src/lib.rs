@@ -4,6 +4,7 @@
 mod arena;
 mod eyes;
 mod hopper;
+pub mod measure;
 
 mod nodes;
 mod signs;

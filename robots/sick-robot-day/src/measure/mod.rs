@@ -1,0 +1,16 @@
+//! Measures the compiled perception on rendered images, one arena or hopper for each seed.
+
+mod album;
+mod cubes;
+mod figures;
+mod places;
+mod progress;
+mod signs;
+mod targets;
+
+pub use album::Album;
+pub use cubes::{Cubes, cubes};
+pub use figures::{Confusion, Times, percentile};
+pub use progress::Progress;
+pub use signs::{Signs, signs};
+pub use targets::{Targets, targets};
