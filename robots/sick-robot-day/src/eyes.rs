@@ -12,7 +12,7 @@ pub const LASER: Laser = Laser::LMS100;
 
 /// The camera at the front: level, 40 cm above the floor, and 70° wide.
 pub fn camera() -> Camera {
-    Camera { position: [0.05, 0.0, 0.4], ..Camera::new(640, 480, 70.0_f32.to_radians()) }
+    Camera { position: [0.05, 0.0, 0.4], ..Camera::new(960, 720, 70.0_f32.to_radians()) }
 }
 
 /// What the robot sees at one moment.

@@ -92,7 +92,7 @@ impl Hopper {
         let cube = full.then(|| Cube::random(random));
         let light = Light {
             // As many images are half as bright as twice as bright.
-            gain: random.uniform(0.12_f32.ln(), 2.2_f32.ln()).exp(),
+            gain: random.uniform(0.05_f32.ln(), 3.0_f32.ln()).exp(),
             slope: random.uniform(-0.8, 0.8),
             haze: random.uniform(0.0, 40.0),
         };

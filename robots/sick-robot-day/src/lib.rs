@@ -19,7 +19,8 @@ pub use signs::{NUMBER_WIDTH, TARGET_WIDTH};
 pub mod programs {
     pub use {
         cross::FindCross,
-        cube::{CubeByDeviation, CubeByNetwork, CubeNumber},
+        cube::{CubeByDeviation, CubeByNetwork},
+        number::CubeNumber,
         signs::FindSign,
         target::FindTarget,
     };
@@ -30,6 +31,10 @@ pub mod programs {
 
     mod cube {
         apex_rt::graph!("cube.afg");
+    }
+
+    mod number {
+        apex_rt::graph!("number.afg");
     }
 
     mod signs {

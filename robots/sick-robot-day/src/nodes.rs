@@ -25,11 +25,12 @@ pub struct NumberSign {
 /// The number signs of one image.
 pub type NumberSigns = heapless::Vec<NumberSign, MAX_REGIONS>;
 
-/// A digit as a number sign; ⊥ if no station has this number.
+/// A digit as a number sign; ⊥ if no station has this number, or it is wider than high, as no digit is.
 #[node]
 pub fn number_sign(class: &Class, region: &Region) -> Option<NumberSign> {
     let Class { number, confidence } = *class;
-    NUMBERS.contains(&number).then_some(NumberSign { number, confidence, region: *region })
+    let is_sign = NUMBERS.contains(&number) && region.width <= region.height;
+    is_sign.then_some(NumberSign { number, confidence, region: *region })
 }
 
 /// The sign that is likeliest to be one; ⊥ without signs.
@@ -50,9 +51,44 @@ pub fn is_cube(class: &Class) -> bool {
     class.number == 1
 }
 
-/// The delivery station that a bar code names; ⊥ if it is none of a cube.
+/// The delivery station that the bar code of a cube names; ⊥ if it names none, or there is no cube: patterns may look
+/// like bar codes.
 #[node]
-pub fn cube_number(code: &BarCode) -> Option<u32> {
+pub fn cube_number(code: &BarCode, full: &bool) -> Option<u32> {
     let number = code.text.parse().ok().filter(|number| NUMBERS.contains(number));
-    number.filter(|_| code.symbology == Symbology::Code39)
+    number.filter(|_| *full && code.symbology == Symbology::Code39)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_have_numbers_of_stations_and_are_upright() {
+        let class = |number| Class { number, confidence: 0.9 };
+        let [upright, level] =
+            [(20, 30), (30, 20)].map(|(width, height)| Region { width, height, ..Region::default() });
+        assert_eq!(number_sign(&class(4), &upright).map(|sign| sign.number), Some(4));
+        for (number, region) in [(0, upright), (5, upright), (4, level)] {
+            assert_eq!(number_sign(&class(number), &region), None);
+        }
+    }
+
+    #[test]
+    fn the_likeliest_sign_counts() {
+        let sign = |number, confidence| NumberSign { number, confidence, ..NumberSign::default() };
+        let signs = [sign(1, 0.9), sign(2, 0.99), sign(3, 0.95)].into();
+        assert_eq!((clearest(&signs), clearest(&NumberSigns::new())), (Some(sign(2, 0.99)), None));
+    }
+
+    #[test]
+    fn only_bar_codes_of_cubes_name_stations() {
+        let code = |text: &str, symbology| BarCode { text: text.to_owned(), symbology };
+        assert_eq!(cube_number(&code("3", Symbology::Code39), &true), Some(3));
+        for text in ["0", "5", "33", "", "A"] {
+            assert_eq!(cube_number(&code(text, Symbology::Code39), &true), None, "{text}");
+        }
+        assert_eq!(cube_number(&code("3", Symbology::Code39), &false), None);
+        assert_eq!(cube_number(&code("3", Symbology::Code128), &true), None);
+    }
 }

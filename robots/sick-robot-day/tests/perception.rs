@@ -134,8 +134,10 @@ fn other_rings_are_no_targets() {
 fn odd_images() -> Vec<GrayImage> {
     let mut random = Random::new(2);
     let noise = ImageBuffer::from_fn(320, 240, |_, _| Luma([random.bits() as u8]));
-    let flat = |size: (u32, u32)| [0, 255].map(|gray| ImageBuffer::from_pixel(size.0, size.1, Luma([gray])).into());
-    [(0, 0), (1, 1), (640, 1), (100, 100), (640, 480)].into_iter().flat_map(flat).chain([noise.into()]).collect()
+    let flat =
+        |(width, height): (u32, u32)| [0, 255].map(|gray| ImageBuffer::from_pixel(width, height, Luma([gray])).into());
+    let whole = (camera().width, camera().height);
+    [(0, 0), (1, 1), (640, 1), (100, 100), whole].into_iter().flat_map(flat).chain([noise.into()]).collect()
 }
 
 #[test]
