@@ -9,7 +9,7 @@ use apex_rt::Time;
 use apex_sim::{Light, Look, Panel, Photographer, Picture, Random, Scene, World};
 use image::{ImageBuffer, Luma};
 use sick_robot_day::{
-    Arena, Eyes, Hopper, LASER, NumberSign, TARGET_HEIGHT, TARGET_WIDTH, View, camera, hall_light,
+    Arena, Eyes, HOPPER_SIZE, Hopper, LASER, NumberSign, TARGET_HEIGHT, TARGET_WIDTH, View, camera, hall_light,
     programs::{CubeByDeviation, CubeByNetwork, CubeNumber, FindCross, FindSign, FindTarget},
 };
 use std::{f32::consts::PI, path::Path};
@@ -52,30 +52,30 @@ fn close(found: &Pose2, truth: &Pose2) -> bool {
 fn targets_are_located_at_one_metre() {
     let mut program = FindTarget::new();
     let mut found = 0;
-    for seed in 0..24 {
+    for seed in 0..16 {
         let (view, truth) = view(seed, seed as usize % 8, 1.0);
         if let Some(pose) = locate(&mut program, view) {
             assert!(close(&pose, &truth), "seed {seed}: {pose:?} instead of {truth:?}");
             found += 1;
         }
     }
-    println!("{found} of 24 targets located");
-    assert!(found >= 22);
+    println!("{found} of 16 targets located");
+    assert!(found >= 15);
 }
 
 #[test]
 fn signs_are_read_and_located_at_two_metres() {
     let mut program = FindSign::new();
     let mut right = 0;
-    for seed in 0..24 {
+    for seed in 0..12 {
         let number = seed as usize % 4;
         let (view, truth) = view(seed, 4 + number, 2.0);
         let (sign, pose) = read(&mut program, view);
         let is_right = sign.is_some_and(|sign| sign.number as usize == number + 1);
         right += u32::from(is_right && pose.is_some_and(|pose| close(&pose, &truth)));
     }
-    println!("{right} of 24 signs read and located");
-    assert!(right >= 20);
+    println!("{right} of 12 signs read and located");
+    assert!(right >= 10);
 }
 
 /// A wall 1.5 m ahead with a picture on it.
@@ -130,13 +130,12 @@ fn other_rings_are_no_targets() {
     }
 }
 
-/// Images of nothing, of wrong sizes, and of noise.
-fn odd_images() -> Vec<GrayImage> {
+/// Images of nothing, of the right size and of wrong ones, and of noise.
+fn odd_images(whole: (u32, u32)) -> Vec<GrayImage> {
     let mut random = Random::new(2);
     let noise = ImageBuffer::from_fn(320, 240, |_, _| Luma([random.bits() as u8]));
     let flat =
         |(width, height): (u32, u32)| [0, 255].map(|gray| ImageBuffer::from_pixel(width, height, Luma([gray])).into());
-    let whole = (camera().width, camera().height);
     [(0, 0), (1, 1), (640, 1), (100, 100), whole].into_iter().flat_map(flat).chain([noise.into()]).collect()
 }
 
@@ -144,22 +143,20 @@ fn odd_images() -> Vec<GrayImage> {
 fn after_odd_views_stations_are_found_again() {
     let (mut targets, mut signs) = (FindTarget::new(), FindSign::new());
     let (good, truth) = view(3, 5, 1.5);
-    let mut check = |view: View, what: &str| {
-        assert_eq!(locate(&mut targets, view.clone()), None, "{what}");
-        assert_eq!(read(&mut signs, view), (None, None), "{what}");
-        let found = locate(&mut targets, good.clone()).expect("a target");
-        let (sign, pose) = read(&mut signs, good.clone());
-        assert!(close(&found, &truth) && pose.is_some_and(|pose| close(&pose, &truth)), "after {what}");
-        assert_eq!(sign.map(|sign| sign.number), Some(2), "after {what}");
-    };
-    for image in odd_images() {
-        let what = format!("{image:?}");
-        check(View { image, scan: good.scan.clone() }, &what);
-    }
-    check(View { image: good.image.clone(), scan: Scan::default() }, "a scan without beams");
+    let images = odd_images((camera().width, camera().height));
+    let mut views: Vec<View> = images.into_iter().map(|image| View { image, scan: good.scan.clone() }).collect();
     let mut blind = good.scan.clone();
     blind.ranges.iter_mut().for_each(|range| *range = f32::INFINITY);
-    check(View { image: good.image.clone(), scan: blind }, "a scan without echoes");
+    views.extend([Scan::default(), blind].map(|scan| View { image: good.image.clone(), scan }));
+    for view in views {
+        let what = format!("{:?} and {} beams", view.image, view.scan.ranges.len());
+        assert_eq!(locate(&mut targets, view.clone()), None, "{what}");
+        assert_eq!(read(&mut signs, view), (None, None), "{what}");
+    }
+    let found = locate(&mut targets, good.clone()).expect("a target");
+    let (sign, pose) = read(&mut signs, good);
+    assert!(close(&found, &truth) && pose.is_some_and(|pose| close(&pose, &truth)));
+    assert_eq!(sign.map(|sign| sign.number), Some(2));
 }
 
 /// What the three graphs of the hopper say: full by the deviation, full by the network, and the number.
@@ -175,18 +172,19 @@ fn look(image: &GrayImage) -> (Option<bool>, Option<bool>, Option<u32>) {
 }
 
 #[test]
-fn cubes_are_seen_and_read() {
+fn cubes_are_seen_and_read_in_good_light() {
     let (mut right, mut read) = (0, 0);
-    for seed in 0..40 {
+    for seed in 0..20 {
         let mut random = Random::new(seed);
         let hopper = Hopper::random(true, seed % 2 == 0, &mut random);
+        let hopper = Hopper { light: Light::default(), noise: 2.0, ..hopper };
         let (_, full, number) = look(&hopper.photo(&mut random));
         right += u32::from(full == Some(hopper.cube.is_some()));
         assert!(number.is_none_or(|n| hopper.cube.is_some_and(|cube| cube.number == n)), "seed {seed}: {number:?}");
         read += u32::from(number.is_some());
     }
-    println!("{right} of 40 hoppers right, {read} of 20 bar codes read");
-    assert!(right >= 38 && read >= 10);
+    println!("{right} of 20 hoppers right, {read} of 10 bar codes read");
+    assert!(right >= 19 && read >= 6);
 }
 
 #[test]
@@ -212,7 +210,7 @@ fn the_same_seed_is_the_same_hopper() {
 
 #[test]
 fn odd_images_of_the_hopper_hold_no_number() {
-    for image in odd_images() {
+    for image in odd_images(HOPPER_SIZE) {
         let (deviation, _, number) = look(&image);
         assert_eq!((deviation.is_none(), number), (image.pixels.is_empty(), None), "{image:?}");
     }
