@@ -1,16 +1,25 @@
 //! The node library of Apex: one module per field.
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default)
-//! adds `io` (readers, writers and pictures) and `map` (grid maps).
+//! adds `io` (readers, writers and pictures), `map` (grid maps), and of `nav` what plans and follows paths; features of
+//! their own add `image` (camera images), `learn` (networks that learn from examples) and `slam` (localization and
+//! mapping).
 //!
 //! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 pub mod flow;
+#[cfg(feature = "image")]
+pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
+#[cfg(feature = "learn")]
+pub mod learn;
 #[cfg(feature = "std")]
 pub mod map;
 pub mod math;
+pub mod nav;
 pub mod scan;
+#[cfg(feature = "slam")]
+pub mod slam;

@@ -11,7 +11,7 @@ use std::{
 const MAX_LINE: u64 = 1 << 20;
 
 /// Reads a text file line by line; one whose name ends in `.gz` is unpacked on the way.
-pub(super) struct Lines {
+pub(crate) struct Lines {
     path: PathBuf,
     reader: Box<dyn BufRead + Send>,
     line: String,

@@ -13,5 +13,7 @@ mod scan_log;
 pub use csv::{CsvLog, CsvReader};
 pub use error::{ReadError, WriteError};
 pub use figure::ScanFigure;
+#[cfg(feature = "slam")]
+pub(crate) use lines::Lines;
 pub use picture::ScanPicture;
 pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};

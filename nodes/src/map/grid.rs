@@ -27,7 +27,7 @@ pub struct Cell {
 }
 
 /// A value for each cell of a raster, row by row from the least y.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Grid<T> {
     raster: Raster,
     cells: Vec<T>,
@@ -164,6 +164,13 @@ impl<T: Clone> Grid<T> {
         self.cells.resize(count, value);
         Ok(())
     }
+
+    /// Takes on the raster of another grid, with the same value in all cells, in the storage that it has.
+    pub fn reset_like<U>(&mut self, other: &Grid<U>, value: T) {
+        self.raster = other.raster;
+        self.cells.clear();
+        self.cells.resize(other.cells.len(), value);
+    }
 }
 
 impl<T> Grid<T> {
@@ -208,6 +215,18 @@ impl<T> Grid<T> {
     }
 }
 
+impl<T: Clone> Clone for Grid<T> {
+    fn clone(&self) -> Self {
+        Self { raster: self.raster, cells: self.cells.clone() }
+    }
+
+    /// As [`clone`](Self::clone), in the storage that it has.
+    fn clone_from(&mut self, other: &Self) {
+        self.raster = other.raster;
+        self.cells.clone_from(&other.cells);
+    }
+}
+
 /// Without cells.
 impl<T> Default for Grid<T> {
     fn default() -> Self {
@@ -243,6 +262,15 @@ mod tests {
         *grid.get_mut(Cell::new(3, 1)).expect("inside") = 7;
         assert_eq!((grid.at(Point2::new(0.9, 2.6)), grid.get(Cell::new(4, 0))), (Some(&7), None));
         assert_eq!(grid.iter().filter(|(_, v)| **v == 7).map(|(cell, _)| cell).collect::<Vec<_>>(), [Cell::new(3, 1)]);
+    }
+
+    #[test]
+    fn a_grid_takes_on_the_raster_of_another() {
+        let mut grid = Grid::new(raster(), 7).expect("twelve cells");
+        grid.reset_like(&Grid::<()>::default(), 1);
+        assert!(grid.cells().is_empty());
+        grid.reset_like(&Grid::new(raster(), 'x').expect("twelve cells"), 2);
+        assert_eq!((grid.raster(), grid.cells()), (&raster(), [2; 12].as_slice()));
     }
 
     #[test]

@@ -1,5 +1,18 @@
-//! Grid maps of the plane (feature `std`).
+//! Grid maps of the plane, what is found in them, and what is done to them before a path is planned; maps of signs
+//! (feature `std`).
 
+mod distance;
 mod grid;
+mod mark;
+mod morphology;
+mod occupancy;
+mod octagon;
+mod signs;
 
+pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
+pub use mark::MarkScan;
+pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
+pub use occupancy::{OccupancyBuilder, RayCount};
+pub use octagon::{Octagon, OctagonSearch, Station, Stations};
+pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};

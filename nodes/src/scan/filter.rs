@@ -1,4 +1,4 @@
-use super::Scan;
+use super::{Point2, Scan, Segments};
 use apex_rt::{Out, node};
 use heapless::Vec;
 
@@ -25,6 +25,34 @@ impl RangeFilter {
         for range in &mut filtered.ranges {
             if !scan.is_measured(*range) || *range < self.min || *range > self.max {
                 *range = f32::NAN;
+            }
+        }
+    }
+}
+
+/// Marks as not measured (NaN) the beams of segments whose ends lie less than `min_length` apart (thesis 4.3.5).
+///
+/// What is left are walls: after `JumpDistance`, this takes other robots out of a scan, so that they do not get into
+/// a map. The segments have to be those of the scan.
+#[node]
+#[derive(Debug, Clone)]
+pub struct ShortSegmentFilter {
+    /// Shortest distance between the first and the last point of a segment that is kept (S_min).
+    #[param(unit = "m", default = 1.2, range = 0.0..=100.0)]
+    min_length: f32,
+}
+
+#[node]
+impl ShortSegmentFilter {
+    fn process(&mut self, scan: &Scan, segments: &Segments, filtered: &mut Out<Scan>) {
+        let filtered = filtered.get_mut();
+        filtered.clone_from(scan);
+        let end = |beam: u16| scan.range(beam.into()).map(|r| Point2::polar(r, scan.angle(beam.into())));
+        for segment in segments {
+            let length = end(segment.first).zip(end(segment.last)).map_or(0.0, |(a, b)| (a - b).norm());
+            if length < self.min_length {
+                let beams = filtered.ranges.iter_mut().take(usize::from(segment.last) + 1);
+                beams.skip(segment.first.into()).for_each(|range| *range = f32::NAN);
             }
         }
     }
@@ -116,6 +144,31 @@ mod tests {
         node.process(&scan(&[f32::NAN, 2.0, f32::NAN, 3.0]), &mut out);
         assert_eq!(measured(&out), [None, Some(2.0), None, Some(2.0)]);
         node.process(&scan(&[]), &mut out);
+        assert_eq!(measured(&out), []);
+    }
+
+    #[test]
+    fn short_segments_are_not_measured() {
+        use super::super::JumpDistance;
+        // A wall at x = 2 m, and a robot of 40 cm before it.
+        let mut wall = Scan { angle_min: -0.6, angle_increment: 0.05, ..Scan::default() };
+        for beam in 0..25 {
+            let distance = if (9..=15).contains(&beam) { 1.2 } else { 2.0 };
+            wall.ranges.push(distance / libm::cosf(wall.angle(beam))).expect("few beams");
+        }
+        let mut segments = Out::new();
+        JumpDistance::construct((0.1, 1)).process(&wall, &mut segments).expect("three segments");
+        let segments = segments.get().expect("segments");
+        assert_eq!(segments.len(), 3);
+        for (min_length, kept) in [(0.3, 25), (0.5, 18), (1.2, 0)] {
+            let mut out = Out::new();
+            ShortSegmentFilter::construct((min_length,)).process(&wall, segments, &mut out);
+            assert_eq!(measured(&out).iter().flatten().count(), kept, "{min_length}");
+        }
+        // Segments of another scan.
+        let mut out = Out::new();
+        let empty = Scan::default();
+        ShortSegmentFilter::construct((9.0,)).process(&empty, segments, &mut out);
         assert_eq!(measured(&out), []);
     }
 }

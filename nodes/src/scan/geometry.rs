@@ -101,6 +101,11 @@ impl Pose2 {
         Point2::new(self.x, self.y)
     }
 
+    /// Whether all is finite.
+    pub const fn is_finite(&self) -> bool {
+        self.x.is_finite() && self.y.is_finite() && self.theta.is_finite()
+    }
+
     /// A point given in this frame, in the outer frame.
     pub fn to_outer(&self, point: Point2) -> Point2 {
         let (sin, cos) = libm::sincosf(self.theta);

@@ -9,10 +9,12 @@ mod geometry;
 mod laser;
 #[cfg(feature = "record")]
 mod message;
+mod mount;
 mod segment;
 
 pub use container::{Container, ContainerSearch};
-pub use filter::{MedianFilter, RangeFilter};
+pub use filter::{MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{Point2, Pose2};
 pub use laser::{MAX_BEAMS, Scan};
+pub use mount::{MergeScans, MountScan, OtherBeams};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};

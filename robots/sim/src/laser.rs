@@ -19,21 +19,30 @@ pub struct Laser {
     pub dropout: f32,
 }
 
-/// A safety scanner like the SICK S300 of the thesis (6.6): 0.5°, here over 270°.
+/// The safety scanner of the thesis (6.6): an [`S300`](Laser::S300).
 impl Default for Laser {
     fn default() -> Self {
-        Self {
-            field_of_view: 1.5 * PI,
-            resolution: PI / 360.0,
-            range_min: 0.05,
-            range_max: 30.0,
-            noise: 0.01,
-            dropout: 0.005,
-        }
+        Self::S300
     }
 }
 
 impl Laser {
+    /// A SICK LMS100: 270° at 0.5°, up to 20 m, with a statistical error of 12 mm.
+    pub const LMS100: Self = Self {
+        field_of_view: 1.5 * PI,
+        resolution: PI / 360.0,
+        range_min: 0.05,
+        range_max: 20.0,
+        noise: 0.012,
+        dropout: 0.005,
+    };
+
+    /// A SICK TiM551: 270° at 1°, up to 10 m, with a statistical error of 20 mm.
+    pub const TIM551: Self = Self { resolution: PI / 180.0, range_max: 10.0, noise: 0.02, ..Self::LMS100 };
+
+    /// A SICK S300, a safety scanner: 270° at 0.5°, up to 30 m.
+    pub const S300: Self = Self { range_max: 30.0, noise: 0.01, ..Self::LMS100 };
+
     /// The number of beams, at most [`MAX_BEAMS`].
     pub fn beams(&self) -> usize {
         let intervals = libm::roundf(self.field_of_view / self.resolution);

@@ -37,18 +37,27 @@ impl World {
         self.walls.push(Wall { a, b });
     }
 
+    /// Adds the sides of a polygon.
+    pub fn polygon(&mut self, corners: &[Point2]) {
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).for_each(|(a, b)| self.wall(*a, *b));
+    }
+
     /// Adds a disc.
     pub fn disc(&mut self, centre: Point2, radius: f32) {
         self.discs.push(Disc { centre, radius });
+    }
+
+    /// The discs, to be moved.
+    pub fn discs_mut(&mut self) -> &mut [Disc] {
+        &mut self.discs
     }
 
     /// Adds the four sides of a box with its centre at `pose`.
     pub fn block(&mut self, pose: &Pose2, length: f32, width: f32) {
         let corners = [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
             .map(|(x, y)| pose.to_outer(Point2::new(x * length, y * width)));
-        for i in 0..4 {
-            self.wall(corners[i], corners[(i + 1) % 4]);
-        }
+        self.polygon(&corners);
     }
 
     /// All walls.

@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 /// A stream of pseudo-random numbers (SplitMix64; Steele, Lea, Flood 2014). Not for secrets.
 ///
-/// Written out here, so that neither a new version of a library nor the platform can change a simulation.
+/// Written out here, so that neither a new version of a library nor the platform can change what follows from a seed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Random {
     state: u64,
@@ -50,6 +50,7 @@ impl Random {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::vec::Vec;
 
     #[test]
     fn the_stream_is_the_published_one() {

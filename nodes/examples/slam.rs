@@ -1,0 +1,114 @@
+//! Localization and mapping on recordings: `slam FOLDER [OUT]` prints how far the poses are from the reference, and how
+//! long it took. With a second folder it draws each map with the way of the robot in it.
+
+#[path = "../tests/slam/recordings.rs"]
+mod recordings;
+
+use apex_nodes::{
+    map::{Grid, Occupancy, OccupancyBuilder},
+    scan::Point2,
+    slam::{Mapper, Pose, PoseGraph, Settings, selected_scans},
+};
+use plotters::prelude::*;
+use recordings::{Recording, errors, fr079, intel, play};
+use std::{
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+fn main() {
+    let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
+    let Some(folder) = arguments.next() else {
+        eprintln!("usage: slam FOLDER [OUT]");
+        std::process::exit(2);
+    };
+    let out = arguments.next();
+    optimize(&folder);
+    println!(
+        "{:24}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}",
+        "median and largest error", "odom", "", "slam", "", "scans", "kept", "loops", "ms/kept"
+    );
+    for (name, recording) in [
+        ("Intel, wheels", intel(&folder)),
+        ("Freiburg 079, as is", fr079(&folder, 0.0)),
+        ("Freiburg 079, noisy", fr079(&folder, 1.0)),
+    ] {
+        let (mapper, estimate, slowest) = run(name, &recording);
+        if let Some(out) = &out {
+            let file = out.join(format!("{}.svg", name.replace([',', ' '], "")));
+            draw(&file, &mapper, &estimate).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        }
+        time_of_map(&mapper, slowest);
+    }
+}
+
+/// The graph of the Intel Research Lab, against its known optimum.
+fn optimize(folder: &Path) {
+    let read = |name: &str| PoseGraph::read_g2o(folder.join(name)).unwrap_or_else(|e| panic!("{e}"));
+    let (mut graph, optimum) = (read("input_INTEL.g2o"), read("input_INTEL_optimized.g2o").cost());
+    let (before, start) = (graph.cost(), Instant::now());
+    let result = graph.optimize(50);
+    let time = start.elapsed();
+    let (poses, steps, cost) = (graph.poses().len(), result.steps, result.cost);
+    println!(
+        "graph of {poses} poses: cost {before:.2} -> {cost:.4} (optimum {optimum:.4}), {steps} steps, {time:.1?}\n"
+    );
+}
+
+fn run(name: &str, recording: &Recording) -> (Mapper, Vec<Pose>, Duration) {
+    let start = Instant::now();
+    let (mapper, estimate, slowest) = play(recording, Settings::default());
+    let time = start.elapsed();
+    let odometry: Vec<Pose> = recording.scans.iter().map(|(odometry, _)| *odometry).collect();
+    let before = errors(&odometry, &recording.reference);
+    let after = errors(&estimate, &recording.reference);
+    let (middle, last) = (before.len() / 2, before.len() - 1);
+    println!(
+        "{name:24}{:8.3}{:8.3}{:8.3}{:8.3}{:8}{:8}{:8}{:9.2}",
+        before[middle],
+        before[last],
+        after[middle],
+        after[last],
+        recording.scans.len(),
+        mapper.scans().len(),
+        mapper.loops(),
+        1e3 * time.as_secs_f64() / mapper.scans().len() as f64
+    );
+    (mapper, estimate, slowest)
+}
+
+/// Prints how long the bounded map takes after few scans and after all, and the slowest scan.
+fn time_of_map(mapper: &Mapper, slowest: Duration) {
+    let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
+    let mut time = |count: usize| {
+        let start = Instant::now();
+        let scans = selected_scans(count);
+        mapper.write_map(scans.clone(), Point2::default(), 0.05, &mut builder, &mut map).expect("a map of a building");
+        format!("{:.1?} from {} of {count} scans", start.elapsed(), scans.count())
+    };
+    println!("    slowest scan {slowest:.1?}; maps: {}, {}", time(200), time(mapper.scans().len()));
+}
+
+/// Draws the map of all scans, and the way of the robot.
+fn draw(file: &Path, mapper: &Mapper, way: &[Pose]) -> Result<(), Box<dyn std::error::Error>> {
+    let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
+    mapper.write_map(0..mapper.scans().len(), Point2::default(), 0.1, &mut builder, &mut map)?;
+    let raster = *map.raster();
+    if let Some(folder) = file.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    let size = (raster.width as u32 * 2, raster.height as u32 * 2);
+    let area = SVGBackend::new(file, size).into_drawing_area();
+    area.fill(&WHITE)?;
+    let pixel = |p: Point2| {
+        let cells = (p - raster.corner).scaled(2.0 / raster.resolution);
+        (cells.x as i32, size.1 as i32 - cells.y as i32)
+    };
+    for (cell, _) in map.iter().filter(|(_, o)| **o == Occupancy::Occupied) {
+        let (x, y) = pixel(raster.centre(cell));
+        area.draw(&Rectangle::new([(x - 1, y - 1), (x + 1, y + 1)], BLACK.filled()))?;
+    }
+    let point = |p: &Pose| pixel(Point2::new(p.translation.x as f32, p.translation.y as f32));
+    area.draw(&PathElement::new(way.iter().map(point).collect::<Vec<_>>(), RED))?;
+    Ok(area.present()?)
+}

@@ -1,0 +1,27 @@
+//! Camera images (feature `image`): the detection of targets by their cross (thesis 4.3.1), and bar codes (4.3.3,
+//! feature `barcode`).
+//!
+//! Pixels are counted from the upper left: u to the right, v down; the centre of the first pixel is (0, 0). An image
+//! without pixels, or of another size than its camera has, gives ⊥ or an empty result, as each node says.
+
+#[cfg(feature = "barcode")]
+mod barcode;
+mod camera;
+mod edges;
+mod hough;
+mod mask;
+#[cfg(feature = "record")]
+mod message;
+mod picture;
+mod region;
+mod target;
+
+#[cfg(feature = "barcode")]
+pub use barcode::{BarCode, Symbology, bar_code};
+pub use camera::Camera;
+pub use edges::Edges;
+pub use hough::{Line, Lines, MAX_LINES, ProbabilisticHough};
+pub use mask::LaserMask;
+pub use picture::{ColorImage, GrayImage, Image, to_gray};
+pub use region::{BlackHat, Components, MAX_REGIONS, Normalize, Region, Regions, largest};
+pub use target::{Target, TargetLines, TargetPose, region_target};

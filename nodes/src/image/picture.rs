@@ -1,0 +1,112 @@
+use ::image::{ImageBuffer, Luma, Pixel, Rgb};
+use apex_rt::{Out, Time, node};
+use std::fmt;
+
+/// A picture with the time at which it was taken. The default has no pixels.
+pub struct Image<P: Pixel> {
+    /// When it was taken.
+    pub stamp: Time,
+    /// Row by row from the top, each from the left.
+    pub pixels: ImageBuffer<P, Vec<P::Subpixel>>,
+}
+
+/// Intensities from 0 (black) to 255.
+pub type GrayImage = Image<Luma<u8>>;
+
+/// Red, green and blue from 0 to 255.
+pub type ColorImage = Image<Rgb<u8>>;
+
+impl<P: Pixel> Image<P> {
+    /// Width and height.
+    pub fn size(&self) -> (u32, u32) {
+        self.pixels.dimensions()
+    }
+
+    /// Makes it an image of `width` by `height` zeros (black), in the storage that it has.
+    pub fn reset(&mut self, stamp: Time, (width, height): (u32, u32)) {
+        self.stamp = stamp;
+        let mut storage = std::mem::take(&mut self.pixels).into_raw();
+        storage.clear();
+        let samples = width as usize * height as usize * usize::from(P::CHANNEL_COUNT);
+        storage.resize(samples, ::image::Primitive::DEFAULT_MIN_VALUE);
+        self.pixels = ImageBuffer::from_raw(width, height, storage).unwrap_or_default();
+    }
+}
+
+/// Keeps its storage when it is overwritten.
+impl<P: Pixel> Clone for Image<P> {
+    fn clone(&self) -> Self {
+        Self { stamp: self.stamp, pixels: self.pixels.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.stamp = source.stamp;
+        self.pixels.clone_from(&source.pixels);
+    }
+}
+
+/// Without pixels.
+impl<P: Pixel> Default for Image<P> {
+    fn default() -> Self {
+        Self { stamp: Time::ZERO, pixels: ImageBuffer::default() }
+    }
+}
+
+impl<P: Pixel> PartialEq for Image<P> {
+    fn eq(&self, other: &Self) -> bool {
+        self.stamp == other.stamp && self.size() == other.size() && self.pixels.as_raw() == other.pixels.as_raw()
+    }
+}
+
+/// The size stands for the pixels.
+impl<P: Pixel> fmt::Debug for Image<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (width, height) = self.size();
+        f.debug_struct("Image").field("stamp", &self.stamp).field("width", &width).field("height", &height).finish()
+    }
+}
+
+impl<P: Pixel> From<ImageBuffer<P, Vec<P::Subpixel>>> for Image<P> {
+    fn from(pixels: ImageBuffer<P, Vec<P::Subpixel>>) -> Self {
+        Self { stamp: Time::ZERO, pixels }
+    }
+}
+
+/// The luminance of a colour image (ITU-R BT.709).
+#[node]
+pub fn to_gray(image: &ColorImage, gray: &mut Out<GrayImage>) {
+    let gray = gray.get_mut();
+    gray.reset(image.stamp, image.size());
+    for (gray, color) in gray.pixels.pixels_mut().zip(image.pixels.pixels()) {
+        *gray = color.to_luma();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gray_is_as_light_as_the_colour_and_as_large() {
+        let color = ColorImage::from(ImageBuffer::from_fn(3, 2, |x, y| Rgb([x as u8 * 100, y as u8 * 100, 0])));
+        let mut out = Out::new();
+        to_gray(&color, &mut out);
+        let gray = out.get().expect("an image");
+        assert_eq!((gray.size(), gray.pixels[(0, 0)]), ((3, 2), Luma([0])));
+        assert!(gray.pixels[(0, 1)].0[0] > gray.pixels[(1, 0)].0[0], "green is lighter than red");
+        to_gray(&ColorImage::default(), &mut out);
+        assert_eq!(out.get().map(Image::size), Some((0, 0)));
+    }
+
+    #[test]
+    fn an_image_is_overwritten_in_its_storage() {
+        let mut image = GrayImage::from(ImageBuffer::from_pixel(4, 4, Luma([7])));
+        let storage = image.pixels.as_raw().as_ptr();
+        image.reset(Time::from_millis(3), (2, 5));
+        assert_eq!((image.size(), image.pixels.as_raw().as_ptr()), ((2, 5), storage));
+        assert!(image.pixels.pixels().all(|p| p.0 == [0]));
+        let small = GrayImage::from(ImageBuffer::from_pixel(2, 1, Luma([1])));
+        image.clone_from(&small);
+        assert_eq!((&image, image.pixels.as_raw().as_ptr()), (&small, storage));
+    }
+}

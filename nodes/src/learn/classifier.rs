@@ -1,0 +1,83 @@
+use super::{Activity, BadModel, Features, Model};
+use apex_rt::{Out, node};
+
+/// What something was taken for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Class {
+    /// The number of the class.
+    pub number: u32,
+    /// How likely it is, from 0 to 1.
+    pub confidence: f32,
+}
+
+/// Tells the class of something from its features, by a multilayer perceptron (thesis 4.3.2, 4.3.3).
+///
+/// ⊥ if no class is likely enough, or there are not as many features as the network has inputs, or one is no number.
+/// Fails if the model cannot be read.
+#[node]
+#[derive(Debug, Clone)]
+pub struct Classifier {
+    /// The bytes of the [`Model`]: a constant such as [`DIGITS`](super::DIGITS), or `include_bytes!` of a file.
+    #[param]
+    model: &'static [u8],
+    /// The least confidence.
+    #[param(default = 0.5, range = 0.0..=1.0)]
+    threshold: f32,
+    loaded: Option<Model>,
+    activity: Activity,
+}
+
+#[node]
+impl Classifier {
+    fn process(&mut self, features: &Features, class: &mut Out<Class>) -> Result<(), BadModel> {
+        let network = match &mut self.loaded {
+            Some(model) => &model.network,
+            None => &self.loaded.insert(Model::from_bytes(self.model)?).network,
+        };
+        if features.len() == network.inputs() {
+            let probabilities = network.run(features, &mut self.activity);
+            let best = probabilities.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+            // False for NaN.
+            if let Some((number, confidence)) = best.filter(|(_, confidence)| *confidence >= self.threshold) {
+                class.set(Class { number: number as u32, confidence });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{learn::Mlp, math::Random};
+    use apex_rt::Construct;
+
+    /// A network that takes input 1 for class 1 and input 0 for class 0.
+    fn model() -> &'static [u8] {
+        let mut network = Mlp::new(&[1, 2], &mut Random::new(1));
+        network.layers_mut()[0].weights = vec![-4.0, 4.0];
+        network.layers_mut()[0].bias = vec![2.0, -2.0];
+        Model { provenance: String::new(), seed: 1, network }.to_bytes().leak()
+    }
+
+    fn classify(model: &'static [u8], features: &[f32]) -> Result<Option<u32>, BadModel> {
+        let mut out = Out::new();
+        Classifier::construct((model, 0.9)).process(&features.iter().copied().collect(), &mut out)?;
+        Ok(out.get().map(|class| class.number))
+    }
+
+    #[test]
+    fn says_the_class_or_bottom() {
+        assert_eq!(classify(model(), &[1.0]), Ok(Some(1)));
+        assert_eq!(classify(model(), &[0.0]), Ok(Some(0)));
+        for unclear in [&[0.5][..], &[], &[1.0, 1.0], &[f32::NAN]] {
+            assert_eq!(classify(model(), unclear), Ok(None), "{unclear:?}");
+        }
+    }
+
+    #[test]
+    fn a_bad_model_is_an_error() {
+        assert_eq!(classify(b"nothing", &[1.0]), Err(BadModel::Magic));
+    }
+}

@@ -1,0 +1,200 @@
+use super::{Cell, DistanceTransform, Grid, Occupancy, Raster};
+use crate::scan::{Point2, Pose2};
+use apex_rt::{Out, node};
+
+/// Marks every cell as occupied whose centre is within `radius` m of the centre of an occupied one, but for those
+/// within `kept` m of one of `around`. Their `distances` to the nearest occupied cell are as [`DistanceTransform`]
+/// writes them.
+pub fn grow(map: &mut Grid<Occupancy>, distances: &Grid<f32>, radius: f32, around: &[Point2], kept: f32) {
+    let raster = *map.raster();
+    let is_kept = |i: usize| {
+        let centre = raster.centre(Cell::new(i % raster.width, i / raster.width));
+        around.iter().any(|point| (*point - centre).norm_squared() <= kept * kept)
+    };
+    for (i, (cell, distance)) in map.cells_mut().iter_mut().zip(distances.cells()).enumerate() {
+        if *distance <= radius && !is_kept(i) {
+            *cell = Occupancy::Occupied;
+        }
+    }
+}
+
+/// Fills small unknown regions with what most of the cells around them are. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub struct UnknownRegions {
+    visited: Vec<bool>,
+    region: Vec<usize>,
+}
+
+/// What is around a region of unknown cells.
+#[derive(Debug, Default)]
+struct Rim {
+    free: usize,
+    occupied: usize,
+    touches_border: bool,
+}
+
+impl UnknownRegions {
+    /// Fills the regions of unknown cells, connected by their sides, that are no larger than `largest_area` m² and do
+    /// not reach the border of the map: with what most of the sides around them belong to, in doubt occupied.
+    pub fn close(&mut self, map: &mut Grid<Occupancy>, largest_area: f32) {
+        let raster = *map.raster();
+        // A cast of NaN gives 0, and one of too much the most.
+        let largest = (largest_area / (raster.resolution * raster.resolution) + 1e-3) as usize;
+        self.visited.clear();
+        self.visited.resize(map.cells().len(), false);
+        for i in 0..map.cells().len() {
+            if map.cells()[i] != Occupancy::Unknown || self.visited[i] {
+                continue;
+            }
+            let rim = self.explore(map, i);
+            if self.region.len() <= largest && !rim.touches_border {
+                let fill = if rim.free > rim.occupied { Occupancy::Free } else { Occupancy::Occupied };
+                self.region.iter().for_each(|&i| map.cells_mut()[i] = fill);
+            }
+        }
+    }
+
+    /// Collects the region of an unknown cell.
+    fn explore(&mut self, map: &Grid<Occupancy>, first: usize) -> Rim {
+        let mut rim = Rim::default();
+        self.region.clear();
+        self.region.push(first);
+        self.visited[first] = true;
+        let mut next = 0;
+        while let Some(&i) = self.region.get(next) {
+            next += 1;
+            let sides = sides(map.raster(), i);
+            rim.touches_border |= sides.contains(&None);
+            for side in sides.into_iter().flatten() {
+                match map.cells()[side] {
+                    Occupancy::Free => rim.free += 1,
+                    Occupancy::Occupied => rim.occupied += 1,
+                    Occupancy::Unknown if !self.visited[side] => {
+                        self.visited[side] = true;
+                        self.region.push(side);
+                    }
+                    Occupancy::Unknown => {}
+                }
+            }
+        }
+        rim
+    }
+}
+
+/// The cells at the four sides of a cell; `None` outside of the raster.
+fn sides(raster: &Raster, i: usize) -> [Option<usize>; 4] {
+    let (x, y, width) = (i % raster.width, i / raster.width, raster.width);
+    [
+        (x > 0).then(|| i - 1),
+        (x + 1 < width).then(|| i + 1),
+        (y > 0).then(|| i - width),
+        (y + 1 < raster.height).then(|| i + width),
+    ]
+}
+
+/// Fills small unknown regions inside of a map with what most of the cells around them are (thesis 4.3.6).
+#[node]
+#[derive(Debug, Clone)]
+pub struct CloseUnknown {
+    /// The largest region that is filled.
+    #[param(unit = "m^2", default = 0.25, range = 0.0..=100.0)]
+    largest_area: f32,
+    regions: UnknownRegions,
+}
+
+#[node]
+impl CloseUnknown {
+    fn process(&mut self, map: &Grid<Occupancy>, closed: &mut Out<Grid<Occupancy>>) {
+        let closed = closed.get_mut();
+        closed.clone_from(map);
+        self.regions.close(closed, self.largest_area);
+    }
+}
+
+/// Grows obstacles, so that paths may be planned as if the robot were a point (thesis 4.3.6).
+///
+/// Discs around start and goal stay as they are, so that a path may begin and end close to obstacles.
+#[node]
+#[derive(Debug, Clone)]
+pub struct GrowObstacles {
+    /// How far obstacles grow: the radius of the robot.
+    #[param(unit = "m", default = 0.35, range = 0.0..=10.0)]
+    radius: f32,
+    /// The radius of the discs that stay as they are.
+    #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
+    kept: f32,
+    transform: DistanceTransform,
+    distances: Grid<f32>,
+}
+
+#[node]
+impl GrowObstacles {
+    fn process(
+        &mut self,
+        map: &Grid<Occupancy>,
+        start: Option<&Pose2>,
+        goal: Option<&Pose2>,
+        grown: &mut Out<Grid<Occupancy>>,
+    ) {
+        self.transform.run(map, |cell| *cell == Occupancy::Occupied, &mut self.distances);
+        let grown = grown.get_mut();
+        grown.clone_from(map);
+        let nowhere = Point2::new(f32::NAN, f32::NAN);
+        let around = [start, goal].map(|pose| pose.map_or(nowhere, Pose2::position));
+        grow(grown, &self.distances, self.radius, &around, self.kept);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+
+    /// A map of cells of 1 m, the row of the least y first: `.` free, `#` occupied, `?` unknown.
+    fn map(rows: &[&str]) -> Grid<Occupancy> {
+        let raster = Raster { width: rows[0].len(), height: rows.len(), ..Raster::default() };
+        let mut map = Grid::new(raster, Occupancy::Unknown).expect("small");
+        for (cell, sign) in map.cells_mut().iter_mut().zip(rows.concat().bytes()) {
+            *cell = match sign {
+                b'.' => Occupancy::Free,
+                b'#' => Occupancy::Occupied,
+                _ => Occupancy::Unknown,
+            };
+        }
+        map
+    }
+
+    #[test]
+    fn obstacles_grow_by_the_radius() {
+        let grown = |start: Option<&Pose2>| {
+            let mut out = Out::new();
+            let mut node = GrowObstacles::construct((1.5, 0.6));
+            node.process(&map(&["......", "..#...", "......", "?....."]), start, None, &mut out);
+            out.get().expect("a map").clone()
+        };
+        assert_eq!(grown(None), map(&[".###..", ".###..", ".###..", "?....."]));
+        // Around the start nothing changes.
+        assert_eq!(grown(Some(&Pose2::new(1.5, 0.5, 0.0))), map(&["..##..", ".###..", ".###..", "?....."]));
+    }
+
+    #[test]
+    fn small_unknown_regions_are_filled() {
+        let closed = |largest_area| {
+            let mut out = Out::new();
+            let open = map(&["?.......", "...??.##", "...???#?", "......##", "........"]);
+            CloseUnknown::construct((largest_area,)).process(&open, &mut out);
+            out.get().expect("a map").clone()
+        };
+        // That on the right touches the border.
+        assert_eq!(closed(5.0), map(&["?.......", "......##", "......#?", "......##", "........"]));
+        assert_eq!(closed(4.9), map(&["?.......", "...??.##", "...???#?", "......##", "........"]));
+        assert_eq!(closed(f32::NAN), closed(0.0));
+    }
+
+    #[test]
+    fn the_inside_of_an_obstacle_is_occupied() {
+        let mut pillar = map(&[".....", ".###.", ".#?#.", ".###.", "....."]);
+        UnknownRegions::default().close(&mut pillar, 1.0);
+        assert_eq!(pillar.get(Cell::new(2, 2)), Some(&Occupancy::Occupied));
+    }
+}

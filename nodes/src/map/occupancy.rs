@@ -1,0 +1,158 @@
+use super::{Cell, Grid, Occupancy, Raster, TooManyCells};
+use crate::scan::Point2;
+
+/// What rays of a scanner have met in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RayCount {
+    /// Rays that reached the cell: those that ended in it, and those that went on.
+    pub passes: u32,
+    /// Rays that ended in it.
+    pub hits: u32,
+}
+
+/// Builds an occupancy grid from the rays of a scanner, by counting (as Karto does).
+///
+/// Keeps its storage from one map to the next.
+#[derive(Debug, Clone)]
+pub struct OccupancyBuilder {
+    least_passes: u32,
+    least_share: f32,
+    counts: Grid<RayCount>,
+}
+
+impl OccupancyBuilder {
+    /// A builder of maps in which a cell is known once `least_passes` rays have reached it, and occupied if at least
+    /// `least_share` of them ended there (0 … 1).
+    pub fn new(least_passes: u32, least_share: f32) -> Self {
+        Self { least_passes: least_passes.max(1), least_share, counts: Grid::default() }
+    }
+
+    /// Begins a new map.
+    ///
+    /// # Errors
+    /// The raster is too large, or has no size; the map stays as it is.
+    pub fn reset(&mut self, raster: Raster) -> Result<(), TooManyCells> {
+        self.counts.reset(raster, RayCount::default())
+    }
+
+    /// Adds a ray that starts at `from` and ended at `to`, in the frame of the map. A ray that ends outside counts as
+    /// far as the border; one that starts outside is left out, and so is one that is no number.
+    pub fn add(&mut self, from: Point2, to: Point2) {
+        let raster = *self.counts.raster();
+        let (Some(start), Some(end)) = (raster.cell(from), inside(&raster, from, to)) else { return };
+        for cell in Raster::line(start, end) {
+            if let Some(count) = self.counts.get_mut(cell) {
+                count.passes = count.passes.saturating_add(1);
+            }
+        }
+        if let Some(count) = raster.cell(to).and_then(|cell| self.counts.get_mut(cell)) {
+            count.hits = count.hits.saturating_add(1);
+        }
+    }
+
+    /// What was counted.
+    pub fn counts(&self) -> &Grid<RayCount> {
+        &self.counts
+    }
+
+    /// Writes what is known of each cell.
+    pub fn write(&self, map: &mut Grid<Occupancy>) {
+        // A grid of this raster was possible before.
+        if map.reset(*self.counts.raster(), Occupancy::Unknown).is_err() {
+            return;
+        }
+        for (cell, count) in map.cells_mut().iter_mut().zip(self.counts.cells()) {
+            *cell = self.occupancy(*count);
+        }
+    }
+
+    fn occupancy(&self, count: RayCount) -> Occupancy {
+        if count.passes < self.least_passes {
+            Occupancy::Unknown
+        } else if count.hits as f32 >= self.least_share * count.passes as f32 && count.hits > 0 {
+            Occupancy::Occupied
+        } else {
+            Occupancy::Free
+        }
+    }
+}
+
+/// A cell is known after 2 rays, and occupied if a tenth of them ended there: as Karto has it.
+impl Default for OccupancyBuilder {
+    fn default() -> Self {
+        Self::new(2, 0.1)
+    }
+}
+
+/// The last cell of the line between two points that is inside of a raster; the first point is.
+fn inside(raster: &Raster, from: Point2, to: Point2) -> Option<Cell> {
+    if let Some(cell) = raster.cell(to) {
+        return Some(cell);
+    }
+    let (corner, d) = (raster.corner, to - from);
+    // The share of the way to the border, along one axis, and half a cell less.
+    let share = |from: f32, d: f32, low: f32, cells: usize| {
+        let border =
+            if d > 0.0 { low + (cells as f32 - 0.5) * raster.resolution } else { low + 0.5 * raster.resolution };
+        if d == 0.0 { 1.0 } else { ((border - from) / d).max(0.0) }
+    };
+    let x = share(from.x, d.x, corner.x, raster.width);
+    let y = share(from.y, d.y, corner.y, raster.height);
+    raster.cell(from + d.scaled(x.min(y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn builder() -> OccupancyBuilder {
+        let mut builder = OccupancyBuilder::new(2, 0.5);
+        builder.reset(Raster { resolution: 1.0, width: 8, height: 4, ..Raster::default() }).expect("a few cells");
+        builder
+    }
+
+    /// The lowest rows of the map, as text.
+    fn rows(builder: &OccupancyBuilder) -> Vec<String> {
+        let mut map = Grid::default();
+        builder.write(&mut map);
+        let letter = |o: &Occupancy| match o {
+            Occupancy::Unknown => '?',
+            Occupancy::Free => '.',
+            Occupancy::Occupied => '#',
+        };
+        map.cells().chunks(8).map(|row| row.iter().map(letter).collect()).collect()
+    }
+
+    #[test]
+    fn rays_free_what_they_pass_and_occupy_where_they_end() {
+        let mut builder = builder();
+        for end in [5.5, 5.5, 6.5] {
+            builder.add(Point2::new(0.5, 0.5), Point2::new(end, 0.5));
+        }
+        assert_eq!(rows(&builder)[..2], [".....#??", "????????"]);
+        assert_eq!(builder.counts().get(Cell::new(5, 0)), Some(&RayCount { passes: 3, hits: 2 }));
+        builder.add(Point2::new(7.5, 0.5), Point2::new(0.5, 0.5));
+        builder.add(Point2::new(7.5, 0.5), Point2::new(0.5, 0.5));
+        assert_eq!(rows(&builder)[0], ".......?".replace('?', "."), "what moved away is free again");
+    }
+
+    #[test]
+    fn rays_are_cut_at_the_border() {
+        let mut builder = builder();
+        for _ in 0..2 {
+            builder.add(Point2::new(4.5, 1.5), Point2::new(1e9, 1.5));
+            builder.add(Point2::new(4.5, 1.5), Point2::new(4.5, -1e9));
+            builder.add(Point2::new(-0.5, 3.5), Point2::new(2.0, 3.5));
+            builder.add(Point2::new(0.5, 3.5), Point2::new(f32::NAN, 3.5));
+            builder.add(Point2::new(0.5, 3.5), Point2::new(f32::INFINITY, 3.5));
+        }
+        assert_eq!(rows(&builder), ["????.???", "????....", "????????", "????????"]);
+    }
+
+    #[test]
+    fn a_map_without_a_raster_has_no_cells() {
+        let mut builder = OccupancyBuilder::default();
+        builder.add(Point2::default(), Point2::new(1.0, 1.0));
+        assert!(rows(&builder).is_empty());
+    }
+}

@@ -1,0 +1,551 @@
+use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on};
+use crate::scan::{Point2, Pose2, Scan};
+use apex_rt::{Ctx, Event, Time, node};
+use core::f32::consts::{PI, TAU};
+use libm::remainderf;
+
+/// Less than this is no way that was made, in m.
+const PROGRESS: f32 = 0.02;
+/// So much way is a turn at the goal, in m/rad.
+const TURN: f32 = 0.1;
+
+/// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
+///
+/// A path begins it anew; `pose` is in the frame of the path, and ⊥ while no pose is known. The scan is in the frame of the
+/// robot; without one, nothing is in the way. It sends twists while it has a path, and drops it when it
+/// * has `reached` the goal,
+/// * is `blocked`: something stands on the path ahead, or the robot has made no way, for longer than its patience,
+/// * is `off_path`: too far away from it,
+/// * is no longer active.
+///
+/// What stands around the goal is not on the path, as a goal may be close to a wall.
+#[node]
+#[derive(Debug, Clone)]
+pub struct PathFollower {
+    /// How fast the offset from the path decays along it (k).
+    #[param(unit = "1/m", default = 2.0, range = 0.0..=100.0)]
+    convergence: f32,
+    /// The speed on a straight path far from everything (v_n).
+    #[param(unit = "m/s", default = 1.0, range = 0.0..=10.0)]
+    speed: f32,
+    /// The speed that it always keeps.
+    #[param(unit = "m/s", default = 0.05, range = 0.001..=1.0)]
+    slowest: f32,
+    /// How much curves ahead slow it down (K_κ).
+    #[param(unit = "1/rad", default = 0.5, range = 0.0..=100.0)]
+    turning_gain: f32,
+    /// How much its own rotation slows it down (K_ω).
+    #[param(unit = "s/rad", default = 0.2, range = 0.0..=100.0)]
+    rotation_gain: f32,
+    /// How much obstacles slow it down (K_o).
+    #[param(unit = "m", default = 0.1, range = 0.0..=100.0)]
+    obstacle_gain: f32,
+    /// How much the goal slows it down (K_g).
+    #[param(unit = "m", default = 0.2, range = 0.0..=100.0)]
+    goal_gain: f32,
+    /// How far ahead it looks for curves, and for obstacles on the path.
+    #[param(unit = "m", default = 1.5, range = 0.0..=100.0)]
+    look_ahead: f32,
+    /// How fast its velocity changes.
+    #[param(unit = "m/s^2", default = 1.0, range = 0.01..=100.0)]
+    acceleration: f32,
+    /// How fast its rotation changes.
+    #[param(unit = "rad/s^2", default = 3.0, range = 0.01..=100.0)]
+    rotation_acceleration: f32,
+    /// The fastest rotation.
+    #[param(unit = "rad/s", default = 1.5, range = 0.0..=20.0)]
+    max_rotation: f32,
+    /// Rotation per error of the heading.
+    #[param(unit = "1/s", default = 2.0, range = 0.0..=100.0)]
+    proportional: f32,
+    /// Rotation per error of the heading and second.
+    #[param(unit = "1/s^2", default = 0.0, range = 0.0..=100.0)]
+    integral: f32,
+    /// Rotation per change of the error.
+    #[param(default = 0.0, range = 0.0..=100.0)]
+    derivative: f32,
+    /// How long before the goal it turns to the heading of the goal; before that it looks along the path.
+    #[param(unit = "m", default = 1.0, range = 0.0..=1000.0)]
+    turn_within: f32,
+    /// How near to the goal is at the goal.
+    #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
+    tolerance: f32,
+    /// How near to the heading of the goal is right.
+    #[param(unit = "rad", default = 0.05, range = 0.001..=3.2)]
+    heading_tolerance: f32,
+    /// Farther away from the path than this it gives up.
+    #[param(unit = "m", default = 1.0, range = 0.01..=100.0)]
+    max_offset: f32,
+    /// What is this near to the path stands on it.
+    #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
+    clearance: f32,
+    /// How long something may stand on the path, and how long it may take to make some way.
+    #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
+    patience: f32,
+    path: Path,
+    progress: Progress,
+    motion: Motion,
+}
+
+/// How far a robot has come on its path.
+#[derive(Debug, Clone, Default)]
+struct Progress {
+    segment: usize,
+    /// The least that was left to do, in m, and since when.
+    least: Option<(f32, Time)>,
+    obstructed_since: Option<Time>,
+    /// The distance to the nearest obstacle, in m.
+    obstacle: Option<f32>,
+}
+
+/// How a robot moves just now.
+#[derive(Debug, Clone, Default)]
+struct Motion {
+    at: Option<Time>,
+    /// In the frame of the path, in m/s.
+    velocity: Point2,
+    /// In rad/s.
+    rotation: f32,
+    heading: Pid,
+}
+
+/// How a drive ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    Reached,
+    Blocked,
+    OffPath,
+}
+
+#[node]
+impl PathFollower {
+    #[allow(clippy::too_many_arguments, reason = "they are the ports")]
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        pose: Option<&Pose2>,
+        path: Option<&Path>,
+        scan: Option<&Scan>,
+        reached: Event<()>,
+        blocked: Event<()>,
+        off_path: Event<()>,
+    ) -> Option<Twist> {
+        if let Some(path) = path {
+            self.begin(path);
+        }
+        let (pose, goal) = (pose?, self.path.goal()?);
+        let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
+        // What is no number tells nothing: it waits for a better pose.
+        let Some(projection) = projection.filter(|_| pose.is_finite()) else { return Some(Twist::ZERO) };
+        self.progress.segment = projection.segment;
+        if let Some(scan) = scan {
+            self.look(scan, pose, &projection, ctx.now());
+        }
+        match self.end(pose, goal, &projection, ctx.now()) {
+            None => return Some(self.drive(pose, goal, &projection, ctx.now())),
+            Some(End::Reached) => reached.emit(()),
+            Some(End::Blocked) => blocked.emit(()),
+            Some(End::OffPath) => off_path.emit(()),
+        }
+        self.give_up();
+        Some(Twist::ZERO)
+    }
+
+    /// Drops the path.
+    #[on_deactivate]
+    fn give_up(&mut self) {
+        self.path.points.clear();
+        self.motion = Motion::default();
+    }
+
+    fn begin(&mut self, path: &Path) {
+        self.path.clone_from(path);
+        // A path of one point leads straight to it.
+        if let [point] = self.path.points[..] {
+            self.path.points.push(point);
+        }
+        self.progress = Progress::default();
+        self.motion.heading.reset();
+    }
+
+    /// How much of the path the projection is searched on, in m: a robot does not come farther between two poses.
+    fn reach(&self) -> f32 {
+        self.max_offset + self.look_ahead
+    }
+
+    /// Where the last piece of the path begins, on which it drives straight to the goal.
+    fn is_arriving(&self, projection: &Projection) -> bool {
+        projection.remaining <= 2.0 * self.tolerance
+    }
+
+    fn look(&mut self, scan: &Scan, pose: &Pose2, projection: &Projection, now: Time) {
+        let sight = self.look_ahead + self.clearance;
+        let points = || scan.points().map(|(_, point)| point);
+        self.progress.obstacle = points().map(Point2::norm).reduce(f32::min);
+        let mut near = points().filter(|point| point.norm_squared() <= sight * sight);
+        if near.any(|point| self.stands_on_path(pose.to_outer(point), projection)) {
+            self.progress.obstructed_since.get_or_insert(now);
+        } else {
+            self.progress.obstructed_since = None;
+        }
+    }
+
+    fn stands_on_path(&self, point: Point2, projection: &Projection) -> bool {
+        let until = self.look_ahead.min(projection.remaining - 2.0 * self.clearance);
+        let mut passed = 0.0;
+        let mut last = projection.point;
+        for next in &self.path.points[projection.segment + 1..] {
+            if passed > until {
+                return false;
+            }
+            let nearest = nearest_on(last, *next, point);
+            let is_near = (point - nearest).norm_squared() <= self.clearance * self.clearance;
+            if is_near && passed + (nearest - last).norm() <= until {
+                return true;
+            }
+            passed += (*next - last).norm();
+            last = *next;
+        }
+        false
+    }
+
+    fn end(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Option<End> {
+        let distance = (goal - pose.position()).norm();
+        let turn = remainderf(self.path.heading - pose.theta, TAU).abs();
+        let arriving = self.is_arriving(projection);
+        if arriving && distance <= self.tolerance && turn <= self.heading_tolerance {
+            return Some(End::Reached);
+        }
+        if projection.offset.abs() > self.max_offset {
+            return Some(End::OffPath);
+        }
+        let left =
+            if arriving { distance + TURN * turn } else { projection.remaining + projection.offset.abs() + TURN * PI };
+        if self.progress.least.is_none_or(|(least, _)| left < least - PROGRESS) {
+            self.progress.least = Some((left, now));
+        }
+        let stuck_since = self.progress.least.map(|(_, since)| since);
+        let too_long = |since: Option<Time>| since.is_some_and(|t| now.since(t).as_secs_f32() > self.patience);
+        (too_long(self.progress.obstructed_since) || too_long(stuck_since)).then_some(End::Blocked)
+    }
+
+    fn drive(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Twist {
+        let dt = self.motion.at.replace(now).map_or(0.0, |last| now.since(last).as_secs_f32());
+        let heading = if projection.remaining <= self.turn_within { self.path.heading } else { projection.tangent };
+        let rotation = self.rotation(remainderf(heading - pose.theta, TAU), dt);
+        let most = self.rotation_acceleration * dt;
+        self.motion.rotation += (rotation - self.motion.rotation).clamp(-most, most);
+        let change = self.velocity(pose, goal, projection) - self.motion.velocity;
+        let share = (self.acceleration * dt / change.norm().max(f32::MIN_POSITIVE)).min(1.0);
+        self.motion.velocity = self.motion.velocity + change.scaled(share);
+        let velocity = Pose2::new(0.0, 0.0, pose.theta).to_inner(self.motion.velocity);
+        Twist::of(velocity, self.motion.rotation)
+    }
+
+    /// The rotation that the error of the heading asks for.
+    fn rotation(&mut self, error: f32, dt: f32) -> f32 {
+        let pid = &mut self.motion.heading;
+        (pid.proportional, pid.integral, pid.derivative) = (self.proportional, self.integral, self.derivative);
+        pid.limit = self.max_rotation;
+        pid.step(error, dt)
+    }
+
+    /// The velocity that is wanted, in the frame of the path.
+    fn velocity(&self, pose: &Pose2, goal: Point2, projection: &Projection) -> Point2 {
+        let to_goal = goal - pose.position();
+        let turning = self.path.turning(projection, self.look_ahead);
+        let obstacle = self.progress.obstacle.unwrap_or(f32::INFINITY);
+        let law = self.law();
+        if !self.is_arriving(projection) {
+            let speed = law.speed(turning, self.motion.rotation, obstacle, projection.remaining);
+            return Point2::polar(speed, law.direction(projection));
+        }
+        let distance = to_goal.norm();
+        // There already: the rest is turning.
+        if distance <= 0.5 * self.tolerance {
+            return Point2::default();
+        }
+        to_goal.scaled(law.speed(turning, self.motion.rotation, obstacle, distance) / distance)
+    }
+
+    fn law(&self) -> FollowingLaw {
+        FollowingLaw {
+            convergence: self.convergence,
+            speed: self.speed,
+            slowest: self.slowest,
+            turning_gain: self.turning_gain,
+            rotation_gain: self.rotation_gain,
+            obstacle_gain: self.obstacle_gain,
+            goal_gain: self.goal_gain,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        map::{DistanceTransform, Grid, Occupancy, Raster, grow},
+        nav::{Planner, Smoothing, Terrain},
+    };
+    use apex_rt::Construct;
+    use apex_sim::Random;
+    use core::f32::consts::FRAC_PI_2;
+    use std::{fs, path::PathBuf};
+
+    fn follower() -> PathFollower {
+        let gains = (0.5, 0.2, 0.1, 0.2);
+        let limits = (1.0, 3.0, 1.5);
+        PathFollower::construct((
+            2.0, 1.0, 0.05, gains.0, gains.1, gains.2, gains.3, 1.5, limits.0, limits.1, limits.2, 2.0, 0.0, 0.0, 1.0,
+            0.05, 0.05, 1.0, 0.3, 2.0,
+        ))
+    }
+
+    fn path(points: &[(f32, f32)], heading: f32) -> Path {
+        Path { points: points.iter().map(|&(x, y)| Point2::new(x, y)).collect(), heading }
+    }
+
+    /// A robot that does at once what it is told, 50 times a second.
+    struct Robot {
+        node: PathFollower,
+        pose: Pose2,
+        step: i64,
+    }
+
+    impl Robot {
+        fn new(node: PathFollower, pose: Pose2) -> Self {
+            Self { node, pose, step: 0 }
+        }
+
+        fn react(&mut self, path: Option<&Path>, scan: Option<&Scan>) -> (Option<Twist>, Option<End>) {
+            let (mut reached, mut blocked, mut off_path) = (None, None, None);
+            let ctx = Ctx::new(Time::from_millis(20 * self.step));
+            self.step += 1;
+            let (a, b, c) =
+                (Event::into_slot(&mut reached), Event::into_slot(&mut blocked), Event::into_slot(&mut off_path));
+            let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c);
+            let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
+            let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
+            (twist, end)
+        }
+
+        fn drive(&mut self, twist: Twist) {
+            let moved = twist.velocity().scaled(0.02);
+            self.pose = self.pose.compose(&Pose2::new(moved.x, moved.y, 0.02 * twist.omega));
+        }
+
+        /// Follows a path to its end; calls `watch` after each step.
+        fn follow(&mut self, path: &Path, mut watch: impl FnMut(&Pose2, Twist)) -> End {
+            let mut reaction = self.react(Some(path), None);
+            for _ in 0..20_000 {
+                let (twist, end) = reaction;
+                let twist = twist.expect("it sends twists while it drives");
+                if let Some(end) = end {
+                    assert_eq!(twist, Twist::ZERO);
+                    assert_eq!(self.react(None, None), (None, None));
+                    return end;
+                }
+                self.drive(twist);
+                watch(&self.pose, twist);
+                reaction = self.react(None, None);
+            }
+            panic!("it does not come to an end");
+        }
+    }
+
+    #[test]
+    fn the_offset_decays_exponentially() {
+        let unhurried = PathFollower { acceleration: 1e6, goal_gain: 0.0, ..follower() };
+        let mut robot = Robot::new(unhurried, Pose2::new(0.0, 0.5, 0.0));
+        let mut worst: f32 = 0.0;
+        robot.follow(&path(&[(0.0, 0.0), (10.0, 0.0)], 0.0), |pose, _| {
+            if pose.x < 9.0 {
+                worst = worst.max((pose.y - 0.5 * (-2.0 * pose.x).exp()).abs());
+            }
+        });
+        // The first step does not move, the others are 2 cm long.
+        assert!(worst < 0.02, "{worst}");
+    }
+
+    #[test]
+    fn it_reaches_goals_with_their_heading() {
+        let ways: [&[(f32, f32)]; 4] = [
+            &[(0.0, 0.0), (3.0, 0.0)],
+            &[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)],
+            &[(0.1, 0.1)],
+            &[(0.0, 0.0), (0.0, 0.0)],
+        ];
+        for points in ways {
+            for heading in [0.0, 1.5, -3.1] {
+                let mut robot = Robot::new(follower(), Pose2::new(0.0, -0.2, 2.0));
+                let way = path(points, heading);
+                let (mut last, mut changes) = (Twist::ZERO, 0.0_f32);
+                let end = robot.follow(&way, |_, twist| {
+                    changes = changes.max((twist.velocity().norm() - last.velocity().norm()).abs());
+                    last = twist;
+                });
+                assert_eq!(end, End::Reached);
+                let missed = robot.pose.position() - way.goal().expect("a goal");
+                assert!(missed.norm() <= 0.05, "{missed:?}");
+                assert!(remainderf(robot.pose.theta - heading, TAU).abs() <= 0.05);
+                assert!(changes <= 0.02 + 1e-4, "accelerates by {} m/s^2", changes / 0.02);
+            }
+        }
+    }
+
+    #[test]
+    fn it_looks_along_the_path_until_it_is_near_the_goal() {
+        let mut robot = Robot::new(follower(), Pose2::default());
+        robot.follow(&path(&[(0.0, 0.0), (6.0, 0.0)], FRAC_PI_2), |pose, _| {
+            assert!(pose.x >= 4.9 || pose.theta.abs() < 1e-3, "{pose:?}");
+        });
+    }
+
+    #[test]
+    fn what_stays_on_the_path_blocks_it() {
+        let after = |steps: i64, ranges: &[f32]| {
+            let mut scan = Scan { angle_increment: FRAC_PI_2, ..Scan::default() };
+            scan.ranges.extend(ranges.iter().copied());
+            let mut robot = Robot::new(follower(), Pose2::default());
+            let way = path(&[(0.0, 0.0), (20.0, 0.0)], 0.0);
+            let mut end = robot.react(Some(&way), Some(&scan)).1;
+            while end.is_none() && robot.step < 150 {
+                let scan = if robot.step < steps { &scan } else { &Scan::default() };
+                let (twist, now) = robot.react(None, Some(scan));
+                robot.drive(twist.expect("it drives"));
+                end = now;
+            }
+            (end, robot.step)
+        };
+        assert_eq!(after(1000, &[1.0]), (Some(End::Blocked), 102));
+        assert_eq!(after(90, &[1.0]), (None, 150), "it went away");
+        assert_eq!(after(1000, &[f32::NAN, 0.5]), (None, 150), "it is beside the path");
+        assert_eq!(after(1000, &[5.0]), (None, 150), "it is far away");
+    }
+
+    #[test]
+    fn a_robot_that_makes_no_way_is_blocked() {
+        // At the start, just before the goal, and at the goal in the wrong direction.
+        for pose in [Pose2::default(), Pose2::new(2.93, 0.0, 0.0), Pose2::new(3.0, 0.0, 1.0)] {
+            let mut robot = Robot::new(follower(), pose);
+            let mut end = robot.react(Some(&path(&[(0.0, 0.0), (1.0, 0.0), (3.0, 0.0)], 0.0)), None).1;
+            while end.is_none() && robot.step < 200 {
+                end = robot.react(None, None).1;
+            }
+            assert_eq!((end, robot.step), (Some(End::Blocked), 102), "{pose:?}");
+        }
+    }
+
+    #[test]
+    fn it_gives_up_far_from_the_path_and_when_it_is_no_longer_active() {
+        let way = path(&[(0.0, 0.0), (3.0, 0.0)], 0.0);
+        let mut robot = Robot::new(follower(), Pose2::new(0.0, 1.5, 0.0));
+        assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), Some(End::OffPath)));
+        for odd in [Pose2::new(f32::NAN, 0.0, 0.0), Pose2::new(0.0, 0.0, f32::INFINITY)] {
+            robot.pose = odd;
+            assert_eq!(robot.react(Some(&way), None), (Some(Twist::ZERO), None));
+        }
+        robot.pose = Pose2::default();
+        assert!(robot.react(None, None).0.is_some());
+        robot.node.give_up();
+        assert_eq!(robot.react(None, None), (None, None));
+        assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    /// A hall of 8 m by 6 m with posts in it, and the same with all obstacles grown by 20 cm.
+    fn posts(random: &mut Random) -> [Grid<Occupancy>; 2] {
+        let raster = Raster { resolution: 0.1, width: 80, height: 60, ..Raster::default() };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("a small map");
+        for cell in map.cells_mut() {
+            if random.chance(0.01) {
+                *cell = Occupancy::Occupied;
+            }
+        }
+        let (mut distances, mut grown) = (Grid::default(), map.clone());
+        DistanceTransform::default().run(&map, |cell| *cell == Occupancy::Occupied, &mut distances);
+        grow(&mut grown, &distances, 0.2, &[], 0.0);
+        [map, grown]
+    }
+
+    #[test]
+    fn it_touches_nothing_on_planned_paths() {
+        let (mut random, mut planner, mut way) = (Random::new(21), Planner::default(), Path::default());
+        let (mut reached, mut length) = (0, 0.0);
+        for _ in 0..60 {
+            let [map, grown] = posts(&mut random);
+            let terrain = Terrain { map: &grown, costs: None, unknown_is_open: false };
+            let mut pose = || Pose2::new(random.uniform(0.0, 8.0), random.uniform(0.0, 6.0), random.uniform(-3.0, 3.0));
+            let (start, goal) = (pose(), pose());
+            if planner.plan(&terrain, &start, &goal, Smoothing { spacing: 0.1, rounds: 30 }, &mut way).is_err() {
+                continue;
+            }
+            let end = Robot::new(follower(), start).follow(&way, |pose, _| {
+                assert_eq!(map.at(pose.position()).unwrap_or(&Occupancy::Free), &Occupancy::Free, "{pose:?}");
+            });
+            assert_eq!(end, End::Reached);
+            reached += 1;
+            length += way.length();
+        }
+        assert!(reached > 20 && length > 80.0, "only {reached} paths of {length} m");
+    }
+
+    #[test]
+    fn whatever_comes_in_what_goes_out_is_finite() {
+        let mut random = Random::new(11);
+        let odd = [0.0, -0.0, 1e-30, 0.1, -1.0, 3.0, 1e20, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
+        let mut number = || match random.uniform(0.0, 30.0) as usize {
+            i if i < odd.len() => odd[i],
+            _ => random.uniform(-1.0, 1.0),
+        };
+        for _ in 0..20_000 {
+            let mut robot = Robot::new(follower(), Pose2::new(number(), number(), number()));
+            let points: Vec<(f32, f32)> = (0..5).map(|_| (number(), number())).collect();
+            let mut scan = Scan { angle_min: number(), angle_increment: number(), ..Scan::default() };
+            scan.ranges.extend([number(), number(), number()]);
+            let way = path(&points[..(number().abs() * 5.0).min(5.0) as usize], number());
+            for path in [Some(&way), None, None] {
+                let (twist, _) = robot.react(path, Some(&scan));
+                assert!(twist.is_none_or(|twist| twist.is_finite()), "{twist:?} on {way:?} at {:?}", robot.pose);
+                robot.pose.x += 0.1;
+            }
+        }
+    }
+
+    /// The centre line of a race track in a scale of 1:50, or `None` (with a message) if it is not there.
+    fn track(name: &str) -> Option<Path> {
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/paths");
+        if !folder.is_dir() {
+            assert!(std::env::var("CI").as_deref() != Ok("true"), "{} is missing", folder.display());
+            eprintln!("skipped: {} is missing", folder.display());
+            return None;
+        }
+        let text = fs::read_to_string(folder.join(name)).expect("the track");
+        let number = |word: &str| word.parse::<f32>().expect("a number") / 50.0;
+        let rows = text.lines().skip(1).map(|line| line.split(',').map(number).collect::<Vec<f32>>());
+        let points: Vec<Point2> = rows.map(|row| Point2::new(row[0], row[1])).collect();
+        let heading = (points[1] - points[0]).angle();
+        Some(Path { points, heading })
+    }
+
+    #[test]
+    fn it_stays_on_race_tracks() {
+        for name in ["Norisring.csv", "Spielberg.csv"] {
+            let Some(way) = track(name) else { return };
+            let start = Pose2::new(way.points[0].x, way.points[0].y, way.heading);
+            let mut robot = Robot::new(follower(), start);
+            let (mut worst, mut squares, mut steps) = (0.0_f32, 0.0, 0);
+            let end = robot.follow(&way, |pose, _| {
+                let offset = way.project(pose.position(), 0, f32::INFINITY).expect("a point").offset.abs();
+                worst = worst.max(offset);
+                squares += offset * offset;
+                steps += 1;
+            });
+            let (seconds, rms) = (0.02 * steps as f32, (squares / steps as f32).sqrt());
+            let length = way.length();
+            println!("{name}: {length:.1} m in {seconds:.1} s, offset {worst:.3} m at most, {rms:.4} m rms");
+            assert_eq!(end, End::Reached);
+            assert!(worst < 0.1 && rms < 0.02, "{worst} m at most, {rms} m rms");
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! Movements on sight, without a map (thesis 8.1.1). These nodes move the robot while they are active.
+
+use super::Twist;
+use crate::scan::{Point2, Pose2, Scan};
+use apex_rt::{Ctx, Event, Time, node};
+use core::f32::consts::{PI, TAU};
+use libm::{remainderf, sqrtf};
+
+/// Slower than this is no movement, in m/s.
+const SLOWEST: f32 = 0.02;
+/// How a heading is kept: rotation per error, in 1/s.
+const TURN_GAIN: f32 = 2.0;
+
+/// The speed at `distance` m before a stop, in m/s, if the robot brakes evenly; never so slow that it does not arrive.
+fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
+    sqrtf(2.0 * deceleration * distance.max(0.0)).clamp(SLOWEST.min(speed), speed)
+}
+
+/// Moves a robot a distance in a direction, both seen from where it became active, and keeps its heading (thesis 8.1.1).
+///
+/// `pose` is in any frame that stays where it is, as that of odometry. `done` comes with a twist of zero.
+#[node]
+#[derive(Debug, Clone)]
+pub struct MoveRobot {
+    /// How far it moves.
+    #[param(unit = "m", range = 0.0..=1000.0)]
+    distance: f32,
+    /// In which direction, counter-clockwise from straight ahead.
+    #[param(unit = "rad", default = 0.0, range = -6.3..=6.3)]
+    direction: f32,
+    /// How fast it moves.
+    #[param(unit = "m/s", default = 0.5, range = 0.001..=10.0)]
+    speed: f32,
+    /// How it speeds up and brakes.
+    #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
+    acceleration: f32,
+    start: Option<Pose2>,
+}
+
+#[node]
+impl MoveRobot {
+    fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
+        if !ctx.active() || !pose.is_finite() {
+            return None;
+        }
+        let start = *self.start.get_or_insert(*pose);
+        let goal = start.to_outer(Point2::polar(self.distance, self.direction));
+        let course = Point2::polar(1.0, start.theta + self.direction);
+        let remaining = course.dot(goal - pose.position());
+        if remaining <= 0.0 {
+            self.forget();
+            done.emit(());
+            return Some(Twist::ZERO);
+        }
+        // As if it had begun a little earlier: where it stands still it could not begin at all.
+        let travelled = self.distance - remaining;
+        let least = travelled.min(remaining) + SLOWEST * SLOWEST / self.acceleration;
+        let speed = braking_speed(least, self.speed, self.acceleration);
+        let to_goal = pose.to_inner(goal);
+        let omega = TURN_GAIN * remainderf(start.theta - pose.theta, TAU);
+        Some(Twist::of(to_goal.scaled(speed / to_goal.norm()), omega))
+    }
+
+    /// The next movement begins where the robot is then.
+    #[on_activate]
+    fn forget(&mut self) {
+        self.start = None;
+    }
+}
+
+/// Drives straight ahead until something is near (thesis 8.1.1, to a station of 4.3.7). `done` comes with a twist of zero.
+///
+/// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still: it would not know
+/// where to stop. A safety field behind this node needs a margin below `distance`, or the robot never gets there.
+#[node]
+#[derive(Debug, Clone)]
+pub struct MoveToObstacle {
+    /// How near is near, measured from the front of the robot.
+    #[param(unit = "m", default = 0.05, range = 0.0..=100.0)]
+    distance: f32,
+    /// How far before the origin of its frame the front of the robot is.
+    #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
+    front: f32,
+    /// Half of the width that counts as ahead.
+    #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
+    half_width: f32,
+    /// How fast it drives.
+    #[param(unit = "m/s", default = 0.2, range = 0.001..=10.0)]
+    speed: f32,
+    /// How it brakes.
+    #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
+    deceleration: f32,
+}
+
+#[node]
+impl MoveToObstacle {
+    fn process(&mut self, ctx: &Ctx, scan: &Scan, done: Event<()>) -> Option<Twist> {
+        if !ctx.active() {
+            return None;
+        }
+        let ahead = scan.points().map(|(_, p)| p).filter(|p| p.x > 0.0 && p.y.abs() <= self.half_width);
+        let Some(nearest) = ahead.map(|p| p.x).reduce(f32::min) else { return Some(Twist::ZERO) };
+        let gap = nearest - self.front - self.distance;
+        if gap <= 0.0 {
+            done.emit(());
+            return Some(Twist::ZERO);
+        }
+        Some(Twist::new(braking_speed(gap, self.speed, self.deceleration), 0.0, 0.0))
+    }
+}
+
+/// Centres a robot before a target, facing it (thesis 8.1.1).
+///
+/// `target` is the pose of the target in the frame of the robot; the x axis of the target points out of it, to whoever looks
+/// at it. It may be ⊥: then the robot stands still, and `lost` comes once it has not been seen for too long. `positioned`
+/// comes with a twist of zero.
+#[node]
+#[derive(Debug, Clone)]
+pub struct PositionToTarget {
+    /// How far before the target the robot stops.
+    #[param(unit = "m", default = 0.5, range = 0.0..=100.0)]
+    distance: f32,
+    /// The highest speed.
+    #[param(unit = "m/s", default = 0.3, range = 0.001..=10.0)]
+    speed: f32,
+    /// The fastest rotation.
+    #[param(unit = "rad/s", default = 0.8, range = 0.001..=20.0)]
+    max_rotation: f32,
+    /// Speed per distance to go.
+    #[param(unit = "1/s", default = 1.0, range = 0.001..=100.0)]
+    gain: f32,
+    /// How near is near enough.
+    #[param(unit = "m", default = 0.02, range = 0.0001..=1.0)]
+    tolerance: f32,
+    /// How near to the heading is near enough.
+    #[param(unit = "rad", default = 0.03, range = 0.0001..=3.2)]
+    heading_tolerance: f32,
+    /// How long the target may be out of sight.
+    #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
+    patience: f32,
+    seen: Option<Time>,
+}
+
+#[node]
+impl PositionToTarget {
+    fn process(&mut self, ctx: &Ctx, target: Option<&Pose2>, positioned: Event<()>, lost: Event<()>) -> Option<Twist> {
+        if !ctx.active() {
+            return None;
+        }
+        let place = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI)));
+        let Some(place) = place.filter(Pose2::is_finite) else {
+            if ctx.now().since(*self.seen.get_or_insert(ctx.now())).as_secs_f32() > self.patience {
+                self.forget();
+                lost.emit(());
+            }
+            return Some(Twist::ZERO);
+        };
+        self.seen = Some(ctx.now());
+        let distance = place.position().norm();
+        if distance <= self.tolerance && place.theta.abs() <= self.heading_tolerance {
+            self.forget();
+            positioned.emit(());
+            return Some(Twist::ZERO);
+        }
+        let factor = self.gain.min(self.speed / distance.max(f32::MIN_POSITIVE));
+        let omega = (self.gain * place.theta).clamp(-self.max_rotation, self.max_rotation);
+        Some(Twist::of(place.position().scaled(factor), omega))
+    }
+
+    /// From now on the target may be out of sight for a while.
+    #[on_activate]
+    fn forget(&mut self) {
+        self.seen = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+    use core::f32::consts::FRAC_PI_2;
+
+    fn active(step: i64) -> Ctx {
+        Ctx::new(Time::from_millis(20 * step)).of_node(true)
+    }
+
+    fn drive(pose: &Pose2, twist: Twist) -> Pose2 {
+        let moved = twist.velocity().scaled(0.02);
+        pose.compose(&Pose2::new(moved.x, moved.y, 0.02 * twist.omega))
+    }
+
+    #[test]
+    fn a_robot_moves_by_a_distance() {
+        for (direction, distance) in [(0.0, 2.0), (PI, 1.0), (0.7, 0.01), (-FRAC_PI_2, 0.0)] {
+            let mut node = MoveRobot::construct((distance, direction, 0.5, 0.5));
+            let start = Pose2::new(1.0, 2.0, 0.3);
+            let (mut pose, mut last, mut done) = (start, 0.0, None);
+            for step in 0..2000 {
+                let twist = node.process(&active(step), &pose, Event::into_slot(&mut done)).expect("it is active");
+                let speed = twist.velocity().norm();
+                assert!(done.is_some() || (speed <= 0.5 + 1e-5 && (speed - last).abs() < 0.04), "{speed} after {last}");
+                if done.is_some() {
+                    assert_eq!(twist, Twist::ZERO);
+                    break;
+                }
+                last = speed;
+                // Something turns it a little.
+                pose = drive(&pose, Twist { omega: twist.omega + 0.1, ..twist });
+            }
+            let missed = pose.position() - start.to_outer(Point2::polar(distance, direction));
+            assert!(done.is_some() && missed.norm() < 0.01, "{missed:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_moves_what_is_not_active() {
+        let ctx = Ctx::new(Time::ZERO);
+        let (pose, mut scan) = (Pose2::default(), Scan::default());
+        scan.ranges.push(1.0).expect("there is room");
+        assert_eq!(MoveRobot::construct((1.0, 0.0, 0.5, 0.5)).process(&ctx, &pose, Event::unconnected()), None);
+        let mut ahead = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5));
+        assert_eq!(ahead.process(&ctx, &scan, Event::unconnected()), None);
+        let mut position = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
+        assert_eq!(position.process(&ctx, Some(&pose), Event::unconnected(), Event::unconnected()), None);
+    }
+
+    #[test]
+    fn a_robot_drives_up_to_a_wall() {
+        let mut node = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5));
+        let (mut x, mut done) = (0.0, None);
+        for step in 0..1000 {
+            // A wall at 2 m, and something beside the robot.
+            let mut scan = Scan { angle_min: -0.5, angle_increment: 0.05, range_max: 10.0, ..Scan::default() };
+            scan.ranges.extend((0..21).map(|i| (2.0 - x) / libm::cosf(-0.5 + 0.05 * i as f32)));
+            scan.ranges[20] = 0.7;
+            let twist = node.process(&active(step), &scan, Event::into_slot(&mut done)).expect("it is active");
+            if done.is_some() {
+                break;
+            }
+            x += 0.02 * twist.x;
+        }
+        assert!(done.is_some() && (1.65..1.655).contains(&x), "{x}");
+        let mut nothing = Scan::default();
+        nothing.ranges.push(f32::NAN).expect("there is room");
+        assert_eq!(node.process(&active(0), &nothing, Event::unconnected()), Some(Twist::ZERO));
+    }
+
+    #[test]
+    fn a_robot_is_centred_before_its_target() {
+        // The target looks along −x of the world: at a robot that comes from there.
+        let target = Pose2::new(3.0, 1.0, PI);
+        let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
+        let (mut pose, mut positioned) = (Pose2::new(1.5, 0.3, -0.6), None);
+        for step in 0..1000 {
+            let seen = target.relative_to(&pose);
+            let twist = node
+                .process(&active(step), Some(&seen), Event::into_slot(&mut positioned), Event::unconnected())
+                .expect("it is active");
+            assert!(twist.velocity().norm() <= 0.3 + 1e-6 && twist.omega.abs() <= 0.8);
+            pose = drive(&pose, twist);
+            if positioned.is_some() {
+                break;
+            }
+        }
+        assert!(positioned.is_some());
+        assert!((pose.position() - Point2::new(2.5, 1.0)).norm() <= 0.02 && pose.theta.abs() <= 0.03, "{pose:?}");
+    }
+
+    #[test]
+    fn a_target_out_of_sight_is_lost_after_a_while() {
+        let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
+        let mut react = |step, target: Option<Pose2>| {
+            let mut lost = None;
+            let twist = node.process(&active(step), target.as_ref(), Event::unconnected(), Event::into_slot(&mut lost));
+            (twist == Some(Twist::ZERO), lost.is_some())
+        };
+        assert_eq!(react(0, None), (true, false));
+        assert_eq!(react(90, Some(Pose2::new(2.0, 0.0, PI))), (false, false));
+        assert_eq!(react(190, Some(Pose2::new(f32::NAN, 0.0, PI))), (true, false));
+        assert_eq!(react(191, None), (true, true));
+        assert_eq!(react(192, None), (true, false));
+    }
+}

@@ -1,0 +1,162 @@
+use super::Twist;
+use crate::scan::{Point2, Scan};
+use apex_rt::{Ctx, Time, node};
+use libm::{fmaxf, sqrtf};
+
+/// The strip before a round robot that has to be free: as wide as the robot, and as long as it takes to stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProtectiveField {
+    /// The radius of the robot, in m.
+    pub radius: f32,
+    /// How far away from obstacles it has to come to a stand, in m.
+    pub margin: f32,
+    /// How it brakes, in m/s².
+    pub deceleration: f32,
+    /// How long it goes on before it brakes, in s.
+    pub latency: f32,
+}
+
+impl ProtectiveField {
+    /// How far the robot can go in a direction before an obstacle is within its margin, in m: infinite if none ever
+    /// is, and 0 if one is there already. What is beside or behind does not count.
+    pub fn gap(&self, direction: Point2, points: impl Iterator<Item = Point2>) -> f32 {
+        let reach = self.radius + self.margin;
+        let unit = direction.scaled(1.0 / direction.norm());
+        let gaps = points.filter_map(|point| {
+            let (ahead, aside) = (unit.dot(point), unit.perpendicular().dot(point));
+            let chord = reach * reach - aside * aside;
+            (ahead > 0.0 && chord > 0.0).then(|| fmaxf(ahead - sqrtf(chord), 0.0))
+        });
+        gaps.fold(f32::INFINITY, f32::min)
+    }
+
+    /// The highest speed from which the robot still stops within `gap` m, in m/s: v²/2a + v·t is the gap.
+    pub fn highest_speed(&self, gap: f32) -> f32 {
+        let (a, t) = (self.deceleration, self.latency);
+        a * (sqrtf(t * t + 2.0 * gap / a) - t)
+    }
+
+    /// The twist, slowed down as far as the obstacles ask for. A turn on the spot needs no room.
+    pub fn limit(&self, twist: &Twist, points: impl Iterator<Item = Point2>) -> Twist {
+        let velocity = twist.velocity();
+        let speed = velocity.norm();
+        if speed == 0.0 {
+            return *twist;
+        }
+        let highest = self.highest_speed(self.gap(velocity, points));
+        // Not a number if a parameter is none: then it stands still.
+        let factor = if highest >= speed { 1.0 } else { fmaxf(highest / speed, 0.0) };
+        Twist::of(velocity.scaled(factor), twist.omega)
+    }
+}
+
+/// Slows a robot down before obstacles in its driving direction, and stops it before it touches one (thesis 4.3.6).
+///
+/// The scan is in the frame of the robot. It may be ⊥, as scans come less often than twists; but if the last one is too
+/// old, the robot stops: a scanner that fails must not be taken for free space.
+#[node]
+#[derive(Debug, Clone)]
+pub struct SafetyField {
+    /// The radius of the robot.
+    #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
+    radius: f32,
+    /// How far away from obstacles it stops.
+    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
+    margin: f32,
+    /// How it brakes.
+    #[param(unit = "m/s^2", default = 1.0, range = 0.01..=100.0)]
+    deceleration: f32,
+    /// How long it goes on before it brakes.
+    #[param(unit = "s", default = 0.1, range = 0.0..=10.0)]
+    latency: f32,
+    /// How old a scan may be.
+    #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
+    max_age: f32,
+    last: Option<(Time, Scan)>,
+}
+
+#[node]
+impl SafetyField {
+    fn process(&mut self, ctx: &Ctx, twist: &Twist, scan: Option<&Scan>) -> Twist {
+        if let Some(scan) = scan {
+            self.last = Some((ctx.now(), scan.clone()));
+        }
+        let Self { radius, margin, deceleration, latency, .. } = *self;
+        let field = ProtectiveField { radius, margin, deceleration, latency };
+        match &self.last {
+            Some((at, scan)) if twist.is_finite() && ctx.now().since(*at).as_secs_f32() <= self.max_age => {
+                field.limit(twist, scan.points().map(|(_, point)| point))
+            }
+            _ => Twist::ZERO,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+    use core::f32::consts::{PI, TAU};
+
+    const FIELD: ProtectiveField = ProtectiveField { radius: 0.3, margin: 0.1, deceleration: 1.0, latency: 0.0 };
+
+    fn gap(direction: (f32, f32), point: (f32, f32)) -> f32 {
+        let at = |(x, y)| Point2::new(x, y);
+        FIELD.gap(at(direction), [at(point)].into_iter())
+    }
+
+    #[test]
+    fn only_what_is_ahead_counts() {
+        assert!((gap((2.0, 0.0), (1.4, 0.0)) - 1.0).abs() < 1e-6);
+        assert!((gap((0.0, -0.1), (0.0, -1.4)) - 1.0).abs() < 1e-6);
+        assert_eq!(gap((1.0, 0.0), (0.2, 0.1)), 0.0);
+        for elsewhere in [(1.0, 0.41), (-0.5, 0.0), (f32::NAN, 0.0)] {
+            assert_eq!(gap((1.0, 0.0), elsewhere), f32::INFINITY);
+        }
+    }
+
+    #[test]
+    fn it_stops_within_the_gap() {
+        for latency in [0.0, 0.2] {
+            let field = ProtectiveField { latency, ..FIELD };
+            for distance in [0.01, 0.5, 3.0] {
+                let v = field.highest_speed(distance);
+                assert!((v * v / 2.0 + v * latency - distance).abs() < 1e-5);
+            }
+            assert_eq!((field.highest_speed(0.0), field.highest_speed(f32::INFINITY)), (0.0, f32::INFINITY));
+        }
+    }
+
+    #[test]
+    fn a_robot_stops_before_a_wall_and_gets_away_again() {
+        let ctx = |step: i64| Ctx::new(Time::from_millis(20 * step));
+        let scan = |x: f32| {
+            let mut scan = Scan { angle_min: -PI, angle_increment: TAU / 360.0, range_max: 10.0, ..Scan::default() };
+            scan.ranges.extend((0..360).map(|i| (3.0 - x) / libm::cosf(-PI + i as f32 * TAU / 360.0)));
+            scan
+        };
+        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
+        let (mut x, mut last) = (0.0, 1.0);
+        for step in 0..1000 {
+            let twist = node.process(&ctx(step), &Twist::new(1.0, 0.0, 0.2), Some(&scan(x)));
+            assert!(twist.omega == 0.2 && twist.x <= last + 1e-6 && last - twist.x < 0.05, "{twist:?} at {x}");
+            last = twist.x;
+            x += 0.02 * twist.x;
+        }
+        assert!((2.55..=2.6).contains(&x), "{x}");
+        let away = Twist::new(-1.0, 0.0, 0.0);
+        assert_eq!(node.process(&ctx(1000), &away, Some(&scan(x))), away);
+    }
+
+    #[test]
+    fn without_a_scan_it_stands_still() {
+        let ctx = |ms| Ctx::new(Time::from_millis(ms));
+        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
+        let twist = Twist::new(1.0, 0.0, 0.0);
+        assert_eq!(node.process(&ctx(0), &twist, None), Twist::ZERO);
+        assert_eq!(node.process(&ctx(100), &twist, Some(&Scan::default())), twist);
+        assert_eq!(node.process(&ctx(600), &twist, None), twist);
+        assert_eq!(node.process(&ctx(601), &twist, None), Twist::ZERO);
+        assert_eq!(node.process(&ctx(700), &Twist { y: f32::NAN, ..twist }, Some(&Scan::default())), Twist::ZERO);
+    }
+}

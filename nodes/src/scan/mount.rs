@@ -1,0 +1,153 @@
+use super::{Pose2, Scan};
+use apex_rt::{Out, node};
+use core::{
+    f32::consts::{PI, TAU},
+    fmt,
+};
+
+/// The beams of a scan around a robot: one each half degree.
+const BEAMS: usize = 720;
+
+/// A scan as a scanner at the origin of the robot would see it, that looks all around: what it measures in a beam is the
+/// nearest point there. So scans of several scanners can be merged.
+///
+/// In the frame of the robot, from −π on, 720 beams.
+#[node]
+#[derive(Debug, Clone)]
+pub struct MountScan {
+    /// How far before the origin of the robot the scanner is.
+    #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
+    x: f32,
+    /// How far to the left.
+    #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
+    y: f32,
+    /// Where its x axis points to, counter-clockwise from straight ahead.
+    #[param(unit = "rad", default = 0.0, range = -6.3..=6.3)]
+    heading: f32,
+}
+
+#[node]
+impl MountScan {
+    fn process(&mut self, scan: &Scan, mounted: &mut Out<Scan>) {
+        let mounted = mounted.get_mut();
+        mounted.angle_min = -PI;
+        mounted.angle_increment = TAU / BEAMS as f32;
+        mounted.range_min = f32::MIN_POSITIVE;
+        mounted.range_max = f32::MAX;
+        mounted.stamp = scan.stamp;
+        mounted.ranges.clear();
+        mounted.ranges.extend([f32::NAN; BEAMS]);
+        let mount = Pose2::new(self.x, self.y, self.heading);
+        for (_, point) in scan.points() {
+            let point = mount.to_outer(point);
+            let beam = libm::roundf((point.angle() + PI) / mounted.angle_increment) as usize % BEAMS;
+            // What is no number yet gives way.
+            mounted.ranges[beam] = mounted.ranges[beam].min(point.norm());
+        }
+    }
+}
+
+/// Two scans do not have the same beams.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OtherBeams;
+
+impl fmt::Display for OtherBeams {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the scans have other beams: put each through `MountScan` first")
+    }
+}
+
+impl core::error::Error for OtherBeams {}
+
+/// The nearer range of two scans in each beam, as from [`MountScan`]. If one is ⊥, it is the other; the stamp is the older one.
+///
+/// Fails on scans that do not have the same beams.
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct MergeScans;
+
+#[node]
+impl MergeScans {
+    fn process(&mut self, a: Option<&Scan>, b: Option<&Scan>, merged: &mut Out<Scan>) -> Result<(), OtherBeams> {
+        let Some(first) = a.or(b) else { return Ok(()) };
+        let second = b.unwrap_or(first);
+        let beams = |scan: &Scan| (scan.angle_min, scan.angle_increment, scan.ranges.len());
+        if beams(first) != beams(second) {
+            return Err(OtherBeams);
+        }
+        let merged = merged.get_mut();
+        merged.clone_from(first);
+        merged.range_min = first.range_min.min(second.range_min);
+        merged.range_max = first.range_max.max(second.range_max);
+        merged.stamp = first.stamp.min(second.stamp);
+        for (beam, range) in merged.ranges.iter_mut().enumerate() {
+            let nothing = f32::NAN;
+            *range = first.range(beam).unwrap_or(nothing).min(second.range(beam).unwrap_or(nothing));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scan::Point2;
+    use apex_rt::{Construct, Time};
+
+    fn mounted((x, y, heading): (f32, f32, f32), scan: &Scan) -> Scan {
+        let mut out = Out::new();
+        MountScan::construct((x, y, heading)).process(scan, &mut out);
+        out.get().expect("a scan").clone()
+    }
+
+    /// Half a turn of a scanner that measures the same range everywhere.
+    fn half_turn(range: f32) -> Scan {
+        let mut scan = Scan { angle_min: -0.5 * PI, angle_increment: PI / 720.0, ..Scan::default() };
+        scan.ranges.extend([range; 721]);
+        scan
+    }
+
+    #[test]
+    fn points_stay_where_they_are() {
+        let scan = half_turn(2.0);
+        let seen = mounted((0.3, -0.2, 2.5), &scan);
+        let mount = Pose2::new(0.3, -0.2, 2.5);
+        let points: std::vec::Vec<Point2> = scan.points().map(|(_, p)| mount.to_outer(p)).collect();
+        assert!(seen.points().count() > 300);
+        for (_, p) in seen.points() {
+            let nearest = points.iter().map(|q| (*q - p).norm()).fold(f32::MAX, f32::min);
+            assert!(nearest < 0.02, "{p:?} is {nearest} m away from all points");
+        }
+    }
+
+    #[test]
+    fn the_seam_behind_is_seen() {
+        let mut scan = Scan { angle_increment: 0.001, ..Scan::default() };
+        scan.ranges.extend([1.0, 1.0]);
+        for heading in [-PI, PI - 0.0005, PI] {
+            let seen = mounted((0.0, 0.0, heading), &scan);
+            assert_eq!((seen.ranges.len(), seen.points().count(), seen.range(0)), (720, 1, Some(1.0)), "{heading}");
+        }
+    }
+
+    #[test]
+    fn the_nearer_one_counts() {
+        let front = Scan { stamp: Time::from_secs(2), ..mounted((0.0, 0.0, 0.0), &half_turn(2.0)) };
+        let rear = Scan { stamp: Time::from_secs(1), ..mounted((0.0, 0.0, 0.5 * PI), &half_turn(1.0)) };
+        let merge = |a: Option<&Scan>, b: Option<&Scan>| {
+            let mut out = Out::new();
+            MergeScans.process(a, b, &mut out).map(|()| out.get().cloned())
+        };
+        let both = merge(Some(&front), Some(&rear)).expect("the same beams").expect("a scan");
+        let towards = |degree: usize| both.range(2 * (degree + 180)).map(libm::roundf);
+        // Forward, to the left, and to the right; behind on the right is nothing.
+        assert_eq!([towards(0), both.range(180).map(libm::roundf)], [Some(1.0), Some(2.0)]);
+        assert_eq!((towards(90), both.range(90), both.stamp), (Some(1.0), None, Time::from_secs(1)));
+        assert_eq!(merge(None, None), Ok(None));
+        assert_eq!(
+            merge(None, Some(&rear)).map(|scan| scan.map(|s| s.points().count())),
+            Ok(Some(rear.points().count()))
+        );
+        assert_eq!(merge(Some(&half_turn(1.0)), Some(&rear)), Err(OtherBeams));
+    }
+}

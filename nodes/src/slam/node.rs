@@ -1,0 +1,221 @@
+use super::{Mapper, Pose, Settings, Window, heading, pose, selected_scans};
+use crate::{
+    map::{Grid, Occupancy, OccupancyBuilder, TooManyCells},
+    scan::{Pose2, Scan},
+};
+use apex_rt::{Out, node};
+use core::f32::consts::PI;
+
+/// Odometry farther away from its beginning than this is none, in m.
+const FARTHEST: f32 = 1e6;
+
+/// Where the robot is, and a map of where it was: localization and mapping with a graph of poses, in the manner of
+/// Karto, with bounded map building (thesis 4.3.5; see [`Mapper`] and [`selected_scans`]).
+///
+/// `odometry` is the pose of the robot in any frame that does not jump, taken when the scan was. `pose` is the
+/// corrected one in the frame of the map, which begins where odometry did; it is sent for every scan. `map` is sent
+/// for the first scan that is kept and then for each `map_every`-th one, else it is ⊥. Odometry that is no number or
+/// more than 1000 km away gives ⊥, and its scan is not used.
+///
+/// Scans should show what stays where it is: leave other robots out with [`ShortSegmentFilter`].
+///
+/// Fails if the map would have too many cells; it then goes on without this map.
+///
+/// [`ShortSegmentFilter`]: crate::scan::ShortSegmentFilter
+#[node]
+#[derive(Debug)]
+pub struct GraphSlam {
+    /// Where the scanner stands in the frame of the robot: forward.
+    #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
+    mount_x: f32,
+    /// Where the scanner stands: left.
+    #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
+    mount_y: f32,
+    /// Where the scanner looks.
+    #[param(unit = "rad", default = 0.0, range = -PI..=PI)]
+    mount_theta: f32,
+    /// A scan is kept when the robot has moved so far since the last one …
+    #[param(unit = "m", default = 0.3, range = 0.01..=10.0)]
+    travel: f32,
+    /// … or turned so far.
+    #[param(unit = "rad", default = 0.35, range = 0.01..=3.2)]
+    turn: f32,
+    /// Points farther away from the robot than this are left out.
+    #[param(unit = "m", default = 20.0, range = 1.0..=100.0)]
+    reach: f32,
+    /// How wrong odometry can be from one kept scan to the next, along x and y.
+    #[param(unit = "m", default = 0.4, range = 0.05..=2.0)]
+    slip: f32,
+    /// How wrong its heading can be.
+    #[param(unit = "rad", default = 0.35, range = 0.01..=1.0)]
+    skid: f32,
+    /// How far a pose drifts per metre of the way: loops are searched so much farther.
+    #[param(default = 0.04, range = 0.0..=1.0)]
+    drift: f32,
+    /// The greatest drift that is searched for a loop.
+    #[param(unit = "m", default = 4.0, range = 0.0..=20.0)]
+    loop_distance: f32,
+    /// A loop is closed if a scan lies on older ones to this share.
+    #[param(default = 0.6, range = 0.0..=1.0)]
+    loop_response: f32,
+    /// The side of a cell of the map.
+    #[param(unit = "m", default = 0.05, range = 0.01..=1.0)]
+    resolution: f32,
+    /// A map is made after so many kept scans.
+    #[param(default = 5, range = 1..=1000)]
+    map_every: u32,
+    mapper: Option<Mapper>,
+    builder: OccupancyBuilder,
+}
+
+#[node]
+impl GraphSlam {
+    fn process(
+        &mut self,
+        odometry: &Pose2,
+        scan: &Scan,
+        pose: &mut Out<Pose2>,
+        map: &mut Out<Grid<Occupancy>>,
+    ) -> Result<(), TooManyCells> {
+        let Some(odometry) = usable(odometry) else { return Ok(()) };
+        let settings = self.settings();
+        let mapper = self.mapper.get_or_insert_with(|| Mapper::new(settings));
+        let due = mapper.is_due(&odometry);
+        let mount = Pose2::new(self.mount_x, self.mount_y, self.mount_theta);
+        if due {
+            mapper.add(&odometry, scan.points().map(|(_, p)| mount.to_outer(p)).collect());
+        }
+        let here = mapper.locate(&odometry);
+        pose.set(Pose2::new(here.translation.x as f32, here.translation.y as f32, heading(&here) as f32));
+        let count = mapper.scans().len();
+        if due && (count - 1).is_multiple_of(self.map_every.max(1) as usize) {
+            let scans = selected_scans(count);
+            let written = mapper.write_map(scans, mount.position(), self.resolution, &mut self.builder, map.get_mut());
+            if written.is_err() {
+                map.clear();
+            }
+            return written;
+        }
+        Ok(())
+    }
+
+    /// Forgets everything, and begins a new map where odometry is next.
+    #[slot]
+    fn reset(&mut self) {
+        self.mapper = None;
+    }
+
+    fn settings(&self) -> Settings {
+        Settings {
+            travel: f64::from(self.travel),
+            turn: f64::from(self.turn),
+            reach: f64::from(self.reach),
+            window: Window { distance: f64::from(self.slip), angle: f64::from(self.skid) },
+            drift: f64::from(self.drift),
+            loop_distance: f64::from(self.loop_distance),
+            loop_response: f64::from(self.loop_response),
+            ..Settings::default()
+        }
+    }
+}
+
+/// Odometry in double precision; `None` if it is no number, or too large for one.
+fn usable(odometry: &Pose2) -> Option<Pose> {
+    let near = odometry.x.abs() <= FARTHEST && odometry.y.abs() <= FARTHEST && odometry.theta.abs() <= FARTHEST;
+    near.then(|| pose(odometry.x.into(), odometry.y.into(), odometry.theta.into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scan::Point2;
+    use apex_rt::Construct;
+
+    const MOUNT: Pose2 = Pose2::new(0.2, 0.0, 0.1);
+
+    fn node(map_every: u32) -> GraphSlam {
+        let Pose2 { x, y, theta } = MOUNT;
+        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.04, 4.0, 0.6, 0.1, map_every))
+    }
+
+    /// What a scanner sees in a room of 8 m × 6 m with its centre at the origin, in which a pillar stands.
+    fn scan(robot: &Pose2) -> Scan {
+        let at = robot.compose(&MOUNT);
+        let mut scan = Scan { angle_min: -2.0, angle_increment: 0.02, ..Scan::default() };
+        let range = |beam: usize| {
+            let direction = Point2::polar(1.0, at.theta + scan.angle(beam));
+            let wall = |from: f32, d: f32, half: f32| if d == 0.0 { f32::MAX } else { (d.signum() * half - from) / d };
+            let walls = wall(at.x, direction.x, 4.0).min(wall(at.y, direction.y, 3.0));
+            let pillar = Point2::new(2.5, 1.0) - at.position();
+            let (along, aside) = (pillar.dot(direction), pillar.dot(direction.perpendicular()));
+            let hit = along - (0.16 - aside * aside).max(0.0).sqrt();
+            if aside.abs() < 0.4 && along > 0.0 { hit.min(walls) } else { walls }
+        };
+        let ranges: heapless::Vec<f32, { crate::scan::MAX_BEAMS }> = (0..200).map(range).collect();
+        scan.ranges = ranges;
+        scan
+    }
+
+    /// Drives rounds in the room with odometry that turns too little, and gives the largest error in m of the
+    /// corrected pose and of odometry, and the maps that were sent.
+    fn drive(node: &mut GraphSlam, steps: usize) -> (f32, f32, Vec<Grid<Occupancy>>) {
+        let step = Pose2::new(0.1, 0.0, 0.05);
+        let start = Pose2::new(0.0, -2.0, 0.0);
+        let (mut truth, mut odometry) = (start, start);
+        let (mut worst, mut off, mut maps) = (0.0_f32, 0.0_f32, Vec::new());
+        for _ in 0..steps {
+            let (mut pose, mut map) = (Out::new(), Out::new());
+            node.process(&odometry, &scan(&truth), &mut pose, &mut map).expect("a map of a room");
+            let estimate = pose.get().expect("a pose");
+            worst = worst.max((estimate.position() - truth.position()).norm());
+            off = off.max((odometry.position() - truth.position()).norm());
+            maps.extend(map.get().cloned());
+            truth = truth.compose(&step);
+            odometry = odometry.compose(&Pose2::new(0.1, 0.0, 0.045));
+        }
+        (worst, off, maps)
+    }
+
+    #[test]
+    fn poses_are_corrected_and_maps_are_sent() {
+        let mut node = node(5);
+        let (worst, odometry, maps) = drive(&mut node, 300);
+        assert!(worst < 0.15 && odometry > 1.0, "{worst} m, odometry {odometry} m");
+        let mapper = node.mapper.as_ref().expect("a mapper");
+        assert_eq!(maps.len(), mapper.scans().len().div_ceil(5));
+        assert!(mapper.loops() > 0);
+        let map = maps.last().expect("a map");
+        for (x, y, what) in
+            [(0.0, 0.0, Occupancy::Free), (2.1, 1.0, Occupancy::Occupied), (9.0, 0.0, Occupancy::Unknown)]
+        {
+            let near = (-2..=2).any(|i| {
+                let p = Point2::new(x + 0.1 * i as f32, y);
+                map.at(p).copied().unwrap_or_default() == what
+            });
+            assert!(near, "{what:?} at {x}, {y}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_pose() {
+        let mut node = node(1);
+        let (mut pose, mut map) = (Out::new(), Out::new());
+        for x in [f32::NAN, f32::INFINITY, 1e30] {
+            node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut map).expect("nothing");
+            assert!(pose.get().is_none() && map.get().is_none());
+        }
+        for x in [0.0, 0.5, 1e6, -1e6] {
+            let odd = Scan {
+                angle_increment: f32::NAN,
+                ranges: [1.0, 1e30, f32::NAN].into_iter().collect(),
+                ..Scan::default()
+            };
+            let _ = node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut map);
+            let _ = node.process(&Pose2::new(x, 1.0, 0.0), &odd, &mut pose, &mut map);
+            assert!(pose.get().is_some());
+        }
+        node.reset();
+        node.process(&Pose2::new(5.0, 0.0, 0.0), &Scan::default(), &mut pose, &mut map).expect("a map");
+        assert_eq!(pose.get(), Some(&Pose2::new(5.0, 0.0, 0.0)), "a new map begins where odometry is");
+    }
+}

@@ -1,0 +1,259 @@
+use crate::{
+    Random, Scene,
+    scene::{Hit, Look},
+};
+use apex_nodes::{
+    image::{Camera, GrayImage},
+    nav::Twist,
+    scan::{Point2, Pose2},
+};
+use apex_rt::Time;
+
+/// What the light does to an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Light {
+    /// Factor of all brightnesses.
+    pub gain: f32,
+    /// How much brighter the left side is than the right one: 0.2 is 10 % more there and 10 % less here.
+    pub slope: f32,
+    /// What is added to all brightnesses, 0 to 255: fog on the lens.
+    pub haze: f32,
+}
+
+/// A level camera that looks at a [`Scene`].
+#[derive(Debug, Clone)]
+pub struct Photographer {
+    camera: Camera,
+    /// How long the shutter is open, in s: what turns meanwhile is blurred.
+    pub exposure: f32,
+    /// Standard deviation of the brightness of a pixel, of 255.
+    pub noise: f32,
+    row: Vec<u8>,
+}
+
+/// A camera that looks up or down, of which no images can be made here: walls would not be upright in them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NotLevel(pub Camera);
+
+impl core::fmt::Display for NotLevel {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "images of a camera with a pitch of {} rad cannot be made: only those of level ones", self.0.pitch)
+    }
+}
+
+impl core::error::Error for NotLevel {}
+
+/// As bright as things are.
+impl Default for Light {
+    fn default() -> Self {
+        Self { gain: 1.0, slope: 0.0, haze: 0.0 }
+    }
+}
+
+impl Photographer {
+    /// A camera that is 10 ms open, with a noise of 2.
+    ///
+    /// # Errors
+    /// It is not level.
+    pub fn new(camera: Camera) -> Result<Self, NotLevel> {
+        if camera.pitch != 0.0 {
+            return Err(NotLevel(camera));
+        }
+        Ok(Self { camera, exposure: 0.01, noise: 2.0, row: vec![] })
+    }
+
+    /// Replaces `image` by what the camera sees of `scene` when its robot is at `pose` and moves with `twist`. Only the
+    /// turn blurs the image.
+    #[allow(clippy::too_many_arguments, reason = "all of them make an image")]
+    pub fn take(
+        &mut self,
+        scene: &Scene,
+        pose: &Pose2,
+        twist: &Twist,
+        light: &Light,
+        stamp: Time,
+        random: &mut Random,
+        image: &mut GrayImage,
+    ) {
+        let camera = self.camera;
+        image.reset(stamp, (camera.width, camera.height));
+        let origin = pose.to_outer(Point2::new(camera.position[0], camera.position[1]));
+        let ahead = Pose2 { theta: pose.theta + camera.yaw, ..Pose2::default() };
+        let mut hits = vec![];
+        for u in 0..camera.width {
+            let left = (camera.principal_point[0] - u as f32) / camera.focal_length;
+            scene.look(origin, ahead.to_outer(Point2::new(1.0, left)), &mut hits);
+            self.column(scene, &hits, u, image);
+        }
+        self.blur(twist.omega.abs() * self.exposure * camera.focal_length, image);
+        expose(light, self.noise, random, image);
+    }
+
+    /// The row at which a height above the floor is seen at a distance.
+    fn row_of(&self, height: f32, distance: f32) -> f32 {
+        self.camera.principal_point[1] - self.camera.focal_length * (height - self.camera.position[2]) / distance
+    }
+
+    /// Draws a column from the farthest thing to the nearest.
+    fn column(&self, scene: &Scene, hits: &[Hit<'_>], u: u32, image: &mut GrayImage) {
+        let (rows, horizon) = (image.size().1, self.camera.principal_point[1]);
+        for v in 0..rows {
+            image.pixels.put_pixel(u, v, image::Luma([if (v as f32) < horizon { scene.sky } else { scene.floor }]));
+        }
+        for hit in hits {
+            let (top, bottom) = (self.row_of(hit.top, hit.distance), self.row_of(hit.bottom, hit.distance));
+            let drawn = top.ceil().max(0.0) as u32..(bottom.ceil().max(0.0) as u32).min(rows);
+            match hit.look {
+                Look::Plain(brightness) => drawn.for_each(|v| image.pixels.put_pixel(u, v, image::Luma([*brightness]))),
+                Look::Picture(picture) => {
+                    let Some(level) = picture.at_width(hit.width * self.camera.focal_length / hit.distance) else {
+                        continue;
+                    };
+                    let (columns, lines) = level.size();
+                    let column = ((hit.across * columns as f32) as u32).min(columns - 1);
+                    for v in drawn {
+                        let line = (v as f32 - top) / (bottom - top) * lines as f32;
+                        image.pixels.put_pixel(u, v, *level.pixels.get_pixel(column, (line as u32).min(lines - 1)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Smears each row over so many pixels.
+    fn blur(&mut self, over: f32, image: &mut GrayImage) {
+        let width = image.size().0 as usize;
+        let half = ((0.5 * over).round() as usize).min(width / 2);
+        if half == 0 {
+            return;
+        }
+        for line in image.pixels.chunks_exact_mut(width) {
+            self.row.clear();
+            self.row.extend_from_slice(line);
+            let at = |i: isize| u32::from(self.row[i.clamp(0, width as isize - 1) as usize]);
+            let (reach, count) = (half as isize, 2 * half as u32 + 1);
+            let mut sum: u32 = (-reach..=reach).map(at).sum();
+            for (i, pixel) in line.iter_mut().enumerate() {
+                *pixel = (sum / count) as u8;
+                sum = sum + at(i as isize + reach + 1) - at(i as isize - reach);
+            }
+        }
+    }
+}
+
+/// Applies light and noise to each pixel.
+pub fn expose(light: &Light, noise: f32, random: &mut Random, image: &mut GrayImage) {
+    let width = image.size().0 as usize;
+    if width == 0 {
+        return;
+    }
+    let factors: Vec<f32> =
+        (0..width).map(|u| light.gain * (1.0 + light.slope * (0.5 - u as f32 / width as f32))).collect();
+    // The sum of four bytes is nearly normal: mean 510, variance 4·(256² − 1)/12.
+    let sigma = noise / libm::sqrtf(65535.0 / 3.0);
+    for line in image.pixels.chunks_exact_mut(width) {
+        for (pixels, factors) in line.chunks_mut(2).zip(factors.chunks(2)) {
+            let bits = random.bits();
+            for (i, (pixel, factor)) in pixels.iter_mut().zip(factors).enumerate() {
+                let bytes = (bits >> (32 * i)) as u32;
+                let sum: u32 = bytes.to_le_bytes().iter().map(|b| u32::from(*b)).sum();
+                let value = f32::from(*pixel) * factor + light.haze + sigma * (sum as f32 - 510.0);
+                // A cast saturates, and makes 0 of what is no number.
+                *pixel = libm::roundf(value) as u8;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Look, Panel, Picture, Pillar};
+    use core::f32::consts::{FRAC_PI_2, PI};
+
+    /// A room with a bright wall 4 m ahead, 2 m high, and a camera 0.5 m above the floor.
+    fn room() -> (Scene, Photographer) {
+        let mut scene = Scene::new(50, 10);
+        let (a, b) = (Point2::new(4.0, 5.0), Point2::new(4.0, -5.0));
+        scene.panel(Panel { a, b, bottom: 0.0, top: 2.0, look: Look::Plain(200) });
+        let camera = Camera { position: [0.0, 0.0, 0.5], ..Camera::new(640, 480, FRAC_PI_2) };
+        let mut photographer = Photographer::new(camera).expect("it is level");
+        photographer.noise = 0.0;
+        (scene, photographer)
+    }
+
+    fn photo(scene: &Scene, photographer: &mut Photographer, twist: &Twist, light: &Light) -> GrayImage {
+        let mut image = GrayImage::default();
+        let mut random = Random::new(1);
+        photographer.take(scene, &Pose2::default(), twist, light, Time::ZERO, &mut random, &mut image);
+        image
+    }
+
+    #[test]
+    fn things_are_where_the_camera_projects_them() {
+        let (mut scene, mut photographer) = room();
+        let mark =
+            GrayImage::from(image::GrayImage::from_fn(64, 64, |u, _| image::Luma([if u < 32 { 0 } else { 255 }])));
+        scene.sign(&Pose2::new(3.9, 1.0, PI), 1.0, 0.6, Picture::new(mark));
+        let image = photo(&scene, &mut photographer, &Twist::ZERO, &Light::default());
+        let at = |point: [f32; 3]| {
+            let [u, v] = photographer.camera.project(point).expect("in front");
+            image.pixels.get_pixel(u.round() as u32, v.round() as u32).0[0]
+        };
+        assert_eq!([at([4.0, 0.0, 1.8]), at([2.0, 0.0, 0.0]), at([4.0, 0.0, 2.3])], [200, 50, 10]);
+        assert_eq!([at([3.9, 1.2, 1.0]), at([3.9, 0.8, 1.0])], [0, 255], "the left half of the picture is black");
+        assert_eq!([at([3.9, 1.2, 1.35]), at([3.9, 1.35, 1.0])], [200, 200], "it ends where it should");
+    }
+
+    #[test]
+    fn near_things_hide_far_ones() {
+        let (mut scene, mut photographer) = room();
+        scene.pillar(Pillar { centre: Point2::new(2.0, 0.0), radius: 0.3, top: 0.6, look: Look::Plain(77) });
+        let image = photo(&scene, &mut photographer, &Twist::ZERO, &Light::default());
+        let [u, v] = photographer.camera.project([1.7, 0.0, 0.3]).expect("in front");
+        assert_eq!(image.pixels.get_pixel(u as u32, v as u32).0, [77]);
+        let [_, above] = photographer.camera.project([1.7, 0.0, 0.7]).expect("in front");
+        assert_eq!(image.pixels.get_pixel(u as u32, above as u32).0, [200]);
+    }
+
+    #[test]
+    fn turning_blurs_upright_edges() {
+        let (mut scene, mut photographer) = room();
+        scene.pillar(Pillar { centre: Point2::new(2.0, 0.0), radius: 0.3, top: 2.0, look: Look::Plain(0) });
+        let edge = |image: &GrayImage| {
+            image.pixels.rows().nth(230).expect("a row").filter(|p| !matches!(p.0[0], 0 | 200)).count()
+        };
+        assert_eq!(edge(&photo(&scene, &mut photographer, &Twist::ZERO, &Light::default())), 0);
+        let blurred = edge(&photo(&scene, &mut photographer, &Twist::new(0.0, 0.0, 2.0), &Light::default()));
+        assert_eq!(blurred, 12, "two edges of 2 rad/s · 10 ms · 320 px");
+    }
+
+    #[test]
+    fn light_and_noise_are_as_asked_for() {
+        let (scene, mut photographer) = room();
+        photographer.noise = 4.0;
+        let light = Light { gain: 0.5, slope: 0.4, haze: 20.0 };
+        let image = photo(&scene, &mut photographer, &Twist::ZERO, &light);
+        let part = |from: u32, to: u32| -> (f32, f32) {
+            let wall: Vec<f32> = (230..250)
+                .flat_map(|v| (from..to).map(move |u| (u, v)))
+                .map(|(u, v)| f32::from(image.pixels.get_pixel(u, v).0[0]))
+                .collect();
+            let mean = wall.iter().sum::<f32>() / wall.len() as f32;
+            (mean, (wall.iter().map(|p| (p - mean).powi(2)).sum::<f32>() / wall.len() as f32).sqrt())
+        };
+        let ((left, _), (middle, sigma)) = (part(0, 20), part(310, 330));
+        assert!(
+            (middle - 120.0).abs() < 1.0 && (left - 139.0).abs() < 2.0 && (sigma - 4.0).abs() < 0.5,
+            "{left} {middle} {sigma}"
+        );
+        let dark = photo(&scene, &mut photographer, &Twist::ZERO, &Light { gain: f32::NAN, ..light });
+        assert!(dark.pixels.iter().all(|p| *p == 0));
+    }
+
+    #[test]
+    fn a_camera_that_looks_down_is_refused() {
+        let camera = Camera { pitch: 0.3, ..Camera::new(64, 48, 1.0) };
+        assert_eq!(Photographer::new(camera).err(), Some(NotLevel(camera)));
+    }
+}
