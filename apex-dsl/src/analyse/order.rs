@@ -28,38 +28,31 @@ struct Precedence {
 impl Precedence {
     /// That of one iteration.
     fn new(graph: &Graph, links: &Links) -> Self {
-        let mut precedence = Self::of(graph, links.into.iter().flatten().copied(), &links.loops.delays);
+        let is_taken = |c: &usize| !links.loops.delays.contains(&graph.connections[*c].from.node);
+        let mut precedence = Self::of(graph, links.into.iter().flatten().copied().filter(is_taken));
         for (node, begun) in &links.loops.begun_by {
             precedence.edges[*node].extend(begun.iter().map(|next| (*next, None)));
         }
         precedence
     }
 
-    /// That of some connections. One to a slot counts as far as the last side that it passes. What `early` nodes send is there
-    /// from the beginning, but leaves a nested graph together with everything else.
-    fn of(graph: &Graph, connections: impl Iterator<Item = usize>, early: &BTreeSet<NodeId>) -> Self {
+    /// That of some connections. One to a slot counts as far as the last side that it passes.
+    fn of(graph: &Graph, connections: impl Iterator<Item = usize>) -> Self {
         let nodes = graph.nodes.len();
         let scopes = graph.scopes.len();
         let mut vertices: Vec<Vertex> = (0..nodes).map(Vertex::Node).collect();
         vertices.extend((0..scopes).map(Vertex::Enter));
         vertices.extend((0..scopes).map(Vertex::Leave));
         let mut edges = vec![vec![]; vertices.len()];
-        let mut scopes_that_wait = BTreeSet::new();
         for connection in connections {
             let c = &graph.connections[connection];
-            let is_early = early.contains(&c.from.node);
-            let mut at = (!is_early).then_some(c.from.node);
+            let mut at = c.from.node;
             for next in stations(graph, c) {
-                if let Some(at) = at {
-                    edges[at].push((next, Some(connection)));
-                }
-                at = Some(next);
+                edges[at].push((next, Some(connection)));
+                at = next;
             }
-            let left =
-                c.crossings.iter().filter_map(|side| if let Crossing::Leave(s) = side { Some(*s) } else { None });
-            scopes_that_wait.extend(left.filter(|_| !is_early));
         }
-        for scope in scopes_that_wait {
+        for scope in 1..scopes {
             edges[nodes + scope].push((nodes + scopes + scope, None));
         }
         Self { vertices, edges }
@@ -119,7 +112,7 @@ impl Loops {
 /// A number for each node; nodes between which tokens flow in a circle have the same one.
 pub fn circles(graph: &Graph) -> Vec<usize> {
     let synchronous = (0..graph.connections.len()).filter(|c| graph.is_synchronous(&graph.connections[*c]));
-    let mut part = components(&Precedence::of(graph, synchronous, &BTreeSet::new()).edges);
+    let mut part = components(&Precedence::of(graph, synchronous).edges);
     part.truncate(graph.nodes.len());
     part
 }
@@ -127,7 +120,7 @@ pub fn circles(graph: &Graph) -> Vec<usize> {
 /// The events that lead to inputs from which tokens flow back to their nodes, by connection: also by way of delays, and of
 /// nested graphs, which take all their inputs together.
 pub fn events_on_circles(graph: &Graph) -> Vec<usize> {
-    let edges = Precedence::of(graph, 0..graph.connections.len(), &BTreeSet::new()).edges;
+    let edges = Precedence::of(graph, 0..graph.connections.len()).edges;
     let part = components(&edges);
     let is_on_circle = |c: &usize| {
         let c = &graph.connections[*c];
@@ -247,12 +240,9 @@ fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnos
         error = error
             .note("a nested graph takes all its inputs together and sends all its outputs together, as one node does");
     }
-    let from = graph.connections[*closing].from;
-    let last = graph.end_name(from);
-    let hint = match graph.nodes[from.node].is_delay() {
-        true => "what is delayed inside of it leaves it together with what is not: put the `delay` on the nested graph itself, or on a node outside".to_owned(),
-        false => format!("break it where a value of the iteration before is meant: `delay` behind the node that sends `{last}`, for example `node … = …() delay 0;`"),
-    };
-    let error = error.note(hint).note("or send the token to a slot, which does not wait");
+    let last = graph.end_name(graph.connections[*closing].from);
+    let error = error
+        .note(format!("break it where a value of the iteration before is meant: `delay` behind the node that sends `{last}`, for example `node … = …() delay 0;`"))
+        .note("or send the token to a slot, which does not wait");
     diagnostics.push(error);
 }
