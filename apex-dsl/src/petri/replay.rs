@@ -99,7 +99,7 @@ impl<'a> Replay<'a> {
     }
 
     /// The same replay with another order of what is not recorded: a node with slots takes ⊥ as late as possible, not as
-    /// early, and a delay that sets the pace of a loop begins a turn when the node behind it can fire. Events may have to wait
+    /// early, and a delay on a loop sends when a node behind it fires. Events may have to wait
     /// in one order and not in the other, so that a run is legal if one of the two is.
     #[must_use]
     pub fn hesitating(mut self) -> Self {
@@ -276,11 +276,11 @@ impl<'a> Replay<'a> {
     /// Makes sure that `transition` is enabled, if it can be with what is silent.
     fn prepare(&mut self, transition: TransitionId, what: &str) -> Result<(), Wrong> {
         if !self.state.is_enabled(transition) {
-            self.hurry();
+            self.bring_all(transition, &mut BTreeSet::new());
         }
         if !self.state.is_enabled(transition) {
-            let missing = self.state.missing(transition);
-            missing.into_iter().for_each(|place| self.bring(place, &mut BTreeSet::new()));
+            self.hurry();
+            self.bring_all(transition, &mut BTreeSet::new());
         }
         if self.state.is_enabled(transition) {
             return Ok(());
@@ -288,6 +288,11 @@ impl<'a> Replay<'a> {
         let missing = self.state.missing(transition);
         let places: Vec<&str> = missing.iter().map(|p| self.net.places[*p].name.as_str()).collect();
         Err(self.wrong(what, format!("no token at: {}", places.join("; "))))
+    }
+
+    /// Brings what `transition` lacks.
+    fn bring_all(&mut self, transition: TransitionId, seen: &mut BTreeSet<PlaceId>) {
+        self.state.missing(transition).into_iter().for_each(|place| self.bring(place, seen));
     }
 
     /// Brings a token to `place`, if only others hold it back at sides of nested graphs: also a ⊥ that nodes in between pass on
@@ -301,15 +306,27 @@ impl<'a> Replay<'a> {
             self.state.advance(place);
             return;
         }
-        let gives = |t: &&Transition| matches!(t.meaning, Meaning::Send(_)) && t.gives.contains(&place);
-        let Some(&Transition { meaning: Meaning::Send(node), .. }) = self.net.transitions.iter().find(gives) else {
-            return;
-        };
-        let take = self.by_meaning[&Meaning::Take(node)];
-        let missing = self.state.missing(take);
-        missing.into_iter().for_each(|place| self.bring(place, seen));
-        if self.state.is_enabled(take) && self.is_silent(take) {
-            self.run(take);
+        let sends = |t: &&Transition| matches!(t.meaning, Meaning::Send(_) | Meaning::Release(_));
+        let sender = self.net.transitions.iter().filter(sends).find(|t| t.gives.contains(&place));
+        match sender.map(|t| t.meaning) {
+            Some(Meaning::Send(node)) => {
+                let take = self.by_meaning[&Meaning::Take(node)];
+                self.bring_all(take, seen);
+                if self.state.is_enabled(take) && self.is_silent(take) {
+                    self.run(take);
+                    self.settle();
+                }
+            }
+            Some(release @ Meaning::Release(_)) => self.release(self.by_meaning[&release]),
+            _ => {}
+        }
+    }
+
+    /// Lets a delay on a loop send, if it can.
+    fn release(&mut self, transition: TransitionId) {
+        let Meaning::Release(node) = self.net.transitions[transition].meaning else { return };
+        if self.state.is_enabled(transition) && self.is_due(node) {
+            self.run(transition);
             self.settle();
         }
     }
@@ -324,8 +341,9 @@ impl<'a> Replay<'a> {
             .collect()
     }
 
-    /// Lets them do so, those first whose activity stays as it is.
+    /// Lets them do so, those first whose activity stays as it is, and all delays on loops send.
     fn hurry(&mut self) {
+        (0..self.net.transitions.len()).for_each(|transition| self.release(transition));
         loop {
             let lazy = self.lazy();
             let keeps = lazy.iter().find(|(n, p)| p.active == self.state.is_active(*n)).or(lazy.first());
@@ -385,7 +403,7 @@ impl<'a> Replay<'a> {
                     && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
                     && self.is_due(node)
             }
-            Meaning::Release(node) => self.is_due(node),
+            Meaning::Release(node) => !self.late && self.is_due(node),
             Meaning::Handle(_) => false,
             _ => true,
         }
