@@ -3,6 +3,12 @@
 
 use apex_rt::node;
 
+/// Sends the same value in every firing.
+#[node]
+pub fn constant<T: Clone>(#[param] value: T) -> T {
+    value
+}
+
 /// Sends the value it has received last, in every firing; ⊥ before the first (thesis 3.6.3, *latching*).
 #[node]
 #[derive(Debug, Clone, Default)]

@@ -15,6 +15,12 @@ pub fn equals<T: PartialEq>(a: &T, b: &T, equal: Event<()>, unequal: Event<()>) 
     if a == b { equal.emit(()) } else { unequal.emit(()) }
 }
 
+/// Triggers `yes` or `no`, as the value is.
+#[node]
+pub fn either(value: &bool, yes: Event<()>, no: Event<()>) {
+    if *value { yes.emit(()) } else { no.emit(()) }
+}
+
 /// Triggers its event in every firing: with `every` a clock, with `after` an alarm.
 #[node]
 pub fn tick(signal: Event<()>) {
@@ -118,6 +124,16 @@ mod tests {
             (equal.is_some(), unequal.is_some())
         };
         assert_eq!((both("start", "start"), both("start", "stop")), ((true, false), (false, true)));
+    }
+
+    #[test]
+    fn either_triggers_one_of_two() {
+        let both = |value| {
+            let (mut yes, mut no) = (None, None);
+            either(&value, Event::into_slot(&mut yes), Event::into_slot(&mut no));
+            (yes.is_some(), no.is_some())
+        };
+        assert_eq!((both(true), both(false)), ((true, false), (false, true)));
     }
 
     #[test]

@@ -1,7 +1,8 @@
-use super::GrayImage;
+use super::{GrayImage, light};
 use crate::math::Random;
 use apex_rt::{Out, node};
 use core::f32::consts::PI;
+use std::sync::LazyLock;
 
 /// The most lines of one image.
 pub const MAX_LINES: usize = 256;
@@ -48,6 +49,10 @@ impl Line {
 
 /// Directions that are told apart: steps of 1°.
 const ANGLES: usize = 180;
+
+/// Sine and cosine of the directions.
+static DIRECTIONS: LazyLock<[(f32, f32); ANGLES]> =
+    LazyLock::new(|| std::array::from_fn(|angle| (angle as f32 * PI / ANGLES as f32).sin_cos()));
 
 /// An edge that has not voted yet, and one that has; 0 is none.
 const EDGE: u8 = 1;
@@ -128,8 +133,10 @@ impl Field {
         self.votes.resize(ANGLES * self.distances, 0);
         let mut order = std::mem::take(&mut self.order);
         order.clear();
-        let is_edge = |(_, _, p): &(u32, u32, &::image::Luma<u8>)| p.0[0] > 0;
-        order.extend(edges.pixels.enumerate_pixels().filter(is_edge).map(|(x, y, _)| [x as i32, y as i32]));
+        for (y, row) in light::rows(edges) {
+            let columns = light::runs(row, 1).flat_map(|(first, end)| first..end);
+            order.extend(columns.map(|x| [x as i32, y as i32]));
+        }
         for i in (1..order.len()).rev() {
             order.swap(i, (random.bits() % (i as u64 + 1)) as usize);
         }
@@ -145,11 +152,14 @@ impl Field {
         self.index(at).map_or(0, |i| self.states[i])
     }
 
-    /// The bin of the line through a pixel with a normal of `angle` degrees.
-    fn bin(&self, [x, y]: [i32; 2], angle: usize) -> usize {
-        let (sin, cos) = radians(angle).sin_cos();
-        let distance = (x as f32 * cos + y as f32 * sin).round() as i32;
-        angle * self.distances + (distance + self.distances as i32 / 2) as usize
+    /// The bins of the lines through a pixel, by the angles of their normals.
+    fn bins(&self, [x, y]: [i32; 2]) -> [u32; ANGLES] {
+        let (x, y, middle) = (x as f32, y as f32, self.distances as i32 / 2);
+        let mut bins = [0; ANGLES];
+        for ((bin, first), (sin, cos)) in bins.iter_mut().zip((0..).step_by(self.distances)).zip(&*DIRECTIONS) {
+            *bin = first + (rounded(x * cos + y * sin) + middle) as u32;
+        }
+        bins
     }
 
     /// Votes for all lines through a pixel; the votes and the angle of the best.
@@ -158,11 +168,11 @@ impl Field {
             self.states[i] = VOTED;
         }
         let mut best = (0, 0);
-        for angle in 0..ANGLES {
-            let bin = self.bin(at, angle);
-            self.votes[bin] = self.votes[bin].saturating_add(1);
-            if self.votes[bin] > best.0 {
-                best = (self.votes[bin], angle);
+        for (angle, bin) in self.bins(at).into_iter().enumerate() {
+            let votes = &mut self.votes[bin as usize];
+            *votes = votes.saturating_add(1);
+            if *votes > best.0 {
+                best = (*votes, angle);
             }
         }
         best
@@ -170,7 +180,7 @@ impl Field {
 
     /// The pixels along a line from `at`, each with its two neighbours across.
     fn walk(&self, at: [i32; 2], angle: usize, sense: f32) -> impl Iterator<Item = [[i32; 2]; 3]> + use<> {
-        let (sin, cos) = radians(angle).sin_cos();
+        let (sin, cos) = DIRECTIONS[angle];
         let flat = sin.abs() > cos.abs();
         // One pixel at a time along the axis that the line is nearer to.
         let scale = sense / if flat { sin } else { cos };
@@ -203,9 +213,8 @@ impl Field {
         for across in self.walk(at, angle, sense) {
             for pixel in across {
                 if long && self.state(pixel) == VOTED {
-                    for angle in 0..ANGLES {
-                        let bin = self.bin(pixel, angle);
-                        self.votes[bin] = self.votes[bin].saturating_sub(1);
+                    for bin in self.bins(pixel) {
+                        self.votes[bin as usize] = self.votes[bin as usize].saturating_sub(1);
                     }
                 }
                 if let Some(i) = self.index(pixel) {
@@ -219,8 +228,11 @@ impl Field {
     }
 }
 
-fn radians(angle: usize) -> f32 {
-    angle as f32 * PI / ANGLES as f32
+/// The nearest whole number, as `round` gives it, for many numbers at once.
+fn rounded(x: f32) -> i32 {
+    let whole = x as i32;
+    let rest = x - whole as f32;
+    whole + i32::from(rest >= 0.5) - i32::from(rest <= -0.5)
 }
 
 #[cfg(test)]
@@ -267,6 +279,12 @@ mod tests {
         assert_eq!(find(&GrayImage::default(), 1), []);
         let full = find(&ImageBuffer::from_pixel(60, 60, Luma([255])).into(), 1);
         assert!(full.len() <= MAX_LINES);
+    }
+
+    #[test]
+    fn whole_numbers_are_the_nearest() {
+        let halves = (-9..=9).map(|i| 0.5 * i as f32).flat_map(|x| [x.next_down(), x, x.next_up()]);
+        assert!(halves.into_iter().all(|x| rounded(x) == x.round() as i32));
     }
 
     #[test]

@@ -57,7 +57,9 @@ fn reveal(image: &GrayImage, masked: &mut GrayImage, corners: &[[f32; 2]; 4]) {
         let columns = pixels(crossings(corners, row as f32), width);
         let start = row as usize * width as usize;
         let span = start + columns.start as usize..start + columns.end as usize;
-        masked.pixels.as_mut()[span.clone()].copy_from_slice(&image.pixels.as_raw()[span]);
+        // Few pixels, one by one: faster than as a block.
+        let (to, from) = (&mut masked.pixels.as_mut()[span.clone()], &image.pixels.as_raw()[span]);
+        to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     }
 }
 
@@ -73,9 +75,9 @@ fn crossings(corners: &[[f32; 2]; 4], row: f32) -> impl Iterator<Item = f32> {
 /// The pixels from the least to the largest value, as far as there are any.
 fn pixels(values: impl Iterator<Item = f32>, count: u32) -> std::ops::Range<u32> {
     let (low, high) = values.fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(x), high.max(x)));
-    // Casts stay in the range of the type.
-    let (first, end) = (low.floor().max(0.0) as u32, (high.floor() + 1.0).max(0.0) as u32);
-    first.min(end.min(count))..end.min(count)
+    // Casts round towards zero, and stay in the range of the type.
+    let end = if high < 0.0 { 0 } else { (high as u32).saturating_add(1).min(count) };
+    (low as u32).min(end)..end
 }
 
 #[cfg(test)]

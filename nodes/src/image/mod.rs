@@ -7,21 +7,27 @@
 #[cfg(feature = "barcode")]
 mod barcode;
 mod camera;
+mod components;
 mod edges;
+mod hat;
 mod hough;
+mod light;
 mod mask;
 #[cfg(feature = "record")]
 mod message;
 mod picture;
 mod region;
 mod target;
+mod window;
 
 #[cfg(feature = "barcode")]
 pub use barcode::{BarCode, Symbology, bar_code};
 pub use camera::Camera;
+pub use components::{Components, MAX_REGIONS, Regions};
 pub use edges::Edges;
+pub use hat::BlackHat;
 pub use hough::{Line, Lines, MAX_LINES, ProbabilisticHough};
 pub use mask::LaserMask;
 pub use picture::{ColorImage, GrayImage, Image, to_gray};
-pub use region::{BlackHat, Components, MAX_REGIONS, Normalize, Region, Regions, largest};
+pub use region::{Normalize, Region, largest};
 pub use target::{Target, TargetLines, TargetPose, region_target};

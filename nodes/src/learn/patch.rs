@@ -40,13 +40,15 @@ pub fn deviation(image: &GrayImage) -> Option<f32> {
 /// Mean and standard deviation.
 fn moments(values: impl Iterator<Item = f32> + Clone) -> (f32, f32) {
     // In double precision: an image has many pixels.
-    let mean = |values: &mut dyn Iterator<Item = f64>| {
-        let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), x| (sum + x, count + 1));
-        sum / f64::from(count.max(1))
-    };
-    let middle = mean(&mut values.clone().map(f64::from));
-    let variance = mean(&mut values.map(|x| (f64::from(x) - middle).powi(2)));
+    let values = values.map(f64::from);
+    let middle = mean(values.clone());
+    let variance = mean(values.map(|x| (x - middle) * (x - middle)));
     (middle as f32, libm::sqrt(variance) as f32)
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), x| (sum + x, count + 1));
+    sum / f64::from(count.max(1))
 }
 
 #[cfg(test)]

@@ -156,7 +156,9 @@ impl<T: Clone> Grid<T> {
     /// # Errors
     /// As [`new`](Self::new); the grid stays as it is.
     pub fn reset(&mut self, raster: Raster, value: T) -> Result<(), TooManyCells> {
-        let count = raster.width.checked_mul(raster.height).filter(|&count| count <= MAX_CELLS);
+        // One of them may be zero.
+        let longer = raster.width.max(raster.height);
+        let count = raster.width.checked_mul(raster.height).filter(|&count| count.max(longer) <= MAX_CELLS);
         let sized = raster.resolution.is_finite() && raster.resolution > 0.0;
         let Some(count) = count.filter(|_| sized) else { return Err(TooManyCells(raster)) };
         self.raster = raster;
@@ -288,6 +290,8 @@ mod tests {
             let raster = Raster { resolution, width, height: 2, ..Raster::default() };
             assert_eq!(Grid::new(raster, 0_u8).map_err(|e| e.0.width), Err(width), "{resolution}");
         }
+        let raster = Raster { width: usize::MAX, height: 0, ..Raster::default() };
+        assert!(Grid::new(raster, ()).is_err());
         let far = Raster::around([Point2::new(f32::MAX, 0.0), Point2::default()], 1.0, 0.05);
         assert!(Grid::new(far, 0_u8).is_err());
     }

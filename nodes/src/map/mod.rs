@@ -4,6 +4,8 @@
 mod distance;
 mod grid;
 mod mark;
+#[cfg(feature = "record")]
+mod message;
 mod morphology;
 mod occupancy;
 mod octagon;

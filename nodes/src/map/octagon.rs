@@ -74,6 +74,9 @@ pub struct OctagonSearch {
     /// This part of the cells in the middle has to lie on the octagon.
     #[param(default = 0.6, range = 0.0..=1.0)]
     min_share: f32,
+    /// Cells have to lie on so many of its sides: who comes from one direction sees three or four.
+    #[param(default = 6, range = 1..=8)]
+    min_sides: usize,
     /// So many pairs are tried.
     #[param(default = 20_000, range = 1..=10_000_000)]
     tries: u32,
@@ -123,7 +126,7 @@ impl OctagonSearch {
         self.cells.iter().map(|p| each(p).max(0.0)).sum()
     }
 
-    /// Whether enough cells lie on it, and on six of its sides: a straight wall is none.
+    /// Whether enough cells lie on it, and on enough of its sides: a straight wall is none.
     fn holds(&self, octagon: &Octagon) -> bool {
         let on = |p: &&Point2| octagon.distance(**p) <= self.tolerance;
         let mut sides = [false; 8];
@@ -133,7 +136,8 @@ impl OctagonSearch {
             sides[(turn.round() as i32).rem_euclid(8) as usize] = true;
             count += 1;
         }
-        count as f32 >= self.min_share * self.cells.len() as f32 && sides.iter().filter(|s| **s).count() >= 6
+        count as f32 >= self.min_share * self.cells.len() as f32
+            && sides.iter().filter(|s| **s).count() >= self.min_sides
     }
 }
 
@@ -225,7 +229,7 @@ mod tests {
     }
 
     fn search() -> OctagonSearch {
-        OctagonSearch::construct((3.0, 0.5, 2.0, 0.08, 0.6, 20_000, 1))
+        OctagonSearch::construct((3.0, 0.5, 2.0, 0.08, 0.6, 6, 20_000, 1))
     }
 
     #[test]

@@ -26,13 +26,13 @@ pub struct Sign {
 
 impl Sign {
     /// One that was seen once.
-    fn new(class: u32, pose: &Pose2) -> Self {
+    pub fn new(class: u32, pose: &Pose2) -> Self {
         let directions = Point2::polar(1.0, pose.theta);
         Self { class, count: 1, mean: pose.position(), scatter: [0.0; 3], directions }
     }
 
     /// Takes in another sighting (Welford 1962).
-    fn add(&mut self, pose: &Pose2) {
+    pub fn add(&mut self, pose: &Pose2) {
         self.count = self.count.saturating_add(1);
         let before = pose.position() - self.mean;
         self.mean = self.mean + before.scaled(1.0 / self.count as f32);
@@ -109,20 +109,28 @@ impl SignMap {
 
 /// Looks up where the sign of a class is (thesis 8.1.1): the one that was seen most. ⊥, and `unknown` with the class,
 /// if none was seen often enough.
+///
+/// Without a map nothing is known. Signs may be misread: where another class was seen more often at the same place, there is no sign of this one.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MapLookup {
     /// A sign that was seen less often may be a false detection.
     #[param(default = 3, range = 1..=1_000_000)]
     min_count: u32,
+    /// Signs that are this near to each other are at the same place.
+    #[param(unit = "m", default = 0.75, range = 0.0..=100.0)]
+    place: f32,
 }
 
 #[node]
 impl MapLookup {
-    fn process(&mut self, class: &u32, signs: &Signs, unknown: Event<u32>) -> Option<Pose2> {
+    fn process(&mut self, class: &u32, signs: Option<&Signs>, unknown: Event<u32>) -> Option<Pose2> {
+        let signs = signs.map_or(&[][..], |signs| signs);
         let known = signs.iter().filter(|sign| sign.class == *class && sign.count >= self.min_count);
+        let is_other = |a: &Sign, b: &Sign| (a.mean - b.mean).norm() <= self.place && b.count > a.count;
+        let right = known.filter(|sign| !signs.iter().any(|other| is_other(sign, other)));
         // Of equal ones the first.
-        let best = known.rev().max_by_key(|sign| sign.count).map(Sign::pose);
+        let best = right.rev().max_by_key(|sign| sign.count).map(Sign::pose);
         if best.is_none() {
             unknown.emit(*class);
         }
@@ -139,7 +147,7 @@ mod tests {
 
     fn lookup(class: u32, signs: &Signs) -> (Option<Pose2>, Option<u32>) {
         let mut unknown = None;
-        let pose = MapLookup::construct((3,)).process(&class, signs, Event::into_slot(&mut unknown));
+        let pose = MapLookup::construct((3, 0.75)).process(&class, Some(signs), Event::into_slot(&mut unknown));
         (pose, unknown)
     }
 

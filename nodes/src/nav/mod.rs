@@ -9,8 +9,11 @@
 mod costs;
 #[cfg(feature = "std")]
 mod follow;
+mod guard;
 #[cfg(feature = "std")]
 mod law;
+#[cfg(feature = "record")]
+mod message;
 mod motion;
 #[cfg(feature = "std")]
 mod path;
@@ -22,12 +25,14 @@ mod safety;
 mod search;
 #[cfg(feature = "std")]
 mod smooth;
+mod track;
 mod twist;
 
 #[cfg(feature = "std")]
 pub use costs::{CostMap, write_costs};
 #[cfg(feature = "std")]
 pub use follow::PathFollower;
+pub use guard::OdometryGuard;
 #[cfg(feature = "std")]
 pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
@@ -41,4 +46,5 @@ pub use safety::{ProtectiveField, SafetyField};
 pub use search::{NoPath, Search, Terrain};
 #[cfg(feature = "std")]
 pub use smooth::{is_clear, simplify, smooth, subdivide};
+pub use track::{TrackPose, stand_before};
 pub use twist::Twist;

@@ -58,6 +58,26 @@ impl ShortSegmentFilter {
     }
 }
 
+/// Passes a scan in which enough beams have measured something; ⊥ else: a scanner that is covered or broken must not be taken
+/// for free space.
+#[node]
+#[derive(Debug, Clone)]
+pub struct EnoughBeams {
+    /// The least share of the beams.
+    #[param(default = 0.3, range = 0.0..=1.0)]
+    min_share: f32,
+}
+
+#[node]
+impl EnoughBeams {
+    fn process(&mut self, scan: &Scan, seen: &mut Out<Scan>) {
+        let measured = scan.ranges.iter().filter(|range| scan.is_measured(**range)).count();
+        if measured > 0 && measured as f32 >= self.min_share * scan.ranges.len() as f32 {
+            seen.get_mut().clone_from(scan);
+        }
+    }
+}
+
 /// The widest window of a [`MedianFilter`].
 const MAX_WINDOW: usize = 15;
 
@@ -99,6 +119,26 @@ fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_blind_scanner_sends_nothing() {
+        let mut node = EnoughBeams::construct((0.3,));
+        let mut passes = |measured: usize, other: f32| {
+            let mut scan = Scan { range_min: 0.05, range_max: 20.0, ..Scan::default() };
+            scan.ranges.extend((0..100).map(|beam| if beam < measured { 3.0 } else { other }));
+            let mut out = Out::new();
+            node.process(&scan, out.begin());
+            let bits = |scan: &Scan| scan.ranges.iter().map(|r| r.to_bits()).collect::<std::vec::Vec<_>>();
+            assert!(out.get().is_none_or(|passed| bits(passed) == bits(&scan)));
+            out.get().is_some()
+        };
+        for other in [f32::NAN, f32::INFINITY, 0.0] {
+            assert_eq!(
+                [passes(0, other), passes(29, other), passes(31, other), passes(100, other)],
+                [false, false, true, true]
+            );
+        }
+    }
     use apex_rt::Construct;
 
     fn scan(ranges: &[f32]) -> Scan {

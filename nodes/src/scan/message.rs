@@ -10,7 +10,30 @@ use apex_rt::{
 };
 
 /// Types do not say in which frame they are: all are shown in one.
-const FRAME: &str = "robot";
+pub(crate) const FRAME: &str = "robot";
+
+/// What a `geometry_msgs/Pose` is, and what is in it, at the end of a definition.
+macro_rules! pose_definition {
+    () => {
+        "
+================================================================================
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+================================================================================
+MSG: geometry_msgs/Point
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w"
+    };
+}
+pub(crate) use pose_definition;
 
 impl Message for Scan {
     const NAME: &'static str = "sensor_msgs/msg/LaserScan";
@@ -62,42 +85,35 @@ float32[] intensities";
 
 impl Message for Pose2 {
     const NAME: &'static str = "geometry_msgs/msg/PoseStamped";
-    const DEFINITION: &'static str = "\
-std_msgs/Header header
-geometry_msgs/Pose pose
-================================================================================
-MSG: geometry_msgs/Pose
-geometry_msgs/Point position
-geometry_msgs/Quaternion orientation
-================================================================================
-MSG: geometry_msgs/Point
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w";
+    const DEFINITION: &'static str = concat!("std_msgs/Header header\ngeometry_msgs/Pose pose", pose_definition!());
 
     fn write(&self, message: &mut Writer<'_>) {
         message.header(Time::ZERO, FRAME);
-        Point2::new(self.x, self.y).write(message);
-        let (z, w) = libm::sincos(0.5 * f64::from(self.theta));
-        // More than a turn, or no angle at all: a quaternion cannot hold that, and is none.
-        let (x, z, w) =
-            if angle(z, w).to_bits() == self.theta.to_bits() { (0.0, z, w) } else { (f64::from(self.theta), 0.0, 0.0) };
-        [x, 0.0, z, w].into_iter().for_each(|number| message.f64(number));
+        write_pose(self, message);
     }
 
     fn read(message: &mut Reader<'_>) -> Option<Self> {
         message.header()?;
-        let position = Point2::read(message)?;
-        let (x, _, z, w) = (message.f64()?, message.f64()?, message.f64()?, message.f64()?);
-        let theta = if z == 0.0 && w == 0.0 { x as f32 } else { angle(z, w) };
-        Some(Self::new(position.x, position.y, theta))
+        read_pose(message)
     }
+}
+
+/// Writes a `geometry_msgs/Pose`.
+pub(crate) fn write_pose(pose: &Pose2, message: &mut Writer<'_>) {
+    pose.position().write(message);
+    let (z, w) = libm::sincos(0.5 * f64::from(pose.theta));
+    // More than a turn, or no angle at all: a quaternion cannot hold that, and is none.
+    let (x, z, w) =
+        if angle(z, w).to_bits() == pose.theta.to_bits() { (0.0, z, w) } else { (f64::from(pose.theta), 0.0, 0.0) };
+    [x, 0.0, z, w].into_iter().for_each(|number| message.f64(number));
+}
+
+/// Reads a `geometry_msgs/Pose`.
+pub(crate) fn read_pose(message: &mut Reader<'_>) -> Option<Pose2> {
+    let position = Point2::read(message)?;
+    let (x, _, z, w) = (message.f64()?, message.f64()?, message.f64()?, message.f64()?);
+    let theta = if z == 0.0 && w == 0.0 { x as f32 } else { angle(z, w) };
+    Some(Pose2::new(position.x, position.y, theta))
 }
 
 /// The angle of a turn about the vertical axis: in double precision exact enough that the nearest `f32` is the right one.

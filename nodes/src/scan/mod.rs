@@ -8,12 +8,12 @@ mod filter;
 mod geometry;
 mod laser;
 #[cfg(feature = "record")]
-mod message;
+pub(crate) mod message;
 mod mount;
 mod segment;
 
 pub use container::{Container, ContainerSearch};
-pub use filter::{MedianFilter, RangeFilter, ShortSegmentFilter};
+pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{Point2, Pose2};
 pub use laser::{MAX_BEAMS, Scan};
 pub use mount::{MergeScans, MountScan, OtherBeams};

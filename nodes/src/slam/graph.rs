@@ -58,6 +58,12 @@ impl std::fmt::Display for NoSuchPose {
 impl std::error::Error for NoSuchPose {}
 
 impl Edge {
+    /// eᵀ Ω e, with the error e and the information Ω: χ² of what was measured, if the poses are right.
+    pub(super) fn cost(&self, poses: &[Pose]) -> f64 {
+        let error = self.error(&poses[self.from], &poses[self.to]);
+        error.dot(&(self.information * error))
+    }
+
     /// How far what was measured is from the poses, in the frame of the pose that was seen: x, y and heading.
     fn error(&self, from: &Pose, to: &Pose) -> Vector3<f64> {
         let difference = from.inv_mul(to).inv_mul(&self.measured);
@@ -117,11 +123,7 @@ impl PoseGraph {
     }
 
     fn cost_at(&self, poses: &[Pose]) -> f64 {
-        let cost = |edge: &Edge| {
-            let error = edge.error(&poses[edge.from], &poses[edge.to]);
-            error.dot(&(edge.information * error))
-        };
-        self.edges.iter().map(cost).sum()
+        self.edges.iter().map(|edge| edge.cost(poses)).sum()
     }
 
     /// Moves the poses to where they agree best with what was measured: until a step lowers the cost by less than
@@ -159,6 +161,21 @@ impl PoseGraph {
             }
         }
         Optimized { steps: max_steps, cost }
+    }
+
+    /// Moves the last pose alone to where it agrees best with the edges that were added last and end there.
+    pub(super) fn settle_last(&mut self) {
+        let Some(last) = self.poses.len().checked_sub(1) else { return };
+        let (mut curvature, mut gradient) = (Matrix3::zeros(), Vector3::zeros());
+        for edge in self.edges.iter().rev().take_while(|edge| edge.to == last) {
+            let (from, to) = (&self.poses[edge.from], &self.poses[last]);
+            let (_, b) = edge.jacobians(from, to);
+            curvature += b.tr_mul(&edge.information) * b;
+            gradient -= b.tr_mul(&(edge.information * edge.error(from, to)));
+        }
+        if let Some(factor) = curvature.cholesky() {
+            self.poses[last] = moved(&self.poses[last], &factor.solve(&gradient));
+        }
     }
 
     /// The poses after two steps: one of the headings and one of the positions, for each of which the errors are linear. This helps
@@ -202,10 +219,13 @@ impl PoseGraph {
         matrix.factorize()?;
         matrix.solve(&mut gradient);
         gradient[0] = Vector3::zeros();
-        let moved =
-            |(p, d): (&Pose, &Vector3<f64>)| pose(p.translation.x + d.x, p.translation.y + d.y, heading(p) + d.z);
-        Some(poses.iter().zip(&gradient).map(moved).collect())
+        Some(poses.iter().zip(&gradient).map(|(p, step)| moved(p, step)).collect())
     }
+}
+
+/// A pose after a step of x, y and heading.
+fn moved(from: &Pose, step: &Vector3<f64>) -> Pose {
+    pose(from.translation.x + step.x, from.translation.y + step.y, heading(from) + step.z)
 }
 
 #[cfg(test)]
@@ -256,6 +276,20 @@ mod tests {
             let db = (edge.error(&from, &moved(&to, i, h)) - edge.error(&from, &moved(&to, i, -h))) / (2.0 * h);
             assert!((a.column(i) - da).norm() < 1e-6 && (b.column(i) - db).norm() < 1e-6, "{i}");
         }
+    }
+
+    #[test]
+    fn the_last_pose_settles_between_what_was_measured() {
+        let mut graph = PoseGraph::default();
+        for x in [0.0, 1.0, 2.5] {
+            graph.add_pose(pose(x, 0.0, 0.0));
+        }
+        for (from, to, x) in [(0, 1, 7.0), (0, 2, 2.0), (1, 2, 1.2)] {
+            graph.add_edge(edge(from, to, pose(x, 0.0, 0.0))).expect("poses");
+        }
+        graph.settle_last();
+        let x: Vec<f64> = graph.poses().iter().map(|p| p.translation.x).collect();
+        assert!(x[..2] == [0.0, 1.0] && (x[2] - 2.1).abs() < 1e-9, "{x:?}");
     }
 
     #[test]

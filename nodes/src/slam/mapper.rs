@@ -11,9 +11,13 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 const CHAIN: usize = 10;
 /// A turn of 1 rad adds as much drift as so many metres.
 const TURN_LENGTH: f64 = 0.5;
+/// A closed loop adds as much drift as at most so many metres.
+const LOOP_LENGTH: f64 = 0.5;
+/// A loop contradicts the graph if its χ² is greater than this, which is its mean for a right measurement of a pose.
+const CONTRADICTION: f64 = 3.0;
 /// On whole cells a scan fits to at least this share of what it does between them.
 const BETWEEN_CELLS: f64 = 0.9;
-/// Steps of the optimizer after a loop was closed.
+/// Steps of the optimizer after a loop that contradicts the graph.
 const STEPS: usize = 10;
 
 /// When a scan is kept, and what it is compared with.
@@ -66,7 +70,13 @@ impl Default for Settings {
 ///
 /// Keeps a scan whenever the robot has moved a little, finds its pose by comparison with the scans before it, and
 /// adds it to the graph. When the robot comes back to a place, a comparison with the scans that it took there closes
-/// a loop, and the graph is optimized.
+/// a loop. The time for this hardly grows with the number of scans:
+///
+/// - A loop is only searched with scans from which the new one has drifted: that are far away along the graph, where
+///   a closed loop is a short cut. So loops are closed every few metres of the way, and not at each scan, however
+///   often the robot was at a place before.
+/// - The whole graph is optimized only if a loop contradicts it. Else the new pose alone is moved to where
+///   it agrees best with the loop and with the scans before it.
 #[derive(Debug, Clone)]
 pub struct Mapper {
     settings: Settings,
@@ -75,6 +85,8 @@ pub struct Mapper {
     scans: Vec<Vec<Point2>>,
     /// The odometry of the scan that was kept last.
     odometry: Pose,
+    /// Along each edge of the graph, by pose: the pose at its other end, and its length with turns.
+    neighbours: Vec<Vec<(usize, f64)>>,
     loops: usize,
     table: Table,
     matcher: Matcher,
@@ -87,6 +99,7 @@ impl Mapper {
             graph: PoseGraph::default(),
             scans: Vec::new(),
             odometry: Pose::identity(),
+            neighbours: Vec::new(),
             loops: 0,
             table: Table::new(settings.resolution, settings.smear),
             matcher: Matcher::default(),
@@ -130,8 +143,7 @@ impl Mapper {
         let moved = self.odometry.inv_mul(odometry);
         self.odometry = *odometry;
         let Some(last) = self.scans.len().checked_sub(1) else {
-            self.graph.add_pose(prediction);
-            self.scans.push(points);
+            self.keep(prediction, points);
             return;
         };
         let running = last.saturating_sub(self.settings.running.max(1) - 1)..last + 1;
@@ -139,10 +151,15 @@ impl Mapper {
         let found = self.compare(&points, &prediction, running, &window, least_response);
         let pose = found.as_ref().map_or(prediction, |m| m.pose);
         let information = found.map_or(Matrix3::zeros(), |m| m.information) + odometry_information(&moved);
+        self.keep(pose, points);
+        self.connect(last, last + 1, &pose, information, f64::INFINITY);
+        self.close_loops();
+    }
+
+    fn keep(&mut self, pose: Pose, points: Vec<Point2>) {
         self.graph.add_pose(pose);
         self.scans.push(points);
-        self.connect(last, last + 1, &pose, information);
-        self.close_loops();
+        self.neighbours.push(Vec::new());
     }
 
     /// Finds where points fit among some of the kept scans, if at least to a share of `least`.
@@ -163,8 +180,12 @@ impl Mapper {
         found.filter(|m| m.response >= least)
     }
 
-    fn connect(&mut self, from: usize, to: usize, pose: &Pose, information: Matrix3<f64>) {
+    /// Adds an edge, which adds drift as one of at most `longest` m.
+    fn connect(&mut self, from: usize, to: usize, pose: &Pose, information: Matrix3<f64>, longest: f64) {
         let measured = self.graph.poses()[from].inv_mul(pose);
+        let length = measured.translation.vector.norm() + TURN_LENGTH * heading(&measured).abs();
+        self.neighbours[from].push((to, length.min(longest)));
+        self.neighbours[to].push((from, length.min(longest)));
         // Both are poses of the graph.
         let _ = self.graph.add_edge(Edge { from, to, measured, information });
     }
@@ -173,7 +194,7 @@ impl Mapper {
     fn close_loops(&mut self) {
         let new = self.scans.len() - 1;
         let points = std::mem::take(&mut self.scans[new]);
-        let before = self.loops;
+        let before = self.graph.edges().len();
         for (nearest, way) in self.loop_candidates(new) {
             let drift = self.settings.drift * way;
             let window = Window {
@@ -184,13 +205,16 @@ impl Mapper {
             let prediction = self.graph.poses()[new];
             let found = self.compare(&points, &prediction, chain, &window, self.settings.loop_response);
             if let Some(found) = found.filter(is_certain) {
-                self.connect(nearest, new, &found.pose, found.information);
+                self.connect(nearest, new, &found.pose, found.information, LOOP_LENGTH);
                 self.loops += 1;
             }
         }
         self.scans[new] = points;
-        if self.loops > before {
+        let closed = &self.graph.edges()[before..];
+        if closed.iter().any(|edge| edge.cost(self.graph.poses()) > CONTRADICTION) {
             self.graph.optimize(STEPS);
+        } else if !closed.is_empty() {
+            self.graph.settle_last();
         }
     }
 
@@ -226,12 +250,6 @@ impl Mapper {
 
     /// The length of the shortest way along the graph from one pose to each, in m, turns included (Dijkstra 1959).
     fn ways(&self, from: usize) -> Vec<f64> {
-        let mut neighbours = vec![Vec::new(); self.scans.len()];
-        for edge in self.graph.edges() {
-            let length = edge.measured.translation.vector.norm() + TURN_LENGTH * heading(&edge.measured).abs();
-            neighbours[edge.from].push((edge.to, length));
-            neighbours[edge.to].push((edge.from, length));
-        }
         let mut ways = vec![f64::INFINITY; self.scans.len()];
         ways[from] = 0.0;
         // Positive numbers have the order of their bits.
@@ -240,7 +258,7 @@ impl Mapper {
             if f64::from_bits(bits) > ways[at] {
                 continue;
             }
-            for &(next, length) in &neighbours[at] {
+            for &(next, length) in &self.neighbours[at] {
                 let way = ways[at] + length;
                 if way < ways[next] {
                     ways[next] = way;

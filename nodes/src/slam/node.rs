@@ -49,6 +49,12 @@ pub struct GraphSlam {
     /// How wrong its heading can be.
     #[param(unit = "rad", default = 0.35, range = 0.01..=1.0)]
     skid: f32,
+    /// The standard deviation of the distance between two sights of the same thing: with a good scanner in small rooms less.
+    #[param(unit = "m", default = 0.06, range = 0.005..=1.0)]
+    smear: f32,
+    /// A scan is compared with so many before it.
+    #[param(default = 20, range = 1..=1000)]
+    running: usize,
     /// How far a pose drifts per metre of the way: loops are searched so much farther.
     #[param(default = 0.04, range = 0.0..=1.0)]
     drift: f32,
@@ -111,6 +117,8 @@ impl GraphSlam {
             turn: f64::from(self.turn),
             reach: f64::from(self.reach),
             window: Window { distance: f64::from(self.slip), angle: f64::from(self.skid) },
+            smear: f64::from(self.smear),
+            running: self.running,
             drift: f64::from(self.drift),
             loop_distance: f64::from(self.loop_distance),
             loop_response: f64::from(self.loop_response),
@@ -135,7 +143,7 @@ mod tests {
 
     fn node(map_every: u32) -> GraphSlam {
         let Pose2 { x, y, theta } = MOUNT;
-        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.04, 4.0, 0.6, 0.1, map_every))
+        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, 0.1, map_every))
     }
 
     /// What a scanner sees in a room of 8 m × 6 m with its centre at the origin, in which a pillar stands.

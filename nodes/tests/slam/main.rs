@@ -2,6 +2,7 @@
 //!
 //! The recordings are not part of the project: without them the tests say so and pass, unless they run with `CI=true`.
 
+mod arena;
 mod recordings;
 
 use apex_nodes::{

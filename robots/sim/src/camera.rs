@@ -28,6 +28,8 @@ pub struct Photographer {
     pub exposure: f32,
     /// Standard deviation of the brightness of a pixel, of 255.
     pub noise: f32,
+    /// The image as it is drawn, column by column: walls are upright.
+    columns: Vec<u8>,
     row: Vec<u8>,
 }
 
@@ -59,7 +61,7 @@ impl Photographer {
         if camera.pitch != 0.0 {
             return Err(NotLevel(camera));
         }
-        Ok(Self { camera, exposure: 0.01, noise: 2.0, row: vec![] })
+        Ok(Self { camera, exposure: 0.01, noise: 2.0, columns: vec![], row: vec![] })
     }
 
     /// Replaces `image` by what the camera sees of `scene` when its robot is at `pose` and moves with `twist`. Only the
@@ -79,12 +81,15 @@ impl Photographer {
         image.reset(stamp, (camera.width, camera.height));
         let origin = pose.to_outer(Point2::new(camera.position[0], camera.position[1]));
         let ahead = Pose2 { theta: pose.theta + camera.yaw, ..Pose2::default() };
-        let mut hits = vec![];
-        for u in 0..camera.width {
+        let (mut hits, mut columns) = (vec![], std::mem::take(&mut self.columns));
+        columns.resize(camera.width as usize * camera.height as usize, 0);
+        for (u, column) in columns.chunks_exact_mut(camera.height.max(1) as usize).enumerate() {
             let left = (camera.principal_point[0] - u as f32) / camera.focal_length;
             scene.look(origin, ahead.to_outer(Point2::new(1.0, left)), &mut hits);
-            self.column(scene, &hits, u, image);
+            self.column(scene, &hits, column);
         }
+        transpose(&columns, camera.height as usize, &mut image.pixels);
+        self.columns = columns;
         self.blur(twist.omega.abs() * self.exposure * camera.focal_length, image);
         expose(light, self.noise, random, image);
     }
@@ -95,25 +100,27 @@ impl Photographer {
     }
 
     /// Draws a column from the farthest thing to the nearest.
-    fn column(&self, scene: &Scene, hits: &[Hit<'_>], u: u32, image: &mut GrayImage) {
-        let (rows, horizon) = (image.size().1, self.camera.principal_point[1]);
-        for v in 0..rows {
-            image.pixels.put_pixel(u, v, image::Luma([if (v as f32) < horizon { scene.sky } else { scene.floor }]));
-        }
+    fn column(&self, scene: &Scene, hits: &[Hit<'_>], column: &mut [u8]) {
+        let rows = column.len();
+        let row = |v: f32| (v.ceil().max(0.0) as usize).min(rows);
+        let (above, below) = column.split_at_mut(row(self.camera.principal_point[1]));
+        above.fill(scene.sky);
+        below.fill(scene.floor);
         for hit in hits {
             let (top, bottom) = (self.row_of(hit.top, hit.distance), self.row_of(hit.bottom, hit.distance));
-            let drawn = top.ceil().max(0.0) as u32..(bottom.ceil().max(0.0) as u32).min(rows);
+            let Some(drawn) = column.get_mut(row(top)..row(bottom)) else { continue };
             match hit.look {
-                Look::Plain(brightness) => drawn.for_each(|v| image.pixels.put_pixel(u, v, image::Luma([*brightness]))),
+                Look::Plain(brightness) => drawn.fill(*brightness),
                 Look::Picture(picture) => {
                     let Some(level) = picture.at_width(hit.width * self.camera.focal_length / hit.distance) else {
                         continue;
                     };
                     let (columns, lines) = level.size();
-                    let column = ((hit.across * columns as f32) as u32).min(columns - 1);
-                    for v in drawn {
-                        let line = (v as f32 - top) / (bottom - top) * lines as f32;
-                        image.pixels.put_pixel(u, v, *level.pixels.get_pixel(column, (line as u32).min(lines - 1)));
+                    let across = ((hit.across * columns as f32) as u32).min(columns - 1);
+                    let scale = lines as f32 / (bottom - top);
+                    for (v, pixel) in (row(top)..).zip(drawn) {
+                        let line = (v as f32 - top) * scale;
+                        *pixel = level.pixels.get_pixel(across, (line as u32).min(lines - 1)).0[0];
                     }
                 }
             }
@@ -127,15 +134,38 @@ impl Photographer {
         if half == 0 {
             return;
         }
+        let count = 2 * half + 1;
+        // A product instead of a quotient, which is the same for sums of so few bytes.
+        let part = (1_u64 << 32) / count as u64 + 1;
         for line in image.pixels.chunks_exact_mut(width) {
             self.row.clear();
+            self.row.resize(half, line[0]);
             self.row.extend_from_slice(line);
-            let at = |i: isize| u32::from(self.row[i.clamp(0, width as isize - 1) as usize]);
-            let (reach, count) = (half as isize, 2 * half as u32 + 1);
-            let mut sum: u32 = (-reach..=reach).map(at).sum();
-            for (i, pixel) in line.iter_mut().enumerate() {
-                *pixel = (sum / count) as u8;
-                sum = sum + at(i as isize + reach + 1) - at(i as isize - reach);
+            self.row.resize(width + 2 * half + 1, line[width - 1]);
+            let mut sum: u32 = self.row[..count].iter().map(|p| u32::from(*p)).sum();
+            let (leaving, entering) = (&self.row, &self.row[count..]);
+            for ((pixel, old), new) in line.iter_mut().zip(leaving).zip(entering) {
+                *pixel = ((u64::from(sum) * part) >> 32) as u8;
+                sum = sum + u32::from(*new) - u32::from(*old);
+            }
+        }
+    }
+}
+
+/// Turns columns of so many rows into the rows of an image.
+fn transpose(columns: &[u8], rows: usize, image: &mut [u8]) {
+    /// What is read and written in one go fits in the cache.
+    const BLOCK: usize = 32;
+    if rows == 0 {
+        return;
+    }
+    let width = columns.len() / rows;
+    for (block, lines) in image.chunks_mut(BLOCK * width.max(1)).enumerate() {
+        for left in (0..width).step_by(BLOCK) {
+            for (i, line) in lines.chunks_exact_mut(width).enumerate() {
+                let column = columns[left * rows..].iter().skip(block * BLOCK + i).step_by(rows);
+                let part = left..width.min(left + BLOCK);
+                line[part].iter_mut().zip(column).for_each(|(pixel, value)| *pixel = *value);
             }
         }
     }
@@ -151,18 +181,23 @@ pub fn expose(light: &Light, noise: f32, random: &mut Random, image: &mut GrayIm
         (0..width).map(|u| light.gain * (1.0 + light.slope * (0.5 - u as f32 / width as f32))).collect();
     // The sum of four bytes is nearly normal: mean 510, variance 4·(256² − 1)/12.
     let sigma = noise / libm::sqrtf(65535.0 / 3.0);
+    let mut sums = vec![[0; 2]; width.div_ceil(2)];
     for line in image.pixels.chunks_exact_mut(width) {
-        for (pixels, factors) in line.chunks_mut(2).zip(factors.chunks(2)) {
-            let bits = random.bits();
-            for (i, (pixel, factor)) in pixels.iter_mut().zip(factors).enumerate() {
-                let bytes = (bits >> (32 * i)) as u32;
-                let sum: u32 = bytes.to_le_bytes().iter().map(|b| u32::from(*b)).sum();
-                let value = f32::from(*pixel) * factor + light.haze + sigma * (sum as f32 - 510.0);
-                // A cast saturates, and makes 0 of what is no number.
-                *pixel = libm::roundf(value) as u8;
-            }
+        sums.fill_with(|| sums_of_four(random.bits()));
+        for ((pixel, factor), sum) in line.iter_mut().zip(&factors).zip(sums.as_flattened()) {
+            let value = f32::from(*pixel) * factor + light.haze + sigma * (f32::from(*sum) - 510.0);
+            // What is no number becomes 0. By way of i32 the processor does several at once.
+            *pixel = (value + 0.5).clamp(0.0, 255.0) as i32 as u8;
         }
     }
+}
+
+/// The sum of the lower four bytes and that of the upper ones.
+const fn sums_of_four(bits: u64) -> [u16; 2] {
+    const EVEN: u64 = 0x00ff_00ff_00ff_00ff;
+    let pairs = (bits & EVEN) + (bits >> 8 & EVEN);
+    let sums = pairs + (pairs >> 16);
+    [sums as u16, (sums >> 32) as u16]
 }
 
 #[cfg(test)]

@@ -1,0 +1,84 @@
+use super::Twist;
+use crate::scan::Pose2;
+use apex_rt::{Ctx, Time, node};
+
+/// Stops a robot whose wheels say that it stands while it is told to move: an odometer that has frozen, or wheels that do
+/// not turn. Who drives on would not know where.
+///
+/// It tries again after a while, for a short time, and goes on when the odometry moves.
+#[node]
+#[derive(Debug, Clone)]
+pub struct OdometryGuard {
+    /// How long the robot may be told to move before its odometry does.
+    #[param(unit = "s", default = 0.4, range = 0.0..=60.0)]
+    patience: f32,
+    /// How long it stands before it tries again.
+    #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
+    pause: f32,
+    /// Slower than this is standing.
+    #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
+    slowest: f32,
+    /// The odometry that has been the same since then, while the robot was told to move.
+    frozen: Option<(Pose2, Time)>,
+}
+
+#[node]
+impl OdometryGuard {
+    /// Nothing is known without odometry: then it stops at once.
+    fn process(&mut self, ctx: &Ctx, twist: &Twist, odometry: Option<&Pose2>) -> Twist {
+        let Some(odometry) = odometry else { return Twist::ZERO };
+        let is_moving = twist.velocity().norm() > self.slowest;
+        let since = match self.frozen {
+            Some((last, since)) if last == *odometry => since,
+            _ => ctx.now(),
+        };
+        let waited = ctx.now().since(since).as_secs_f32();
+        if !is_moving && waited <= self.patience || waited > self.patience + self.pause {
+            self.frozen = None;
+            return *twist;
+        }
+        self.frozen = Some((*odometry, since));
+        if waited > self.patience { Twist::ZERO } else { *twist }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+
+    const AHEAD: Twist = Twist::new(1.0, 0.0, 0.0);
+
+    /// Whether it lets the robot move, each 100 ms, while the odometry says these places.
+    fn moves(places: impl IntoIterator<Item = f32>, twist: Twist) -> Vec<bool> {
+        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05));
+        let step = |(i, x): (usize, f32)| {
+            let ctx = Ctx::new(Time::from_millis(100 * i as i64));
+            node.process(&ctx, &twist, Some(&Pose2::new(x, 0.0, 0.0))) == twist
+        };
+        places.into_iter().enumerate().map(step).collect()
+    }
+
+    #[test]
+    fn a_robot_that_moves_or_stands_is_left_alone() {
+        assert!(moves((0..50).map(|i| 0.1 * i as f32), AHEAD).iter().all(|m| *m));
+        assert!(moves([1.0; 50], Twist::ZERO).iter().all(|m| *m));
+        assert!(moves([1.0; 50], Twist::new(0.0, 0.0, 1.0)).iter().all(|m| *m), "a turn needs no room");
+    }
+
+    #[test]
+    fn frozen_odometry_stops_it_until_it_tries_again() {
+        let seen = moves([1.0; 40], AHEAD);
+        assert_eq!(seen.iter().position(|m| !m), Some(5));
+        assert!(seen[5..15].iter().all(|m| !m) && seen[15..20].iter().all(|m| *m), "{seen:?}");
+    }
+
+    #[test]
+    fn it_goes_on_when_the_odometry_does() {
+        let places = [1.0; 8].into_iter().chain((0..10).map(|i| 2.0 + 0.1 * i as f32));
+        let seen = moves(places, AHEAD);
+        assert!(!seen[7] && seen[8..].iter().all(|m| *m), "{seen:?}");
+        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05));
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &AHEAD, None), Twist::ZERO);
+    }
+}

@@ -1,0 +1,118 @@
+//! Poses of things that do not move, seen by a robot that does.
+
+use crate::{math::normalize_angle, scan::Pose2};
+use apex_rt::{Ctx, Time, node};
+use core::f32::consts::PI;
+
+/// Where something that stays where it is stands, seen from the robot as it moves on (thesis 8.1.1: a filter of the target).
+///
+/// `robot` is the pose of the robot in any frame that stays, as that of odometry; `seen` is what a detector sees, in the
+/// frame of the robot, and ⊥ in between. Sightings near to each other are averaged, another one replaces them. ⊥ once the
+/// last one is too old.
+#[node]
+#[derive(Debug, Clone)]
+pub struct TrackPose {
+    /// How long it is known without being seen.
+    #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
+    max_age: f32,
+    /// How much of the mean a new sighting is.
+    #[param(default = 0.4, range = 0.01..=1.0)]
+    share: f32,
+    /// Sightings farther away than this from the mean are of something else.
+    #[param(unit = "m", default = 0.3, range = 0.0..=100.0)]
+    gate: f32,
+    /// The mean in the frame of `robot`, and when it was seen last.
+    known: Option<(Pose2, Time)>,
+}
+
+#[node]
+impl TrackPose {
+    fn process(&mut self, ctx: &Ctx, robot: &Pose2, seen: Option<&Pose2>) -> Option<Pose2> {
+        if !robot.is_finite() {
+            return None;
+        }
+        if let Some(seen) = seen.filter(|pose| pose.is_finite()) {
+            self.known = Some((self.mean(robot.compose(seen)), ctx.now()));
+        }
+        self.known = self.known.filter(|(_, at)| ctx.now().since(*at).as_secs_f32() <= self.max_age);
+        self.known.map(|(pose, _)| pose.relative_to(robot))
+    }
+
+    fn mean(&self, seen: Pose2) -> Pose2 {
+        let Some((mean, _)) = self.known else { return seen };
+        let change = seen.position() - mean.position();
+        if change.norm() > self.gate {
+            return seen;
+        }
+        let place = mean.position() + change.scaled(self.share);
+        let turn = normalize_angle(&(seen.theta - mean.theta));
+        Pose2::new(place.x, place.y, normalize_angle(&(mean.theta + self.share * turn)))
+    }
+
+    /// Forgets what was seen.
+    #[slot]
+    fn reset(&mut self) {
+        self.known = None;
+    }
+}
+
+/// The pose of someone who stands so far before something, and looks at it.
+#[node]
+pub fn stand_before(pose: &Pose2, #[param(unit = "m", default = 1.0, range = 0.0..=100.0)] distance: f32) -> Pose2 {
+    pose.compose(&Pose2::new(distance, 0.0, PI))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+
+    fn at(ms: i64) -> Ctx {
+        Ctx::new(Time::from_millis(ms))
+    }
+
+    fn close(a: Option<Pose2>, b: Pose2) -> bool {
+        let turn = |a: Pose2| normalize_angle(&(a.theta - b.theta)).abs();
+        a.is_some_and(|a| (a.position() - b.position()).norm() < 1e-5 && turn(a) < 1e-5)
+    }
+
+    #[test]
+    fn a_thing_stays_where_it_is_while_the_robot_moves() {
+        let mut node = TrackPose::construct((1.0, 0.4, 0.3));
+        assert_eq!(node.process(&at(0), &Pose2::default(), None), None);
+        let thing = Pose2::new(2.0, 1.0, 3.0);
+        assert!(close(node.process(&at(0), &Pose2::default(), Some(&thing)), thing));
+        let robot = Pose2::new(0.5, -0.2, 0.7);
+        assert!(close(node.process(&at(400), &robot, None), thing.relative_to(&robot)));
+        assert!(node.process(&at(1000), &robot, None).is_some());
+        assert_eq!(node.process(&at(1001), &robot, None), None, "it is too old");
+    }
+
+    #[test]
+    fn sightings_are_averaged_unless_they_are_far_apart() {
+        let mut node = TrackPose::construct((1.0, 0.5, 0.3));
+        let mut see = |ms, x, theta| node.process(&at(ms), &Pose2::default(), Some(&Pose2::new(x, 0.0, theta)));
+        see(0, 1.0, 3.1);
+        assert!(close(see(40, 1.2, -3.1), Pose2::new(1.1, 0.0, PI)), "also where angles wrap around");
+        assert!(close(see(80, 2.0, 1.0), Pose2::new(2.0, 0.0, 1.0)));
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_seen() {
+        let mut node = TrackPose::construct((1.0, 0.5, 0.3));
+        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
+        assert_eq!(node.process(&at(0), &Pose2::default(), Some(&nan)), None);
+        node.process(&at(0), &Pose2::default(), Some(&Pose2::default()));
+        assert_eq!(node.process(&at(0), &nan, None), None);
+        node.reset();
+        assert_eq!(node.process(&at(0), &Pose2::default(), None), None);
+    }
+
+    #[test]
+    fn who_stands_before_something_looks_at_it() {
+        let place = stand_before(&Pose2::new(1.0, 2.0, 0.5 * PI), 0.5);
+        assert!(
+            close(Some(place), Pose2::new(1.0, 2.5, 1.5 * PI)) || close(Some(place), Pose2::new(1.0, 2.5, -0.5 * PI))
+        );
+    }
+}
