@@ -27,6 +27,8 @@ pub struct Wanted {
     pub graph: Option<String>,
     /// The activity alone.
     pub activity: bool,
+    /// How deep nested graphs are opened.
+    pub depth: Option<usize>,
     /// The file; standard output if there is none.
     pub output: Option<PathBuf>,
     /// What it is written as, if the name of the file does not say so.
@@ -43,6 +45,10 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     }
     let graph = choose(&checked, wanted.graph.as_deref())?;
     let mut item = diagram(graph, &checked.catalog);
+    if let Some(depth) = wanted.depth {
+        // The graph itself is always open.
+        item = item.closed(depth.saturating_add(1));
+    }
     if wanted.activity {
         item = states(&item).ok_or_else(|| {
             format!("no activity comes to a node of `{}`: it has no `=>` and no state machine", graph.name)
@@ -50,7 +56,7 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     }
     if item.count() > MAX_ITEMS {
         return Err(format!(
-            "a picture of `{}` would have {} boxes, more than {MAX_ITEMS}: draw the graphs in it one by one",
+            "a picture of `{}` would have {} boxes, more than {MAX_ITEMS}: close those in it with `--depth 0`, or draw them one by one",
             graph.name,
             item.count()
         ));

@@ -124,6 +124,9 @@ enum Command {
         /// Only where activity can be, and where it goes, as a state diagram.
         #[arg(long)]
         activity: bool,
+        /// Opens nested graphs only so deep: 0 draws them as boxes with their ports.
+        #[arg(long, value_name = "N")]
+        depth: Option<usize>,
         /// The file to write; without it, standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -240,8 +243,8 @@ fn main() -> ExitCode {
             };
             explain::run(what.as_deref(), format, shown)
         }
-        Command::Graph { file, graph, activity, output, format } => {
-            graph::run(&file, &graph::Wanted { graph, activity, output, format })
+        Command::Graph { file, graph, activity, depth, output, format } => {
+            graph::run(&file, &graph::Wanted { graph, activity, depth, output, format })
         }
         Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
         Command::Lsp => lsp::run(),

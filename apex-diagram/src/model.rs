@@ -123,6 +123,16 @@ impl Item {
         1 + self.inside.iter().flat_map(|frame| &frame.items).map(Self::count).sum::<usize>()
     }
 
+    /// The same with what is nested deeper than `depth` closed: a box with its ports.
+    #[must_use]
+    pub fn closed(self, depth: usize) -> Self {
+        let inside = self.inside.zip(depth.checked_sub(1)).map(|(frame, depth)| Frame {
+            items: frame.items.into_iter().map(|item| item.closed(depth)).collect(),
+            ..frame
+        });
+        Self { inside, ..self }
+    }
+
     /// Its ports at one side, by number.
     pub fn at(&self, side: Side) -> Vec<usize> {
         (0..self.ports.len()).filter(|p| self.ports[*p].side == side).collect()

@@ -71,9 +71,9 @@ pub fn value(given: &Value, unit: Option<&str>) -> String {
                 None if n.dimension.is_none() => (n.value, String::new()),
                 None => (n.value, format!(" {}", n.dimension)),
             };
-            // What a division leaves in the last digits says nothing.
-            let rounded = format!("{number:.9e}").parse().unwrap_or(number);
-            format!("{rounded}{unit}")
+            let (short, degrees) = (rounded(number), rounded(number.to_degrees()));
+            // 45 deg is easier to read than 0.785398163 rad.
+            if unit == " rad" && degrees.len() < short.len() { format!("{degrees} deg") } else { short + &unit }
         }
         Value::Bool(b) => b.to_string(),
         Value::Text(text) => format!("{text:?}"),
@@ -86,6 +86,11 @@ pub fn value(given: &Value, unit: Option<&str>) -> String {
         Value::Path(path) => path.last().cloned().unwrap_or_default(),
         Value::RustDefault => "…".to_owned(),
     }
+}
+
+/// What a division leaves in the last digits says nothing.
+fn rounded(number: f64) -> String {
+    format!("{number:.9e}").parse().unwrap_or(number).to_string()
 }
 
 /// A duration in the unit in which it is short.

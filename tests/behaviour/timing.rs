@@ -174,3 +174,48 @@ fn a_source_that_falls_silent_times_out_once() {
     assert_eq!(program.nodes().k.seen, [1, 2], "at 0 and 10 ms");
     assert_eq!(program.nodes().said.late, [Time::from_millis(35)]);
 }
+
+/// What `k` has seen when a new value is put in 5 ms before each 10 ms.
+macro_rules! latched {
+    ($program:ident) => {{
+        let mut program = $program::new();
+        for ms in (0..40).step_by(5) {
+            if ms % 10 == 5 {
+                program.inputs().set.put(ms + 5).unwrap();
+            }
+            program.react(Time::from_millis(ms));
+        }
+        program
+    }};
+}
+
+#[test]
+fn what_has_no_pace_fires_with_who_takes_its_tokens() {
+    assert_eq!(latched!(Fresh).nodes().k.seen, [(1, 100), (2, 200), (3, 300)]);
+}
+
+#[test]
+fn what_somebody_hears_has_a_pace_of_its_own() {
+    let program = latched!(Heard);
+    assert_eq!(program.nodes().k.seen.len(), 3);
+    assert!(program.nodes().every.seen.len() > 3, "{:?}", program.nodes().every.seen);
+}
+
+#[test]
+fn what_has_no_pace_fires_with_the_taker_that_waits_for_the_least() {
+    let program = latched!(Shared);
+    assert_eq!(program.nodes().k.seen, [(1, 10), (2, 30)], "the slower taker holds the clock back");
+    assert_eq!(program.nodes().rare.seen, [(2, 10)]);
+}
+
+#[test]
+fn what_has_no_pace_waits_for_none_of_two_takers_apart() {
+    let program = latched!(Between);
+    assert_eq!(program.nodes().k.seen, [(1, 10), (2, 30)]);
+    assert_eq!(program.nodes().rare.seen, [(1, 10)]);
+}
+
+#[test]
+fn what_has_no_pace_fires_once_in_a_reaction_with_a_taker_without_one() {
+    assert_eq!(latched!(Unpaced).nodes().k.seen, [10, 10, 20, 20, 30, 30, 40]);
+}

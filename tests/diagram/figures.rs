@@ -1,7 +1,7 @@
 //! `docs/figures.md` and its pictures are what is drawn today. `APEX_UPDATE_PICTURES=1` writes them anew.
 
 use crate::{Drawer, root};
-use apex_diagram::{diagram, states, svg};
+use apex_diagram::{Item, diagram, states, svg};
 use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
 
 const INTRODUCTION: &str = "# Figures
@@ -56,17 +56,23 @@ fn written() -> BTreeMap<String, String> {
         }
     }
     files.insert("docs/figures.md".to_owned(), page);
-    files.insert("docs/images/mission.svg".to_owned(), mission());
+    let patsy = drawn("robots/patsy", "mission.afg", "Mission");
+    files.insert("docs/images/mission.svg".to_owned(), svg(&patsy));
+    let mission = drawn("robots/sick-robot-day", "mission.afg", "Mission");
+    files.insert("docs/images/competition.svg".to_owned(), svg(&mission.clone().closed(1)));
+    let activity = states(&mission.closed(2)).expect("there is activity");
+    files.insert("docs/images/competition_activity.svg".to_owned(), svg(&activity));
     files
 }
 
-/// The picture of the README.
-fn mission() -> String {
-    let folder = root().join("robots/patsy");
-    let text = fs::read_to_string(folder.join("mission.afg")).expect("it can be read");
+/// A graph of a robot.
+fn drawn(folder: &str, file: &str, name: &str) -> Item {
+    let folder = root().join(folder);
+    let text = fs::read_to_string(folder.join(file)).expect("it can be read");
     let mut drawer = Drawer::of(&folder);
     let graphs = drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}"));
-    svg(&diagram(&graphs[0], &drawer.0))
+    let graph = graphs.iter().find(|graph| graph.name == name).expect("it is in the text");
+    diagram(graph, &drawer.0)
 }
 
 #[test]

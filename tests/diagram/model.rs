@@ -74,6 +74,20 @@ fn lines(item: &Item) -> Vec<String> {
 }
 
 #[test]
+fn nested_graphs_can_be_closed() {
+    let item = Drawer::new().one(KINDS);
+    let (open, closed) = (item.inside.clone().expect("an inside"), item.clone().closed(1));
+    let (_, inner) = named(&open, "inner");
+    let inside = closed.inside.as_ref().expect("it is open itself");
+    let (_, box_of_inner) = named(inside, "inner");
+    assert!(inner.inside.is_some() && box_of_inner.inside.is_none());
+    assert_eq!((&box_of_inner.ports, &box_of_inner.words), (&inner.ports, &inner.words));
+    assert_eq!(lines(&closed), lines(&item), "all lines of the open one are there");
+    assert_eq!(item.clone().closed(2), item);
+    assert_eq!(item.closed(0).inside, None);
+}
+
+#[test]
 fn nodes_and_connections_of_all_kinds() {
     let item = Drawer::new().one(KINDS);
     assert_eq!(item.docs.trim(), "Everything that can be connected.");

@@ -10,3 +10,13 @@ pub fn edges(x: &u64) -> u64 {
 pub fn corners(x: &u64) -> u64 {
     *x
 }
+
+mod inside {
+    use apex_rt::prelude::*;
+
+    /// Nobody outside can name it.
+    #[node]
+    pub fn faces(x: &u64) -> u64 {
+        *x
+    }
+}

@@ -5,7 +5,9 @@ use apex_rt::{Program, drive_with, prelude::*, record::replay};
 use std::time::Duration;
 
 graph! {
-    use apex_tests::nodes::{Diary, Mean, Moody, bits, device, dozen, noise, pairs, ranges, same, swallow};
+    use apex_tests::nodes::{
+        Diary, Mean, Moody, bits, chart, device, dozen, heights, noise, pairs, ranges, same, swallow, twist, way,
+    };
 
     /// Sources of all kinds.
     robot Restless {
@@ -47,6 +49,19 @@ graph! {
         node pairs = pairs();
         d -> pairs -> swallow();
         record "batches.mcap" { pairs; }
+    }
+
+    /// What a robot knows of the plane.
+    robot Navigator {
+        node map = same();
+        node costs = same();
+        node path = same();
+        node motion = same();
+        chart() every 3ms -> map -> swallow();
+        heights() every 3ms -> costs -> swallow();
+        way() every 3ms -> path -> swallow();
+        twist() every 3ms -> motion -> swallow();
+        record "navigator.mcap" { map; costs; path; motion; }
     }
 
     /// Tokens come in from outside, and events are taken out.
@@ -98,6 +113,18 @@ fn a_run_with_chance_in_it_is_the_same_again() {
     assert_eq!(first.nodes().diary.entries, second.nodes().diary.entries);
     assert!(first.nodes().m.calls > 200);
     assert_eq!(second.nodes().m.calls, 0, "a source that was recorded is not called");
+}
+
+#[test]
+fn maps_paths_and_twists_are_the_same_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    record::<Navigator>(&path, |tap| {
+        drive_with(Navigator::new(), until(30), tap);
+    });
+    let report = repeat(Navigator::new(), &path);
+    assert!(report.is_same() && report.missing.is_empty(), "{report}");
+    assert_eq!(report.compared.iter().map(|c| c.equal).collect::<Vec<_>>(), [10; 4], "{report}");
 }
 
 #[test]

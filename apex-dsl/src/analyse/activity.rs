@@ -1,17 +1,31 @@
 //! The activity sub-graph (thesis 7.1.2): which nodes can ever be active.
 
-use crate::graph::{Graph, NodeId, NodeKind};
+use crate::{
+    graph::{Graph, NodeId, NodeKind},
+    syntax::tree::PortKind,
+};
 use std::collections::BTreeSet;
 
 /// The nodes that activity can reach. All others are never active, and cost nothing.
 pub fn reachable(graph: &Graph) -> BTreeSet<NodeId> {
+    spread(graph, |_| false)
+}
+
+/// The nodes that activity can reach if the graph is a part of another one, which sends it some over its ports.
+pub fn reachable_within(graph: &Graph) -> BTreeSet<NodeId> {
+    spread(graph, |kind| matches!(kind, NodeKind::Boundary(PortKind::Input | PortKind::Slot)))
+}
+
+/// The nodes that activity can reach from where it begins, and from nodes of these kinds.
+fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId> {
     let mut next: Vec<Vec<NodeId>> = vec![vec![]; graph.nodes.len()];
     for c in graph.connections.iter().filter(|c| c.active) {
         next[c.from.node].push(c.to.node);
     }
     let begins = |n: &NodeId| {
         let node = &graph.nodes[*n];
-        node.starts_active || matches!(node.kind, NodeKind::Start | NodeKind::Receiver(_)) && !next[*n].is_empty()
+        let is_source = matches!(node.kind, NodeKind::Start | NodeKind::Receiver(_)) || enters(&node.kind);
+        node.starts_active || is_source && !next[*n].is_empty()
     };
     let mut found: BTreeSet<NodeId> = BTreeSet::new();
     let mut stack: Vec<NodeId> = (0..graph.nodes.len()).filter(begins).collect();

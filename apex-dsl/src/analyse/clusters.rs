@@ -1,6 +1,9 @@
 //! Regions, guards and clusters: what runs together as straight-line code (see the execution semantics).
 
-use super::{Analysis, Asynchronous, Block, Links, Step, fires, is_source};
+use super::{
+    Analysis, Asynchronous, Block, Links, Step, fires, is_source,
+    pulled::{Pulled, pulled},
+};
 use crate::{
     catalog::Catalog,
     graph::{Connection, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
@@ -153,8 +156,7 @@ pub fn clusters(
         }
     }
     let view = View { graph, catalog, links, order, regions, asynchronous };
-    add_react_guards(&view, &mut guards, &mut own);
-    let accumulated = accumulate(&view, &guards, &own);
+    let accumulated = add_react_guards(&view, &mut guards, &mut own);
     let mut by_guards: BTreeMap<(usize, &BTreeSet<usize>), Vec<NodeId>> = BTreeMap::new();
     for &node in order.iter().filter(|n| fires(graph, catalog, links, **n)) {
         by_guards.entry((regions[node], &accumulated[node])).or_default().push(node);
@@ -229,16 +231,21 @@ fn pass_sides(
 }
 
 /// What the functions below look at.
-struct View<'a> {
-    graph: &'a Graph,
+pub struct View<'a> {
+    pub graph: &'a Graph,
     catalog: &'a Catalog,
-    links: &'a Links,
+    pub links: &'a Links,
     order: &'a [NodeId],
     regions: &'a [usize],
     asynchronous: &'a Asynchronous,
 }
 
 impl View<'_> {
+    /// Whether a node ever fires.
+    pub fn fires(&self, node: NodeId) -> bool {
+        fires(self.graph, self.catalog, self.links, node)
+    }
+
     /// Whether what a node sends to slots may hold back those that feed it.
     fn sends_what_stays(&self, node: NodeId) -> bool {
         let is_output = |c: &usize| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
@@ -246,9 +253,36 @@ impl View<'_> {
     }
 }
 
+/// Adds the guards of what has no pace, if nobody takes its tokens at a pace of his own; all guards that each node depends on.
+fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<usize>>) -> Vec<BTreeSet<usize>> {
+    let mut pulled = if view.graph.is_body { vec![] } else { pulled(view, guards, own) };
+    loop {
+        let (mut all, mut with_react) = (guards.clone(), own.clone());
+        let is_pulled = |node: &NodeId| pulled.iter().any(|p: &Pulled| p.nodes.contains(node));
+        add_react_guards_of_others(view, &mut all, &mut with_react, is_pulled);
+        let mut accumulated = accumulate(view, &all, &with_react);
+        let count = pulled.len();
+        pulled.retain(|p| p.guards(&all, &accumulated).is_some());
+        if pulled.len() < count {
+            continue;
+        }
+        for p in &pulled {
+            let set = p.guards(&all, &accumulated).unwrap_or_default();
+            p.nodes.iter().for_each(|node| accumulated[*node].clone_from(&set));
+        }
+        (*guards, *own) = (all, with_react);
+        return accumulated;
+    }
+}
+
 /// Sources without a pace fire once per `react`. Two of them may share a cluster only if the same things
 /// downstream hold them back; else one would wait for what holds back the other.
-fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut [Vec<usize>]) {
+fn add_react_guards_of_others(
+    view: &View<'_>,
+    guards: &mut Vec<Guard>,
+    own: &mut [Vec<usize>],
+    is_pulled: impl Fn(&NodeId) -> bool,
+) {
     let plain = without_pace(view, guards, own);
     let above = accumulate(view, guards, own);
     let mut holding = above.clone();
@@ -264,7 +298,7 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut [Vec<usi
     }
     // What shares a guard has to share a cluster: that depends on the guards of its own, too.
     let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
-    for node in plain {
+    for node in plain.into_iter().filter(|node| !is_pulled(node)) {
         let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
             guards.push(Guard::React);
             guards.len() - 1
@@ -292,7 +326,7 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<No
 
 /// All guards upstream of each node. Nested graphs take their inputs together and send their outputs
 /// together; around a delay the guards go in a circle until nothing changes.
-fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
+pub fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
     let View { graph, links, order, .. } = *view;
     let tokens: BTreeMap<usize, usize> = guards
         .iter()

@@ -8,6 +8,7 @@ mod delivery;
 mod live;
 mod order;
 mod pruning;
+mod pulled;
 mod rates;
 mod schedule;
 mod stamps;
@@ -22,7 +23,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use activity::reachable as active_nodes;
+pub use activity::{reachable as active_nodes, reachable_within as active_nodes_within};
 pub use asynchronous::Asynchronous;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};

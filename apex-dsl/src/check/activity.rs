@@ -1,7 +1,7 @@
 //! Activity that never arrives, or never leaves (execution semantics, section 5).
 
 use crate::{
-    analyse::active_nodes,
+    analyse::{active_nodes, active_nodes_within},
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind},
     report::{Diagnostic, Diagnostics},
@@ -14,7 +14,8 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     if graph.is_body || graph.is_open {
         return;
     }
-    let reached = active_nodes(graph);
+    // Nobody is around a robot; a graph may get its activity from the one that uses it.
+    let reached = if graph.robot { active_nodes(graph) } else { active_nodes_within(graph) };
     let mut named = BTreeSet::new();
     // Activity goes into a delay only because it goes on from there.
     let is_delay = |node: NodeId| graph.nodes[node].is_delay();

@@ -1,8 +1,8 @@
 //! Type arguments that the text leaves to the connections.
 
 use crate::{
-    catalog::{Catalog, Type},
-    graph::{End, Graph, Library, NodeId, NodeKind, TypeArg},
+    catalog::{Catalog, Signature, Type},
+    graph::{End, Graph, Library, NodeId, NodeKind, Port, TypeArg},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -115,11 +115,15 @@ fn substitute(graph: &mut Graph, catalog: &Catalog) {
 
 fn substitute_node(graph: &mut Graph, catalog: &Catalog, node: NodeId) {
     let NodeKind::Library(library) = &graph.nodes[node].kind else { return };
-    let signature = &catalog.signatures[library.signature];
+    let (signature, types) = (&catalog.signatures[library.signature], library.types.clone());
+    substitute_ports(&mut graph.nodes[node].ports, signature, &types);
+}
+
+/// Gives the ports of a node the types that its type arguments say.
+pub fn substitute_ports(ports: &mut [Port], signature: &Signature, types: &[TypeArg]) {
     if signature.generics.is_empty() {
         return;
     }
-    let types = library.types.clone();
     let lookup = |name: &str| {
         let index = signature.generics.iter().position(|g| g == name)?;
         match &types[index] {
@@ -128,7 +132,7 @@ fn substitute_node(graph: &mut Graph, catalog: &Catalog, node: NodeId) {
             TypeArg::Open => None,
         }
     };
-    for port in &mut graph.nodes[node].ports {
+    for port in ports {
         port.ty = port.ty.substitute(&lookup);
     }
 }

@@ -366,9 +366,11 @@ impl<'a> Builder<'a> {
             ));
             self.diagnostics.push(error);
         }
+        let mut ports = library_ports(signature);
+        generics::substitute_ports(&mut ports, signature, &types);
         let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: false });
         let docs = if docs.is_empty() { &signature.docs } else { docs };
-        let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
+        let node = self.node(name, body.scope, kind, ports, docs)?;
         self.nodes[node].modifiers = modifiers;
         if self.catalog.machines.contains_key(&id) {
             self.begin_machine(body, name.span, node)?;

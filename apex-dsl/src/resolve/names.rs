@@ -312,6 +312,11 @@ impl Texts {
         let elsewhere: Vec<&_> = catalog.signatures.iter().filter(|s| s.name == last.text).collect();
         if !elsewhere.is_empty() {
             return elsewhere.iter().take(4).fold(error, |error, signature| {
+                if signature.path.is_empty() {
+                    let place = format!("{}:{}", signature.file.display(), signature.line);
+                    return error
+                        .note(format!("the one at {place} cannot be named here: it needs `pub` and a `pub use`"));
+                }
                 let import = signature.path.join("::");
                 let import = import.trim_start_matches("::");
                 let at = self.files[file].1.imports_at.unwrap_or_default();

@@ -77,22 +77,44 @@ impl Recorder {
         Self::with_room::<P>(path, when_full, ROOM)
     }
 
-    /// The same with another number of bytes that can wait to be written.
+    /// The same without the channels that are `left_out`, for example of large images. A replay calls the sources of these
+    /// as ever, which therefore have to send the same again.
+    ///
+    /// # Errors
+    /// As [`to_file`](Self::to_file); tokens that are left out may be of any type.
+    pub fn to_file_without<P: Program>(
+        path: &Path,
+        when_full: WhenFull,
+        left_out: impl Fn(&Channel) -> bool,
+    ) -> io::Result<Self> {
+        Self::new::<P>(path, when_full, ROOM, &[], left_out)
+    }
+
+    /// As [`to_file`](Self::to_file), with another number of bytes that can wait to be written.
     #[doc(hidden)]
     pub fn with_room<P: Program>(path: &Path, when_full: WhenFull, room: usize) -> io::Result<Self> {
-        Self::new::<P>(path, when_full, room, &[])
+        Self::new::<P>(path, when_full, room, &[], |_| false)
     }
 
     /// A recording of a program whose `groups` run side by side: each has a recorder [`beside`](Self::beside) this one.
     pub(super) fn of_threads<P: Program>(path: &Path, groups: &[GroupInfo]) -> io::Result<Self> {
-        Self::new::<P>(path, WhenFull::Drop, ROOM, groups)
+        Self::new::<P>(path, WhenFull::Drop, ROOM, groups, |_| false)
     }
 
-    fn new<P: Program>(path: &Path, when_full: WhenFull, room: usize, groups: &[GroupInfo]) -> io::Result<Self> {
-        let (info, channels) = (const { &P::INFO }, P::channels());
-        if let Some(message) = why_useless(&channels) {
+    fn new<P: Program>(
+        path: &Path,
+        when_full: WhenFull,
+        room: usize,
+        groups: &[GroupInfo],
+        left_out: impl Fn(&Channel) -> bool,
+    ) -> io::Result<Self> {
+        let (info, mut channels) = (const { &P::INFO }, P::channels());
+        let (mut out, kept): (Vec<_>, Vec<_>) = channels.iter_mut().partition(|channel| left_out(channel));
+        if let Some(message) = why_useless(&kept) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
+        // As if they could not be written.
+        out.iter_mut().for_each(|channel| channel.schema = None);
         let path = free(path);
         let mut about = BTreeMap::from([("name".to_owned(), info.name.to_owned())]);
         if !groups.is_empty() {
@@ -197,7 +219,7 @@ impl Recorder {
     }
 
     pub(super) fn token<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let Some(codec) = codec else { return };
+        let Some(codec) = codec.filter(|_| self.channels[channel].schema.is_some()) else { return };
         let call = self.calls[self.channels[channel].node];
         let frame = self.frame.begin((FIRST + channel) as u16, call, time(self.now));
         let written = (codec.write)(token, frame);
@@ -282,7 +304,7 @@ pub(super) fn names(groups: &[GroupInfo]) -> String {
 }
 
 /// Why nothing would be gained by a recording.
-fn why_useless(channels: &[Channel]) -> Option<String> {
+fn why_useless(channels: &[&mut Channel]) -> Option<String> {
     let lost = channels.iter().filter(|c| c.schema.is_none());
     let names: Vec<String> = lost.map(|c| format!("`{}`", c.name)).collect();
     if names.is_empty() {

@@ -1,6 +1,10 @@
 //! Sources of which nobody knows what they send next, and nodes that make something of it.
 
-use apex_nodes::scan::{Pose2, Scan};
+use apex_nodes::{
+    map::{Grid, Occupancy, Raster},
+    nav::{Path, Twist},
+    scan::{Point2, Pose2, Scan},
+};
 use apex_rt::{Ctx, Event, Out, Outputs, node};
 use serde::{Deserialize, Serialize};
 use std::time::SystemTime;
@@ -110,8 +114,8 @@ pub fn bits(ranges: &Vec<f32>) -> u64 {
 
 /// Passes on what comes.
 #[node]
-pub fn same(value: &f64) -> f64 {
-    *value
+pub fn same<T: Clone>(value: &T) -> T {
+    value.clone()
 }
 
 /// Writes down what came, in order.
@@ -181,6 +185,43 @@ pub fn pose() -> Pose2 {
 #[node]
 pub fn word() -> String {
     "zwölf".to_owned()
+}
+
+/// Where maps lie.
+const RASTER: Raster = Raster { corner: Point2::new(-1.5, 0.25), resolution: 0.5, width: 3, height: 2 };
+
+/// A map.
+#[node]
+pub fn chart(map: &mut Out<Grid<Occupancy>>) {
+    use Occupancy::{Free, Occupied, Unknown};
+    let map = map.get_mut();
+    if map.reset(RASTER, Free).is_ok() {
+        map.cells_mut().copy_from_slice(&[Free, Occupied, Unknown, Free, Free, Occupied]);
+    }
+}
+
+/// A map of numbers.
+#[node]
+pub fn heights(ctx: &Ctx, map: &mut Out<Grid<f32>>) {
+    let map = map.get_mut();
+    if map.reset(RASTER, ctx.now().as_secs_f64() as f32).is_ok() {
+        map.cells_mut()[1..4].copy_from_slice(&[f32::NAN, f32::INFINITY, -0.0]);
+    }
+}
+
+/// A path around a corner.
+#[node]
+pub fn way(path: &mut Out<Path>) {
+    let path = path.get_mut();
+    path.points.clear();
+    path.points.extend([Point2::new(0.0, 0.5), Point2::new(2.0, 0.5), Point2::new(2.0, 1.5)]);
+    path.heading = -0.25;
+}
+
+/// A movement.
+#[node]
+pub fn twist() -> Twist {
+    Twist::new(0.5, -0.25, 1.5)
 }
 
 /// Twelve numbers that nobody knows.
