@@ -172,7 +172,12 @@ fn poster(random: &mut Random) -> Picture {
 
 /// The distance of a place from the wall between two points.
 fn distance(place: Point2, a: Point2, b: Point2) -> f32 {
-    let (along, from) = (b - a, place - a);
-    let part = (from.dot(along) / along.norm_squared()).clamp(0.0, 1.0);
-    (from - along.scaled(part)).norm()
+    (place - nearest(place, a, b)).norm()
+}
+
+/// The point of the wall between two points that is nearest to a place.
+pub(crate) fn nearest(place: Point2, a: Point2, b: Point2) -> Point2 {
+    let along = b - a;
+    let part = ((place - a).dot(along) / along.norm_squared()).clamp(0.0, 1.0);
+    a + along.scaled(part)
 }

@@ -1,7 +1,10 @@
 use apex_nodes::image::GrayImage;
 use apex_sim::{Light, Random, expose};
 use image::{ImageBuffer, Luma};
-use std::f32::consts::{FRAC_PI_4, TAU};
+use std::{
+    f32::consts::{FRAC_PI_4, TAU},
+    ops::Range,
+};
 
 /// Side of a cube, in m.
 pub const CUBE_SIDE: f32 = 0.06;
@@ -12,6 +15,13 @@ pub const HOPPER_SIZE: (u32, u32) = (320, 240);
 /// Height of the camera above the ground of the hopper, and the width of the ground that it sees, in m.
 const EYE: f32 = 0.24;
 const GROUND: f32 = 0.17;
+
+/// What a pixel sees of the ground, in m.
+const SCALE: f32 = GROUND / HOPPER_SIZE.0 as f32;
+
+/// The brightness of the ground, and of the squares on it.
+const DARK: f32 = 22.0;
+const LIGHT: f32 = 150.0;
 
 /// A cube in the hopper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +71,29 @@ impl Cube {
         [a, level * b + down * z, level * z - down * b]
     }
 
+    /// A direction of the cube in the frame of the world.
+    fn outer(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
+        let ((sin, cos), (down, level)) = (self.turn.sin_cos(), self.lean.sin_cos());
+        let (a, b) = (x, level * y - down * z);
+        [cos * a - sin * b, sin * a + cos * b, level * z + down * y]
+    }
+
+    /// The columns and rows of the image that may show it: those between its corners.
+    fn extent(&self) -> [Range<u32>; 2] {
+        let half = 0.5 * CUBE_SIDE;
+        let corners: [[f32; 2]; 8] = std::array::from_fn(|i| {
+            let corner = self.outer([i & 1, i >> 1 & 1, i >> 2].map(|side| if side == 0 { -half } else { half }));
+            let [x, y, z]: [f32; 3] = std::array::from_fn(|axis| self.place[axis] + corner[axis]);
+            [x, y].map(|x| x * EYE / (EYE - z) / SCALE)
+        });
+        [(0, HOPPER_SIZE.0), (1, HOPPER_SIZE.1)].map(|(axis, count)| {
+            let pixels = corners.map(|corner| corner[axis] + 0.5 * count as f32);
+            let (first, last) = (pixels.into_iter().fold(f32::MAX, f32::min), pixels.into_iter().fold(0.0, f32::max));
+            // One more on each side, for rounding. Casts saturate.
+            (first.floor() as u32).saturating_sub(1)..(last.ceil() as u32 + 1).min(count)
+        })
+    }
+
     /// The brightness of what a ray from the camera meets of the cube.
     fn shade(&self, ray: [f32; 3]) -> Option<f32> {
         let [x, y, z] = self.place;
@@ -102,30 +135,52 @@ impl Hopper {
     /// The image of the camera.
     pub fn photo(&self, random: &mut Random) -> GrayImage {
         let (width, height) = HOPPER_SIZE;
-        let mean = |u: u32, v: u32| {
-            // Four rays for each pixel.
-            let part = [0.25, 0.75];
-            let rays = part.iter().flat_map(|a| part.map(|b| [u as f32 + a, v as f32 + b]));
-            0.25 * rays.map(|[u, v]| self.shade(u - 0.5 * width as f32, v - 0.5 * height as f32)).sum::<f32>()
+        let (across, down) = (even_squares(width), even_squares(height));
+        let ground = |u: u32, v: u32| {
+            let same = |a: &bool| down[v as usize].iter().filter(|b| a == *b).count();
+            let light = if self.pattern { across[u as usize].iter().map(same).sum::<usize>() } else { 0 } as f32;
+            Luma([(0.25 * (light * LIGHT + (4.0 - light) * DARK)) as u8])
         };
-        let mut image = GrayImage::from(ImageBuffer::from_fn(width, height, |u, v| Luma([mean(u, v) as u8])));
+        let mut image = ImageBuffer::from_fn(width, height, ground);
+        if let Some(cube) = &self.cube {
+            let [columns, rows] = cube.extent();
+            for (u, v) in rows.flat_map(|v| columns.clone().map(move |u| (u, v))) {
+                image.put_pixel(u, v, Luma([self.mean(cube, u, v) as u8]));
+            }
+        }
+        let mut image = GrayImage::from(image);
         expose(&self.light, self.noise, random, &mut image);
         image
     }
 
-    /// The brightness at a place of the image, in pixels from its middle.
-    fn shade(&self, u: f32, v: f32) -> f32 {
-        let scale = GROUND / HOPPER_SIZE.0 as f32;
-        let (x, y) = (u * scale, v * scale);
-        self.cube.and_then(|cube| cube.shade([x, y, -EYE])).unwrap_or_else(|| self.ground(x, y))
+    /// The brightness of a pixel that may show the cube.
+    fn mean(&self, cube: &Cube, u: u32, v: u32) -> f32 {
+        let ([left, right], [upper, lower]) = (places(u, HOPPER_SIZE.0), places(v, HOPPER_SIZE.1));
+        let rays = [[left, upper], [left, lower], [right, upper], [right, lower]];
+        let shade = |[x, y]: [f32; 2]| cube.shade([x, y, -EYE]).unwrap_or_else(|| self.ground(x, y));
+        0.25 * rays.map(shade).iter().sum::<f32>()
     }
 
     /// The ground: black, or with light squares on it.
     fn ground(&self, x: f32, y: f32) -> f32 {
-        const SQUARE: f32 = 0.02;
-        let even = |x: f32| (x / SQUARE).floor().rem_euclid(2.0) == 0.0;
-        if self.pattern && even(x) == even(y) { 150.0 } else { 22.0 }
+        if self.pattern && is_even(x) == is_even(y) { LIGHT } else { DARK }
     }
+}
+
+/// Where the two rays of a pixel in a direction meet the ground, in m from its middle. In two directions they are four.
+fn places(pixel: u32, count: u32) -> [f32; 2] {
+    [0.25, 0.75].map(|part| (pixel as f32 + part - 0.5 * count as f32) * SCALE)
+}
+
+/// For each pixel and ray in a direction whether it meets an even square.
+fn even_squares(count: u32) -> Vec<[bool; 2]> {
+    (0..count).map(|pixel| places(pixel, count).map(is_even)).collect()
+}
+
+/// Whether a place lies in an even square.
+fn is_even(x: f32) -> bool {
+    const SQUARE: f32 = 0.02;
+    (x / SQUARE).floor() as i32 % 2 == 0
 }
 
 /// The brightness of a face of a cube, from (0, 0) to (1, 1): a white label with bars on wood.

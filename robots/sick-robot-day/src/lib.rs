@@ -1,29 +1,44 @@
 //! The robot of the SICK Robot Day 2014, which fetches labelled cubes and delivers them (thesis chapter 4): the arena
-//! in simulation, and the robot's perception, measured in it.
+//! in simulation, the robot's perception and its mission, measured in it, and what a run leaves behind.
 
 mod arena;
+pub mod bench;
+pub mod contest;
 mod eyes;
 mod hopper;
+mod journal;
 pub mod measure;
-
 mod nodes;
+mod places;
+pub mod run;
 mod signs;
+pub mod story;
 
 pub use arena::{Arena, ISLAND_SIDE, NUMBER_HEIGHT, Station, TARGET_HEIGHT, WALL_HEIGHT};
 pub use eyes::{Eyes, LASER, View, camera, hall_light};
 pub use hopper::{CUBE_SIDE, Cube, HOPPER_SIZE, Hopper};
-pub use nodes::{CUBE, NUMBERS, NumberSign, NumberSigns, clearest, cube_number, is_cube, number_sign, sign_target};
+pub use journal::Journal;
+pub use nodes::{
+    CUBE, NUMBERS, NumberSign, NumberSigns, clearest, cube_number, is_cube, number_sign, on_paper, sign_number,
+    sign_target,
+};
+pub use places::{BorderTour, ChooseStation, is_word, origin};
 pub use signs::{NUMBER_WIDTH, TARGET_WIDTH};
 
-/// The compiled perception.
+/// The compiled graphs.
 pub mod programs {
     pub use {
+        competition::{Competition, CompetitionParts, SdfCompetition, SdfCompetitionParts},
         cross::FindCross,
         cube::{CubeByDeviation, CubeByNetwork},
         number::CubeNumber,
         signs::FindSign,
         target::FindTarget,
     };
+
+    mod competition {
+        apex_rt::graph!("competition.afg");
+    }
 
     mod cross {
         apex_rt::graph!("cross.afg");

@@ -1,5 +1,5 @@
 use apex_nodes::{
-    image::{BarCode, MAX_REGIONS, Region, Symbology, Target},
+    image::{BarCode, GrayImage, MAX_REGIONS, Region, Symbology, Target},
     learn::Class,
 };
 use apex_rt::node;
@@ -25,6 +25,35 @@ pub struct NumberSign {
 /// The number signs of one image.
 pub type NumberSigns = heapless::Vec<NumberSign, MAX_REGIONS>;
 
+/// A dark thing with light paper all around, as a digit on a sign; ⊥ for what touches other things, as most in pictures
+/// does.
+#[node]
+pub fn on_paper(image: &GrayImage, region: &Region) -> Option<Region> {
+    /// Where the paper is looked at, as a part of the height of the thing: narrower than the margin of a sign.
+    const MARGIN: f32 = 0.1;
+    /// How much darker than elsewhere the paper may be, as a part of its contrast to the ink.
+    const SHADE: f32 = 0.25;
+    let thing = light_of(image, region, |_, _| true);
+    let edge = region.grown((MARGIN * region.height as f32).ceil() as u32, image.size());
+    let (right, bottom) = (edge.left + edge.width, edge.top + edge.height);
+    let on_edge = |x: u32, y: u32| x == edge.left || x + 1 == right || y == edge.top || y + 1 == bottom;
+    let paper = light_of(image, &edge, on_edge);
+    let at = |part: usize| paper.get(paper.len() * part / 10).copied().map(f32::from);
+    // Seen from the side, the corners of the rectangle may lie beside the paper.
+    let (ink, dark, light) = (f32::from(*thing.first()?), at(2)?, at(9)?);
+    (light > ink && light - dark <= SHADE * (light - ink)).then_some(*region)
+}
+
+/// The intensities of some pixels in a region, the darkest first.
+fn light_of(image: &GrayImage, region: &Region, which: impl Fn(u32, u32) -> bool) -> Vec<u8> {
+    let Region { left, top, width, height, .. } = region.grown(0, image.size());
+    let places = (top..top + height).flat_map(|y| (left..left + width).map(move |x| (x, y)));
+    let mut light: Vec<u8> =
+        places.filter(|(x, y)| which(*x, *y)).map(|(x, y)| image.pixels.get_pixel(x, y).0[0]).collect();
+    light.sort_unstable();
+    light
+}
+
 /// A digit as a number sign; ⊥ if no station has this number, or it is wider than high, as no digit is.
 #[node]
 pub fn number_sign(class: &Class, region: &Region) -> Option<NumberSign> {
@@ -45,23 +74,48 @@ pub fn sign_target(sign: &NumberSign) -> Target {
     Target { centre: sign.region.middle(), region: sign.region }
 }
 
+/// What the sign says.
+#[node]
+pub fn sign_number(sign: &NumberSign) -> u32 {
+    sign.number
+}
+
 /// Whether the network took it for a cube.
 #[node]
 pub fn is_cube(class: &Class) -> bool {
     class.number == 1
 }
 
-/// The delivery station that the bar code of a cube names; ⊥ if it names none, or there is no cube: patterns may look
-/// like bar codes.
+/// The delivery station that the bar code of a cube names; ⊥ if it names none.
 #[node]
-pub fn cube_number(code: &BarCode, full: &bool) -> Option<u32> {
+pub fn cube_number(code: &BarCode) -> Option<u32> {
     let number = code.text.parse().ok().filter(|number| NUMBERS.contains(number));
-    number.filter(|_| *full && code.symbology == Symbology::Code39)
+    number.filter(|_| code.symbology == Symbology::Code39)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use image::ImageBuffer;
+
+    #[test]
+    fn only_what_paper_surrounds_is_on_paper() {
+        let picture = |gray: &dyn Fn(u32, u32) -> u8| {
+            GrayImage::from(ImageBuffer::from_fn(60, 60, |x, y| image::Luma([gray(x, y)])))
+        };
+        let digit = Region { left: 20, top: 15, width: 15, height: 30, area: 450 };
+        let inside = |x: u32, y: u32| (20..35).contains(&x) && (15..45).contains(&y);
+        // In light from the side.
+        let sign = picture(&|x, y| if inside(x, y) { 30 } else { 180 + (x / 2) as u8 });
+        let touching = picture(&|x, y| if inside(x, y) || y > 40 { 30 } else { 200 });
+        let light = picture(&|x, y| if inside(x, y) { 200 } else { 30 });
+        assert_eq!(on_paper(&sign, &digit), Some(digit));
+        for other in [touching, light, picture(&|_, _| 90), GrayImage::default()] {
+            assert_eq!(on_paper(&other, &digit), None);
+        }
+        assert_eq!(on_paper(&sign, &Region { left: 70, width: u32::MAX, ..digit }), None);
+        assert_eq!(on_paper(&sign, &Region::default()), None);
+    }
 
     #[test]
     fn signs_have_numbers_of_stations_and_are_upright() {
@@ -84,11 +138,10 @@ mod tests {
     #[test]
     fn only_bar_codes_of_cubes_name_stations() {
         let code = |text: &str, symbology| BarCode { text: text.to_owned(), symbology };
-        assert_eq!(cube_number(&code("3", Symbology::Code39), &true), Some(3));
+        assert_eq!(cube_number(&code("3", Symbology::Code39)), Some(3));
         for text in ["0", "5", "33", "", "A"] {
-            assert_eq!(cube_number(&code(text, Symbology::Code39), &true), None, "{text}");
+            assert_eq!(cube_number(&code(text, Symbology::Code39)), None, "{text}");
         }
-        assert_eq!(cube_number(&code("3", Symbology::Code39), &false), None);
-        assert_eq!(cube_number(&code("3", Symbology::Code128), &true), None);
+        assert_eq!(cube_number(&code("3", Symbology::Code128)), None);
     }
 }

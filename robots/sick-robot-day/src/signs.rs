@@ -79,7 +79,7 @@ fn arc(centre: [f32; 2], radii: [f32; 2], from: f32, to: f32) -> Vec<[f32; 2]> {
 }
 
 /// The distance of a point from a segment.
-fn distance(p: [f32; 2], [a, b]: [[f32; 2]; 2]) -> f32 {
+pub fn distance(p: [f32; 2], [a, b]: [[f32; 2]; 2]) -> f32 {
     let (d, e) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let along = ((d[0] * e[0] + d[1] * e[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
     (e[0] - along * d[0]).hypot(e[1] - along * d[1])

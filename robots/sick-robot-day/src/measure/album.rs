@@ -34,12 +34,23 @@ impl Album {
     /// # Errors
     /// The file cannot be written.
     pub fn add(&self, name: &str, image: &GrayImage, found: Option<&Region>) -> Result<(), String> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        let path = folder.join(format!("{name}.png"));
+        if self.folder.is_none() {
+            return Ok(());
+        }
         let mut picture = DynamicImage::ImageLuma8(image.pixels.clone()).to_rgb8();
         if let Some(region) = found {
             frame(&mut picture, &region.grown(3, image.size()));
         }
+        self.save(name, &picture)
+    }
+
+    /// Adds a picture as it is; nothing without a folder.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn save(&self, name: &str, picture: &RgbImage) -> Result<(), String> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let path = folder.join(format!("{name}.png"));
         let cannot = |e: String| format!("cannot write {}: {e}", path.display());
         let file = File::create_new(&path).map_err(|e| cannot(e.to_string()))?;
         let written = picture.write_to(&mut BufWriter::new(file), image::ImageFormat::Png);
@@ -68,7 +79,8 @@ mod tests {
         let image = GrayImage::from(image::ImageBuffer::from_pixel(40, 30, image::Luma([90])));
         let region = Region { left: 10, top: 10, width: 5, height: 5, area: 1 };
         album.add("seen-1.0m", &image, Some(&region)).expect("room for it");
-        let refused = [Album::new(&folder).err(), album.add("seen-1.0m", &image, None).err()];
+        let file = Album::new(&folder.join("seen-1.0m.png")).err();
+        let refused = [Album::new(&folder).err(), album.add("seen-1.0m", &image, None).err(), file];
         let written = image::open(folder.join("seen-1.0m.png")).map(|i| i.to_rgb8());
         fs::remove_dir_all(&folder).expect("it is ours");
         let picture = written.expect("a picture");

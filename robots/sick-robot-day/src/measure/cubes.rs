@@ -76,10 +76,12 @@ impl Cubes {
 
         let (start, _) = (Instant::now(), number.inputs().image.put(code));
         number.react(Time::ZERO);
-        self.times[2].push(start.elapsed());
+        let time = start.elapsed();
         let read = number.outputs().number;
         match hopper.cube {
             Some(cube) => {
+                // Without a cube there is next to nothing to do.
+                self.times[2].push(time);
                 let outcome = read.map_or(2, |number| usize::from(number != cube.number));
                 self.codes[usize::from(cube.lean > 0.0)][outcome] += 1;
             }

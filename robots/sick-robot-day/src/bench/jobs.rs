@@ -1,0 +1,71 @@
+use std::{
+    io,
+    num::NonZero,
+    sync::{
+        atomic::{AtomicUsize, Ordering},
+        mpsc,
+    },
+    thread,
+};
+
+/// Robots are large, and may be on the stack for a while.
+const STACK: usize = 64 << 20;
+
+/// Does all jobs, on as many threads as the machine has cores, and shows each result in the order of the jobs.
+///
+/// # Errors
+/// A thread cannot be started.
+pub fn on_all_cores<J: Sync, R: Send>(
+    jobs: &[J],
+    work: impl Fn(&J) -> R + Sync,
+    mut show: impl FnMut(&R),
+) -> io::Result<Vec<R>> {
+    let cores = thread::available_parallelism().map_or(1, NonZero::get).min(jobs.len());
+    let (next, (sender, results)) = (AtomicUsize::new(0), mpsc::channel());
+    let mut done: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
+    let mut shown = 0;
+    thread::scope(|scope| {
+        for _ in 0..cores {
+            let (sender, next, work) = (sender.clone(), &next, &work);
+            thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || {
+                while let Some((index, job)) = {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    jobs.get(index).map(|job| (index, job))
+                } {
+                    // Nobody listens any more only if the one who does panicked.
+                    let _ = sender.send((index, work(job)));
+                }
+            })?;
+        }
+        drop(sender);
+        for (index, result) in results {
+            done[index] = Some(result);
+            while let Some(Some(result)) = done.get(shown) {
+                show(result);
+                shown += 1;
+            }
+        }
+        Ok(())
+    })
+    .map(|()| done.into_iter().flatten().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn results_come_in_the_order_of_the_jobs() {
+        let jobs: Vec<u64> = (0..40).collect();
+        let mut shown = vec![];
+        let work = |job: &u64| {
+            thread::sleep(Duration::from_millis(job * 7 % 5));
+            job * job
+        };
+        let results = on_all_cores(&jobs, work, |result| shown.push(*result)).expect("threads");
+        assert_eq!(results, jobs.iter().map(|job| job * job).collect::<Vec<_>>());
+        assert_eq!(shown, results);
+        assert!(on_all_cores(&[] as &[u64], work, |_| {}).expect("no threads").is_empty());
+    }
+}

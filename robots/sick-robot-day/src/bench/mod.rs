@@ -1,0 +1,11 @@
+//! Measures the robot in many halls: its score, what faults cost, and where its time goes.
+
+mod faults;
+mod jobs;
+mod score;
+mod times;
+
+pub use faults::{Toll, fault_at};
+pub use jobs::on_all_cores;
+pub use score::{Score, Summary};
+pub use times::Times;

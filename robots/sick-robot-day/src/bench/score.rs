@@ -1,0 +1,108 @@
+use crate::run::Outcome;
+use std::{fmt, time::Duration};
+
+/// How well a run went.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Score {
+    /// The seed of the hall.
+    pub seed: u64,
+    /// Cubes that came to the right station.
+    pub points: usize,
+    /// Cubes that came to another one.
+    pub wrong: usize,
+    /// Collisions that the robot caused.
+    pub caused: usize,
+    /// Collisions that others caused.
+    pub suffered: usize,
+    /// How far the robot drove, in m.
+    pub distance: f32,
+    /// What failed in the robot.
+    pub failures: Vec<String>,
+    /// How long the run took on the machine.
+    pub took: Duration,
+}
+
+/// How well many runs went.
+#[derive(Debug)]
+pub struct Summary<'a>(pub &'a [Score]);
+
+impl Score {
+    /// The names of the columns.
+    pub const HEAD: &'static str = "  seed  points   wrong  caused  suffered  distance      took  failures";
+
+    /// The score of a run that took so long.
+    pub fn of(outcome: &Outcome, took: Duration) -> Self {
+        let report = &outcome.report;
+        Self {
+            seed: outcome.story.seed,
+            points: report.points(),
+            wrong: report.penalties(),
+            caused: report.caused(),
+            suffered: report.suffered(),
+            distance: report.distance,
+            failures: outcome.failures.iter().map(ToString::to_string).collect(),
+            took,
+        }
+    }
+}
+
+impl fmt::Display for Score {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { seed, points, wrong, caused, suffered, distance, failures, took } = self;
+        write!(f, "{seed:>6}{points:>8}{wrong:>8}{caused:>8}{suffered:>10}{distance:>8.0} m")?;
+        write!(f, "{:>8.1} s{:>10}", took.as_secs_f32(), failures.len())?;
+        failures.iter().try_for_each(|failure| write!(f, "\n        {failure}"))
+    }
+}
+
+impl Summary<'_> {
+    /// The least, the median and the most points.
+    pub fn points(&self) -> [usize; 3] {
+        let mut points: Vec<usize> = self.0.iter().map(|score| score.points).collect();
+        points.sort_unstable();
+        let last = points.len().saturating_sub(1);
+        [0, last / 2, last].map(|index| points.get(index).copied().unwrap_or_default())
+    }
+
+    /// Over all runs.
+    pub fn sum(&self, value: impl Fn(&Score) -> usize) -> usize {
+        self.0.iter().map(value).sum()
+    }
+}
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [least, median, most] = self.points();
+        let mean = self.sum(|score| score.points) as f32 / self.0.len().max(1) as f32;
+        writeln!(f, "{:<20}{median} (median), {least} to {most}, {mean:.1} on average", "points")?;
+        writeln!(f, "{:<20}{}", "wrong deliveries", self.sum(|score| score.wrong))?;
+        writeln!(f, "{:<20}{}", "collisions caused", self.sum(|score| score.caused))?;
+        writeln!(f, "{:<20}{}", "collisions suffered", self.sum(|score| score.suffered))?;
+        write!(f, "{:<20}{}", "failures", self.sum(|score| score.failures.len()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_summary_counts_all_runs() {
+        let score = |points, wrong| Score {
+            seed: 1,
+            points,
+            wrong,
+            caused: 1,
+            suffered: 0,
+            distance: 1.0,
+            failures: vec![],
+            took: Duration::ZERO,
+        };
+        let scores = [score(9, 0), score(3, 1), score(14, 0), score(10, 1)];
+        assert_eq!(Summary(&scores).points(), [3, 9, 14]);
+        let text = Summary(&scores).to_string();
+        assert!(text.contains("9 (median), 3 to 14, 9.0 on average"), "{text}");
+        assert!(text.contains("wrong deliveries    2\ncollisions caused   4\n"), "{text}");
+        assert_eq!(Summary(&[]).points(), [0; 3]);
+    }
+}

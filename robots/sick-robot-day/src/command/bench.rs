@@ -1,0 +1,77 @@
+use super::say;
+use sick_robot_day::{
+    bench::{Score, Summary, Times, Toll, fault_at, on_all_cores},
+    contest::FaultKind,
+    measure::Progress,
+    run::{Setup, Watch},
+};
+use std::{process::ExitCode, time::Instant};
+
+/// Plays competitions of the seeds 1 to `seeds`.
+pub fn bench(seeds: u64, setup: &Setup, faults: bool, times: bool) -> Result<ExitCode, String> {
+    if times {
+        return measure_times(seeds, setup);
+    }
+    say(&format!("{}\n", Score::HEAD))?;
+    let mut kinds = vec![None];
+    if faults {
+        kinds.extend(FaultKind::ALL.map(Some));
+    }
+    let seeds = usize::try_from(seeds).map_err(|_| "so many seeds have no room in memory".to_owned())?;
+    let jobs: Vec<Setup> =
+        kinds.iter().flat_map(|kind| (1..=seeds as u64).map(|seed| job(setup, seed, *kind))).collect();
+    let scores = scores(&jobs)?;
+    let without = &scores[..seeds];
+    say(&format!("\n{}\n", Summary(without)))?;
+    if faults {
+        say(&format!("\n{}\n", Toll::HEAD))?;
+        let tolls = kinds.iter().zip(scores.chunks(seeds)).map(|(kind, scores)| Toll { kind: *kind, scores, without });
+        tolls.map(|toll| format!("{toll}\n")).try_for_each(|line| say(&line))?;
+    }
+    let is_fine = scores.iter().all(|score| score.wrong + score.caused + score.failures.len() == 0);
+    Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+fn job(setup: &Setup, seed: u64, kind: Option<FaultKind>) -> Setup {
+    let faults = kind.map(|kind| fault_at(kind, seed, setup.end()));
+    Setup { seed, faults: faults.into_iter().collect(), ..setup.clone() }
+}
+
+/// Plays all competitions, and prints a line for each.
+fn scores(jobs: &[Setup]) -> Result<Vec<Score>, String> {
+    let (progress, mut done, mut printed) = (Progress::default(), 0, Ok(()));
+    let show = |score: &Result<Score, String>| {
+        let fault = jobs[done].faults.first().map(|fault| format!("  {fault}")).unwrap_or_default();
+        done += 1;
+        progress.clear();
+        if let (Ok(()), Ok(score)) = (&printed, score) {
+            printed = say(&format!("{score}{fault}\n"));
+        }
+        progress.step("competitions", done as u64, jobs.len() as u64);
+    };
+    let scores = on_all_cores(jobs, |setup| play(setup, &mut ()), show).map_err(|e| e.to_string())?;
+    progress.clear();
+    printed?;
+    scores.into_iter().collect()
+}
+
+fn play(setup: &Setup, watch: &mut impl Watch) -> Result<Score, String> {
+    let start = Instant::now();
+    let outcome = setup.run(watch)?;
+    Ok(Score::of(&outcome, start.elapsed()))
+}
+
+/// One after the other: they would take time from each other.
+fn measure_times(seeds: u64, setup: &Setup) -> Result<ExitCode, String> {
+    let (progress, info) = (Progress::default(), setup.mission.info());
+    let mut all = Times::new(info, setup.end());
+    for seed in 1..=seeds {
+        progress.step("competitions", seed, seeds);
+        let mut times = Times::new(info, setup.end());
+        play(&job(setup, seed, None), &mut times)?;
+        all.add(&times);
+    }
+    progress.clear();
+    say(&format!("{all}\n\nseeds 1 to {seeds}\n"))?;
+    Ok(ExitCode::SUCCESS)
+}

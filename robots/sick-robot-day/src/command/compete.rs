@@ -1,0 +1,90 @@
+use super::{args::PICTURES, say};
+use apex_rt::Observer;
+use sick_robot_day::{
+    Arena,
+    contest::{Fault, Hall},
+    measure::Album,
+    run::{Moment, Outcome, Setup, Watch},
+    story::{Glance, LiveView},
+};
+use std::{
+    fmt::Write as _,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+/// Plays a competition, and tells how it went.
+pub fn compete(setup: &Setup, out: Option<PathBuf>) -> Result<ExitCode, String> {
+    let folder = out.unwrap_or_else(free_folder);
+    // Whether there is room for the pictures is to be known before.
+    let album = Album::new(&folder)?;
+    let outcome = setup.run(&mut View::of(setup))?;
+    outcome.story.write(&album)?;
+    say(&summary(setup, &outcome, &folder))?;
+    Ok(if outcome.is_fine() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// The folder for pictures, or, if there is something in it, one with a number.
+fn free_folder() -> PathBuf {
+    let is_free = |path: &Path| !path.exists() || path.read_dir().is_ok_and(|mut files| files.next().is_none());
+    let numbered = (2_u32..).map(|number| PathBuf::from(format!("{PICTURES}-{number}")));
+    let all = std::iter::once(PathBuf::from(PICTURES)).chain(numbered);
+    all.into_iter().find(|path| is_free(path)).unwrap_or_else(|| PICTURES.into())
+}
+
+fn summary(setup: &Setup, outcome: &Outcome, folder: &Path) -> String {
+    let mut text = format!("{}\n\n", outcome.story.table());
+    // Nothing can go wrong in a text.
+    for failure in &outcome.failures {
+        let _ = writeln!(text, "failure: {failure}");
+    }
+    let _ = write!(text, "seed {}", setup.seed);
+    if !setup.faults.is_empty() {
+        let faults: Vec<String> = setup.faults.iter().map(Fault::to_string).collect();
+        let _ = write!(text, "; faults: {}", faults.join(", "));
+    }
+    let _ = writeln!(text, "; pictures: {}/*.png", folder.display());
+    if let Some(recorded) = &outcome.recorded {
+        let _ = writeln!(text, "recorded to {}", recorded.path.display());
+        for (channel, count) in &recorded.dropped {
+            let _ = writeln!(text, "warning: {count} messages of `{channel}` were lost");
+        }
+    }
+    text
+}
+
+/// Shows how a run goes on.
+struct View {
+    live: LiveView,
+    /// The walls; they stay where they are.
+    arena: Arena,
+}
+
+impl View {
+    fn of(setup: &Setup) -> Self {
+        Self { live: LiveView::new(false), arena: Arena::new(setup.seed) }
+    }
+}
+
+impl Observer for View {}
+
+impl Watch for View {
+    fn reacted(&mut self, moment: &Moment<'_>) {
+        let arena = &self.arena;
+        self.live.show(moment.now, || glance(moment, moment.hall, arena));
+    }
+}
+
+fn glance<'a>(moment: &Moment<'_>, hall: &Hall, arena: &'a Arena) -> Glance<'a> {
+    let ([ours, rivals @ ..], report) = (hall.robots(), hall.report());
+    Glance {
+        now: moment.now,
+        arena,
+        pose: ours.pose,
+        rivals: rivals.iter().map(|rival| rival.pose.position()).collect(),
+        points: report.points() as u32,
+        penalties: report.penalties() as u32,
+        active: moment.active(),
+        hopper: ours.cube,
+    }
+}

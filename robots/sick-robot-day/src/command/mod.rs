@@ -1,0 +1,60 @@
+//! What the command does.
+
+mod args;
+mod bench;
+mod compete;
+
+use sick_robot_day::{
+    Eyes,
+    measure::{Album, Progress, cubes, signs, targets},
+    run::Setup,
+};
+use std::{
+    io::{self, Write as _},
+    path::PathBuf,
+    process::ExitCode,
+};
+
+/// What is to be done.
+pub enum Command {
+    Help,
+    Compete { setup: Setup, out: Option<PathBuf> },
+    Bench { seeds: u64, setup: Setup, faults: bool, times: bool },
+    Perception { seeds: u64, out: Option<PathBuf> },
+}
+
+impl Command {
+    /// Does it; an error is why it could not be done.
+    pub fn run(self) -> Result<ExitCode, String> {
+        match self {
+            Self::Help => say(args::HELP).map(|()| ExitCode::SUCCESS),
+            Self::Compete { setup, out } => compete::compete(&setup, out),
+            Self::Bench { seeds, setup, faults, times } => bench::bench(seeds, &setup, faults, times),
+            Self::Perception { seeds, out } => perception(seeds, out).map(|()| ExitCode::SUCCESS),
+        }
+    }
+}
+
+fn perception(seeds: u64, out: Option<PathBuf>) -> Result<(), String> {
+    let album = out.as_deref().map(Album::new).transpose()?.unwrap_or_default();
+    let mut eyes = Eyes::new().map_err(|e| e.to_string())?;
+    let progress = Progress::default();
+    let tell = |table: String| {
+        progress.clear();
+        say(&table)
+    };
+    tell(format!("{}\n\n", targets(seeds, &mut eyes, &album, &progress)?))?;
+    tell(format!("{}\n\n", signs(seeds, &mut eyes, &album, &progress)?))?;
+    tell(format!("{}\n\n", cubes(seeds, &album, &progress)?))?;
+    say(&format!("seeds 1 to {seeds}\n"))?;
+    out.map_or(Ok(()), |folder| say(&format!("pictures: {}\n", folder.display())))
+}
+
+/// Prints; a reader that has seen enough is no error.
+fn say(text: &str) -> Result<(), String> {
+    let mut output = io::stdout();
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(format!("cannot write the output: {e}")),
+        _ => Ok(()),
+    }
+}

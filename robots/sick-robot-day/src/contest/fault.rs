@@ -1,0 +1,144 @@
+use apex_nodes::scan::Scan;
+use apex_rt::Time;
+use apex_sim::Random;
+use std::{fmt, str::FromStr, time::Duration};
+
+/// Something that is broken for a while.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Fault {
+    /// What is broken.
+    pub kind: FaultKind,
+    /// Since when.
+    pub from: Time,
+    /// From then on it works again.
+    pub until: Time,
+}
+
+/// What can break.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaultKind {
+    /// The front scanner sends nothing.
+    LaserFrozen,
+    /// The images of the front camera are black.
+    CameraBlack,
+    /// The images of the front camera are of another size: 17×3 and 0×0 in turn.
+    CameraTorn,
+    /// The front scanner measures NaN in all directions.
+    BeamsNan,
+    /// The front scanner measures infinity in all directions.
+    BeamsInfinite,
+    /// The front scanner measures 0 in all directions.
+    BeamsZero,
+    /// Each beam of the front scanner measures infinity with a probability of ½.
+    BeamsMissing,
+    /// The wheel odometry sends the same pose again and again, and then goes on where it really is by its wheels.
+    OdometryStopped,
+}
+
+impl FromStr for Fault {
+    type Err = String;
+
+    /// Reads `laser-frozen@100s..103s`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let cannot = |why: &str| format!("`{text}` is no fault: {why}; write one as `laser-frozen@100s..103s`");
+        let (kind, times) = text.split_once('@').ok_or_else(|| cannot("there is no `@`"))?;
+        let names = || FaultKind::ALL.map(FaultKind::name).join(", ");
+        let known = FaultKind::ALL.into_iter().find(|known| known.name() == kind);
+        let kind = known.ok_or_else(|| format!("`{kind}` is no kind of fault; there are {}", names()))?;
+        let (from, until) = times.split_once("..").ok_or_else(|| cannot("there is no `..` between its times"))?;
+        let time = |text: &str| read_time(text).ok_or_else(|| cannot(&format!("`{text}` is no time in `s`")));
+        let fault = Self { kind, from: time(from)?, until: time(until)? };
+        if fault.from < fault.until { Ok(fault) } else { Err(cannot("it ends before it begins")) }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}@{}s..{}s", self.kind.name(), self.from.as_secs_f64(), self.until.as_secs_f64())
+    }
+}
+
+/// A time such as `1.5s`.
+fn read_time(text: &str) -> Option<Time> {
+    let seconds: f64 = text.strip_suffix('s')?.parse().ok()?;
+    Duration::try_from_secs_f64(seconds).ok().filter(|time| time.as_secs() < 1_000_000).map(|time| Time::ZERO + time)
+}
+
+impl Fault {
+    pub(super) fn is_on(&self, kind: FaultKind, now: Time) -> bool {
+        self.kind == kind && self.from <= now && now < self.until
+    }
+}
+
+impl FaultKind {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::LaserFrozen,
+        Self::CameraBlack,
+        Self::CameraTorn,
+        Self::BeamsNan,
+        Self::BeamsInfinite,
+        Self::BeamsZero,
+        Self::BeamsMissing,
+        Self::OdometryStopped,
+    ];
+
+    /// What it is called on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::LaserFrozen => "laser-frozen",
+            Self::CameraBlack => "camera-black",
+            Self::CameraTorn => "camera-torn",
+            Self::BeamsNan => "beams-nan",
+            Self::BeamsInfinite => "beams-infinite",
+            Self::BeamsZero => "beams-zero",
+            Self::BeamsMissing => "beams-missing",
+            Self::OdometryStopped => "odometry-stopped",
+        }
+    }
+
+    /// What spoils the beams of a scan.
+    pub(super) const OF_BEAMS: [Self; 4] = [Self::BeamsNan, Self::BeamsInfinite, Self::BeamsZero, Self::BeamsMissing];
+
+    pub(super) fn spoil(self, scan: &mut Scan, random: &mut Random) {
+        for range in &mut scan.ranges {
+            *range = match self {
+                Self::BeamsNan => f32::NAN,
+                Self::BeamsInfinite => f32::INFINITY,
+                Self::BeamsZero => 0.0,
+                Self::BeamsMissing if random.chance(0.5) => f32::INFINITY,
+                _ => *range,
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_are_read_as_they_are_written() {
+        for kind in FaultKind::ALL {
+            let fault = Fault { kind, from: Time::from_millis(1500), until: Time::from_secs(30) };
+            assert_eq!(fault.to_string().parse(), Ok(fault));
+        }
+    }
+
+    #[test]
+    fn what_is_no_fault_is_refused_with_the_reason() {
+        for (text, reason) in [
+            ("laser-frozen", "no `@`"),
+            ("laser@1s..2s", "`laser` is no kind of fault; there are laser-frozen, camera-black"),
+            ("beams-nan@1s", "no `..`"),
+            ("beams-nan@1..2s", "`1` is no time"),
+            ("beams-nan@-1s..2s", "`-1s` is no time"),
+            ("beams-nan@1s..NaNs", "`NaNs` is no time"),
+            ("beams-nan@1s..1e300s", "`1e300s` is no time"),
+            ("beams-nan@2s..2s", "ends before it begins"),
+        ] {
+            let error = text.parse::<Fault>().expect_err(text);
+            assert!(error.contains(reason), "{error}");
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! The competition in simulation (thesis 4.1, 4.2): our base among three rivals, the operators at the stations, and the
+//! referee.
+
+mod body;
+mod drivers;
+mod fault;
+mod hall;
+mod operator;
+mod referee;
+mod report;
+mod rival;
+mod steering;
+mod world;
+
+pub use drivers::{Base, Drivers, FrontCamera, FrontLaser, HopperCamera, Lamp, RearLaser, Remote, WheelOdometry};
+pub use fault::{Fault, FaultKind};
+pub use hall::Hall;
+pub use report::{Collision, Delivery, Obstacle, Report, Rivalry};
+pub use world::{Contest, DURATION, RADIUS, RIVALS, Robot, START};

@@ -1,0 +1,132 @@
+use apex_nodes::{
+    map::{Octagon, Station},
+    nav::stand_before,
+    scan::{Point2, Pose2},
+};
+use apex_rt::{Ctx, Event, node};
+use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// Where the robot began: the origin of its map.
+#[node]
+pub fn origin() -> Pose2 {
+    Pose2::default()
+}
+
+/// Triggers `yes` when the word is the expected one (thesis figure 8.1a, *streq*).
+#[node]
+pub fn is_word(word: &String, #[param] expected: &'static str, yes: Event<()>) {
+    if word == expected {
+        yes.emit(());
+    }
+}
+
+/// Chooses the nearest free filling station while it is active, and sends where to stand before it; ⊥ while none is known
+/// or free.
+#[node]
+#[derive(Debug)]
+pub struct ChooseStation {
+    /// How far before the wall the robot is to stand.
+    #[param(unit = "m", default = 0.9, range = 0.0..=10.0)]
+    distance: f32,
+    chosen: Option<usize>,
+    /// The one that was given up last.
+    avoided: Option<usize>,
+}
+
+#[node]
+impl ChooseStation {
+    fn process(&mut self, ctx: &Ctx, stations: &heapless::Vec<Station, 4>, robot: &Pose2) -> Option<Pose2> {
+        if !ctx.active() {
+            return None;
+        }
+        let free = stations.iter().enumerate().filter(|(_, station)| station.free);
+        let way = |station: &Station| (stand_before(&station.pose, self.distance).position() - robot.position()).norm();
+        let other = free.clone().filter(|(i, _)| Some(*i) != self.avoided);
+        let nearest = other.min_by(|(_, a), (_, b)| way(a).total_cmp(&way(b))).or(free.clone().next());
+        let (chosen, station) = nearest?;
+        self.chosen = Some(chosen);
+        Some(stand_before(&station.pose, self.distance))
+    }
+
+    /// The one that was chosen last is avoided next time, if there is another one.
+    #[slot]
+    fn give_up(&mut self) {
+        self.avoided = self.chosen;
+    }
+}
+
+/// The next place on a way around the island, counter-clockwise, from which the robot looks along the border (thesis 4.3.4).
+/// Sent once for each time that it becomes active.
+#[node]
+#[derive(Debug)]
+pub struct BorderTour {
+    /// How far from the middle of the island it drives.
+    #[param(unit = "m", default = 3.8, range = 0.0..=100.0)]
+    radius: f32,
+    /// From one place to the next, seen from the middle.
+    #[param(unit = "rad", default = FRAC_PI_4, range = 0.01..=3.2)]
+    step: f32,
+}
+
+#[node]
+impl BorderTour {
+    fn process(&mut self, ctx: &Ctx, robot: &Pose2, island: &Octagon) -> Option<Pose2> {
+        if !ctx.active() {
+            return None;
+        }
+        let angle = (robot.position() - island.centre).angle() + self.step;
+        let place = island.centre + Point2::polar(self.radius, angle);
+        Some(Pose2::default().compose(&Pose2::new(place.x, place.y, angle + FRAC_PI_2)))
+    }
+
+    /// Takes the activity that the token may carry.
+    #[slot]
+    fn begin(&mut self) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::{Construct, Time};
+    use core::f32::consts::PI;
+
+    fn active() -> Ctx {
+        Ctx::new(Time::ZERO).of_node(true)
+    }
+
+    fn stations(free: [bool; 4]) -> heapless::Vec<Station, 4> {
+        let at = |i: usize| Pose2::new(0.0, 0.0, i as f32 * FRAC_PI_2).compose(&Pose2::new(1.5, 0.0, 0.0));
+        free.iter().enumerate().map(|(i, free)| Station { pose: at(i), free: *free }).collect()
+    }
+
+    #[test]
+    fn the_nearest_free_station_is_chosen() {
+        let mut node = ChooseStation::construct((0.9,));
+        let robot = Pose2::new(3.0, 0.5, 0.0);
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &stations([true; 4]), &robot), None);
+        let mut choose = |free| node.process(&active(), &stations(free), &robot).map(|place| place.position());
+        let near = |place: Option<Point2>, x: f32, y: f32| place.is_some_and(|p| (p - Point2::new(x, y)).norm() < 1e-5);
+        assert!(near(choose([true; 4]), 2.4, 0.0));
+        assert!(near(choose([false, true, true, true]), 0.0, 2.4));
+        assert_eq!(choose([false; 4]), None);
+    }
+
+    #[test]
+    fn a_station_that_was_given_up_is_avoided_if_there_is_another_one() {
+        let mut node = ChooseStation::construct((0.9,));
+        let robot = Pose2::new(3.0, 0.0, 0.0);
+        let first = node.process(&active(), &stations([true; 4]), &robot);
+        node.give_up();
+        assert_ne!(node.process(&active(), &stations([true; 4]), &robot), first);
+        assert_eq!(node.process(&active(), &stations([true, false, false, false]), &robot), first);
+    }
+
+    #[test]
+    fn the_tour_goes_round_counter_clockwise() {
+        let mut node = BorderTour::construct((4.0, FRAC_PI_2));
+        let island = Octagon { centre: Point2::new(1.0, 0.0), apothem: 1.4, theta: 0.0 };
+        let place = node.process(&active(), &Pose2::new(4.0, 0.0, 0.0), &island).expect("it is active");
+        assert!((place.position() - Point2::new(1.0, 4.0)).norm() < 1e-5 && (place.theta.abs() - PI).abs() < 1e-5);
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &place, &island), None);
+    }
+}

@@ -1,0 +1,163 @@
+use super::Parts;
+use crate::story::Phase;
+use apex_rt::{Info, Observer, Time};
+use std::fmt;
+
+/// Notes what the robot is busy with, and what goes wrong in it.
+#[derive(Debug)]
+pub struct Diary {
+    /// The time of the reaction that goes on.
+    pub now: Time,
+    info: &'static Info,
+    parts: Parts,
+    /// By part: how many of its nodes are active, and since when one is.
+    active: Vec<(u32, Time)>,
+    phases: Vec<Phase>,
+    failures: Vec<Failure>,
+}
+
+/// Something that went wrong in the robot, once or several times.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    /// What went wrong.
+    pub what: String,
+    /// When it did so first.
+    pub at: Time,
+    /// How often.
+    pub count: u32,
+}
+
+impl Diary {
+    pub fn new(info: &'static Info) -> Self {
+        let parts = Parts::new(info);
+        let active = vec![(0, Time::ZERO); parts.names().len()];
+        Self { now: Time::ZERO, info, parts, active, phases: vec![], failures: vec![] }
+    }
+
+    /// The parts of the mission that are active.
+    pub fn active(&self) -> Vec<String> {
+        let active = self.parts.names().iter().zip(&self.active).filter(|(_, (count, _))| *count > 0);
+        active.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// All phases and failures of a run that ends now.
+    pub fn finish(mut self, now: Time) -> (Vec<Phase>, Vec<Failure>) {
+        self.now = now;
+        for part in 0..self.active.len() {
+            if self.active[part].0 > 0 {
+                self.end(part);
+            }
+        }
+        (self.phases, self.failures)
+    }
+
+    fn end(&mut self, part: usize) {
+        let (name, from) = (self.parts.names()[part].clone(), self.active[part].1);
+        // What passes at once is no phase.
+        if from == self.now {
+            return;
+        }
+        // From one node to the next of the same part the activity passes at once.
+        match self.phases.iter_mut().rev().find(|phase| phase.name == name) {
+            Some(phase) if phase.until == from => phase.until = self.now,
+            _ => self.phases.push(Phase { name, from, until: self.now }),
+        }
+    }
+
+    fn fail(&mut self, what: String) {
+        match self.failures.iter_mut().find(|failure| failure.what == what) {
+            Some(failure) => failure.count += 1,
+            None => self.failures.push(Failure { what, at: self.now, count: 1 }),
+        }
+    }
+}
+
+impl Observer for Diary {
+    fn activity(&mut self, node: usize, active: bool) {
+        let part = self.parts.of(node);
+        if !self.parts.is_of_mission(part) {
+            return;
+        }
+        let (count, since) = self.active[part];
+        self.active[part] = match (count, active) {
+            (0, true) => (1, self.now),
+            (_, true) => (count + 1, since),
+            (_, false) => (count.saturating_sub(1), since),
+        };
+        if count == 1 && !active {
+            self.end(part);
+        }
+    }
+
+    fn failed(&mut self, node: usize, error: &impl fmt::Display) {
+        self.fail(format!("`{}` failed: {error}", self.info.nodes[node].name));
+    }
+
+    fn endless(&mut self, nodes: &[usize], _counts: &[u32]) {
+        let names: Vec<&str> = nodes.iter().map(|node| self.info.nodes[*node].name).collect();
+        self.fail(format!("tokens go round while the time stands still: `{}`", names.join("`, `")));
+    }
+
+    fn claim_failed(&mut self, claim: usize) {
+        self.fail(format!("the claim `{}` does not hold", self.info.claims[claim]));
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, at, count } = self;
+        write!(f, "{what} (at {:.2} s", at.as_secs_f64())?;
+        if *count > 1 { write!(f, ", {count} times)") } else { write!(f, ")") }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::programs::Competition;
+    use apex_rt::Program as _;
+
+    /// What a diary says of a robot in which these nodes become active or passive.
+    fn written(story: &[(i64, &str, bool)]) -> Vec<Phase> {
+        let info = const { &Competition::INFO };
+        let mut diary = Diary::new(info);
+        for (second, name, active) in story {
+            let node = info.nodes.iter().position(|node| node.name == *name).expect("a node");
+            diary.now = Time::from_secs(*second);
+            diary.activity(node, *active);
+        }
+        diary.finish(Time::from_secs(100)).0
+    }
+
+    #[test]
+    fn phases_go_on_from_node_to_node() {
+        let phases = written(&[
+            (0, "mission.wait.compare", true),
+            (1, "mission.wait.compare", false),
+            (1, "mission.fetch.choose", true),
+            (1, "mission.fetch.choose", false),
+            (1, "mission.fetch.navigate.request", true),
+            (2, "mission.fetch.navigate.request", false),
+            (2, "mission.fetch.navigate.follow", true),
+            (7, "mission.fetch.navigate.follow", false),
+            (9, "mission.fetch.navigate.follow", true),
+        ]);
+        let phase = |name: &str, from, until| Phase {
+            name: name.to_owned(),
+            from: Time::from_secs(from),
+            until: Time::from_secs(until),
+        };
+        let navigate = "fetch / navigate";
+        assert_eq!(phases, [phase("wait", 0, 1), phase(navigate, 1, 7), phase(navigate, 9, 100)]);
+    }
+
+    #[test]
+    fn the_same_failure_is_counted() {
+        let mut diary = Diary::new(const { &Competition::INFO });
+        diary.now = Time::from_millis(1500);
+        ["no light", "no light", "no ink"].iter().for_each(|error| diary.failed(0, error));
+        let texts: Vec<String> = diary.finish(Time::from_secs(2)).1.iter().map(Failure::to_string).collect();
+        let expected = ["`front` failed: no light (at 1.50 s, 2 times)", "`front` failed: no ink (at 1.50 s)"];
+        assert_eq!(texts, expected);
+    }
+}

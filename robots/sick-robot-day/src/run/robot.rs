@@ -1,0 +1,48 @@
+use crate::{
+    Journal,
+    contest::{Drivers, Hall},
+    programs::{Competition, CompetitionParts, SdfCompetition, SdfCompetitionParts},
+};
+use apex_rt::Program;
+
+/// A robot that takes part in the competition.
+pub trait Robot: Program {
+    /// The nodes that send images.
+    const CAMERAS: [&'static str; 2];
+
+    /// The robot in a hall.
+    fn in_hall(hall: &Hall) -> Self;
+
+    /// What it knows.
+    fn journal(&self) -> &Journal;
+}
+
+/// The robots differ in their missions, not in what they are made of.
+macro_rules! robot {
+    ($robot:ident, $parts:ident) => {
+        impl Robot for $robot {
+            const CAMERAS: [&'static str; 2] = ["eye", "basket"];
+
+            fn in_hall(hall: &Hall) -> Self {
+                let drivers = Drivers::new(hall);
+                Self::new($parts {
+                    front: drivers.front_laser,
+                    rear: drivers.rear_laser,
+                    wheels: drivers.wheel_odometry,
+                    eye: drivers.front_camera,
+                    basket: drivers.hopper_camera,
+                    remote: drivers.remote,
+                    base: drivers.base,
+                    lamp: drivers.lamp,
+                })
+            }
+
+            fn journal(&self) -> &Journal {
+                &self.nodes().journal
+            }
+        }
+    };
+}
+
+robot!(Competition, CompetitionParts);
+robot!(SdfCompetition, SdfCompetitionParts);

@@ -1,0 +1,224 @@
+use super::{clock, seconds, shortened};
+use crate::Arena;
+use apex_nodes::scan::{Point2, Pose2};
+use apex_rt::Time;
+use std::{
+    io::{IsTerminal as _, Write as _},
+    time::{Duration, Instant},
+};
+
+/// Columns and rows of the arena: a character is about twice as high as wide.
+const COLUMNS: usize = 38;
+const ROWS: usize = 19;
+/// Half of what is shown of the arena, in m.
+const REACH: f32 = 6.5;
+/// At most so many characters beside the arena.
+const BESIDE: usize = 38;
+/// The shortest time between two views.
+const PACE: Duration = Duration::from_millis(100);
+
+/// What can be seen of a run at one moment.
+#[derive(Debug, Clone)]
+pub struct Glance<'a> {
+    /// The time of the run.
+    pub now: Time,
+    /// Where it takes place.
+    pub arena: &'a Arena,
+    /// Where the robot really is.
+    pub pose: Pose2,
+    /// Where the other robots are.
+    pub rivals: Vec<Point2>,
+    /// The score.
+    pub points: u32,
+    /// What was taken off the score.
+    pub penalties: u32,
+    /// The phases that are active.
+    pub active: Vec<String>,
+    /// The number of the cube in the hopper.
+    pub hopper: Option<u32>,
+}
+
+/// Shows how a run goes on standard error: as a map that is drawn again and again if that is a terminal, and else as a
+/// line for each minute, if somebody asked for them.
+#[derive(Debug)]
+pub struct LiveView {
+    output: Output,
+    drawn: Option<Instant>,
+    /// The minute of the next line.
+    minute: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Output {
+    Map,
+    Lines,
+    Nothing,
+}
+
+impl LiveView {
+    /// Looks at what standard error is. `lines` says whether lines are wanted where it is no terminal.
+    pub fn new(lines: bool) -> Self {
+        let output = match std::io::stderr().is_terminal() {
+            true => Output::Map,
+            false if lines => Output::Lines,
+            false => Output::Nothing,
+        };
+        Self { output, drawn: None, minute: 0 }
+    }
+
+    /// Shows what is seen at `now`, if it is time to.
+    pub fn show<'a>(&mut self, now: Time, glance: impl FnOnce() -> Glance<'a>) {
+        if let Some(text) = self.text(now, Instant::now(), glance) {
+            let mut terminal = std::io::stderr();
+            // A view that cannot be shown is no reason to stop.
+            let _ = terminal.write_all(text.as_bytes()).and_then(|()| terminal.flush());
+        }
+    }
+
+    /// What has to be written now.
+    fn text<'a>(&mut self, now: Time, wall: Instant, glance: impl FnOnce() -> Glance<'a>) -> Option<String> {
+        match self.output {
+            Output::Map => {
+                if self.drawn.is_some_and(|drawn| wall.duration_since(drawn) < PACE) {
+                    return None;
+                }
+                // Over what was drawn before; what is left of its lines is erased.
+                let up = self.drawn.replace(wall).map_or_else(String::new, |_| format!("\x1b[{ROWS}A"));
+                let lines: Vec<String> = glance().lines().iter().map(|line| format!("{line}\x1b[K\n")).collect();
+                Some(up + &lines.concat())
+            }
+            Output::Lines => {
+                let minute = seconds(now) as u32 / 60;
+                if minute < self.minute {
+                    return None;
+                }
+                self.minute = minute + 1;
+                Some(format!("{}\n", glance().line()))
+            }
+            Output::Nothing => None,
+        }
+    }
+}
+
+impl Glance<'_> {
+    /// The arena, and beside it what goes on.
+    fn lines(&self) -> Vec<String> {
+        let beside = self.beside();
+        let mut beside = beside.iter().map(|text| shortened(text, BESIDE));
+        let rows = self.chart();
+        rows.iter().map(|row| format!("{row}  {}", beside.next().unwrap_or_default()).trim_end().to_owned()).collect()
+    }
+
+    /// One line instead of all.
+    fn line(&self) -> String {
+        format!("{}: points {}, penalties {}", clock(seconds(self.now)), self.points, self.penalties)
+    }
+
+    fn beside(&self) -> Vec<String> {
+        let hopper = self.hopper.map_or_else(|| "empty".to_owned(), |number| format!("a cube for {number}"));
+        let mut lines = vec![
+            format!("time       {}", clock(seconds(self.now))),
+            format!("points     {}", self.points),
+            format!("penalties  {}", self.penalties),
+            format!("hopper     {hopper}"),
+            String::new(),
+        ];
+        lines.extend(self.active.iter().cloned());
+        lines
+    }
+
+    /// Walls as `#`, filling stations as `+`, delivery stations by their numbers, the robot as `A`, and the others as `B`
+    /// and so on. What comes later hides what was there.
+    fn chart(&self) -> Vec<String> {
+        let mut chart = Chart([[' '; COLUMNS]; ROWS]);
+        for wall in self.arena.world.walls() {
+            let parts = 1 + (8.0 * (wall.b - wall.a).norm()) as u32;
+            let points = (0..=parts).map(|i| wall.a + (wall.b - wall.a).scaled(i as f32 / parts as f32));
+            points.for_each(|point| chart.put(point, '#'));
+        }
+        self.arena.filling.iter().for_each(|station| chart.put(station.pose.position(), '+'));
+        for (station, number) in self.arena.delivery.iter().zip('1'..) {
+            chart.put(station.pose.position(), number);
+        }
+        self.rivals.iter().zip('B'..='Z').for_each(|(place, letter)| chart.put(*place, letter));
+        chart.put(self.pose.position(), 'A');
+        chart.0.iter().map(|row| row.iter().collect()).collect()
+    }
+}
+
+/// The arena in characters.
+struct Chart([[char; COLUMNS]; ROWS]);
+
+impl Chart {
+    /// Puts a character where a place is; nothing if that is outside.
+    fn put(&mut self, place: Point2, character: char) {
+        let column = (0.5 + 0.5 * place.x / REACH) * COLUMNS as f32;
+        let row = (0.5 - 0.5 * place.y / REACH) * ROWS as f32;
+        // False for what is no number.
+        if column >= 0.0 && row >= 0.0 && column < COLUMNS as f32 && row < ROWS as f32 {
+            self.0[row as usize][column as usize] = character;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn glance(arena: &Arena) -> Glance<'_> {
+        Glance {
+            now: Time::from_secs(83),
+            arena,
+            pose: Pose2::new(3.0, 0.0, 0.0),
+            rivals: vec![Point2::new(-3.0, 3.0), Point2::new(f32::NAN, 0.0), Point2::new(99.0, 0.0)],
+            points: 7,
+            penalties: 1,
+            active: vec!["fetch".to_owned(), "fetch / position".to_owned()],
+            hopper: Some(3),
+        }
+    }
+
+    fn view(output: Output) -> LiveView {
+        LiveView { output, drawn: None, minute: 0 }
+    }
+
+    #[test]
+    fn the_view_shows_the_arena_and_the_score() {
+        let arena = Arena::new(3);
+        let lines = glance(&arena).lines();
+        assert_eq!(lines.len(), ROWS);
+        assert!(lines.iter().all(|line| line.chars().count() < 80));
+        let text = lines.join("\n");
+        for part in ["time       1:23", "points     7", "penalties  1", "hopper     a cube for 3", "  fetch / position"]
+        {
+            assert!(text.contains(part), "no `{part}` in:\n{text}");
+        }
+        let chart = glance(&arena).chart();
+        assert_eq!(chart[9].chars().nth(27), Some('A'), "{text}");
+        assert_eq!(chart[5].chars().nth(10), Some('B'), "{text}");
+        let count = |character| chart.iter().flat_map(|row| row.chars()).filter(|c| *c == character).count();
+        assert_eq!(['1', '2', '3', '4', '+', 'C'].map(count), [1, 1, 1, 1, 4, 0], "{text}");
+    }
+
+    #[test]
+    fn a_view_is_drawn_over_the_last_one_and_not_too_often() {
+        let (arena, start) = (Arena::new(1), Instant::now());
+        let mut view = view(Output::Map);
+        let mut at = |ms| view.text(Time::ZERO, start + Duration::from_millis(ms), || glance(&arena));
+        let (first, early, second) = (at(0), at(99), at(100));
+        let first = first.expect("the first one");
+        assert_eq!((first.matches('\n').count(), first.matches('A').count(), early), (ROWS, 1, None));
+        assert_eq!(second, Some(format!("\x1b[{ROWS}A{first}")));
+    }
+
+    #[test]
+    fn lines_come_once_a_minute_and_only_if_asked() {
+        let (arena, wall) = (Arena::new(1), Instant::now());
+        let count = |output| {
+            let mut view = view(output);
+            (0..300).filter_map(|s| view.text(Time::from_secs(s), wall, || glance(&arena))).count()
+        };
+        assert_eq!((count(Output::Lines), count(Output::Nothing)), (5, 0));
+        assert_eq!(glance(&arena).line(), "1:23: points 7, penalties 1");
+    }
+}

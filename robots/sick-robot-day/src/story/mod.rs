@@ -1,0 +1,152 @@
+//! What a run of the robot leaves behind: a table, pictures, and a view of it while it goes on.
+
+mod activity;
+mod canvas;
+mod frame;
+mod live;
+mod map;
+mod table;
+
+pub use frame::{Frame, Mark};
+pub use live::{Glance, LiveView};
+
+use crate::{Arena, Journal, contest::Hall, measure::Album};
+use apex_nodes::{
+    map::{Grid, Occupancy, Octagon, Signs, Station},
+    scan::{Point2, Pose2},
+};
+use apex_rt::Time;
+
+/// What happened in a run.
+#[derive(Debug, Clone)]
+pub struct Story {
+    /// The seed of the run.
+    pub seed: u64,
+    /// The truth.
+    pub arena: Arena,
+    /// Where the robot began: what it knows is in the frame of its odometry, which begins there.
+    pub start: Pose2,
+    /// Where the robot really was, in the order of time.
+    pub trajectory: Vec<(Time, Pose2)>,
+    /// The last map of the robot.
+    pub map: Option<Grid<Occupancy>>,
+    /// What it took for the island.
+    pub octagon: Option<Octagon>,
+    /// What it took for filling stations.
+    pub stations: Vec<Station>,
+    /// The signs that it saw.
+    pub signs: Signs,
+    /// What it was busy with.
+    pub phases: Vec<Phase>,
+    /// Its score.
+    pub points: u32,
+    /// What was taken off the score.
+    pub penalties: u32,
+    /// Collisions that it caused.
+    pub collisions_caused: u32,
+    /// Collisions that others caused.
+    pub collisions_suffered: u32,
+    /// The scores of the other robots.
+    pub rivals: Vec<u32>,
+    /// When it delivered a cube, and at which station.
+    pub deliveries: Vec<(Time, u32)>,
+    /// What its camera saw.
+    pub frames: Vec<Frame>,
+}
+
+/// A part of the mission that was active for a while. Several may be at once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Phase {
+    /// Which part, after those that it is in: `fetch / position`.
+    pub name: String,
+    /// When it became active.
+    pub from: Time,
+    /// When it ended.
+    pub until: Time,
+}
+
+impl Story {
+    /// The story of a run that has ended, in the hall of a seed.
+    pub fn of(seed: u64, hall: &Hall, start: Pose2, journal: &Journal, phases: Vec<Phase>) -> Self {
+        let report = hall.report();
+        Self {
+            seed,
+            arena: hall.arena(),
+            start,
+            map: journal.last_map().cloned(),
+            octagon: journal.last_island(),
+            stations: journal.last_stations().to_vec(),
+            signs: journal.last_signs().clone(),
+            phases,
+            points: report.points() as u32,
+            penalties: report.penalties() as u32,
+            collisions_caused: report.caused() as u32,
+            collisions_suffered: report.suffered() as u32,
+            rivals: report.rivals.iter().map(|rival| rival.points).collect(),
+            deliveries: report.deliveries.iter().map(|delivery| (delivery.at, delivery.station)).collect(),
+            frames: journal.frames(),
+            trajectory: report.trajectory,
+        }
+    }
+
+    /// Writes the pictures: `map`, `activity`, and `frame-01` and so on.
+    ///
+    /// # Errors
+    /// A picture cannot be written.
+    pub fn write(&self, album: &Album) -> Result<(), String> {
+        album.save("map", &self.draw_map())?;
+        album.save("activity", &self.draw_activity())?;
+        let mut frames = self.frames.iter().zip(1..);
+        frames.try_for_each(|(frame, number)| album.save(&format!("frame-{number:02}"), &frame.draw()))
+    }
+
+    /// The last time at which something happened, in s.
+    fn end(&self) -> f32 {
+        let driven = self.trajectory.last().map(|(time, _)| *time);
+        let phases = self.phases.iter().map(|phase| phase.until);
+        let all = self.deliveries.iter().map(|(time, _)| *time).chain(phases).chain(driven);
+        all.max().map_or(0.0, seconds)
+    }
+
+    /// The names of the phases, in the order in which they were first active.
+    fn phase_names(&self) -> Vec<&str> {
+        let mut phases: Vec<&Phase> = self.phases.iter().collect();
+        phases.sort_by_key(|phase| phase.from);
+        let mut names = vec![];
+        for phase in phases {
+            if !names.contains(&phase.name.as_str()) {
+                names.push(&phase.name);
+            }
+        }
+        names
+    }
+
+    /// Where the robot was at a time.
+    fn place(&self, time: Time) -> Option<Point2> {
+        let after = self.trajectory.partition_point(|(t, _)| *t < time);
+        let nearest = self.trajectory.get(after).or(self.trajectory.last());
+        nearest.map(|(_, pose)| pose.position())
+    }
+}
+
+/// A time in s.
+fn seconds(time: Time) -> f32 {
+    time.as_secs_f64() as f32
+}
+
+/// Seconds as minutes: `7:03`.
+fn clock(seconds: f32) -> String {
+    let whole = seconds as u32;
+    format!("{}:{:02}", whole / 60, whole % 60)
+}
+
+/// At most so many characters of a text.
+fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most.saturating_sub(2)).chain("..".chars()).collect()
+}
+
+#[cfg(test)]
+mod tests;

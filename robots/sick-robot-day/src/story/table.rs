@@ -1,0 +1,51 @@
+use super::{Story, clock, seconds, shortened};
+use std::{fmt, fmt::Write as _};
+
+/// Columns for the names of phases.
+const NAME: usize = 44;
+
+impl Story {
+    /// How the run ended: the score, and how long each phase took.
+    pub fn table(&self) -> String {
+        let mut table = String::new();
+        // Nothing can go wrong in a text.
+        let _ = self.write_score(&mut table).and_then(|()| self.write_phases(&mut table));
+        table
+    }
+
+    fn write_score(&self, f: &mut String) -> fmt::Result {
+        writeln!(f, "Run of seed {}: {} min", self.seed, clock(self.end()))?;
+        let rows = [
+            ("points", self.points),
+            ("penalties", self.penalties),
+            ("deliveries", self.deliveries.len() as u32),
+            ("collisions caused", self.collisions_caused),
+            ("collisions suffered", self.collisions_suffered),
+        ];
+        rows.iter().try_for_each(|(name, value)| writeln!(f, "{name:<20}{value:>8}"))?;
+        let rivals: Vec<String> = self.rivals.iter().map(u32::to_string).collect();
+        let rivals = if rivals.is_empty() { "none".to_owned() } else { rivals.join(", ") };
+        writeln!(f, "{:<20}{rivals:>8}", "points of rivals")?;
+        writeln!(f, "{:<20}{:>8.1} m", "distance driven", self.distance())
+    }
+
+    fn write_phases(&self, f: &mut String) -> fmt::Result {
+        write!(f, "\n{:<NAME$}{:>10}{:>9}{:>8}", "phase", "s", "share", "count")?;
+        for name in self.phase_names() {
+            let times = self.phases.iter().filter(|phase| phase.name == name);
+            let (mut sum, mut count) = (0.0, 0);
+            for phase in times {
+                sum += seconds(phase.until) - seconds(phase.from);
+                count += 1;
+            }
+            let share = 100.0 * sum / self.end().max(f32::MIN_POSITIVE);
+            write!(f, "\n{:<NAME$}{sum:>10.1}{share:>7.0} %{count:>8}", shortened(name, NAME - 2))?;
+        }
+        Ok(())
+    }
+
+    /// How far the robot drove, in m.
+    fn distance(&self) -> f32 {
+        self.trajectory.windows(2).map(|poses| (poses[1].1.position() - poses[0].1.position()).norm()).sum()
+    }
+}

@@ -1,0 +1,161 @@
+use super::*;
+use apex_nodes::{
+    image::Region,
+    map::{Raster, Sign},
+};
+use std::fs;
+
+/// A made-up run of two minutes.
+pub fn story() -> Story {
+    let arena = Arena::new(3);
+    let start = Pose2::new(3.0, -2.0, 2.0);
+    let inner = |pose: &Pose2| pose.relative_to(&start);
+    let way = |i: i64| {
+        let angle = 0.02 * i as f32;
+        let place = Point2::polar(3.6 + 0.8 * (3.1 * angle).sin(), angle - 0.588);
+        (Time::from_millis(100 * i), Pose2::new(place.x, place.y, angle + 1.0))
+    };
+    let stations = arena.filling.iter().zip([true, false, true, true]);
+    let stations = stations.map(|(station, free)| Station { pose: inner(&station.pose), free }).collect();
+    Story {
+        seed: 3,
+        start,
+        trajectory: (0..=1200).map(way).collect(),
+        map: Some(seen(&arena, &start)),
+        octagon: Some(island(&arena, &start)),
+        stations,
+        signs: signs(&arena, &start),
+        phases: phases(),
+        points: 12,
+        penalties: 1,
+        collisions_caused: 2,
+        collisions_suffered: 3,
+        rivals: vec![9, 4],
+        deliveries: vec![(Time::from_secs(48), 2), (Time::from_secs(105), 4)],
+        frames: vec![frame("a sign"), frame("nothing")],
+        arena,
+    }
+}
+
+/// A map in the frame of the robot: a cell near a wall is occupied, one within the border is free.
+fn seen(arena: &Arena, start: &Pose2) -> Grid<Occupancy> {
+    let border = arena.border.iter().map(|corner| start.to_inner(*corner));
+    let raster = Raster::around(border, 0.5, 0.05);
+    let mut map = Grid::new(raster, Occupancy::Unknown).expect("small");
+    let cells: Vec<_> = map.iter().map(|(cell, _)| start.to_outer(raster.centre(cell))).collect();
+    for (cell, place) in map.cells_mut().iter_mut().zip(cells) {
+        if arena.is_free(place, 0.05) {
+            *cell = Occupancy::Free;
+        } else if arena.world.walls().iter().any(|wall| {
+            let (along, from) = (wall.b - wall.a, place - wall.a);
+            let part = (from.dot(along) / along.norm_squared()).clamp(0.0, 1.0);
+            (from - along.scaled(part)).norm() < 0.05
+        }) {
+            *cell = Occupancy::Occupied;
+        }
+    }
+    map
+}
+
+/// The island, not quite where it is.
+fn island(arena: &Arena, start: &Pose2) -> Octagon {
+    let centre = start.to_inner(Point2::new(0.06, 0.04));
+    let theta = arena.filling[0].pose.theta - start.theta;
+    Octagon { centre, apothem: 1.45, theta }
+}
+
+/// The four signs, which were seen often, after one that was hardly seen.
+fn signs(arena: &Arena, start: &Pose2) -> Signs {
+    let mut signs = Signs::new();
+    for (station, number) in arena.delivery.iter().zip(1..) {
+        let pose = station.pose.relative_to(start);
+        let mut sign = Sign::new(number, &pose);
+        for i in 0..20_u8 {
+            let (sin, cos) = (0.7 * f32::from(i)).sin_cos();
+            let noise = Pose2::new(0.05 * sin, 0.15 * cos + 0.05 * sin, 0.0);
+            sign.add(&pose.compose(&noise));
+        }
+        signs.push(sign).expect("room for four");
+        if number == 1 {
+            signs.push(Sign::new(3, &Pose2::new(-1.0, 4.0, 1.0))).expect("room for five");
+        }
+    }
+    signs
+}
+
+fn phases() -> Vec<Phase> {
+    let phase = |name: &str, from, until| Phase {
+        name: name.to_owned(),
+        from: Time::from_secs(from),
+        until: Time::from_secs(until),
+    };
+    vec![
+        phase("fetch", 20, 50),
+        phase("explore", 0, 20),
+        phase("fetch / position", 30, 42),
+        phase("fetch", 60, 110),
+        phase("fetch / position", 90, 100),
+        phase("deliver", 44, 60),
+    ]
+}
+
+fn frame(name: &str) -> Frame {
+    let image = image::ImageBuffer::from_fn(320, 240, |x, y| image::Luma([(x / 4 + y / 3) as u8])).into();
+    let region = Region { left: 100, top: 90, width: 40, height: 60, area: 1 };
+    Frame { name: name.to_owned(), image, marks: vec![Mark::Box(region, "4".to_owned()), Mark::Cross([200.0, 50.0])] }
+}
+
+#[test]
+fn the_table_tells_how_it_ended() {
+    let mut story = story();
+    story.trajectory = vec![(Time::ZERO, Pose2::default()), (Time::from_secs(120), Pose2::new(3.0, 4.0, 1.0))];
+    let expected = "\
+Run of seed 3: 2:00 min
+points                    12
+penalties                  1
+deliveries                 2
+collisions caused          2
+collisions suffered        3
+points of rivals        9, 4
+distance driven          5.0 m
+
+phase                                                s    share   count
+explore                                           20.0     17 %       1
+fetch                                             80.0     67 %       2
+fetch / position                                  22.0     18 %       2
+deliver                                           16.0     13 %       1";
+    assert_eq!(story.table(), expected);
+}
+
+#[test]
+fn tables_fit_and_need_nothing() {
+    let mut story = story();
+    story.phases.push(Phase { name: "so / ".repeat(40), from: Time::ZERO, until: Time::from_secs(99_999) });
+    assert!(story.table().lines().all(|line| line.chars().count() <= 80), "{}", story.table());
+    (story.phases, story.trajectory, story.deliveries, story.rivals) = (vec![], vec![], vec![], vec![]);
+    assert!(story.table().contains("points of rivals        none"), "{}", story.table());
+}
+
+#[test]
+fn robots_deliver_where_they_are() {
+    let story = story();
+    let expected = |i: usize| Some(story.trajectory[i].1.position());
+    assert_eq!(story.place(Time::from_millis(4_800)), expected(48));
+    assert_eq!(story.place(Time::from_secs(9999)), expected(1200));
+}
+
+#[test]
+fn pictures_are_written_and_nothing_is_overwritten() {
+    let folder = std::env::temp_dir().join(format!("apex-story-{}", std::process::id()));
+    let album = Album::new(&folder).expect("a new folder");
+    let story = story();
+    story.write(&album).expect("room for it");
+    let again = story.write(&album).expect_err("all is there");
+    let mut names: Vec<_> = fs::read_dir(&folder).expect("a folder").flatten().map(|file| file.file_name()).collect();
+    names.sort();
+    let size = image::image_dimensions(folder.join("map.png"));
+    fs::remove_dir_all(&folder).expect("it is ours");
+    assert_eq!(names, ["activity.png", "frame-01.png", "frame-02.png", "map.png"]);
+    assert_eq!(size.ok(), Some((1200, 1200)));
+    assert!(again.contains("map.png"), "{again}");
+}

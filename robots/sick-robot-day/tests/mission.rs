@@ -1,0 +1,111 @@
+//! The whole robot in the competition: it works, it does the same again, and it survives what breaks.
+
+use apex_rt::{Program, Time, record::replay};
+use sick_robot_day::{
+    contest::{Fault, FaultKind, Hall, START},
+    programs::Competition,
+    run::{Mission, Outcome, Recording, Robot as _, Setup},
+};
+use std::{fs, time::Duration};
+
+/// A seed with which the first cube is delivered soon, and how long that takes, with some more time.
+const SEED: u64 = 1;
+const SOON: Duration = Duration::from_secs(60);
+
+fn run(mission: Mission, faults: Vec<Fault>, duration: Duration) -> Outcome {
+    let setup = Setup { seed: SEED, mission, faults, duration, record: None };
+    setup.run(&mut ()).expect("nothing is recorded")
+}
+
+fn delivers(mission: Mission) {
+    let Outcome { story, report, failures, .. } = run(mission, vec![], SOON);
+    assert!(failures.is_empty(), "{failures:?}");
+    assert!(!report.fetches.is_empty() && report.points() > 0, "{report:?}");
+    assert_eq!((report.penalties(), report.caused()), (0, 0));
+    assert!(story.map.is_some() && story.octagon.is_some() && !story.frames.is_empty());
+    assert!(story.phases.windows(2).all(|pair| pair[0].until <= pair[1].until));
+    assert!(story.phases.first().is_some_and(|phase| phase.name == "wait" && phase.until >= START));
+}
+
+#[test]
+fn the_graph_delivers() {
+    delivers(Mission::Graph);
+}
+
+#[test]
+fn the_state_machine_delivers() {
+    delivers(Mission::Machine);
+}
+
+#[test]
+fn the_same_seed_is_the_same_run_and_its_recording_replays() {
+    let folder = std::env::temp_dir().join(format!("apex-sick-robot-day-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let duration = Duration::from_secs(12);
+    let record = Some(Recording { path: folder.join("run.mcap"), images: false });
+    let setup = Setup { seed: SEED, duration, record, ..Setup::default() };
+    let recorded = setup.run(&mut ()).expect("room for the file");
+    let again = run(Mission::Graph, vec![], duration);
+    let finished = recorded.recorded.expect("a recording");
+    let size = fs::metadata(&finished.path).expect("the file").len();
+    let hall = Hall::new(SEED, vec![]).expect("a level camera");
+    let report = replay(Competition::in_hall(&hall), &finished.path, ());
+    fs::remove_dir_all(&folder).expect("it is ours");
+
+    assert_eq!(recorded.report, again.report);
+    assert_eq!(recorded.story.phases, again.story.phases);
+    assert!(recorded.report.distance > 3.0, "it did not drive far");
+    let report = report.expect("a recording");
+    assert!(report.is_same(), "{report}");
+    assert!(report.compared.iter().all(|c| c.equal > 0), "{report}");
+    assert!(finished.dropped.is_empty() && size < 3_000_000, "{size} bytes");
+}
+
+/// Something breaks while the robot needs it; afterwards it moves again.
+fn survives(kind: FaultKind, mission: Mission) {
+    // The camera is needed before a station, all else to get there.
+    let (from, length) = match kind {
+        FaultKind::CameraBlack | FaultKind::CameraTorn => (7, 6),
+        FaultKind::LaserFrozen => (3, 3),
+        _ => (3, 6),
+    };
+    let (from, until) = (Time::from_secs(from), Time::from_secs(from + length));
+    let duration = until.since(START) + Duration::from_secs(8);
+    let outcome = run(mission, vec![Fault { kind, from, until }], duration);
+    assert!(outcome.failures.is_empty(), "{kind:?}: {:?}", outcome.failures);
+    let after: Vec<_> = outcome.report.trajectory.iter().filter(|(time, _)| *time >= until).collect();
+    let way: f32 = after.windows(2).map(|pair| (pair[1].1.position() - pair[0].1.position()).norm()).sum();
+    assert!(way > 0.2, "{kind:?}: after it the robot drove {way} m");
+    assert_eq!(outcome.report.caused(), 0, "{kind:?}: {:?}", outcome.report.collisions);
+}
+
+macro_rules! survives {
+    ($($name:ident: $kind:ident, $mission:ident;)+) => {
+        $(#[test]
+        fn $name() {
+            survives(FaultKind::$kind, Mission::$mission);
+        })+
+    };
+}
+
+survives! {
+    a_frozen_laser_is_survived: LaserFrozen, Graph;
+    a_frozen_laser_is_survived_by_the_machine: LaserFrozen, Machine;
+    black_images_are_survived: CameraBlack, Graph;
+    torn_images_are_survived: CameraTorn, Machine;
+    beams_of_nan_are_survived: BeamsNan, Graph;
+    infinite_beams_are_survived: BeamsInfinite, Machine;
+    beams_of_zero_are_survived: BeamsZero, Graph;
+    missing_beams_are_survived: BeamsMissing, Machine;
+    stopped_odometry_is_survived: OdometryStopped, Graph;
+}
+
+#[test]
+fn both_robots_have_what_can_be_recorded_and_left_out() {
+    let names = |info: &apex_rt::Info| info.nodes.iter().map(|node| node.name).collect::<Vec<_>>();
+    for mission in [Mission::Graph, Mission::Machine] {
+        let names = names(mission.info());
+        assert!(Competition::CAMERAS.iter().all(|camera| names.contains(camera)));
+    }
+    assert_eq!(<Competition as Program>::RECORD, Some("sick-robot-day.mcap"));
+}
