@@ -232,7 +232,7 @@ impl<'a> Replay<'a> {
                 continue;
             }
             let open = match t.meaning {
-                Meaning::Take(node) | Meaning::Release(node) => self.is_due(node),
+                Meaning::Take(node) | Meaning::Release(node) => self.is_due(node) && !self.may_wait(node),
                 _ => true,
             };
             if open {
@@ -269,8 +269,16 @@ impl<'a> Replay<'a> {
         let Some(passed) = self.now.checked_sub(modifiers.after.unwrap_or_default()) else { return false };
         match modifiers.every {
             Some(period) => period.saturating_mul(*count) <= passed,
-            None => !fired,
+            None => !fired || self.may_wait(node),
         }
+    }
+
+    /// A source without a pace that only feeds inputs may fire with who takes its tokens, when and as often as he does.
+    fn may_wait(&self, node: NodeId) -> bool {
+        let n = &self.graph.nodes[node];
+        let is_source = self.sources.contains_key(&node) && matches!(n.kind, NodeKind::Library(_));
+        let mut sent = self.graph.connections.iter().filter(|c| c.from.node == node);
+        is_source && !n.modifiers.has_pace() && sent.all(|c| self.graph.is_synchronous(c))
     }
 
     /// Makes sure that `transition` is enabled, if it can be with what is silent.
