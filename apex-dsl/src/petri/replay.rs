@@ -55,6 +55,8 @@ pub struct Replay<'a> {
     by_meaning: BTreeMap<Meaning, TransitionId>,
     /// How often each source fired, in all and in this reaction.
     sources: BTreeMap<NodeId, (u32, bool)>,
+    /// Sources that may fire when and as often as who takes their tokens.
+    patient: BTreeSet<NodeId>,
     expected: BTreeMap<NodeId, VecDeque<Change>>,
     /// Changes of activity that were recorded before what causes them.
     early: Vec<(NodeId, bool)>,
@@ -82,6 +84,7 @@ impl<'a> Replay<'a> {
             graph,
             net,
             sources: state.sources().iter().map(|n| (*n, (0, false))).collect(),
+            patient: patient(graph, state.sources()),
             state,
             step: 0,
             now: Duration::ZERO,
@@ -232,7 +235,7 @@ impl<'a> Replay<'a> {
                 continue;
             }
             let open = match t.meaning {
-                Meaning::Take(node) | Meaning::Release(node) => self.is_due(node) && !self.may_wait(node),
+                Meaning::Take(node) | Meaning::Release(node) => self.is_due(node) && !self.patient.contains(&node),
                 _ => true,
             };
             if open {
@@ -269,16 +272,8 @@ impl<'a> Replay<'a> {
         let Some(passed) = self.now.checked_sub(modifiers.after.unwrap_or_default()) else { return false };
         match modifiers.every {
             Some(period) => period.saturating_mul(*count) <= passed,
-            None => !fired || self.may_wait(node),
+            None => !fired || self.patient.contains(&node),
         }
-    }
-
-    /// A source without a pace that only feeds inputs may fire with who takes its tokens, when and as often as he does.
-    fn may_wait(&self, node: NodeId) -> bool {
-        let n = &self.graph.nodes[node];
-        let is_source = self.sources.contains_key(&node) && matches!(n.kind, NodeKind::Library(_));
-        let mut sent = self.graph.connections.iter().filter(|c| c.from.node == node);
-        is_source && !n.modifiers.has_pace() && sent.all(|c| self.graph.is_synchronous(c))
     }
 
     /// Makes sure that `transition` is enabled, if it can be with what is silent.
@@ -463,4 +458,33 @@ impl<'a> Replay<'a> {
         }
         Ok(())
     }
+}
+
+/// Sources without a pace that only feed inputs, if something behind them waits for others, too.
+fn patient(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
+    let sent = |node: NodeId| graph.connections.iter().filter(move |c| c.from.node == node);
+    let has_pace = |node: NodeId| graph.nodes[node].modifiers.has_pace();
+    let is_free = |node: &NodeId| {
+        let is_library = matches!(graph.nodes[*node].kind, NodeKind::Library(_));
+        let feeds = sent(*node).next().is_some() && sent(*node).all(|c| graph.is_synchronous(c));
+        is_library && !has_pace(*node) && feeds
+    };
+    let free: BTreeSet<NodeId> = sources.iter().copied().filter(is_free).collect();
+    let asynchronous = graph.connections.iter().filter(|c| !graph.is_synchronous(c)).map(|c| c.to.node);
+    let paced = (0..graph.nodes.len()).filter(|node| has_pace(*node));
+    let others = behind(graph, sources.difference(&free).copied().chain(asynchronous).chain(paced));
+    free.into_iter().filter(|node| !behind(graph, [*node]).is_disjoint(&others)).collect()
+}
+
+/// `nodes`, and what takes their tokens, directly or not.
+fn behind(graph: &Graph, nodes: impl IntoIterator<Item = NodeId>) -> BTreeSet<NodeId> {
+    let mut found = BTreeSet::new();
+    let mut ends: Vec<NodeId> = nodes.into_iter().collect();
+    while let Some(node) = ends.pop() {
+        if found.insert(node) {
+            let sent = graph.connections.iter().filter(|c| c.from.node == node && graph.is_synchronous(c));
+            ends.extend(sent.map(|c| c.to.node));
+        }
+    }
+    found
 }
