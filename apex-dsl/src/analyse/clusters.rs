@@ -1,9 +1,6 @@
 //! Regions, guards and clusters: what runs together as straight-line code (see the execution semantics).
 
-use super::{
-    Analysis, Asynchronous, Block, Links, Step, fires, is_source,
-    pulled::{Pulled, pulled},
-};
+use super::{Analysis, Asynchronous, Block, Links, Step, fires, is_source, pulled::pulled};
 use crate::{
     catalog::Catalog,
     graph::{Connection, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
@@ -255,37 +252,39 @@ impl View<'_> {
 
 /// Adds the guards of what has no pace, if nobody takes its tokens at a pace of his own; all guards that each node depends on.
 fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<usize>>) -> Vec<BTreeSet<usize>> {
-    let mut pulled = if view.graph.is_body { vec![] } else { pulled(view, guards, own) };
+    let above = accumulate(view, guards, own);
+    let plain = without_pace(view, guards, own);
+    let holding = holding(view, &above);
+    let mut pulled = pulled(view, &above);
     loop {
         let (mut all, mut with_react) = (guards.clone(), own.clone());
-        let is_pulled = |node: &NodeId| pulled.iter().any(|p: &Pulled| p.nodes.contains(node));
-        add_react_guards_of_others(view, &mut all, &mut with_react, is_pulled);
+        let is_pulled = |node: &NodeId| pulled.iter().any(|p| p.nodes.contains(node));
+        // What shares a guard has to share a cluster: that depends on the guards of its own, too.
+        let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
+        for &node in plain.iter().filter(|node| !is_pulled(node)) {
+            let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
+                all.push(Guard::React);
+                all.len() - 1
+            });
+            with_react[node].push(guard);
+        }
         let mut accumulated = accumulate(view, &all, &with_react);
         let count = pulled.len();
-        pulled.retain(|p| p.guards(&all, &accumulated).is_some());
-        if pulled.len() < count {
-            continue;
+        pulled.retain(|p| {
+            let set = p.guards(&all, &accumulated);
+            set.inspect(|set| p.nodes.iter().for_each(|node| accumulated[*node].clone_from(set))).is_some()
+        });
+        if pulled.len() == count {
+            (*guards, *own) = (all, with_react);
+            return accumulated;
         }
-        for p in &pulled {
-            let set = p.guards(&all, &accumulated).unwrap_or_default();
-            p.nodes.iter().for_each(|node| accumulated[*node].clone_from(&set));
-        }
-        (*guards, *own) = (all, with_react);
-        return accumulated;
     }
 }
 
-/// Sources without a pace fire once per `react`. Two of them may share a cluster only if the same things
-/// downstream hold them back; else one would wait for what holds back the other.
-fn add_react_guards_of_others(
-    view: &View<'_>,
-    guards: &mut Vec<Guard>,
-    own: &mut [Vec<usize>],
-    is_pulled: impl Fn(&NodeId) -> bool,
-) {
-    let plain = without_pace(view, guards, own);
-    let above = accumulate(view, guards, own);
-    let mut holding = above.clone();
+/// All guards upstream and downstream of each node. Sources without a pace fire once per `react`. Two of them may share a cluster
+/// only if the same things downstream hold them back; else one would wait for what holds back the other.
+fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
+    let mut holding = above.to_vec();
     for &node in view.order.iter().rev() {
         if view.sends_what_stays(node) {
             // No guard of its own, but told apart like one.
@@ -296,15 +295,7 @@ fn add_react_guards_of_others(
             holding[node].extend(next);
         }
     }
-    // What shares a guard has to share a cluster: that depends on the guards of its own, too.
-    let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
-    for node in plain.into_iter().filter(|node| !is_pulled(node)) {
-        let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
-            guards.push(Guard::React);
-            guards.len() - 1
-        });
-        own[node].push(guard);
-    }
+    holding
 }
 
 /// Sources without a pace, and the delays of loops that no source feeds: nothing else would ever start them, or
@@ -326,7 +317,7 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<No
 
 /// All guards upstream of each node. Nested graphs take their inputs together and send their outputs
 /// together; around a delay the guards go in a circle until nothing changes.
-pub fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
+fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
     let View { graph, links, order, .. } = *view;
     let tokens: BTreeMap<usize, usize> = guards
         .iter()

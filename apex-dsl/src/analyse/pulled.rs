@@ -1,7 +1,7 @@
 //! Nodes without a pace of their own whose tokens others take at theirs: they fire with them, so that what they send is
 //! not older than it has to be.
 
-use super::clusters::{Guard, View, accumulate};
+use super::clusters::{Guard, View};
 use crate::graph::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
@@ -25,9 +25,8 @@ impl Pulled {
     }
 }
 
-/// What could fire with its takers, if `above` are the guards that all nodes depend on: nobody else may notice when it does.
-pub fn pulled(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<Pulled> {
-    let above = accumulate(view, guards, own);
+/// What could fire with its takers, if `above` are the guards that each node depends on: nobody else may notice when it does.
+pub fn pulled(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<Pulled> {
     let is_free = |node: &NodeId| above[*node].is_empty() && view.fires(*node);
     let mut seen: BTreeSet<NodeId> = BTreeSet::new();
     let mut found = vec![];

@@ -64,18 +64,11 @@ uint8[] data";
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::{ColorImage, GrayImage};
+    use crate::{
+        image::{ColorImage, GrayImage},
+        scan::message::tests::{again, bytes},
+    };
     use apex_rt::Time;
-
-    fn bytes(image: &impl Message) -> Vec<u8> {
-        let mut bytes = vec![];
-        image.write(&mut Writer::new(&mut bytes));
-        bytes
-    }
-
-    fn again<T: Message>(bytes: &[u8]) -> Option<T> {
-        T::read(&mut Reader::new(bytes)?)
-    }
 
     #[test]
     fn images_come_back() {

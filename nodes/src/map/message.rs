@@ -173,19 +173,12 @@ mod tests {
     use super::*;
     use crate::{
         map::{Octagon, Sign, Signs, Station},
-        scan::Point2,
+        scan::{
+            Point2,
+            message::tests::{again, bytes},
+        },
     };
     use apex_rt::record::Codec;
-
-    fn bytes(grid: &impl Message) -> Vec<u8> {
-        let mut bytes = vec![];
-        grid.write(&mut Writer::new(&mut bytes));
-        bytes
-    }
-
-    fn again<T: Message>(bytes: &[u8]) -> Option<T> {
-        T::read(&mut Reader::new(bytes)?)
-    }
 
     fn filled<T: Copy + Default>(width: usize, height: usize, values: &[T]) -> Grid<T> {
         let raster = Raster { corner: Point2::new(-1.7, 0.3), resolution: 0.05, width, height };

@@ -82,17 +82,8 @@ float64 z";
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scan::message::tests::{again, bytes};
     use core::f32::consts::FRAC_PI_2;
-
-    fn bytes(token: &impl Message) -> Vec<u8> {
-        let mut bytes = vec![];
-        token.write(&mut Writer::new(&mut bytes));
-        bytes
-    }
-
-    fn again<T: Message>(bytes: &[u8]) -> Option<T> {
-        T::read(&mut Reader::new(bytes)?)
-    }
 
     #[test]
     fn paths_and_twists_come_back() {

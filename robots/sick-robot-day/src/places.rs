@@ -1,5 +1,6 @@
 use apex_nodes::{
     map::{Octagon, Station},
+    math::normalize_angle,
     nav::stand_before,
     scan::{Point2, Pose2},
 };
@@ -76,7 +77,7 @@ impl BorderTour {
         }
         let angle = (robot.position() - island.centre).angle() + self.step;
         let place = island.centre + Point2::polar(self.radius, angle);
-        Some(Pose2::default().compose(&Pose2::new(place.x, place.y, angle + FRAC_PI_2)))
+        Some(Pose2::new(place.x, place.y, normalize_angle(&(angle + FRAC_PI_2))))
     }
 
     /// Takes the activity that the token may carry.

@@ -18,7 +18,8 @@ fn run(mission: Mission, faults: Vec<Fault>, duration: Duration) -> Outcome {
 }
 
 fn delivers(mission: Mission) {
-    let Outcome { story, report, failures, .. } = run(mission, vec![], SOON);
+    let Outcome { story, failures, .. } = run(mission, vec![], SOON);
+    let report = &story.report;
     assert!(failures.is_empty(), "{failures:?}");
     assert!(!report.fetches.is_empty() && report.points() > 0, "{report:?}");
     assert_eq!((report.penalties(), report.caused()), (0, 0));
@@ -52,9 +53,9 @@ fn the_same_seed_is_the_same_run_and_its_recording_replays() {
     let report = replay(Competition::in_hall(&hall), &finished.path, ());
     fs::remove_dir_all(&folder).expect("it is ours");
 
-    assert_eq!(recorded.report, again.report);
+    assert_eq!(recorded.story.report, again.story.report);
     assert_eq!(recorded.story.phases, again.story.phases);
-    assert!(recorded.report.distance > 3.0, "it did not drive far");
+    assert!(recorded.story.report.distance > 3.0, "it did not drive far");
     let report = report.expect("a recording");
     assert!(report.is_same(), "{report}");
     assert!(report.compared.iter().all(|c| c.equal > 0), "{report}");
@@ -73,10 +74,11 @@ fn survives(kind: FaultKind, mission: Mission) {
     let duration = until.since(START) + Duration::from_secs(8);
     let outcome = run(mission, vec![Fault { kind, from, until }], duration);
     assert!(outcome.failures.is_empty(), "{kind:?}: {:?}", outcome.failures);
-    let after: Vec<_> = outcome.report.trajectory.iter().filter(|(time, _)| *time >= until).collect();
+    let report = outcome.story.report;
+    let after: Vec<_> = report.trajectory.iter().filter(|(time, _)| *time >= until).collect();
     let way: f32 = after.windows(2).map(|pair| (pair[1].1.position() - pair[0].1.position()).norm()).sum();
     assert!(way > 0.2, "{kind:?}: after it the robot drove {way} m");
-    assert_eq!(outcome.report.caused(), 0, "{kind:?}: {:?}", outcome.report.collisions);
+    assert_eq!(report.caused(), 0, "{kind:?}: {:?}", report.collisions);
 }
 
 macro_rules! survives {

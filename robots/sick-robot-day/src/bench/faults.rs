@@ -32,18 +32,15 @@ pub fn fault_at(kind: FaultKind, seed: u64, end: Time) -> Fault {
 impl Toll<'_> {
     /// The names of the columns.
     pub const HEAD: &'static str = "fault               median  least   most   mean  change  wrong  caused  failures";
-
-    fn mean(scores: &[Score]) -> f32 {
-        Summary(scores).sum(|score| score.points) as f32 / scores.len().max(1) as f32
-    }
 }
 
 impl fmt::Display for Toll<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (summary, mean) = (Summary(self.scores), Self::mean(self.scores));
+        let summary = Summary(self.scores);
+        let mean = summary.mean();
         let [least, median, most] = summary.points();
         write!(f, "{:<20}{median:>6}{least:>7}{most:>7}{mean:>7.1}", self.kind.map_or("none", FaultKind::name))?;
-        write!(f, "{:>+8.1}", mean - Self::mean(self.without))?;
+        write!(f, "{:>+8.1}", mean - Summary(self.without).mean())?;
         let [wrong, caused] = [summary.sum(|score| score.wrong), summary.sum(|score| score.caused)];
         write!(f, "{wrong:>7}{caused:>8}{:>10}", summary.sum(|score| score.failures.len()))
     }

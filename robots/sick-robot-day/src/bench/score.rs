@@ -32,7 +32,7 @@ impl Score {
 
     /// The score of a run that took so long.
     pub fn of(outcome: &Outcome, took: Duration) -> Self {
-        let report = &outcome.report;
+        let report = &outcome.story.report;
         Self {
             seed: outcome.story.seed,
             points: report.points(),
@@ -64,6 +64,11 @@ impl Summary<'_> {
         [0, last / 2, last].map(|index| points.get(index).copied().unwrap_or_default())
     }
 
+    /// The average of the points.
+    pub fn mean(&self) -> f32 {
+        self.sum(|score| score.points) as f32 / self.0.len().max(1) as f32
+    }
+
     /// Over all runs.
     pub fn sum(&self, value: impl Fn(&Score) -> usize) -> usize {
         self.0.iter().map(value).sum()
@@ -73,8 +78,7 @@ impl Summary<'_> {
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [least, median, most] = self.points();
-        let mean = self.sum(|score| score.points) as f32 / self.0.len().max(1) as f32;
-        writeln!(f, "{:<20}{median} (median), {least} to {most}, {mean:.1} on average", "points")?;
+        writeln!(f, "{:<20}{median} (median), {least} to {most}, {:.1} on average", "points", self.mean())?;
         writeln!(f, "{:<20}{}", "wrong deliveries", self.sum(|score| score.wrong))?;
         writeln!(f, "{:<20}{}", "collisions caused", self.sum(|score| score.caused))?;
         writeln!(f, "{:<20}{}", "collisions suffered", self.sum(|score| score.suffered))?;

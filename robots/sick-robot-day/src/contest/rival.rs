@@ -5,12 +5,12 @@ use super::{
 use crate::{Arena, Station};
 use apex_nodes::{
     math::normalize_angle,
-    nav::Twist,
+    nav::{Twist, stand_before},
     scan::{Point2, Pose2},
 };
 use apex_rt::Time;
 use apex_sim::Random;
-use std::{f32::consts::PI, time::Duration};
+use std::time::Duration;
 
 /// The middle of a robot before it docks, from the wall, in m.
 const BEFORE: f32 = 0.8;
@@ -76,7 +76,7 @@ impl Rival {
         }
         let body = &bodies[who];
         let station = self.choose(who, bodies, arena);
-        let dock = before(&station, body.radius + 0.05);
+        let dock = stand_before(&station.pose, body.radius + 0.05);
         self.lamp = false;
         match self.task {
             Task::Travel => self.travel(who, &station, bodies, now),
@@ -90,7 +90,7 @@ impl Rival {
                 }
             }
             Task::Leave => {
-                let goal = before(&station, BEFORE).position();
+                let goal = stand_before(&station.pose, BEFORE).position();
                 let is_away = station.pose.to_inner(body.position()).x > BEFORE - 0.15;
                 self.drive(who, goal, None, bodies, now);
                 if is_away || now.since(self.since) > Duration::from_secs(15) {
@@ -132,7 +132,7 @@ impl Rival {
     /// Goes before the station, or waits until it is free.
     fn travel(&mut self, who: usize, station: &Station, bodies: &Bodies, now: Time) {
         let body = &bodies[who];
-        let entry = before(station, BEFORE);
+        let entry = stand_before(&station.pose, BEFORE);
         if is_used(who, station, bodies) {
             let off = body.position() - station.pose.position();
             let queue = station.pose.position() + off.scaled(QUEUE / off.norm());
@@ -165,11 +165,6 @@ impl Rival {
         let turn = normalize_angle(&(heading.unwrap_or(ahead) - body.pose().theta));
         self.wanted = (velocity, (2.5 * turn).clamp(-2.0, 2.0));
     }
-}
-
-/// The pose before a station, so far from the wall, that looks at it.
-fn before(station: &Station, distance: f32) -> Pose2 {
-    station.pose.compose(&Pose2::new(distance, 0.0, PI))
 }
 
 /// Whether another one is at a station, and nearer.

@@ -9,7 +9,7 @@ pub use part::Parts;
 pub use robot::Robot;
 
 use crate::{
-    contest::{Fault, Hall, Report, START},
+    contest::{Fault, Hall, START},
     programs::{Competition, SdfCompetition},
     story::Story,
 };
@@ -62,8 +62,6 @@ pub struct Recording {
 pub struct Outcome {
     /// What the robot did and knew.
     pub story: Story,
-    /// What the referee says.
-    pub report: Report,
     /// What went wrong in the robot.
     pub failures: Vec<Failure>,
     /// What was recorded.
@@ -138,7 +136,7 @@ impl Setup {
         let recorded = tap.finish()?;
         let (phases, failures) = diary.finish(self.end());
         let story = Story::of(self.seed, &hall, start, robot.journal(), phases);
-        Ok(Outcome { story, report: hall.report(), failures, recorded })
+        Ok(Outcome { story, failures, recorded })
     }
 }
 
@@ -176,7 +174,8 @@ impl Outcome {
     /// Whether nothing went wrong: in the robot, with a collision that it caused, or with a cube that it took to another
     /// station.
     pub fn is_fine(&self) -> bool {
-        self.failures.is_empty() && self.report.caused() == 0 && self.report.penalties() == 0
+        let report = &self.story.report;
+        self.failures.is_empty() && report.caused() == 0 && report.penalties() == 0
     }
 }
 

@@ -3,6 +3,7 @@ use super::{
     canvas::{BLACK, Canvas, Colour, SMALL, Spot, WHITE, text_width},
     clock, seconds, shortened,
 };
+use crate::contest::Delivery;
 use image::{Rgb, RgbImage};
 
 const WIDTH: u32 = 1200;
@@ -76,8 +77,8 @@ impl Story {
             }
         }
         canvas.text([MARGIN, layout.y(0)], SMALL, "deliveries", BLACK);
-        for (time, station) in &self.deliveries {
-            draw_delivery(&mut canvas, &layout, seconds(*time), *station);
+        for Delivery { at, station, .. } in &self.report.deliveries {
+            draw_delivery(&mut canvas, &layout, seconds(*at), *station);
         }
         canvas.finish()
     }
@@ -133,7 +134,7 @@ fn outer(name: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::story::tests::story;
+    use crate::{contest::Report, story::tests::story};
     use apex_rt::Time;
 
     #[test]
@@ -150,7 +151,7 @@ mod tests {
                 assert_eq!(pixel, if active { colour_of(name, &names) } else { WHITE }, "{name} at {second} s");
             }
         }
-        let (time, _) = story.deliveries[0];
+        let time = story.report.deliveries[0].at;
         let (x, y) = (layout.x(seconds(time)) as u32, layout.y(0) as u32);
         assert_eq!(picture[(x, y - 8)], DELIVERY);
     }
@@ -167,7 +168,7 @@ mod tests {
         let mut story = story();
         story.phases.push(Phase { name: "wait".repeat(50), from: Time::ZERO, until: Time::from_secs(100 * 3600) });
         assert_eq!(story.draw_activity().width(), WIDTH);
-        (story.phases, story.trajectory, story.deliveries) = (vec![], vec![], vec![]);
+        (story.phases, story.report) = (vec![], Report::default());
         assert_eq!(story.draw_activity().width(), WIDTH);
     }
 }

@@ -40,7 +40,7 @@ impl Story {
         self.draw_truth(&mut canvas);
         self.draw_way(&mut canvas);
         self.draw_found(&mut canvas);
-        for place in self.deliveries.iter().filter_map(|(time, _)| self.place(*time)) {
+        for place in self.report.deliveries.iter().filter_map(|delivery| self.place(delivery.at)) {
             delivery(&mut canvas, pixel(place));
         }
         self.draw_heading(&mut canvas);
@@ -76,11 +76,11 @@ impl Story {
     /// The way of the robot, coloured by time.
     fn draw_way(&self, canvas: &mut Canvas) {
         let end = self.end();
-        for ends in self.trajectory.windows(2) {
+        for ends in self.report.trajectory.windows(2) {
             let colour = colour_of(seconds(ends[0].0) / end.max(f32::MIN_POSITIVE));
             canvas.line(&[ends[0].1, ends[1].1].map(|pose| pixel(pose.position())), 2.5, colour);
         }
-        let ends = [("start", Some(&self.start)), ("end", self.trajectory.last().map(|(_, pose)| pose))];
+        let ends = [("start", Some(&self.start)), ("end", self.report.trajectory.last().map(|(_, pose)| pose))];
         for (name, pose) in ends.into_iter().filter_map(|(name, pose)| Some((name, pose?))) {
             let corners = [(0.3, 0.0), (-0.15, 0.15), (-0.15, -0.15), (0.3, 0.0)];
             canvas.line(&corners.map(|(x, y)| pixel(pose.to_outer(Point2::new(x, y)))), 3.0, BLACK);
@@ -117,7 +117,7 @@ impl Story {
 
     fn draw_heading(&self, canvas: &mut Canvas) {
         canvas.text([16.0, 24.0], LARGE, &format!("Seed {}", self.seed), BLACK);
-        let points = format!("{} points in {} min", self.points, clock(self.end()));
+        let points = format!("{} points in {} min", self.report.points(), clock(self.end()));
         canvas.text([16.0, 50.0], SMALL, &points, BLACK);
     }
 
@@ -219,7 +219,7 @@ fn draw_scale(canvas: &mut Canvas) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::story::tests::story;
+    use crate::{contest::Report, story::tests::story};
 
     /// The colour at a place of the arena.
     fn at(picture: &RgbImage, place: Point2) -> Colour {
@@ -237,7 +237,7 @@ mod tests {
         assert_eq!((at(&picture, free), at(&picture, used)), (STATION, WHITE));
         assert_eq!(at(&picture, outer(story.signs[0].mean)), SIGN);
         assert_eq!(at(&picture, outer(story.signs[1].mean)), DOUBTFUL);
-        let delivered = story.place(story.deliveries[0].0).expect("it was somewhere");
+        let delivered = story.place(story.report.deliveries[0].at).expect("it was somewhere");
         assert_eq!(at(&picture, delivered), DELIVERY);
         let octagon = story.octagon.expect("it was found");
         assert_eq!(at(&picture, outer(octagon.side_pose(1).position())), ISLAND);
@@ -264,8 +264,7 @@ mod tests {
         (story.map, story.octagon) = (None, None);
         story.stations.clear();
         story.signs.clear();
-        story.trajectory.clear();
-        story.deliveries.clear();
+        story.report = Report::default();
         story.phases.clear();
         let picture = story.draw_map();
         assert_eq!(at(&picture, Point2::new(3.0, 3.0)), UNKNOWN);

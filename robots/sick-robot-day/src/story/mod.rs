@@ -10,7 +10,11 @@ mod table;
 pub use frame::{Frame, Mark};
 pub use live::{Glance, LiveView};
 
-use crate::{Arena, Journal, contest::Hall, measure::Album};
+use crate::{
+    Arena, Journal,
+    contest::{Hall, Report},
+    measure::Album,
+};
 use apex_nodes::{
     map::{Grid, Occupancy, Octagon, Signs, Station},
     scan::{Point2, Pose2},
@@ -26,8 +30,6 @@ pub struct Story {
     pub arena: Arena,
     /// Where the robot began: what it knows is in the frame of its odometry, which begins there.
     pub start: Pose2,
-    /// Where the robot really was, in the order of time.
-    pub trajectory: Vec<(Time, Pose2)>,
     /// The last map of the robot.
     pub map: Option<Grid<Occupancy>>,
     /// What it took for the island.
@@ -38,18 +40,8 @@ pub struct Story {
     pub signs: Signs,
     /// What it was busy with.
     pub phases: Vec<Phase>,
-    /// Its score.
-    pub points: u32,
-    /// What was taken off the score.
-    pub penalties: u32,
-    /// Collisions that it caused.
-    pub collisions_caused: u32,
-    /// Collisions that others caused.
-    pub collisions_suffered: u32,
-    /// The scores of the other robots.
-    pub rivals: Vec<u32>,
-    /// When it delivered a cube, and at which station.
-    pub deliveries: Vec<(Time, u32)>,
+    /// What the referee says.
+    pub report: Report,
     /// What its camera saw.
     pub frames: Vec<Frame>,
 }
@@ -68,7 +60,6 @@ pub struct Phase {
 impl Story {
     /// The story of a run that has ended, in the hall of a seed.
     pub fn of(seed: u64, hall: &Hall, start: Pose2, journal: &Journal, phases: Vec<Phase>) -> Self {
-        let report = hall.report();
         Self {
             seed,
             arena: hall.arena(),
@@ -78,14 +69,8 @@ impl Story {
             stations: journal.last_stations().to_vec(),
             signs: journal.last_signs().clone(),
             phases,
-            points: report.points() as u32,
-            penalties: report.penalties() as u32,
-            collisions_caused: report.caused() as u32,
-            collisions_suffered: report.suffered() as u32,
-            rivals: report.rivals.iter().map(|rival| rival.points).collect(),
-            deliveries: report.deliveries.iter().map(|delivery| (delivery.at, delivery.station)).collect(),
+            report: hall.report(),
             frames: journal.frames(),
-            trajectory: report.trajectory,
         }
     }
 
@@ -102,9 +87,9 @@ impl Story {
 
     /// The last time at which something happened, in s.
     fn end(&self) -> f32 {
-        let driven = self.trajectory.last().map(|(time, _)| *time);
+        let driven = self.report.trajectory.last().map(|(time, _)| *time);
         let phases = self.phases.iter().map(|phase| phase.until);
-        let all = self.deliveries.iter().map(|(time, _)| *time).chain(phases).chain(driven);
+        let all = self.report.deliveries.iter().map(|delivery| delivery.at).chain(phases).chain(driven);
         all.max().map_or(0.0, seconds)
     }
 
@@ -123,8 +108,8 @@ impl Story {
 
     /// Where the robot was at a time.
     fn place(&self, time: Time) -> Option<Point2> {
-        let after = self.trajectory.partition_point(|(t, _)| *t < time);
-        let nearest = self.trajectory.get(after).or(self.trajectory.last());
+        let after = self.report.trajectory.partition_point(|(t, _)| *t < time);
+        let nearest = self.report.trajectory.get(after).or(self.report.trajectory.last());
         nearest.map(|(_, pose)| pose.position())
     }
 }

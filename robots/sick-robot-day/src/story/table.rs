@@ -14,19 +14,19 @@ impl Story {
     }
 
     fn write_score(&self, f: &mut String) -> fmt::Result {
+        let report = &self.report;
         writeln!(f, "Run of seed {}: {} min", self.seed, clock(self.end()))?;
         let rows = [
-            ("points", self.points),
-            ("penalties", self.penalties),
-            ("deliveries", self.deliveries.len() as u32),
-            ("collisions caused", self.collisions_caused),
-            ("collisions suffered", self.collisions_suffered),
+            ("points", report.points()),
+            ("penalties", report.penalties()),
+            ("deliveries", report.deliveries.len()),
+            ("collisions caused", report.caused()),
+            ("collisions suffered", report.suffered()),
         ];
         rows.iter().try_for_each(|(name, value)| writeln!(f, "{name:<20}{value:>8}"))?;
-        let rivals: Vec<String> = self.rivals.iter().map(u32::to_string).collect();
-        let rivals = if rivals.is_empty() { "none".to_owned() } else { rivals.join(", ") };
+        let rivals = report.rivals.map(|rival| rival.points.to_string()).join(", ");
         writeln!(f, "{:<20}{rivals:>8}", "points of rivals")?;
-        writeln!(f, "{:<20}{:>8.1} m", "distance driven", self.distance())
+        writeln!(f, "{:<20}{:>8.1} m", "distance driven", report.distance)
     }
 
     fn write_phases(&self, f: &mut String) -> fmt::Result {
@@ -42,10 +42,5 @@ impl Story {
             write!(f, "\n{:<NAME$}{sum:>10.1}{share:>7.0} %{count:>8}", shortened(name, NAME - 2))?;
         }
         Ok(())
-    }
-
-    /// How far the robot drove, in m.
-    fn distance(&self) -> f32 {
-        self.trajectory.windows(2).map(|poses| (poses[1].1.position() - poses[0].1.position()).norm()).sum()
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::contest::{Collision, Delivery, Obstacle, Rivalry};
 use apex_nodes::{
     image::Region,
     map::{Raster, Sign},
@@ -20,20 +21,34 @@ pub fn story() -> Story {
     Story {
         seed: 3,
         start,
-        trajectory: (0..=1200).map(way).collect(),
         map: Some(seen(&arena, &start)),
         octagon: Some(island(&arena, &start)),
         stations,
         signs: signs(&arena, &start),
         phases: phases(),
-        points: 12,
-        penalties: 1,
-        collisions_caused: 2,
-        collisions_suffered: 3,
-        rivals: vec![9, 4],
-        deliveries: vec![(Time::from_secs(48), 2), (Time::from_secs(105), 4)],
+        report: report((0..=1200).map(way).collect()),
         frames: vec![frame("a sign"), frame("nothing")],
         arena,
+    }
+}
+
+/// One of two cubes came to the right station; one of three collisions was its fault.
+fn report(trajectory: Vec<(Time, Pose2)>) -> Report {
+    let delivery = |s, station, cube| Delivery { at: Time::from_secs(s), station, cube };
+    let collision = |s, caused| Collision {
+        at: Time::from_secs(s),
+        place: Point2::default(),
+        against: Obstacle::Robot(1),
+        caused,
+        suffered: !caused,
+    };
+    Report {
+        deliveries: vec![delivery(48, 2, 2), delivery(105, 4, 1)],
+        collisions: vec![collision(20, false), collision(50, true), collision(99, false)],
+        distance: 34.56,
+        rivals: [9, 4, 0].map(|points| Rivalry { points, collisions: 0 }),
+        trajectory,
+        ..Report::default()
     }
 }
 
@@ -107,24 +122,22 @@ fn frame(name: &str) -> Frame {
 
 #[test]
 fn the_table_tells_how_it_ended() {
-    let mut story = story();
-    story.trajectory = vec![(Time::ZERO, Pose2::default()), (Time::from_secs(120), Pose2::new(3.0, 4.0, 1.0))];
     let expected = "\
 Run of seed 3: 2:00 min
-points                    12
+points                     1
 penalties                  1
 deliveries                 2
-collisions caused          2
-collisions suffered        3
-points of rivals        9, 4
-distance driven          5.0 m
+collisions caused          1
+collisions suffered        2
+points of rivals     9, 4, 0
+distance driven         34.6 m
 
 phase                                                s    share   count
 explore                                           20.0     17 %       1
 fetch                                             80.0     67 %       2
 fetch / position                                  22.0     18 %       2
 deliver                                           16.0     13 %       1";
-    assert_eq!(story.table(), expected);
+    assert_eq!(story().table(), expected);
 }
 
 #[test]
@@ -132,14 +145,14 @@ fn tables_fit_and_need_nothing() {
     let mut story = story();
     story.phases.push(Phase { name: "so / ".repeat(40), from: Time::ZERO, until: Time::from_secs(99_999) });
     assert!(story.table().lines().all(|line| line.chars().count() <= 80), "{}", story.table());
-    (story.phases, story.trajectory, story.deliveries, story.rivals) = (vec![], vec![], vec![], vec![]);
-    assert!(story.table().contains("points of rivals        none"), "{}", story.table());
+    (story.phases, story.report) = (vec![], Report::default());
+    assert!(story.table().contains("Run of seed 3: 0:00 min"), "{}", story.table());
 }
 
 #[test]
 fn robots_deliver_where_they_are() {
     let story = story();
-    let expected = |i: usize| Some(story.trajectory[i].1.position());
+    let expected = |i: usize| Some(story.report.trajectory[i].1.position());
     assert_eq!(story.place(Time::from_millis(4_800)), expected(48));
     assert_eq!(story.place(Time::from_secs(9999)), expected(1200));
 }
