@@ -57,7 +57,7 @@ impl ChooseStation {
 }
 
 /// The next place on a way around the island, counter-clockwise, from which the robot looks along the border (thesis 4.3.4).
-/// Sent once for each time that it becomes active.
+/// Sent once for each time that it becomes active. A place that the robot did not get to is left out.
 #[node]
 #[derive(Debug)]
 pub struct BorderTour {
@@ -67,6 +67,8 @@ pub struct BorderTour {
     /// From one place to the next, seen from the middle.
     #[param(unit = "rad", default = FRAC_PI_4, range = 0.01..=3.2)]
     step: f32,
+    /// The angle of the last place.
+    last: Option<f32>,
 }
 
 #[node]
@@ -75,7 +77,10 @@ impl BorderTour {
         if !ctx.active() {
             return None;
         }
-        let angle = (robot.position() - island.centre).angle() + self.step;
+        let robot = (robot.position() - island.centre).angle();
+        let ahead = self.last.map(|last| normalize_angle(&(last - robot))).filter(|ahead| *ahead > 0.0);
+        let angle = robot + ahead.unwrap_or_default() + self.step;
+        self.last = Some(angle);
         let place = island.centre + Point2::polar(self.radius, angle);
         Some(Pose2::new(place.x, place.y, normalize_angle(&(angle + FRAC_PI_2))))
     }
@@ -129,5 +134,19 @@ mod tests {
         let place = node.process(&active(), &Pose2::new(4.0, 0.0, 0.0), &island).expect("it is active");
         assert!((place.position() - Point2::new(1.0, 4.0)).norm() < 1e-5 && (place.theta.abs() - PI).abs() < 1e-5);
         assert_eq!(node.process(&Ctx::new(Time::ZERO), &place, &island), None);
+    }
+
+    #[test]
+    fn a_place_that_was_not_reached_is_left_out() {
+        let mut node = BorderTour::construct((4.0, FRAC_PI_2));
+        let island = Octagon { centre: Point2::default(), apothem: 1.4, theta: 0.0 };
+        let mut next = |x, y| {
+            let place = node.process(&active(), &Pose2::new(x, y, 0.0), &island).expect("it is active");
+            (place.position() - Point2::default()).angle()
+        };
+        assert!((next(4.0, 0.0) - FRAC_PI_2).abs() < 1e-5);
+        assert!((next(4.0, 0.1).abs() - PI).abs() < 1e-1);
+        assert!((next(0.0, 4.0) + FRAC_PI_2).abs() < 1e-1, "the one half round is still ahead");
+        assert!((next(1.0, -4.0) - 0.245).abs() < 1e-2, "it has got past the last one");
     }
 }
