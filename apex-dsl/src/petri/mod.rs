@@ -10,6 +10,7 @@
 
 mod build;
 mod early;
+mod patience;
 mod pnml;
 mod replay;
 mod route;

@@ -5,7 +5,9 @@
 //! difference. Only a node that does not run because of ⊥ and takes activity at the same time waits for the record of it.
 
 use super::{
-    Meaning, Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, connection_name, side_name,
+    Meaning, Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, connection_name,
+    patience::patient,
+    side_name,
     state::{Preview, unsupported},
 };
 use crate::{
@@ -458,33 +460,4 @@ impl<'a> Replay<'a> {
         }
         Ok(())
     }
-}
-
-/// Sources without a pace that only feed inputs, if something behind them waits for others, too.
-fn patient(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
-    let sent = |node: NodeId| graph.connections.iter().filter(move |c| c.from.node == node);
-    let has_pace = |node: NodeId| graph.nodes[node].modifiers.has_pace();
-    let is_free = |node: &NodeId| {
-        let is_library = matches!(graph.nodes[*node].kind, NodeKind::Library(_));
-        let feeds = sent(*node).next().is_some() && sent(*node).all(|c| graph.is_synchronous(c));
-        is_library && !has_pace(*node) && feeds
-    };
-    let free: BTreeSet<NodeId> = sources.iter().copied().filter(is_free).collect();
-    let asynchronous = graph.connections.iter().filter(|c| !graph.is_synchronous(c)).map(|c| c.to.node);
-    let paced = (0..graph.nodes.len()).filter(|node| has_pace(*node));
-    let others = behind(graph, sources.difference(&free).copied().chain(asynchronous).chain(paced));
-    free.into_iter().filter(|node| !behind(graph, [*node]).is_disjoint(&others)).collect()
-}
-
-/// `nodes`, and what takes their tokens, directly or not.
-fn behind(graph: &Graph, nodes: impl IntoIterator<Item = NodeId>) -> BTreeSet<NodeId> {
-    let mut found = BTreeSet::new();
-    let mut ends: Vec<NodeId> = nodes.into_iter().collect();
-    while let Some(node) = ends.pop() {
-        if found.insert(node) {
-            let sent = graph.connections.iter().filter(|c| c.from.node == node && graph.is_synchronous(c));
-            ends.extend(sent.map(|c| c.to.node));
-        }
-    }
-    found
 }

@@ -28,12 +28,22 @@ pub struct Leg {
 
 /// All legs, those of a connection one after the other.
 pub fn legs(graph: &Graph) -> Vec<Leg> {
+    let insides = insides(graph);
+    // A delay breaks a loop: the loop goes on with what it sends, before the graph around it sends everything else.
+    cut(graph, |node, side| {
+        matches!(side, Crossing::Leave(_))
+            && insides.get(&node).is_some_and(|inside| inside.contains(&Stop::Side(side)))
+    })
+}
+
+/// The legs, if connections from a node pass by those sides for which `passes` holds.
+fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Leg> {
     let mut legs = vec![];
     for (connection, c) in graph.connections.iter().enumerate() {
         let mut from = Stop::Node(c.from.node);
         // A slot takes each token alone, so that no side of a nested graph holds it back.
         let sides = if graph.flow(c) == Flow::ToSlot { &[] } else { c.crossings.as_slice() };
-        for &crossing in sides {
+        for &crossing in sides.iter().filter(|side| !passes(c.from.node, **side)) {
             let to = Stop::Side(crossing);
             legs.push(Leg { connection, from, to });
             from = to;
@@ -52,32 +62,41 @@ pub struct Loop {
     pub events: Vec<usize>,
 }
 
-/// For each delay on a loop what decides when it sends.
+/// For each delay on a loop what decides when it sends, by the [`legs`] of the graph.
 pub fn loops(graph: &Graph, legs: &[Leg]) -> BTreeMap<NodeId, Loop> {
-    let to_inputs: Vec<(usize, &Leg)> =
-        legs.iter().enumerate().filter(|(_, l)| graph.flow(&graph.connections[l.connection]) != Flow::ToSlot).collect();
+    let on_loop = |inside: BTreeSet<Stop>| {
+        let numbered = || legs.iter().enumerate();
+        let is_entry = |l: &Leg| to_input(graph, l) && !inside.contains(&l.from) && inside.contains(&l.to);
+        let is_event =
+            |l: &Leg| matches!(l.from, Stop::Node(_)) && inside.contains(&l.from) && from_event(graph, l.connection);
+        Loop {
+            entries: numbered().filter(|(_, l)| is_entry(l)).map(|(i, _)| i).collect(),
+            events: numbered().filter(|(_, l)| is_event(l)).map(|(i, _)| i).collect(),
+        }
+    };
+    insides(graph).into_iter().map(|(delay, inside)| (delay, on_loop(inside))).collect()
+}
+
+/// For each delay on a loop all that lies on the loop. A nested graph is passed as a whole: by its sides.
+fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<Stop>> {
     let mut after: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
     let mut before: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
-    for (_, leg) in &to_inputs {
+    for leg in cut(graph, |_, _| false).iter().filter(|leg| to_input(graph, leg)) {
         after.entry(leg.from).or_default().push(leg.to);
         before.entry(leg.to).or_default().push(leg.from);
     }
-    let mut loops = BTreeMap::new();
-    for (node, n) in graph.nodes.iter().enumerate() {
-        if !matches!(n.kind, NodeKind::Delay(_)) {
-            continue;
-        }
+    let mut insides = BTreeMap::new();
+    for (node, _) in graph.nodes.iter().enumerate().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
         let (below, above) = (reached(Stop::Node(node), &after), reached(Stop::Node(node), &before));
         if below.contains(&Stop::Node(node)) {
-            let inside = |stop: &Stop| below.contains(stop) && above.contains(stop);
-            let entries = to_inputs.iter().filter(|(_, l)| !inside(&l.from) && inside(&l.to)).map(|(i, _)| *i);
-            let is_event =
-                |l: &Leg| matches!(l.from, Stop::Node(_)) && inside(&l.from) && from_event(graph, l.connection);
-            let events = legs.iter().enumerate().filter(|(_, l)| is_event(l)).map(|(i, _)| i);
-            loops.insert(node, Loop { entries: entries.collect(), events: events.collect() });
+            insides.insert(node, below.intersection(&above).copied().collect());
         }
     }
-    loops
+    insides
+}
+
+fn to_input(graph: &Graph, leg: &Leg) -> bool {
+    graph.flow(&graph.connections[leg.connection]) != Flow::ToSlot
 }
 
 fn reached(from: Stop, next: &BTreeMap<Stop, Vec<Stop>>) -> BTreeSet<Stop> {
