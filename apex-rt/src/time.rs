@@ -44,7 +44,7 @@ impl Time {
 
     /// Seconds since zero.
     pub const fn as_secs_f64(self) -> f64 {
-        self.0 as f64 * 1e-9
+        self.0 as f64 / 1e9
     }
 
     /// The time from `earlier` to `self`; zero if `earlier` is later.

@@ -123,6 +123,8 @@ mod tests {
             let fault = Fault { kind, from: Time::from_millis(1500), until: Time::from_secs(30) };
             assert_eq!(fault.to_string().parse(), Ok(fault));
         }
+        let text = "laser-frozen@473.2s..476.2s";
+        assert_eq!(text.parse::<Fault>().map(|fault| fault.to_string()), Ok(text.to_owned()));
     }
 
     #[test]
