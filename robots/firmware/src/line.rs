@@ -1,11 +1,15 @@
 //! Lines of text, without what `core::fmt` needs.
 
-use crate::machine;
-
 /// A line that is being made. What does not fit is left out.
 pub struct Line {
     bytes: [u8; 64],
     length: usize,
+}
+
+impl Default for Line {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Line {
@@ -28,9 +32,9 @@ impl Line {
     }
 
     /// Writes it, with its end.
-    pub fn write(mut self) {
+    pub fn write(mut self, write: fn(&[u8])) {
         self.push(b'\n');
-        machine::write(self.bytes.get(..self.length).unwrap_or_default());
+        write(self.bytes.get(..self.length).unwrap_or_default());
     }
 
     fn push(&mut self, byte: u8) {

@@ -1,0 +1,25 @@
+//! The debugger, or QEMU in its place: it shows what the cart says.
+
+use core::panic::PanicInfo;
+use cortex_m_semihosting::{debug, hio};
+
+/// Shows a text.
+pub fn write(text: &[u8]) {
+    // Without a debugger nobody listens.
+    let _ = hio::hstdout().and_then(|mut output| output.write_all(text));
+}
+
+/// Ends the run.
+pub fn exit(result: debug::ExitStatus) -> ! {
+    debug::exit(result);
+    // A debugger may go on.
+    loop {
+        cortex_m::asm::bkpt();
+    }
+}
+
+#[panic_handler]
+fn panicked(_info: &PanicInfo<'_>) -> ! {
+    write(b"panicked\n");
+    exit(debug::EXIT_FAILURE)
+}
