@@ -2,7 +2,7 @@
 
 use super::{
     Meaning, Net, NoNet, Place, PlaceId, Transition, connection_name,
-    route::{self, Leg, Stop},
+    route::{self, Leg, Loop, Stop},
     side_name,
 };
 use crate::{
@@ -30,6 +30,7 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     let sides = builder.legs.iter().filter_map(|l| if let Stop::Side(side) = l.to { Some(side) } else { None });
     let sides: BTreeSet<Crossing> = sides.collect();
     sides.into_iter().for_each(|side| builder.side(side));
+    builder.loops.clone().iter().for_each(|on_loop| builder.iteration(on_loop));
     builder.returning();
     Ok(builder.net)
 }
@@ -38,10 +39,20 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
 struct LegPlaces {
     token: PlaceId,
     free: PlaceId,
-    /// Tell the delays of the loop that it leads into.
-    echoes: Vec<PlaceId>,
+    /// Tells the loop that it leads into.
+    echo: Option<PlaceId>,
     /// Its end has finished; it is free when the delays have, too. Only for a leg into a loop.
     done: Option<PlaceId>,
+}
+
+/// The places of a delay on a loop.
+struct DelayPlaces {
+    held: PlaceId,
+    room: PlaceId,
+    enabled: PlaceId,
+    waiting: PlaceId,
+    /// Ports that send only values: whether they do is open.
+    undecided: Vec<PlaceId>,
 }
 
 struct Builder<'a> {
@@ -49,10 +60,9 @@ struct Builder<'a> {
     net: Net,
     legs: Vec<Leg>,
     places: Vec<LegPlaces>,
-    /// The places that a delay on a loop waits for.
-    loops: BTreeMap<NodeId, Vec<PlaceId>>,
-    /// The legs of the events on its loop.
-    loop_events: BTreeMap<NodeId, Vec<usize>>,
+    loops: Vec<Loop>,
+    /// Of the delays on loops.
+    delays: BTreeMap<NodeId, DelayPlaces>,
     /// For each delay on a loop and each leg into the loop: what that delay sent for a token on it has finished.
     returns: BTreeMap<(NodeId, usize), PlaceId>,
     /// Where each `start` waits to begin.
@@ -79,20 +89,15 @@ impl<'a> Builder<'a> {
             places.push(LegPlaces {
                 token: place(format!("token on {name}"), 0),
                 free: place(format!("{name} is free"), 1),
-                echoes: vec![],
+                echo: None,
                 done: None,
             });
         }
-        let mut loops: BTreeMap<NodeId, Vec<PlaceId>> = BTreeMap::new();
-        let on_loops = route::loops(graph, &legs);
-        for (&delay, on_loop) in &on_loops {
-            loops.entry(delay).or_default();
-            for &entry in &on_loop.entries {
-                let leg = connection_name(graph, legs[entry].connection);
-                let echo = place(format!("{} has seen {leg}", graph.path(delay)), 0);
-                places[entry].echoes.push(echo);
-                loops.entry(delay).or_default().push(echo);
-            }
+        let loops = route::loops(graph, &legs);
+        let entries = || loops.iter().flat_map(|on_loop| on_loop.entries.iter().map(move |entry| (on_loop, *entry)));
+        for (on_loop, entry) in entries() {
+            let leg = connection_name(graph, legs[entry].connection);
+            places[entry].echo = Some(place(format!("{} has seen {leg}", names(graph, &on_loop.delays)), 0));
         }
         let mut starts = BTreeMap::new();
         for (node, n) in graph.nodes.iter().enumerate() {
@@ -101,12 +106,10 @@ impl<'a> Builder<'a> {
             }
         }
         let mut returns = BTreeMap::new();
-        let mut loop_events = BTreeMap::new();
-        for (delay, on_loop) in on_loops {
-            loop_events.insert(delay, on_loop.events);
-            for entry in on_loop.entries {
-                let leg = connection_name(graph, legs[entry].connection);
-                places[entry].done.get_or_insert_with(|| place(format!("{leg} is done"), 0));
+        for (on_loop, entry) in entries() {
+            let leg = connection_name(graph, legs[entry].connection);
+            places[entry].done = Some(place(format!("{leg} is done"), 0));
+            for &delay in &on_loop.delays {
                 let name = format!("{} has finished for {leg}", graph.path(delay));
                 returns.insert((delay, entry), place(name, 0));
             }
@@ -116,7 +119,7 @@ impl<'a> Builder<'a> {
             from.entry(leg.from).or_default().push(i);
             to.entry(leg.to).or_default().push(i);
         }
-        Self { graph, net, legs, places, loops, loop_events, returns, starts, from, to }
+        Self { graph, net, legs, places, loops, delays: BTreeMap::new(), returns, starts, from, to }
     }
 
     fn place(&mut self, name: String, initial: usize) -> PlaceId {
@@ -148,7 +151,7 @@ impl<'a> Builder<'a> {
 
     /// What gets a token when tokens are sent on `legs`.
     fn sent(&self, legs: &[usize]) -> Vec<PlaceId> {
-        legs.iter().flat_map(|l| [self.places[*l].token].into_iter().chain(self.places[*l].echoes.clone())).collect()
+        legs.iter().flat_map(|l| [self.places[*l].token].into_iter().chain(self.places[*l].echo)).collect()
     }
 
     fn free(&self, legs: &[usize]) -> Vec<PlaceId> {
@@ -181,7 +184,7 @@ impl<'a> Builder<'a> {
         let name = self.graph.path(node);
         match &self.graph.nodes[node].kind {
             NodeKind::Start => return self.start(node, name),
-            NodeKind::Delay(initial) if self.loops.contains_key(&node) => {
+            NodeKind::Delay(initial) if self.loops.iter().any(|on_loop| on_loop.delays.contains(&node)) => {
                 return self.delay_in_loop(node, &name, initial.len());
             }
             _ => {}
@@ -282,11 +285,10 @@ impl<'a> Builder<'a> {
         self.transition(name, Meaning::Start(node), takes, self.sent(&legs));
     }
 
-    /// A delay on a loop cannot wait for what it leads to: it takes like a sink and sends like a source, once for
-    /// each iteration of what feeds the loop.
+    /// A delay on a loop cannot wait for what it leads to: it takes like a sink, and sends like a source.
     fn delay_in_loop(&mut self, node: NodeId, name: &str, initial: usize) {
         let (inputs, out) = (self.legs_into(Stop::Node(node)), self.legs_from(Stop::Node(node)));
-        let ports = self.undecided(node, name);
+        let undecided = self.undecided(node, name).into_iter().map(|(_, place)| place).collect();
         let held = self.place(format!("{name} holds"), initial);
         let room = self.place(format!("{name} has room"), 1);
         let enabled = self.place(format!("{name} is enabled"), 1);
@@ -296,23 +298,33 @@ impl<'a> Builder<'a> {
         let mut gives = self.finished(&inputs);
         gives.push(held);
         self.transition(format!("{name} takes"), Meaning::Hold(node), takes, gives);
-        let mut takes = vec![held, enabled];
-        takes.extend(self.loops.get(&node).into_iter().flatten());
-        takes.extend(self.free(&out));
-        let events = self.free(&self.loop_events[&node]);
-        takes.extend(&events);
-        let mut gives = vec![room, waiting];
-        gives.extend(events);
-        let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
-        gives.extend(self.sent(&synchronous));
-        gives.extend(ports.iter().map(|(_, place)| *place));
-        self.transition(format!("{name} sends"), Meaning::Release(node), takes, gives);
         let awaited = self.awaited(&out);
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
         gives.extend(self.returns.iter().filter(|((delay, _), _)| *delay == node).map(|(_, place)| *place));
         self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
+        self.delays.insert(node, DelayPlaces { held, room, enabled, waiting, undecided });
+    }
+
+    /// The delays of a loop send, once for each iteration of what feeds it.
+    fn iteration(&mut self, on_loop: &Loop) {
+        let Loop { delays, entries, events } = on_loop;
+        let out: Vec<usize> = delays.iter().flat_map(|delay| self.legs_from(Stop::Node(*delay))).collect();
+        let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
+        let own = || delays.iter().map(|delay| &self.delays[delay]);
+        let mut takes: Vec<PlaceId> = own().map(|delay| delay.held).collect();
+        takes.extend(own().map(|delay| delay.enabled));
+        takes.extend(entries.iter().filter_map(|entry| self.places[*entry].echo));
+        takes.extend(self.free(&out));
+        takes.extend(self.free(events));
+        let mut gives: Vec<PlaceId> = own().flat_map(|delay| [delay.room, delay.waiting]).collect();
+        gives.extend(self.free(events));
+        gives.extend(self.sent(&synchronous));
+        gives.extend(own().flat_map(|delay| &delay.undecided));
+        let verb = if delays.len() == 1 { "sends" } else { "send" };
+        let name = format!("{} {verb}", names(self.graph, delays));
+        self.transition(name, Meaning::Release(delays[0]), takes, gives);
     }
 
     /// A side of a nested graph: takes a token from each leg that ends here, sends one to each that begins here.
@@ -334,6 +346,11 @@ impl<'a> Builder<'a> {
         gives.extend(self.finished(&incoming));
         self.transition(format!("{name} is notified"), Meaning::NotifySide(side), takes, gives);
     }
+}
+
+/// The names of nodes.
+fn names(graph: &Graph, nodes: &[NodeId]) -> String {
+    nodes.iter().map(|node| graph.path(*node)).collect::<Vec<_>>().join(", ")
 }
 
 /// Whether a node takes its inputs and sends to its outputs.

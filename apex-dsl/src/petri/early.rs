@@ -41,7 +41,7 @@ impl Early {
         let legs = route::legs(graph);
         let mut gives: Vec<Vec<PlaceId>> = (0..legs.len()).map(|leg| vec![2 * leg]).collect();
         // The places for legs into loops follow those of the legs.
-        let entries = route::loops(graph, &legs).into_values().flat_map(|on_loop| on_loop.entries);
+        let entries = route::loops(graph, &legs).into_iter().flat_map(|on_loop| on_loop.entries);
         for (echo, entry) in (2 * legs.len()..).zip(entries) {
             gives[entry].push(echo);
         }

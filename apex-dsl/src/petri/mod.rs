@@ -83,7 +83,7 @@ pub enum Meaning {
     Pass(Crossing),
     /// Everything behind a side of a nested graph has finished.
     NotifySide(Crossing),
-    /// A delay inside a loop sends the token that it has held longest.
+    /// The delays on a loop, this one being the first, send the tokens that they have held longest.
     Release(NodeId),
     /// A delay inside a loop takes a token.
     Hold(NodeId),

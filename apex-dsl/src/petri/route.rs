@@ -53,28 +53,33 @@ fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Leg> {
     legs
 }
 
-/// What decides when a delay on a loop sends.
+/// A loop, or several that have nodes in common. An iteration begins only when it can come to its end: all delays send together.
+#[derive(Debug, Clone)]
 pub struct Loop {
-    /// The legs that lead into the loop from elsewhere. The delay sends once for each token on each of them; without any, it sets the
-    /// pace of the loop itself.
+    /// Its delays.
+    pub delays: Vec<NodeId>,
+    /// The legs that lead into it from elsewhere. It goes round once for each token on each of them; without any, it sets its own pace.
     pub entries: Vec<usize>,
-    /// The legs of the events of all nodes on the loop: an iteration begins only when it can come to its end.
+    /// The legs of the events of all nodes on it: they have to be free when an iteration begins.
     pub events: Vec<usize>,
 }
 
-/// For each delay on a loop what decides when it sends, by the [`legs`] of the graph.
-pub fn loops(graph: &Graph, legs: &[Leg]) -> BTreeMap<NodeId, Loop> {
-    let on_loop = |inside: BTreeSet<Stop>| {
+/// The loops of a graph, by its [`legs`].
+pub fn loops(graph: &Graph, legs: &[Leg]) -> Vec<Loop> {
+    let on_loop = |(inside, delays): (BTreeSet<Stop>, Vec<NodeId>)| {
         let numbered = || legs.iter().enumerate();
         let is_entry = |l: &Leg| to_input(graph, l) && !inside.contains(&l.from) && inside.contains(&l.to);
         let is_event =
             |l: &Leg| matches!(l.from, Stop::Node(_)) && inside.contains(&l.from) && from_event(graph, l.connection);
         Loop {
+            delays,
             entries: numbered().filter(|(_, l)| is_entry(l)).map(|(i, _)| i).collect(),
             events: numbered().filter(|(_, l)| is_event(l)).map(|(i, _)| i).collect(),
         }
     };
-    insides(graph).into_iter().map(|(delay, inside)| (delay, on_loop(inside))).collect()
+    let mut delays: BTreeMap<BTreeSet<Stop>, Vec<NodeId>> = BTreeMap::new();
+    insides(graph).into_iter().for_each(|(delay, inside)| delays.entry(inside).or_default().push(delay));
+    delays.into_iter().map(on_loop).collect()
 }
 
 /// For each delay on a loop all that lies on the loop. A nested graph is passed as a whole: by its sides.

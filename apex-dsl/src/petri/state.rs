@@ -87,8 +87,10 @@ pub struct State<'a> {
     into: BTreeMap<Stop, Vec<Link>>,
     from: BTreeMap<Stop, Vec<Link>>,
     consumers: Vec<Vec<TransitionId>>,
-    /// Nodes that nothing leads to, and delays on loops that nothing feeds.
+    /// Nodes that nothing leads to, and the first delays of loops that nothing feeds.
     sources: BTreeSet<NodeId>,
+    /// The delays of each loop, by the first one.
+    loops: BTreeMap<NodeId, Vec<NodeId>>,
     early: Early,
 }
 
@@ -141,7 +143,7 @@ impl<'a> State<'a> {
         let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
         let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
         let loops = route::loops(graph, &route::legs(graph));
-        sources.extend(loops.into_iter().filter(|(_, on_loop)| on_loop.entries.is_empty()).map(|(delay, _)| delay));
+        sources.extend(loops.iter().filter(|on_loop| on_loop.entries.is_empty()).map(|on_loop| on_loop.delays[0]));
         Self {
             graph,
             net,
@@ -158,6 +160,7 @@ impl<'a> State<'a> {
             from,
             consumers,
             sources,
+            loops: loops.into_iter().map(|on_loop| (on_loop.delays[0], on_loop.delays)).collect(),
             early: Early::new(graph, net),
         }
     }
@@ -276,9 +279,12 @@ impl<'a> State<'a> {
             Meaning::Handle(connection) => self.handle(connection, &tokens),
             Meaning::Handled(node) => self.handled(node),
             Meaning::Pass(side) => self.pass(side, &tokens),
-            Meaning::Release(node) => {
-                let oldest = t.takes.first().and_then(|p| tokens.get(p)).copied().unwrap_or_default();
-                self.forward(node, oldest)
+            // Its places begin with those where the delays hold tokens.
+            Meaning::Release(first) => {
+                let delays = self.loops.get(&first).cloned().unwrap_or_default();
+                let held: Vec<_> =
+                    delays.into_iter().zip(&t.takes).filter_map(|(d, p)| Some((d, *tokens.get(p)?))).collect();
+                held.into_iter().flat_map(|(delay, oldest)| self.forward(delay, oldest)).collect()
             }
             Meaning::Hold(_) => {
                 // The place where it holds tokens is the last that it gives to.

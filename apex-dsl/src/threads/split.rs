@@ -149,8 +149,16 @@ impl Splitter<'_> {
             Some(node) => *node,
             None => self.add_cell(index, receiver, leaving.to_vec()),
         };
-        let connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
-        self.drafts[receiver].connect(connection, Some(index));
+        let draft = &mut self.drafts[receiver];
+        let mut connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
+        if !entering.is_empty() && self.whole.is_synchronous(c) {
+            // The inputs of a nested graph are taken together: a node of its own takes the token out of the cell before.
+            let outside = Connection { crossings: vec![], ..connection.clone() };
+            let to = relay(draft, &outside, c.from, self.whole.port(c.from));
+            draft.connect(Connection { to, ..outside }, None);
+            connection.from = End { node: to.node, port: 1 };
+        }
+        draft.connect(connection, Some(index));
     }
 
     /// Makes a cell for connection `index`, and all others that it serves; gives its end in the receiver's group.
