@@ -85,3 +85,11 @@ fn activity_changes_threads() {
     assert_eq!(active(&program), "back");
     assert_eq!(program.nodes().far.seen, [true]);
 }
+
+#[test]
+fn a_nested_graph_waits_for_its_input_from_another_thread() {
+    let mut program = Together::new();
+    let log = simulate(&mut program, Time::ZERO, Time::from_millis(90));
+    assert_eq!(program.nodes().far.seen, [0, 1, 2]);
+    assert_eq!(log.count("slow"), 3);
+}
