@@ -15,12 +15,14 @@ pub fn patient(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
         let is_library = matches!(graph.nodes[*node].kind, NodeKind::Library(_));
         is_library && !has_pace(node) && sent.peek().is_some() && sent.all(|c| graph.is_synchronous(c))
     };
-    let free: BTreeSet<NodeId> = sources.iter().copied().filter(is_free).collect();
-    let paced = (0..graph.nodes.len()).filter(has_pace).chain(sources.difference(&free).copied()).map(Stop::Node);
-    let asynchronous = legs.iter().filter(|leg| flow(leg) == Flow::ToInput).map(|leg| leg.to);
-    let others = behind(graph, &legs, paced.chain(asynchronous));
-    let waits = |node: &NodeId| !behind(graph, &legs, [Stop::Node(*node)]).is_disjoint(&others);
-    free.into_iter().filter(waits).collect()
+    let paced = || (0..graph.nodes.len()).filter(has_pace).map(Stop::Node);
+    let asynchronous = || legs.iter().filter(|leg| flow(leg) == Flow::ToInput).map(|leg| leg.to);
+    let waits = |node: &NodeId| {
+        let sources = sources.iter().filter(|source| *source != node).map(|source| Stop::Node(*source));
+        let others = behind(graph, &legs, sources.chain(paced()).chain(asynchronous()));
+        !behind(graph, &legs, [Stop::Node(*node)]).is_disjoint(&others)
+    };
+    sources.iter().copied().filter(is_free).filter(waits).collect()
 }
 
 /// `stops`, and where what they send goes on, directly or not. At a side of a nested graph everything goes on together.
