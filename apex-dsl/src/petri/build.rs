@@ -317,9 +317,10 @@ impl<'a> Builder<'a> {
         takes.extend(own().map(|delay| delay.enabled));
         takes.extend(entries.iter().filter_map(|entry| self.places[*entry].echo));
         takes.extend(self.free(&out));
-        takes.extend(self.free(events));
+        let events = self.free(events);
+        takes.extend(&events);
         let mut gives: Vec<PlaceId> = own().flat_map(|delay| [delay.room, delay.waiting]).collect();
-        gives.extend(self.free(events));
+        gives.extend(events);
         gives.extend(self.sent(&synchronous));
         gives.extend(own().flat_map(|delay| &delay.undecided));
         let verb = if delays.len() == 1 { "sends" } else { "send" };

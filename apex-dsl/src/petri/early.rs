@@ -3,8 +3,12 @@
 //! A compiler need not hold a token back at a side while the others are about to come in the same firing, because
 //! nobody can see a difference. Such a token is a debt: the others have to follow before anything else happens.
 
-use super::{Meaning, Net, PlaceId, TransitionId, route, route::Stop, state::Token};
-use crate::graph::{Crossing, Graph};
+use super::{
+    Meaning, Net, PlaceId, TransitionId,
+    route::{Leg, Loop, Stop},
+    state::Token,
+};
+use crate::graph::Crossing;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Which tokens went ahead.
@@ -37,13 +41,12 @@ type Marking = [VecDeque<Token>];
 
 impl Early {
     /// No token went ahead.
-    pub fn new(graph: &Graph, net: &Net) -> Self {
-        let legs = route::legs(graph);
+    pub fn new(legs: &[Leg], loops: &[Loop], net: &Net) -> Self {
         let mut gives: Vec<Vec<PlaceId>> = (0..legs.len()).map(|leg| vec![2 * leg]).collect();
         // The places for legs into loops follow those of the legs.
-        let entries = route::loops(graph, &legs).into_iter().flat_map(|on_loop| on_loop.entries);
+        let entries = loops.iter().flat_map(|on_loop| &on_loop.entries);
         for (echo, entry) in (2 * legs.len()..).zip(entries) {
-            gives[entry].push(echo);
+            gives[*entry].push(echo);
         }
         let (mut sides, mut begins) = (BTreeMap::new(), BTreeMap::new());
         for (pass, transition) in net.transitions.iter().enumerate() {

@@ -92,7 +92,7 @@ fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<Stop>> {
     }
     let mut insides = BTreeMap::new();
     for (node, _) in graph.nodes.iter().enumerate().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
-        let (below, above) = (reached(Stop::Node(node), &after), reached(Stop::Node(node), &before));
+        let (below, above) = (reached([Stop::Node(node)], &after), reached([Stop::Node(node)], &before));
         if below.contains(&Stop::Node(node)) {
             insides.insert(node, below.intersection(&above).copied().collect());
         }
@@ -104,9 +104,10 @@ fn to_input(graph: &Graph, leg: &Leg) -> bool {
     graph.flow(&graph.connections[leg.connection]) != Flow::ToSlot
 }
 
-fn reached(from: Stop, next: &BTreeMap<Stop, Vec<Stop>>) -> BTreeSet<Stop> {
+/// What `next` leads to from any of `from`, directly or not; one of them only if it is led back to.
+pub fn reached(from: impl IntoIterator<Item = Stop>, next: &BTreeMap<Stop, Vec<Stop>>) -> BTreeSet<Stop> {
     let mut found = BTreeSet::new();
-    let mut ends: Vec<Stop> = next.get(&from).into_iter().flatten().copied().collect();
+    let mut ends: Vec<Stop> = from.into_iter().filter_map(|stop| next.get(&stop)).flatten().copied().collect();
     while let Some(stop) = ends.pop() {
         if found.insert(stop) {
             ends.extend(next.get(&stop).into_iter().flatten());

@@ -126,7 +126,8 @@ impl<'a> State<'a> {
         };
         let nodes = 0..graph.nodes.len();
         let (mut into, mut from) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
-        for (i, leg) in route::legs(graph).into_iter().enumerate() {
+        let legs = route::legs(graph);
+        for (i, leg) in legs.iter().enumerate() {
             let flow = graph.flow(&graph.connections[leg.connection]);
             // The net begins with the two places of each leg.
             let link = Link { connection: leg.connection, token: 2 * i, synchronous: flow == Flow::Synchronous };
@@ -142,7 +143,7 @@ impl<'a> State<'a> {
         let initial = Token { value: true, ..Token::default() };
         let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
         let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
-        let loops = route::loops(graph, &route::legs(graph));
+        let loops = route::loops(graph, &legs);
         sources.extend(loops.iter().filter(|on_loop| on_loop.entries.is_empty()).map(|on_loop| on_loop.delays[0]));
         Self {
             graph,
@@ -160,8 +161,8 @@ impl<'a> State<'a> {
             from,
             consumers,
             sources,
+            early: Early::new(&legs, &loops, net),
             loops: loops.into_iter().map(|on_loop| (on_loop.delays[0], on_loop.delays)).collect(),
-            early: Early::new(graph, net),
         }
     }
 

@@ -154,9 +154,7 @@ impl Splitter<'_> {
         if !entering.is_empty() && self.whole.is_synchronous(c) {
             // The inputs of a nested graph are taken together: a node of its own takes the token out of the cell before.
             let outside = Connection { crossings: vec![], ..connection.clone() };
-            let to = relay(draft, &outside, c.from, self.whole.port(c.from));
-            draft.connect(Connection { to, ..outside }, None);
-            connection.from = End { node: to.node, port: 1 };
+            connection.from = relay(draft, outside, c.from, self.whole.port(c.from));
         }
         draft.connect(connection, Some(index));
     }
@@ -190,9 +188,7 @@ impl Splitter<'_> {
         let mut connection = Connection { from: from_end, crossings: leaving, active, ..first.clone() };
         if keeps_missing && !connection.crossings.is_empty() {
             // The outputs of a nested graph are sent together: a node of its own waits for that.
-            connection.to = relay(draft, &connection, first.from, token);
-            draft.connect(connection.clone(), None);
-            connection.from = End { node: connection.to.node, port: 1 };
+            connection.from = relay(draft, connection.clone(), first.from, token);
         }
         let taker = draft.add(from, Origin::Token(first.from));
         let to_cell = End { node: taker, port: 0 };
@@ -209,13 +205,15 @@ impl Splitter<'_> {
     }
 }
 
-/// A node that passes on what comes over `connection`; its input.
-fn relay(draft: &mut Draft, connection: &Connection, from: End, token: &Port) -> End {
+/// Leads `connection` to a new node that passes on what comes over it; the output of that node.
+fn relay(draft: &mut Draft, connection: Connection, from: End, token: &Port) -> End {
     let beside = &draft.graph.nodes[connection.from.node];
     let ports =
         vec![Port::new("in", PortKind::Input, token.ty.clone()), Port::new("out", PortKind::Output, token.ty.clone())];
     let relay = node(beside, &format!("{}.{} relay", beside.name, token.name), NodeKind::Relay, ports);
-    End { node: draft.add(relay, Origin::Token(from)), port: 0 }
+    let node = draft.add(relay, Origin::Token(from));
+    draft.connect(Connection { to: End { node, port: 0 }, ..connection }, None);
+    End { node, port: 1 }
 }
 
 fn node(beside: &Node, name: &str, kind: NodeKind, ports: Vec<Port>) -> Node {
