@@ -15,16 +15,20 @@ fn package() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("rtic")
 }
 
-/// Where the test has cargo build; all that has to do with it goes through here.
+/// Where cargo builds it.
+fn target() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("rtic")
+}
+
+/// Cargo, for this package.
 fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rtic");
     // The settings of the package are found from its folder.
     command
         .args(arguments)
         .arg("--quiet")
         .arg("--target-dir")
-        .arg(target)
+        .arg(target())
         .current_dir(package())
         .env_remove("RUSTFLAGS");
     command
@@ -42,7 +46,7 @@ fn program() -> Option<&'static Path> {
         }
         let built = cargo(&["build", "--release"]).output().unwrap();
         assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-        Some(Path::new(env!("CARGO_TARGET_TMPDIR")).join("rtic").join(TARGET).join("release/cart"))
+        Some(target().join(TARGET).join("release/cart"))
     });
     built.as_deref()
 }
