@@ -10,6 +10,7 @@ pub fn run(file: &Path) -> Result<ExitCode, String> {
     let place = |_| proc_macro2::Span::call_site();
     let code = passes::generate(
         &checked.programs,
+        &checked.texts.machines,
         &checked.catalog,
         &checked.sources,
         &place,

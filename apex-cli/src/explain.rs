@@ -2,8 +2,9 @@
 
 use crate::{Format, memory, project, times};
 use apex_dsl::{
+    explain::{explain, explain_json},
     petri,
-    report::{PAGES, explain, explain_json, nearest, page},
+    report::{PAGES, nearest, page},
 };
 use std::{
     path::{Path, PathBuf},
@@ -65,7 +66,10 @@ fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     match format {
-        Format::Text => checked.programs.iter().try_for_each(|p| project::print(&explain(p, &checked.catalog)))?,
+        Format::Text => checked
+            .programs
+            .iter()
+            .try_for_each(|p| project::print(&explain(p, &checked.texts.machines, &checked.catalog)))?,
         Format::Json => {
             let programs: Vec<_> = checked.programs.iter().map(|p| explain_json(p, &checked.catalog)).collect();
             project::print(&serde_json::to_string_pretty(&programs).map_err(|e| e.to_string())?)?;

@@ -2,8 +2,9 @@
 
 use crate::{project::Checker, replace::replace};
 use apex_dsl::{
-    report::{Diagnostic, Diagnostics, Fix, Severity},
-    source::{FileId, Sources},
+    fix::{applied, certain, mends},
+    report::Fix,
+    source::Sources,
 };
 use std::{path::Path, sync::Arc};
 
@@ -25,7 +26,7 @@ pub fn file(file: &Path) -> Result<Vec<String>, String> {
         let Some((message, fix)) = left.into_iter().find(|candidate| !useless.contains(candidate)) else { break };
         let mended: Arc<str> = applied(&text, &fix).into();
         let (_, after, _) = checker.check(file, mended.clone());
-        if is_better(&diagnostics, &after, &message) {
+        if mends(&diagnostics, &after, &message) {
             changes.push(said(&sources, &message, &fix));
             text = mended;
             // The places have moved.
@@ -38,29 +39,6 @@ pub fn file(file: &Path) -> Result<Vec<String>, String> {
         replace(file, &text).map_err(|e| format!("cannot write `{}`: {e}", file.display()))?;
     }
     Ok(changes)
-}
-
-/// The change that mends an error of the text itself without doubt.
-fn certain(diagnostic: &Diagnostic) -> Option<&Fix> {
-    match diagnostic.fixes.as_slice() {
-        [only] if only.certain && only.span.file == FileId(0) => Some(only),
-        _ => None,
-    }
-}
-
-fn applied(text: &str, fix: &Fix) -> String {
-    format!("{}{}{}", &text[..fix.span.start as usize], fix.replacement, &text[fix.span.end as usize..])
-}
-
-/// Whether there are less errors, or as many of which the one with `message` is none: another one was hidden by it.
-fn is_better(before: &Diagnostics, after: &Diagnostics, message: &str) -> bool {
-    let said = |diagnostics: &Diagnostics| diagnostics.sorted().iter().filter(|d| d.message == message).count();
-    errors(after) < errors(before) || (errors(after) == errors(before) && said(after) < said(before))
-}
-
-/// How many errors there are, those included that were too many to be kept.
-fn errors(diagnostics: &Diagnostics) -> usize {
-    diagnostics.sorted().iter().filter(|d| d.severity == Severity::Error).count() + diagnostics.left_out()
 }
 
 /// What was wrong where, and what was done.

@@ -4,12 +4,13 @@ use crate::{
     project::{self, Checked},
     replace::{self, is_same},
 };
-use apex_diagram::{MAX_ITEMS, diagram, dot, states, svg};
-use apex_dsl::{graph::Graph, report::nearest};
+use apex_diagram::{Folding, Item, MAX_ITEMS, chart, diagram, dot, folded, folded_states, states, svg};
+use apex_dsl::{graph::Graph, machine::Machine, report::nearest};
 use clap::ValueEnum;
 use std::{
     path::{Path, PathBuf},
     process::ExitCode,
+    str::FromStr,
 };
 
 /// What a picture is written as.
@@ -21,21 +22,41 @@ pub enum Picture {
     Dot,
 }
 
+/// How deep nested graphs are opened.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// All of them.
+    All,
+    /// So many levels.
+    Levels(usize),
+}
+
+impl FromStr for Depth {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "all" => Ok(Self::All),
+            number => number.parse().map(Self::Levels).map_err(|_| "a whole number, or `all`".to_owned()),
+        }
+    }
+}
+
 /// What is drawn, and where to.
 pub struct Wanted {
-    /// The graph, if the text has several.
+    /// The graph or state machine, if there are several.
     pub graph: Option<String>,
     /// The activity alone.
     pub activity: bool,
-    /// How deep nested graphs are opened.
-    pub depth: Option<usize>,
+    /// How deep nested graphs are opened; without it, as deep as the picture can be read.
+    pub depth: Option<Depth>,
     /// The file; standard output if there is none.
     pub output: Option<PathBuf>,
     /// What it is written as, if the name of the file does not say so.
     pub format: Option<Picture>,
 }
 
-/// Draws a graph of a text.
+/// Draws a graph or a state machine of a source file.
 pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     let format = format(wanted)?;
     let checked = project::check(file)?;
@@ -43,21 +64,14 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let graph = choose(&checked, wanted.graph.as_deref())?;
-    let mut item = diagram(graph, &checked.catalog);
-    if let Some(depth) = wanted.depth {
-        // The graph itself is always open.
-        item = item.closed(depth.saturating_add(1));
-    }
-    if wanted.activity {
-        item = states(&item).ok_or_else(|| {
-            format!("no activity comes to a node of `{}`: it has no `=>` and no state machine", graph.name)
-        })?;
-    }
+    let item = match choose(&checked, file, wanted.graph.as_deref())? {
+        Drawn::Graph(graph) => picture(diagram(graph, &checked.texts.machines, &checked.catalog), wanted)?,
+        Drawn::Machine(machine) => chart(machine),
+    };
     if item.count() > MAX_ITEMS {
         return Err(format!(
             "a picture of `{}` would have {} boxes, more than {MAX_ITEMS}: close those in it with `--depth 0`, or draw them one by one",
-            graph.name,
+            item.name,
             item.count()
         ));
     }
@@ -75,6 +89,37 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// What is drawn of a graph: all of it or its activity, with nested graphs as open as they are wanted.
+fn picture(item: Item, wanted: &Wanted) -> Result<Item, String> {
+    let name = item.name.clone();
+    let whole = |item: Item| if wanted.activity { states(&item) } else { Some(item) };
+    let drawn = match wanted.depth {
+        Some(Depth::All) => whole(item),
+        // The graph itself is always open.
+        Some(Depth::Levels(depth)) => whole(item.closed(depth.saturating_add(1))),
+        None => {
+            let folded = if wanted.activity { folded_states(&item) } else { Some(folded(item)) };
+            folded.map(|(item, folding)| {
+                say_what_is_folded(&name, &folding);
+                item
+            })
+        }
+    };
+    drawn.ok_or_else(|| format!("no activity comes to a node of `{name}`: it has no `=>` and no state machine"))
+}
+
+fn say_what_is_folded(name: &str, folding: &Folding) {
+    let depth = folding.depth.map(|depth| format!("nested graphs are closed (`--depth {depth}`)"));
+    let chains = (folding.chains > 0).then(|| format!("{} chains of nodes are drawn as one box each", folding.chains));
+    let said: Vec<String> = depth.into_iter().chain(chains).collect();
+    if !said.is_empty() {
+        let said = said.join(", ");
+        project::print_error(&format!(
+            "note: `{name}` is too large to be read at once: {said}; `--depth all` opens all"
+        ));
+    }
+}
+
 /// What the command line says, or else the name of the file.
 fn format(wanted: &Wanted) -> Result<Picture, String> {
     let path = match (wanted.format, &wanted.output) {
@@ -89,25 +134,60 @@ fn format(wanted: &Wanted) -> Result<Picture, String> {
     }
 }
 
-/// The named graph, the only robot, or the last graph that stands in no other one.
-fn choose<'a>(checked: &'a Checked, name: Option<&str>) -> Result<&'a Graph, String> {
-    let programs = checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
-    let graphs: Vec<&Graph> = checked.parts.iter().chain(programs).collect();
-    let robots: Vec<&&Graph> = graphs.iter().filter(|graph| graph.robot).collect();
-    let chosen = match (name, robots.as_slice()) {
-        (Some(name), _) => graphs.iter().find(|graph| graph.name == name),
-        (None, [only]) => Some(*only),
-        (None, _) => graphs.last(),
-    };
-    chosen.copied().ok_or_else(|| {
-        let Some(name) = name else { return "there is no graph to draw".to_owned() };
-        let names = || graphs.iter().map(|graph| graph.name.as_str());
-        match nearest(name, names()) {
-            Some(near) => format!("there is no graph `{name}` to draw; did you mean `{near}`?"),
-            None => {
-                let known: Vec<String> = names().map(|name| format!("`{name}`")).collect();
-                format!("there is no graph `{name}` to draw; there are {}", known.join(", "))
-            }
+/// What can be drawn.
+#[derive(Clone, Copy)]
+enum Drawn<'a> {
+    Graph(&'a Graph),
+    Machine(&'a Machine),
+}
+
+impl Drawn<'_> {
+    fn name(&self) -> &str {
+        match self {
+            Self::Graph(graph) => &graph.name,
+            Self::Machine(machine) => &machine.name,
         }
-    })
+    }
+
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Graph(graph) if graph.robot => "robot",
+            Self::Graph(_) => "graph",
+            Self::Machine(_) => "fsm",
+        }
+    }
+}
+
+/// The named graph or state machine; without a name the only robot, else the only graph that is not part of another
+/// one, else the only state machine.
+fn choose<'a>(checked: &'a Checked, file: &Path, name: Option<&str>) -> Result<Drawn<'a>, String> {
+    let programs = checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let graphs = || checked.parts.iter().chain(programs.clone());
+    let machines = || checked.machines().into_iter().map(Drawn::Machine);
+    let all: Vec<Drawn<'_>> = graphs().map(Drawn::Graph).chain(machines()).collect();
+    if let Some(name) = name {
+        let found = all.iter().find(|drawn| drawn.name() == name);
+        return found.copied().ok_or_else(|| unknown(name, &all));
+    }
+    let robots = graphs().filter(|graph| graph.robot).map(Drawn::Graph).collect::<Vec<_>>();
+    let parts = checked.parts.iter().map(Drawn::Graph).collect();
+    let kinds = [robots, programs.map(Drawn::Graph).collect(), parts, machines().collect()];
+    match kinds.iter().find(|kind| !kind.is_empty()).map(Vec::as_slice) {
+        Some([only]) => Ok(*only),
+        Some(_) => Err(format!("`{}` has several: say which with `--graph NAME`; {}", file.display(), list(&all))),
+        None => Err("there is no graph to draw".to_owned()),
+    }
+}
+
+fn unknown(name: &str, all: &[Drawn<'_>]) -> String {
+    match nearest(name, all.iter().map(Drawn::name)) {
+        Some(near) => format!("there is no graph `{name}` to draw; did you mean `{near}`?"),
+        None if all.is_empty() => "there is no graph to draw".to_owned(),
+        None => format!("there is no graph `{name}` to draw; {}", list(all)),
+    }
+}
+
+fn list(all: &[Drawn<'_>]) -> String {
+    let named: Vec<String> = all.iter().map(|drawn| format!("{} `{}`", drawn.word(), drawn.name())).collect();
+    format!("there are {}", named.join(", "))
 }

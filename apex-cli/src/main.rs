@@ -1,5 +1,7 @@
 //! The `apex` command: thin shells around the compiler.
 
+mod build;
+mod calls;
 mod check;
 mod completions;
 mod doc;
@@ -10,8 +12,10 @@ mod fmt;
 mod graph;
 mod import;
 mod lsp;
+mod made;
 mod memory;
 mod new;
+mod nodes;
 mod project;
 mod replace;
 mod run;
@@ -111,22 +115,24 @@ enum Command {
         #[arg(long, value_name = "FILE", conflicts_with_all = ["pnml", "memory"])]
         profile: Option<PathBuf>,
     },
-    /// Draw a graph.
+    /// Draw a graph or a state machine.
     #[command(
         after_help = "Single lines are `->`, double ones `=>`. Data goes from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted ones lead from the one to the other. Coloured: where activity can be.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
     )]
     Graph {
         /// The text.
         file: PathBuf,
-        /// Which graph; without it the only robot, or the last graph that stands in no other one.
-        #[arg(long, value_name = "NAME")]
+        /// Which graph, robot or state machine. Without it: the only robot, else the only graph that is not part of another one, else
+        /// the only state machine.
+        #[arg(long, alias = "robot", value_name = "NAME")]
         graph: Option<String>,
         /// Only where activity can be, and where it goes, as a state diagram.
         #[arg(long)]
         activity: bool,
-        /// Opens nested graphs only so deep: 0 draws them as boxes with their ports.
-        #[arg(long, value_name = "N")]
-        depth: Option<usize>,
+        /// Opens nested graphs only so deep: 0 draws them as boxes with their ports, `all` opens everything. Without it, large
+        /// pictures have nested graphs closed, and chains of nodes as one box, until they can be read.
+        #[arg(long, value_name = "N | all")]
+        depth: Option<graph::Depth>,
         /// The file to write; without it, standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -151,19 +157,38 @@ enum Command {
     /// Serve an editor: the language server, on standard input and output.
     #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
     Lsp,
-    /// Make a project that runs at once.
-    #[command(after_help = "Example:\n  apex new my-robot\n  cd my-robot\n  cargo run")]
+    /// Make a project that works at once.
+    #[command(
+        after_help = "Example:\n  apex new my-robot\n  cd my-robot\n  apex check robot.afg\n  apex test robot.afg\n  cargo run"
+    )]
     New {
         /// The folder of the project; its name is that of the package.
         #[arg(value_name = "NAME")]
         folder: PathBuf,
+        /// The kind of project.
+        #[arg(long, value_enum, default_value_t)]
+        template: new::Template,
         /// The checkout that the crates of Apex are taken from, if not the one that this command was built from.
         #[arg(long, value_name = "FOLDER")]
         path: Option<PathBuf>,
     },
+    /// List the nodes that a package can use, or describe one.
+    #[command(
+        after_help = "A node has to do with a word that stands in its path, its documentation, or a port or parameter of it. If one is named\nexactly so, or only one is left, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
+    )]
+    Nodes {
+        /// Only nodes that have to do with all of these words.
+        words: Vec<String>,
+        /// The folder of the package, if not the current one.
+        #[arg(long, value_name = "FOLDER", default_value = ".", hide_default_value = true)]
+        package: PathBuf,
+        /// Print all about them as a page in Markdown.
+        #[arg(long)]
+        markdown: bool,
+    },
     /// Repeat a recorded run, and say what comes out differently.
     #[command(
-        after_help = "The robot is built, and takes what its sources sent, at the times at which they did. What it makes of that is compared with\nthe recording, token by token, for the ports that its `record` statement names.\nExit code 0: all the same, 1: something was different (or the text has errors).\n\nExample:\n  apex run robot.afg --record run.mcap\n  apex replay run.mcap robot.afg"
+        after_help = "The robot is built, and takes what its sources sent, at the times at which they did. What it makes of that is compared with\nthe recording, token by token, for the ports that its `record` statement names.\nExit code 0: all the same, 1: something was different or is missing (or the text has errors).\n\nExample:\n  apex run robot.afg --record run.mcap\n  apex replay run.mcap robot.afg"
     )]
     Replay {
         /// The recording (MCAP), by `apex run --record` or a `record` statement.
@@ -176,18 +201,24 @@ enum Command {
         /// Sets parameters from this file (TOML) before the run, as `apex run` does.
         #[arg(long, value_name = "FILE")]
         params: Option<PathBuf>,
+        #[command(flatten)]
+        how: Building,
     },
     /// Run the tests of a text on simulated time.
-    #[command(after_help = "The same tests run by `cargo test` wherever a `graph!` names the text.")]
+    #[command(
+        after_help = "If the package of the text compiles it with `graph!(\"…\")`, those are the tests, and `cargo test` runs them too. Otherwise\na package is made for them, below the target folder. Either way what `cargo build` has built is not built again.\nExit code 0: all passed, 1: one failed (or the text has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
+    )]
     Test {
         /// The text.
         file: PathBuf,
         /// Only the tests whose names contain this.
         filter: Option<String>,
+        #[command(flatten)]
+        how: Building,
     },
     /// Build and run a robot.
     #[command(
-        after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock. Only that one takes --params and --save-params: a program of your\nown calls `apex_rt::params::load_file` and `save_file`."
+        after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock. Only that one takes --params and --save-params: a program of your\nown calls `apex_rt::params::load_file` and `save_file`.\nIt is built as `cargo build` does it, in the same folder, and what is there already is not built again.\nExit code: that of the program (0, or 1 after `abort`); 1 if the text has errors, 2 if it could not be built or started.\n\nExample:\n  apex run robot.afg\n  apex run --release --robot Rover robot.afg -- --fast\n  apex run --record run.mcap robot.afg"
     )]
     Run {
         /// The text.
@@ -211,10 +242,29 @@ enum Command {
         /// there is kept, and the next one has a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
+        #[command(flatten)]
+        how: Building,
         /// Arguments for the program.
         #[arg(last = true)]
         args: Vec<String>,
     },
+}
+
+/// How a program is built.
+#[derive(clap::Args)]
+struct Building {
+    /// Build it optimised, as `cargo build --release` does.
+    #[arg(long)]
+    release: bool,
+    /// Say nothing about building but what is wrong; without it there is cargo's progress, or a line for each crate.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+impl Building {
+    fn how(&self) -> build::How {
+        build::How::new(self.release, self.quiet)
+    }
 }
 
 /// How results are printed.
@@ -248,9 +298,10 @@ fn main() -> ExitCode {
         }
         Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
         Command::Lsp => lsp::run(),
-        Command::New { folder, path } => new::run(&folder, path.as_deref()),
-        Command::Test { file, filter } => test::run(&file, filter.as_deref()),
-        Command::Replay { recording, file, robot, params } => {
+        Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
+        Command::Nodes { words, package, markdown } => nodes::run(&package, &words, markdown),
+        Command::Test { file, filter, how } => test::run(&file, filter.as_deref(), how.how()),
+        Command::Replay { recording, file, robot, params, how } => {
             let params = run::Params { load: params, save: None };
             let (robot, recording) = (robot.as_deref(), run::Recording::Repeated(&recording));
             run::run(&run::Wanted {
@@ -261,13 +312,16 @@ fn main() -> ExitCode {
                 recording,
                 args: &[],
                 watch: false,
+                how: how.how(),
             })
         }
-        Command::Run { file, robot, params, save_params, watch, profile, record, args } => {
+        Command::Run { file, robot, params, save_params, watch, profile, record, how, args } => {
             let params = run::Params { load: params, save: save_params };
             let (robot, profile) = (robot.as_deref(), profile.as_deref());
             let recording = record.as_deref().map_or(run::Recording::Stated, run::Recording::Made);
-            let wanted = run::Wanted { file: &file, robot, params: &params, profile, recording, args: &args, watch };
+            let how = how.how();
+            let wanted =
+                run::Wanted { file: &file, robot, params: &params, profile, recording, args: &args, watch, how };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };

@@ -1,12 +1,14 @@
 //! `apex explain --memory`: how many bytes the pieces of a program have. Only rustc knows how large a type is, so that a
 //! program is made that says it.
 
-use crate::{Format, project, run};
-use apex_dsl::{
-    codegen::Piece,
-    passes::{self, Program},
+use crate::{
+    Format,
+    build::{self, How, Turn},
+    made::{self, Made},
+    project, run,
 };
-use apex_host::{Workspace, cargo, no_cargo};
+use apex_dsl::{codegen::Piece, passes, program::Program};
+use apex_host::Workspace;
 use serde_json::{Value, json};
 use std::{
     fmt::Write as _,
@@ -49,20 +51,21 @@ pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
 fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -> Result<Vec<Measured<'a>>, String> {
     let workspace = Workspace::load(&run::package(file)?)?;
     let text = run::absolute(file)?;
-    let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let folder = workspace.cache_folder().join("memory").join(name);
-    let code = main_file(&text, programs, &of_all);
-    let manifest = run::make_package(&folder, &workspace, &[], "src/main.rs", &code)?;
-    // What `apex test` has built is of use here.
-    let target = workspace.target.join("apex/test");
-    run::say_if_first(&target);
-    let mut command = cargo();
-    command.args(["run", "--quiet", "--manifest-path"]).arg(manifest);
-    command.arg("--target-dir").arg(target);
-    let output = command.stderr(Stdio::inherit()).output().map_err(|e| no_cargo(&e))?;
-    if !output.status.success() {
-        return Err(format!("rustc does not take the program of `{}`: sizes are not known", file.display()));
-    }
+    let made = Made {
+        workspace: &workspace,
+        what: "memory",
+        text: &text,
+        program: "",
+        features: &[],
+        file: "src/main.rs",
+        code: &main_file(made::utf8(&text)?, programs, &of_all),
+    };
+    let how = How::new(false, false);
+    let _turn = Turn::wait(&workspace, how)?;
+    let built = build::build(&made.make()?, build::PROGRAM, how)?.program()?;
+    let unknown = || format!("rustc does not take the program of `{}`: sizes are not known", file.display());
+    let built = built.ok_or_else(unknown)?;
+    let output = built.command().stderr(Stdio::inherit()).output().map_err(|e| built.not_started(&e))?;
     let said = String::from_utf8_lossy(&output.stdout);
     let mut sizes = said.lines().map_while(|line| line.parse().ok());
     let measured = programs.iter().zip(of_all).map(|(program, pieces)| {
@@ -77,7 +80,7 @@ fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -
 }
 
 /// The program: it stands where the graphs do, and sees what is private in them.
-fn main_file(file: &Path, programs: &[&Program], of_all: &[Vec<Piece>]) -> String {
+fn main_file(file: &str, programs: &[&Program], of_all: &[Vec<Piece>]) -> String {
     let mut lines = String::new();
     for (program, pieces) in programs.iter().zip(of_all) {
         let name = &program.graph.name;

@@ -4,8 +4,11 @@ use apex_dsl::{
     catalog::{Catalog, Crates},
     claims::MAX_STATES,
     graph::Graph,
-    passes::{self, Program},
+    machine::Machine,
+    passes,
+    program::Program,
     report::{Diagnostics, Severity, render},
+    resolve::{Meaning, Texts},
     source::{Sources, World as _},
 };
 use apex_host::{Disk, Seen, Workspace};
@@ -26,6 +29,8 @@ pub struct Checked {
     pub programs: Vec<Program>,
     /// The graphs in it that are no programs.
     pub parts: Vec<Graph>,
+    /// It and the texts that it imports.
+    pub texts: Texts,
     /// The node types it can use.
     pub catalog: Catalog,
 }
@@ -42,8 +47,8 @@ pub fn check(file: &Path) -> Result<Checked, String> {
     let text = checker.read(file)?;
     let (sources, diagnostics, checked) = checker.check(file, text);
     checker.save();
-    let passes::Checked { programs, parts, .. } = checked;
-    Ok(Checked { sources, diagnostics, programs, parts, catalog: checker.catalog })
+    let passes::Checked { texts, programs, parts, .. } = checked;
+    Ok(Checked { sources, diagnostics, programs, parts, texts, catalog: checker.catalog })
 }
 
 /// Checks texts of one package, also those that are not what stands on the disk.
@@ -88,6 +93,16 @@ impl Checker {
 }
 
 impl Checked {
+    /// The state machines of the first text, in its order.
+    pub fn machines(&self) -> Vec<&Machine> {
+        let Some((_, tree)) = self.texts.files.first() else { return vec![] };
+        let machine = |name: &str| match self.texts.names(0).get(name) {
+            Some(Meaning::Machine(signature)) => self.texts.machines.get(signature),
+            _ => None,
+        };
+        tree.machines.iter().filter_map(|item| machine(&item.name.text)).collect()
+    }
+
     /// Prints all messages to standard error.
     pub fn print_diagnostics(&self) {
         print_diagnostics(&self.diagnostics, &self.sources);

@@ -1,20 +1,25 @@
 //! `apex run`: the package's own program, or one that is made for the text.
 
-use crate::{project, replace::is_same};
+use crate::{
+    build::{self, Built, How, Turn},
+    made::{self, Made},
+    project,
+    replace::is_same,
+};
 use apex_dsl::{
     graph::{Graph, NodeKind},
-    passes::Program,
+    program::Program,
     report::nearest,
     syntax::MAX_BYTES,
 };
-use apex_host::{Workspace, cargo, no_cargo, read_text};
+use apex_host::{Workspace, read_text};
 use std::{
     env,
     ffi::OsString,
     fs,
-    io::{self, IsTerminal, Read as _},
+    io::{self, Read as _},
     path::{Path, PathBuf},
-    process::{Command, ExitCode},
+    process::{Command, ExitCode, ExitStatus},
 };
 
 /// Files with the parameters of the program that is run.
@@ -78,10 +83,6 @@ pub enum Recording<'a> {
     Repeated(&'a Path),
 }
 
-/// The feature of programs that can be recorded, and the library whose types then are messages.
-pub const RECORDS: &str = "record";
-const NODES: &str = "apex-nodes";
-
 /// How an MCAP file begins.
 const MAGIC: &[u8; 8] = b"\x89MCAP0\r\n";
 
@@ -129,33 +130,29 @@ pub struct Wanted<'a> {
     pub args: &'a [String],
     /// Whether it is built again and again, and what it changed in its parameters is kept.
     pub watch: bool,
+    /// How it is built.
+    pub how: How,
 }
 
-/// A program as cargo finds it.
+/// A program that has been built, and may be started as long as it is our turn.
 pub struct Found {
-    /// What says it to cargo.
-    select: Vec<OsString>,
-    /// Where cargo is called.
-    folder: PathBuf,
-    /// Where cargo builds it.
-    target: PathBuf,
+    built: Built,
     /// The folder of the package, if it was made for the text.
     pub made: Option<PathBuf>,
+    _turn: Turn,
 }
 
 impl Found {
-    /// `cargo run` or `cargo build`.
-    pub fn cargo(&self, verb: &str) -> Command {
-        say_if_first(&self.target.join("release"));
-        let mut command = cargo();
-        command.args([verb, "--release", "--quiet"]).args(&self.select).current_dir(&self.folder);
-        command
+    /// Says why it does not start.
+    pub fn not_started(&self, reason: &io::Error) -> String {
+        self.built.not_started(reason)
     }
 }
 
 impl Wanted<'_> {
-    /// Gives a program that is about to start what it gets.
-    pub fn tell(&self, program: &Found, command: &mut Command) {
+    /// The program with all that it is told.
+    pub fn command(&self, program: &Found) -> Command {
+        let mut command = program.built.command();
         command.args(self.args);
         match self.profile {
             Some(path) => command.env(PROFILE, env::current_dir().unwrap_or_default().join(path)),
@@ -168,7 +165,7 @@ impl Wanted<'_> {
             Recording::Made(path) => drop(command.env(RECORD, here(path))),
             Recording::Repeated(path) => drop(command.env(REPLAY, here(path))),
         }
-        let Some(made) = &program.made else { return };
+        let Some(made) = &program.made else { return command };
         let kept = self.watch.then(|| made.join("kept"));
         for (name, path) in [(LOAD, &self.params.load), (SAVE, &self.params.save), (KEPT, &kept)] {
             match path {
@@ -176,40 +173,47 @@ impl Wanted<'_> {
                 None => command.env_remove(name),
             };
         }
+        command
     }
 
-    /// Checks the text and finds its program; `None` if the text has errors, which are printed.
-    pub fn find(&self) -> Result<Option<Found>, String> {
+    /// Checks the text.
+    pub fn check(&self) -> Result<Option<Vec<Program>>, String> {
         let checked = project::check(self.file)?;
         checked.print_diagnostics();
-        if checked.diagnostics.has_errors() {
-            return Ok(None);
-        }
+        Ok((!checked.diagnostics.has_errors()).then_some(checked.programs))
+    }
+
+    /// Builds the program of a text that has been checked; nothing if that fails, of which cargo has said why.
+    pub fn build(&self, programs: &[Program]) -> Result<Option<Found>, String> {
         self.params.look(self.file)?;
         self.recording.look()?;
+        if self.profile.is_some() && !self.how.release && !self.how.quiet {
+            project::print_error(
+                "note: an unoptimised program is measured; `--release` measures the one that robots run",
+            );
+        }
         let folder = package(self.file)?;
         let workspace = Workspace::load(&folder)?;
         has_runtime(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
         // A program of one's own may have a loop of its own, which repeats nothing.
         let repeats = matches!(self.recording, Recording::Repeated(_));
-        match binary.filter(|_| self.robot.is_none() && !repeats) {
-            Some(binary) if self.params.are_wanted() => Err(format!(
+        let Some(binary) = binary.filter(|_| self.robot.is_none() && !repeats) else {
+            return self.make(choose(programs, self.robot)?, &workspace);
+        };
+        if self.params.are_wanted() {
+            return Err(format!(
                 "`--params` and `--save-params` are for programs that are made for the text, but `{binary}` is a program of its own: leave them out, or choose a robot with `--robot`"
-            )),
-            Some(binary) => {
-                let mut select = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
-                let graphs: Vec<&Graph> = checked.programs.iter().map(|p| &p.graph).collect();
-                for feature in self.features(false, &graphs) {
-                    select.extend(["--features".into(), format!("apex-rt/{feature}").into()]);
-                    if feature == RECORDS && workspace.libraries().iter().any(|(name, _)| *name == NODES) {
-                        select.extend(["--features".into(), format!("{NODES}/{feature}").into()]);
-                    }
-                }
-                Ok(Some(Found { select, folder, target: workspace.target, made: None }))
-            }
-            None => self.make(choose(&checked.programs, self.robot)?, &workspace).map(Some),
+            ));
         }
+        let graphs: Vec<&Graph> = programs.iter().map(|p| &p.graph).collect();
+        let mut select: Vec<OsString> = ["--package", package, "--bin", binary].map(OsString::from).to_vec();
+        select.extend(made::select_features(&workspace, &self.features(false, &graphs)));
+        let (root, target) = (folder.clone(), workspace.target.clone());
+        let turn = Turn::wait(&workspace, self.how)?;
+        let built = build::build(&build::Wanted { select, package: folder, root, target }, build::PROGRAM, self.how)?
+            .program()?;
+        Ok(built.map(|built| Found { built, made: None, _turn: turn }))
     }
 
     /// The features of the runtime that a program of one of `graphs` needs.
@@ -223,13 +227,13 @@ impl Wanted<'_> {
             ("ctrl-c", params),
             ("profile", self.profile.is_some()),
             ("realtime", realtime),
-            (RECORDS, records),
+            (made::RECORD, records),
         ];
         wanted.into_iter().filter(|(_, wanted)| *wanted).map(|(feature, _)| feature).collect()
     }
 
-    /// Makes a package whose only job is to drive the program.
-    fn make(&self, program: &Program, workspace: &Workspace) -> Result<Found, String> {
+    /// Makes and builds a package whose only job is to drive the program.
+    fn make(&self, program: &Program, workspace: &Workspace) -> Result<Option<Found>, String> {
         let graph = &program.graph;
         if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
             return Err(format!(
@@ -240,34 +244,65 @@ impl Wanted<'_> {
             ));
         }
         let params = self.watch || self.params.are_wanted();
-        let made = workspace.cache_folder().join("run").join(&graph.name);
-        let main = main_file(&absolute(self.file)?, &graph.name, params);
-        let manifest = make_package(&made, workspace, &self.features(params, &[graph]), "src/main.rs", &main)?;
-        let target = workspace.target.join("apex/run");
-        let select = ["--manifest-path".into(), manifest.into(), "--target-dir".into(), target.clone().into()].to_vec();
-        // Files are named as the user sees them.
-        let folder = env::current_dir().map_err(|e| format!("cannot see the current folder: {e}"))?;
-        Ok(Found { select, folder, target, made: Some(made) })
+        let text = absolute(self.file)?;
+        let made = Made {
+            workspace,
+            what: "run",
+            text: &text,
+            program: &graph.name,
+            features: &self.features(params, &[graph]),
+            file: "src/main.rs",
+            code: &main_file(made::utf8(&text)?, &graph.name, params),
+        };
+        let turn = Turn::wait(workspace, self.how)?;
+        let built = build::build(&made.make()?, build::PROGRAM, self.how)?.program()?;
+        Ok(built.map(|built| Found { built, made: Some(made.folder()), _turn: turn }))
     }
 }
 
 /// Checks, builds and runs.
 pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
-    let Some(program) = wanted.find()? else { return Ok(ExitCode::from(1)) };
-    let mut command = program.cargo("run");
-    command.arg("--");
-    wanted.tell(&program, &mut command);
-    let status = command.status().map_err(|e| no_cargo(&e))?;
-    if let Recording::Made(path) = wanted.recording
-        && status.success()
-        && !path.exists()
-    {
+    let Some(programs) = wanted.check()? else { return Ok(ExitCode::from(1)) };
+    let Some(program) = wanted.build(&programs)? else { return Ok(ExitCode::from(2)) };
+    let command = wanted.command(&program);
+    let Recording::Made(path) = wanted.recording else { return become_program(command, program) };
+    let status = wait_for(command, program)?;
+    if status.success() && !path.exists() {
         return Err(format!(
             "nothing was recorded to `{}`: a program of your own records if `apex_rt::run` or `apex_rt::drive` drives it, or with an `apex_rt::record::Recorder`",
             path.display()
         ));
     }
-    Ok(status.code().and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from))
+    Ok(exit_code(status))
+}
+
+/// Ends this process and starts the program in it, so that signals and exit codes are those of the program.
+#[cfg(unix)]
+fn become_program(mut command: Command, program: Found) -> Result<ExitCode, String> {
+    use std::os::unix::process::CommandExt as _;
+    Err(program.not_started(&command.exec()))
+}
+
+/// Runs the program: elsewhere a process cannot become another.
+#[cfg(not(unix))]
+fn become_program(command: Command, program: Found) -> Result<ExitCode, String> {
+    Ok(exit_code(wait_for(command, program)?))
+}
+
+/// Runs the program; others may build as soon as it has started.
+fn wait_for(mut command: Command, program: Found) -> Result<ExitStatus, String> {
+    let mut child = command.spawn().map_err(|e| program.not_started(&e))?;
+    drop(program);
+    child.wait().map_err(|e| format!("the program is lost: {e}"))
+}
+
+/// The exit code of a program, or what a shell says of one that was ended by a signal.
+fn exit_code(status: ExitStatus) -> ExitCode {
+    #[cfg(unix)]
+    let signal = std::os::unix::process::ExitStatusExt::signal(&status).map(|signal| 128 + signal);
+    #[cfg(not(unix))]
+    let signal = None;
+    status.code().or(signal).and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from)
 }
 
 /// The package that a text belongs to.
@@ -297,13 +332,6 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
     }
 }
 
-/// Where nothing has been built yet, cargo, which is quiet, seems to hang: a person is told.
-pub fn say_if_first(target: &Path) {
-    if !target.exists() && io::stderr().is_terminal() {
-        project::print_error("building for the first time, which takes a minute or two");
-    }
-}
-
 /// Refuses a package whose texts cannot be compiled.
 pub fn has_runtime(folder: &Path, workspace: &Workspace) -> Result<(), String> {
     if workspace.libraries().iter().any(|(name, _)| *name == "apex-rt") {
@@ -318,49 +346,8 @@ pub fn absolute(file: &Path) -> Result<PathBuf, String> {
     fs::canonicalize(file).map_err(|e| format!("cannot find `{}`: {e}", file.display()))
 }
 
-/// Makes a package in `folder` that depends on everything a text can name, and on the runtime with these features, with
-/// one file; returns its manifest.
-pub fn make_package(
-    folder: &Path,
-    workspace: &Workspace,
-    features: &[&str],
-    name: &str,
-    code: &str,
-) -> Result<PathBuf, String> {
-    let dependencies: String = workspace
-        .libraries()
-        .iter()
-        .map(|(name, path)| match *name {
-            NODES if features.contains(&RECORDS) => {
-                format!("{name} = {{ path = {path:?}, features = [{RECORDS:?}] }}\n")
-            }
-            "apex-rt" => format!("{name} = {{ path = {path:?}, features = {features:?} }}\n"),
-            _ => format!("{name} = {{ path = {path:?} }}\n"),
-        })
-        .collect();
-    // Cargo tells packages of one name apart by what they are made of only: the program of another text would count as up
-    // to date.
-    let made_for = folder.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let made_for = made_for.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-    let manifest = format!(
-        "[package]\nname = \"apex-run-{made_for}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[profile.dev.build-override]\nopt-level = 2\n\n[dependencies]\n{dependencies}"
-    );
-    let write = |path: PathBuf, text: &str| {
-        let same = fs::read_to_string(&path).is_ok_and(|old| old == text);
-        let result = if same {
-            Ok(())
-        } else {
-            fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).and_then(|()| fs::write(&path, text))
-        };
-        result.map_err(|e| format!("cannot write `{}`: {e}", path.display()))
-    };
-    write(folder.join("Cargo.toml"), &manifest)?;
-    write(folder.join(name), code)?;
-    Ok(folder.join("Cargo.toml"))
-}
-
 /// The code of the made program: it drives the graph `name` of `file`, with parameters from files if they are wanted.
-fn main_file(file: &Path, name: &str, params: bool) -> String {
+fn main_file(file: &str, name: &str, params: bool) -> String {
     if !params {
         return format!(
             "use apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({name}::new(), WallClock::new());\n}}\n"

@@ -1,40 +1,164 @@
 //! `apex test`: the tests of a text, as Rust tests.
 
-use crate::{project, run};
-use apex_dsl::script::Step;
-use apex_host::{Workspace, cargo, no_cargo};
-use std::{path::Path, process::ExitCode};
+use crate::{
+    build::{self, Built, How, Outcome, Turn},
+    calls::{self, Call},
+    made::{self, Made},
+    project, run,
+};
+use apex_dsl::{
+    codegen::module_name,
+    report::nearest,
+    script::{Script, Step},
+};
+use apex_host::Workspace;
+use std::{ffi::OsString, path::Path, process::ExitCode};
 
 /// Checks, builds and runs the tests whose names contain `filter`.
-pub fn run(file: &Path, filter: Option<&str>) -> Result<ExitCode, String> {
+pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let count = checked.programs.iter().filter(|p| p.script.is_some()).count();
-    if count == 0 {
+    let scripts: Vec<&Script> = checked.programs.iter().filter_map(|p| p.script.as_ref()).collect();
+    if scripts.is_empty() {
         project::print(&format!("`{}` has no `test`", file.display()))?;
         return Ok(ExitCode::SUCCESS);
     }
+    let names = chosen(&scripts, filter)?;
     let folder = run::package(file)?;
     let workspace = Workspace::load(&folder)?;
     run::has_runtime(&folder, &workspace)?;
-    let text = run::absolute(file)?;
-    let name = text.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let folder = workspace.cache_folder().join("test").join(name);
-    let code = format!("use apex_rt::prelude::*;\n\ngraph!({text:?});\n");
     let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
-    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref());
-    let recorded = scripts.flat_map(|script| &script.steps).any(is_recorded);
-    let features: &[&str] = if recorded { &[run::RECORDS] } else { &[] };
-    let manifest = run::make_package(&folder, &workspace, features, "src/lib.rs", &code)?;
-    let target = workspace.target.join("apex/test");
-    run::say_if_first(&target);
-    let mut command = cargo();
-    command.args(["test", "--quiet", "--lib", "--manifest-path"]).arg(manifest);
-    command.arg("--target-dir").arg(target);
-    command.args(filter).env("RUST_BACKTRACE", "0");
-    let status = command.status().map_err(|e| no_cargo(&e))?;
+    let recorded = scripts.iter().flat_map(|script| &script.steps).any(is_recorded);
+    let tests = Tests {
+        text: &run::absolute(file)?,
+        folder: &folder,
+        workspace: &workspace,
+        features: if recorded { &[made::RECORD] } else { &[] },
+        how,
+    };
+    let turn = Turn::wait(&workspace, how)?;
+    let found = match tests.own(&names)? {
+        Own::Found(built, tests) => Some((built, tests)),
+        Own::Broken => None,
+        Own::None => tests.made(&names)?,
+    };
+    let Some((built, names)) = found else { return Ok(ExitCode::from(2)) };
+    let mut command = built.command();
+    command.args(["--quiet", "--exact"]).args(names).current_dir(&folder).env("RUST_BACKTRACE", "0");
+    let mut child = command.spawn().map_err(|e| built.not_started(&e))?;
+    drop(turn);
+    let status = child.wait().map_err(|e| format!("the tests are lost: {e}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// The names of the tests that are to run.
+fn chosen<'a>(scripts: &[&'a Script], filter: Option<&str>) -> Result<Vec<&'a str>, String> {
+    let all = scripts.iter().map(|script| script.name.as_str());
+    let filter = filter.unwrap_or_default();
+    let names: Vec<&str> = all.clone().filter(|name| name.contains(filter)).collect();
+    if names.is_empty() {
+        let help = match nearest(filter, all.clone()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are `{}`", all.collect::<Vec<_>>().join("`, `")),
+        };
+        return Err(format!("there is no test whose name contains `{filter}`; {help}"));
+    }
+    Ok(names)
+}
+
+/// The tests of a text, and where they are.
+struct Tests<'a> {
+    text: &'a Path,
+    folder: &'a Path,
+    workspace: &'a Workspace,
+    features: &'a [&'a str],
+    how: How,
+}
+
+/// What the package itself has of the tests.
+enum Own {
+    /// A program with tests, and the names that they have in it.
+    Found(Built, Vec<String>),
+    /// It should have them, but does not compile.
+    Broken,
+    /// Nothing.
+    None,
+}
+
+impl Tests<'_> {
+    /// The tests where the package itself compiles the text: what it is made of has been built by `cargo build`
+    /// already.
+    fn own(&self, names: &[&str]) -> Result<Own, String> {
+        for (kind, name, root) in self.workspace.targets() {
+            let select = match kind {
+                "bin" => vec!["--bin".to_owned(), name.to_owned()],
+                "lib" | "rlib" | "dylib" => vec!["--lib".to_owned()],
+                // Tests of a package may have a harness of their own, which lists nothing.
+                _ => continue,
+            };
+            for Call { module } in calls::find(root, self.folder, self.text) {
+                let package = ["--package".to_owned(), self.workspace.binary().0.to_owned()];
+                let mut select: Vec<OsString> = package.iter().chain(&select).map(Into::into).collect();
+                select.extend(made::select_features(self.workspace, self.features));
+                let (package, target) = (self.folder.to_owned(), self.workspace.target.clone());
+                let wanted = build::Wanted { select, root: package.clone(), package, target };
+                let built = match build::build(&wanted, build::TESTS, self.how)? {
+                    Outcome::Built(built) => built,
+                    Outcome::Nothing => continue,
+                    Outcome::Broken => return Ok(Own::Broken),
+                };
+                // Conditional compilation may have left them out.
+                if let Some(tests) = named(&listed(&built)?, &module, self.text, names) {
+                    return Ok(Own::Found(built, tests));
+                }
+            }
+        }
+        Ok(Own::None)
+    }
+
+    /// The tests in a package that is made for them; nothing if it does not compile.
+    fn made(&self, names: &[&str]) -> Result<Option<(Built, Vec<String>)>, String> {
+        let made = Made {
+            workspace: self.workspace,
+            what: "test",
+            text: self.text,
+            program: "",
+            features: self.features,
+            file: "src/lib.rs",
+            code: &format!("use apex_rt::prelude::*;\n\ngraph!({:?});\n", made::utf8(self.text)?),
+        };
+        let Some(built) = build::build(&made.make()?, build::TESTS, self.how)?.program()? else {
+            return Ok(None);
+        };
+        let tests = named(&listed(&built)?, &[], self.text, names).ok_or("rustc has left out tests of the text")?;
+        Ok(Some((built, tests)))
+    }
+}
+
+/// All tests in a program.
+fn listed(built: &Built) -> Result<Vec<String>, String> {
+    let output = built.command().args(["--list", "--format=terse"]).output().map_err(|e| built.not_started(&e))?;
+    let list = String::from_utf8_lossy(&output.stdout);
+    Ok(list.lines().filter_map(|line| Some(line.strip_suffix(": test")?.to_owned())).collect())
+}
+
+/// Those of `listed` that are in `module` and have one of these names; nothing if one is missing.
+fn named(listed: &[String], module: &[String], text: &Path, names: &[&str]) -> Option<Vec<String>> {
+    let (mut found, of_text) = (vec![], module_name(text, 0));
+    for name in names {
+        let path: Vec<&str> = module.iter().map(String::as_str).chain([of_text.as_str(), *name]).collect();
+        let is_it = |test: &&String| {
+            let parts: Vec<&str> = test.split("::").map(|part| part.trim_start_matches("r#")).collect();
+            parts.starts_with(&path)
+        };
+        let before = found.len();
+        found.extend(listed.iter().filter(is_it).cloned());
+        if found.len() == before {
+            return None;
+        }
+    }
+    Some(found)
 }

@@ -4,7 +4,7 @@ use crate::{Format, project};
 use apex_dsl::{
     analyse::Analysis,
     graph::{Graph, MAIN_GROUP},
-    passes::Program,
+    program::Program,
 };
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path, process::ExitCode};

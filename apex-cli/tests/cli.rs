@@ -5,6 +5,7 @@ mod common;
 use common::{Folder, apex, package, stderr};
 use serde_json::Value;
 use std::{
+    collections::BTreeSet,
     fs,
     io::Write as _,
     path::Path,
@@ -31,7 +32,10 @@ fn errors_as_text_and_as_json() {
     let output = check(&[], &file);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
     let text = stderr(&output);
-    assert!(text.starts_with("error[unknown-node]: there is no node or graph `Nothing`\n"), "{text}");
+    assert!(
+        text.starts_with("error[unknown-node]: there is no node or graph `Nothing`, here and in another place\n"),
+        "{text}"
+    );
     assert!(text.lines().nth(1).unwrap().ends_with("wrong.afg:2:22"), "{text}");
 
     let output = check(&["--format", "json"], &file);
@@ -42,9 +46,9 @@ fn errors_as_text_and_as_json() {
     assert_eq!((first["line"].as_u64(), first["column"].as_u64()), (Some(2), Some(22)));
     assert_eq!((first["end_line"].as_u64(), first["end_column"].as_u64()), (Some(2), Some(29)));
     assert_eq!((first["severity"].as_str(), first["code"].as_str()), (Some("error"), Some("unknown-node")));
-    assert_eq!(first["message"], "there is no node or graph `Nothing`");
+    assert_eq!(first["message"], "there is no node or graph `Nothing`, here and in another place");
     assert_eq!(messages[1]["labels"][0]["message"], "first defined here");
-    assert_eq!(messages.as_array().unwrap().len(), 3);
+    assert_eq!(messages.as_array().unwrap().len(), 2);
 }
 
 #[test]
@@ -203,10 +207,10 @@ fn the_language_server_ends_with_its_editor() {
     assert!(text.contains(r#""positionEncoding":"utf-16""#) && text.contains(r#""id":2"#), "{text}");
     assert_eq!(serve(&format!("{hello}{exit}")).status.code(), Some(1));
 
-    // What is no message is said, not taken for the end.
+    // What is not a message is answered, not taken for the end.
     let output = serve("Content-Length: 5\r\n\r\n{nope");
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert!(stderr(&output).starts_with("error: the messages of the editor cannot be read: "), "{}", stderr(&output));
+    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    assert!(String::from_utf8(output.stdout).unwrap().contains("a message that is not JSON"));
 }
 
 #[test]
@@ -396,6 +400,22 @@ fn formatting_keeps_permissions_and_links() {
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
 }
 
+/// The README lists every command, and no other one.
+#[test]
+fn the_readme_lists_all_commands() {
+    let help = apex().arg("--help").output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let (_, commands) = help.split_once("Commands:\n").expect("there are commands");
+    let (commands, _) = commands.split_once("\n\n").expect("they end");
+    let commands = commands.lines().filter_map(|line| line.strip_prefix("  ")).filter(|line| !line.starts_with(' '));
+    let commands: BTreeSet<&str> =
+        commands.filter_map(|line| line.split(' ').next()).filter(|c| *c != "help").collect();
+    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")).unwrap();
+    let rows = readme.lines().filter_map(|line| line.strip_prefix("| `apex "));
+    let listed: BTreeSet<&str> = rows.filter_map(|row| row.split([' ', '`']).next()).collect();
+    assert_eq!(listed, commands);
+}
+
 const BELL: &str = "fsm Bell {\n    slot  push;\n    event ring;\n    state quiet { on push => loud -> ring; }\n    state loud { on push => quiet; }\n}\ngraph House {\n    slot push;\n    node bell = Bell();\n    push -> bell.push;\n}\n";
 
 fn graph(arguments: &[&str], file: &Path) -> Output {
@@ -433,6 +453,37 @@ fn graphs_are_drawn() {
 }
 
 #[test]
+fn state_machines_are_drawn() {
+    let folder = Folder::new("charts");
+    let alone = folder.file("fsm.afg", &BELL[..BELL.find("graph").unwrap()]);
+    let beside = folder.file("bell.afg", BELL);
+    let pictures = [graph(&["--format", "dot"], &alone), graph(&["--format", "dot", "--graph", "Bell"], &beside)];
+    for picture in &pictures {
+        assert_eq!((picture.status.code(), stderr(picture)), (Some(0), String::new()));
+        let dot = String::from_utf8_lossy(&picture.stdout);
+        for part in ["Bell", "quiet", "loud", "push / ring"] {
+            assert!(dot.contains(part), "{part}: {dot}");
+        }
+    }
+    assert_eq!(pictures[0].stdout, pictures[1].stdout);
+}
+
+#[test]
+fn large_graphs_are_folded_unless_all_is_wanted() {
+    let folder = Folder::new("folded");
+    let rooms: String =
+        (0..30).map(|i| format!("    node house{i} = House();\n    push -> house{i}.push;\n")).collect();
+    let file = folder.file("town.afg", format!("graph Town {{\n    slot push;\n{rooms}}}\n{BELL}"));
+    let (folded, all) = (graph(&[], &file), graph(&["--depth", "all"], &file));
+    assert_eq!((folded.status.code(), all.status.code()), (Some(0), Some(0)));
+    assert!(stderr(&folded).contains("note: `Town` is too large to be read at once"), "{}", stderr(&folded));
+    assert!(stderr(&folded).contains("`--depth all` opens all"), "{}", stderr(&folded));
+    assert_eq!(stderr(&all), "");
+    let bells = |picture: &Output| String::from_utf8_lossy(&picture.stdout).matches("<title>bell").count();
+    assert_eq!((bells(&folded), bells(&all)), (0, 30));
+}
+
+#[test]
 fn graphs_that_cannot_be_drawn() {
     let folder = Folder::new("undrawn");
     let file = folder.file("bell.afg", BELL);
@@ -446,10 +497,16 @@ fn graphs_that_cannot_be_drawn() {
     fails(&["-o", "bell"], &file, "ends neither in .svg nor in .dot");
     fails(&["-o", folder.0.join("no/such/folder.svg").to_str().unwrap()], &file, "there is no folder `");
     fails(&["--graph", "Hose"], &file, "there is no graph `Hose` to draw; did you mean `House`?");
-    fails(&["--graph", "Bath"], &file, "there is no graph `Bath` to draw; there are `House`");
+    fails(&["--graph", "Bath"], &file, "there is no graph `Bath` to draw; there are graph `House`, fsm `Bell`");
+    let robot = |name: &str| format!("robot {name} {{\n    node bell = Bell();\n    start -> bell.push;\n}}\n");
+    let two = [&BELL[..BELL.find("graph").unwrap()], &robot("House"), &robot("Home")].concat();
+    let named = "has several: say which with `--graph NAME`; there are robot `House`, robot `Home`, fsm `Bell`";
+    fails(&[], &folder.file("two.afg", &two), named);
+    fails(&["--depth", "deep"], &file, "a whole number, or `all`");
     fails(&["-o", file.to_str().unwrap(), "--format", "svg"], &file, "would overwrite its text");
     assert_eq!(fs::read_to_string(&file).unwrap(), BELL);
-    fails(&[], &folder.file("fsm.afg", &BELL[..BELL.find("graph").unwrap()]), "there is no graph to draw");
+    let empty = graph(&[], &folder.file("empty.afg", "\n"));
+    assert!(empty.status.code() == Some(1) && stderr(&empty).contains("no-graph"), "{}", stderr(&empty));
     fails(&["--activity"], &folder.file("still.afg", "graph Still { }\n"), "no activity comes to a node of `Still`");
     let wrong = folder.file("wrong.afg", "graph A {\n    node a = Nothing();\n}\n");
     let picture = folder.0.join("wrong.svg");
@@ -543,8 +600,8 @@ fn nodes_in_broken_rust() {
     let file = folder.file("a.afg", "use crate::ramp;\ngraph A {\n    out y: u64;\n    ramp() -> y;\n}\n");
     for _ in 0..2 {
         let said = stderr(&check(&[], &file));
-        let reason = "note: the nodes in src/lib.rs are not known, as its line 3 is no Rust: ";
-        assert_eq!(said.matches(reason).count(), 2, "{said}");
+        let reason = "note: the nodes in src/lib.rs are not known: its line 3 cannot be read (";
+        assert_eq!(said.matches(reason).count(), 1, "{said}");
     }
 }
 

@@ -8,15 +8,16 @@ use apex_dsl::{
     analyse,
     catalog::Catalog,
     graph::{Each, End, Graph, Library, Node, NodeId, NodeKind, Place, ScopeId, Wire},
+    machine::Machines,
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The picture of a graph.
-pub fn diagram(graph: &Graph, catalog: &Catalog) -> Item {
+pub fn diagram(graph: &Graph, machines: &Machines, catalog: &Catalog) -> Item {
     let mut item = Item::new(Shape::Node, &graph.name);
     item.docs.clone_from(&graph.docs);
-    let builder = Builder::new(graph, catalog);
+    let builder = Builder::new(graph, machines, catalog);
     item.ports = builder.boundaries().map(|node| builder.boundary_port(node)).collect();
     item.inside = Some(builder.frame(0));
     item
@@ -31,6 +32,7 @@ enum Member {
 
 struct Builder<'a> {
     graph: &'a Graph,
+    machines: &'a Machines,
     catalog: &'a Catalog,
     /// The nodes that activity can reach.
     active: BTreeSet<NodeId>,
@@ -39,9 +41,9 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(graph: &'a Graph, catalog: &'a Catalog) -> Self {
+    fn new(graph: &'a Graph, machines: &'a Machines, catalog: &'a Catalog) -> Self {
         let connected = graph.wires.iter().flat_map(|w| [w.from, w.to]).collect();
-        Self { graph, catalog, active: analyse::active_nodes(graph), connected }
+        Self { graph, machines, catalog, active: analyse::active_nodes(graph), connected }
     }
 
     /// The ports of the graph itself.
@@ -158,7 +160,7 @@ impl<'a> Builder<'a> {
                 item
             }
             NodeKind::Start => Item::new(Shape::Start, "start"),
-            NodeKind::Hung => Item::new(Shape::Start, "hung"),
+            NodeKind::Hung => Item::new(Shape::Event, "hung"),
             NodeKind::Exit(_) => Item::new(Shape::End, &node.name),
             NodeKind::Reset => Item::new(Shape::Reset, &node.name),
             _ => unreachable!("these are no members"),
@@ -198,14 +200,14 @@ impl<'a> Builder<'a> {
         item.words.extend(words::parameters(library, self.catalog));
         item.words.extend(words::modifiers(&node.modifiers));
         item.docs.clone_from(&node.docs);
-        item.states = self.catalog.machines.get(&library.signature).map(states::machine);
+        item.states = self.machines.get(&library.signature).map(states::machine);
         item
     }
 
     /// The body of an `each`, open; that of a single node is the node itself.
     fn each(&self, node: &Node, each: &Each) -> Item {
         let body = &*each.body;
-        let inner = Builder::new(body, self.catalog);
+        let inner = Builder::new(body, self.machines, self.catalog);
         let mut item = match &body.nodes[..] {
             [only, ..] if only.span == body.span && matches!(only.kind, NodeKind::Library(_)) => inner.node(0).0,
             _ => {
@@ -260,7 +262,7 @@ fn side(kind: PortKind) -> Side {
 fn shape_side(shape: Shape, kind: PortKind) -> Side {
     match shape {
         Shape::Node | Shape::State => side(kind),
-        Shape::Start => Side::Right,
+        Shape::Start | Shape::Event => Side::Right,
         Shape::End | Shape::Reset => Side::Left,
     }
 }

@@ -4,6 +4,7 @@
 
 mod build;
 mod dot;
+mod fold;
 pub mod layout;
 mod model;
 mod states;
@@ -13,6 +14,7 @@ mod words;
 
 pub use build::diagram;
 pub use dot::dot;
+pub use fold::{Folding, READABLE, folded, folded_states};
 pub use model::{Anchor, Flow, Frame, Item, Line, MAX_ITEMS, Port, Shape, Side};
-pub use states::{machine, states};
+pub use states::{chart, states};
 pub use svg::svg;

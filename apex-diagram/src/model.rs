@@ -39,6 +39,8 @@ pub enum Shape {
     End,
     /// A ring: the slot `reset`.
     Reset,
+    /// Two rings: an event that every program has, such as `hung`.
+    Event,
 }
 
 /// The inside of an item.

@@ -1,7 +1,7 @@
 //! The activity sub-graph alone, as a state diagram: who can be active, and where activity goes with which token.
 
 use crate::model::{Anchor, Flow, Frame, Item, Line, Port, Shape, Side};
-use apex_dsl::machine::{Arm, Machine, Slot};
+use apex_dsl::machine::{Arm, Machine, Sending, Slot};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What activity sees of a picture; nothing if there is no activity in it.
@@ -130,14 +130,23 @@ impl View<'_> {
     }
 }
 
-/// A state machine as a state diagram.
+/// The picture of a state machine by itself.
+pub fn chart(of: &Machine) -> Item {
+    let mut item = Item::new(Shape::Node, &of.name);
+    item.words.push("fsm".to_owned());
+    item.docs.clone_from(&of.docs);
+    item.inside = Some(machine(of));
+    item
+}
+
+/// The inside of a state machine as a state diagram.
 pub fn machine(machine: &Machine) -> Frame {
     let mut frame = Frame::default();
     for state in &machine.states {
         frame.items.push(Item { active: true, ..Item::new(Shape::State, state) });
     }
     frame.items.push(Item::new(Shape::Start, "start"));
-    transition(&mut frame, machine.states.len(), 0, String::new());
+    transition(&mut frame, machine.states.len(), 0, sends(machine, &machine.begin).trim().to_owned());
     for slot in &machine.slots {
         for arm in &slot.arms {
             let what = label(machine, slot, arm);
@@ -164,13 +173,13 @@ fn transition(frame: &mut Frame, from: usize, to: usize, label: String) {
 fn label(machine: &Machine, slot: &Slot, arm: &Arm) -> String {
     let mut text = slot.name.clone();
     if let Some(guard) = &arm.guard {
-        let guard = guard.replace("(*token)", &slot.name);
-        let bare = guard.strip_prefix('(').and_then(|g| g.strip_suffix(')')).unwrap_or(&guard);
-        text += &format!(" [{bare}]");
+        text += &format!(" [{}]", guard.text(&slot.name));
     }
-    if !arm.sends.is_empty() {
-        let events: Vec<&str> = arm.sends.iter().map(|s| machine.events[s.event].0.as_str()).collect();
-        text += &format!(" / {}", events.join(", "));
-    }
-    text
+    text + &sends(machine, &arm.sends)
+}
+
+/// ` / events`, or nothing.
+fn sends(machine: &Machine, sent: &[Sending]) -> String {
+    let events: Vec<&str> = sent.iter().map(|s| machine.events[s.event].0.as_str()).collect();
+    if events.is_empty() { String::new() } else { format!(" / {}", events.join(", ")) }
 }

@@ -1,10 +1,10 @@
 //! A placed model as SVG that needs nothing else: no scripts, no fonts, no images.
 
 use crate::{
-    layout::{Align, Placed, Point, Text, place},
+    layout::{Align, Placed, Point, Stroke, Text, place, strokes},
     model::{Anchor, Frame, Item, Line, Shape},
 };
-use std::fmt::Write as _;
+use std::{collections::BTreeMap, fmt::Write as _};
 
 /// Room around the picture.
 const MARGIN: i64 = 10;
@@ -113,6 +113,13 @@ fn shape(out: &mut String, item: &Item, placed: &Placed) {
             middle - 1,
             middle - 4
         ),
+        Shape::Event => writeln!(
+            out,
+            "<circle class=\"ring\" cx=\"{0}\" cy=\"{middle}\" r=\"{1}\"/><circle class=\"ring\" cx=\"{0}\" cy=\"{middle}\" r=\"{2}\"/>",
+            width - middle,
+            middle - 1,
+            middle - 3
+        ),
         Shape::Reset => {
             writeln!(out, "<circle class=\"ring\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>", middle - 1)
         }
@@ -134,51 +141,50 @@ fn inside(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
     }
 }
 
-/// All lines; those that begin together first get their borders, then their cores, so that they join.
+/// All lines, thin ones first, each with a white core if it is double; over them dots where lines part and join, and
+/// arrow heads.
 fn lines(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
-    let mut order: Vec<usize> = (0..frame.lines.len()).collect();
-    let key = |line: &Line| (line.active, line.from, line.flow);
-    order.sort_by_key(|i| key(&frame.lines[*i]));
-    for together in order.chunk_by(|a, b| key(&frame.lines[*a]) == key(&frame.lines[*b])) {
-        for &index in together {
-            let (line, route) = (&frame.lines[index], &placed.routes[index]);
-            let wide = if line.active { " wide" } else { "" };
-            let _ = write!(out, "<path class=\"line {}{wide}\" d=\"{}\">", line.flow.word(), path(route, line.active));
+    let strokes = strokes(frame, placed);
+    for active in [false, true] {
+        for stroke in strokes.iter().filter(|s| frame.lines[s.line].active == active && s.points.len() > 1) {
+            let line = &frame.lines[stroke.line];
+            let (wide, path) = (if active { " wide" } else { "" }, path(&stroke.points, back(line, stroke)));
+            let _ = write!(out, "<path class=\"line {}{wide}\" d=\"{path}\">", line.flow.word());
             let _ = writeln!(out, "<title>{}</title></path>", escaped(&line_title(item, frame, line)));
+            if active {
+                let _ = writeln!(out, "<path class=\"core\" d=\"{path}\"/>");
+            }
         }
-        for &index in together.iter().filter(|i| frame.lines[**i].active) {
-            let _ = writeln!(out, "<path class=\"core\" d=\"{}\"/>", path(&placed.routes[index], true));
-        }
-        forks(out, together, placed);
-        together.iter().for_each(|index| head(out, &placed.routes[*index], frame.lines[*index].active));
+    }
+    forks(out, frame, &strokes);
+    for stroke in strokes.iter().filter(|stroke| !stroke.joins) {
+        head(out, &placed.routes[stroke.line], frame.lines[stroke.line].active);
     }
 }
 
-/// A dot where lines part.
-fn forks(out: &mut String, together: &[usize], placed: &Placed) {
-    let mut dots: Vec<Point> = vec![];
-    for (at, a) in together.iter().enumerate() {
-        for b in &together[at + 1..] {
-            dots.extend(parting(&placed.routes[*a], &placed.routes[*b]));
-        }
-    }
-    dots.sort_unstable();
-    dots.dedup();
-    for (x, y) in dots {
-        let _ = writeln!(out, "<circle class=\"dot\" cx=\"{x}\" cy=\"{y}\" r=\"2\"/>");
+/// How far before its last point a line ends: before its arrow head, if it has one.
+fn back(line: &Line, stroke: &Stroke) -> i64 {
+    match (stroke.joins, line.active) {
+        (true, _) => 0,
+        (_, true) => 7,
+        (_, false) => 5,
     }
 }
 
-/// The point up to which two lines are one.
-fn parting(a: &[Point], b: &[Point]) -> Option<Point> {
-    let same = a.iter().zip(b).take_while(|(a, b)| a == b).count();
-    let (last, next_a, next_b) = (*a.get(same.checked_sub(1)?)?, a.get(same), b.get(same));
-    let (next_a, next_b) = (*next_a?, *next_b?);
-    let step = |to: Point| ((to.0 - last.0).signum(), (to.1 - last.1).signum());
-    let length = |to: Point| (to.0 - last.0).abs() + (to.1 - last.1).abs();
-    match step(next_a) == step(next_b) {
-        true => Some(if length(next_a) < length(next_b) { next_a } else { next_b }),
-        false => (same > 1).then_some(last),
+/// Dots where lines part and where they join; larger ones on double lines.
+fn forks(out: &mut String, frame: &Frame, strokes: &[Stroke]) {
+    let mut dots: BTreeMap<Point, bool> = BTreeMap::new();
+    for stroke in strokes {
+        let line = &frame.lines[stroke.line];
+        let ends = [(stroke.parts, stroke.points.first()), (stroke.joins, stroke.points.last())];
+        for at in ends.into_iter().filter_map(|(is_fork, at)| at.filter(|_| is_fork)) {
+            let meets_double = frame.lines.iter().any(|o| o.active && (o.from == line.from || o.to == line.to));
+            *dots.entry(*at).or_default() |= meets_double;
+        }
+    }
+    for ((x, y), is_double) in dots {
+        let radius = if is_double { 3 } else { 2 };
+        let _ = writeln!(out, "<circle class=\"dot\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>");
     }
 }
 
@@ -197,11 +203,10 @@ fn line_title(item: &Item, frame: &Frame, line: &Line) -> String {
     format!("{} {arrow} {} ({})", name(line.from), name(line.to), line.flow.word())
 }
 
-/// A line with rounded corners that ends before its arrow head.
-fn path(route: &[Point], active: bool) -> String {
+/// A line with rounded corners that ends `back` before its last point.
+fn path(route: &[Point], back: i64) -> String {
     let mut points = route.to_vec();
     if let [.., before, last] = &mut points[..] {
-        let back = if active { 7 } else { 5 };
         last.0 -= (last.0 - before.0).signum() * back;
         last.1 -= (last.1 - before.1).signum() * back;
     }

@@ -1,7 +1,7 @@
 //! What a `test` does with a program: the steps of its script, resolved.
 
 use crate::{
-    graph::{NodeId, Subject, Value},
+    graph::{Condition, NodeId, Subject, Value},
     source::Span,
 };
 use std::time::Duration;
@@ -74,6 +74,6 @@ pub struct Seen {
 pub enum What {
     /// It is active.
     Active(Subject),
-    /// A token at a probe, for which this condition holds, as Rust.
-    Token(NodeId, Option<String>),
+    /// A token at a probe, for which this condition holds.
+    Token(NodeId, Option<Condition>),
 }

@@ -1,6 +1,5 @@
 //! Texts, positions in them, and the one way in which the compiler reaches the outside.
 
-use crate::catalog::Item;
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -48,6 +47,13 @@ pub struct Source {
     pub text: Arc<str>,
     /// Line and column (from 0) at which the text starts in its file: not zero for text inside a macro.
     pub origin: (usize, usize),
+    /// Where its lines begin.
+    lines: Vec<u32>,
+}
+
+/// The bytes at which the lines of `text` begin.
+fn lines(text: &str) -> Vec<u32> {
+    std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect()
 }
 
 /// All texts of a compilation.
@@ -64,7 +70,8 @@ impl Sources {
 
     /// Adds a text that starts at the given line and column (from 0) of its file.
     pub fn add_at(&mut self, path: impl Into<PathBuf>, text: impl Into<Arc<str>>, origin: (usize, usize)) -> FileId {
-        self.files.push(Source { path: path.into(), text: text.into(), origin });
+        let text: Arc<str> = text.into();
+        self.files.push(Source { path: path.into(), lines: lines(&text), text, origin });
         FileId(self.files.len() as u32 - 1)
     }
 
@@ -91,10 +98,10 @@ impl Sources {
     /// Line and column of a position, both from 1, the column in characters.
     pub fn line_column(&self, file: FileId, offset: u32) -> (usize, usize) {
         let source = self.get(file);
-        let before = &source.text[..offset as usize];
-        let line = before.matches('\n').count();
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        let column = before[line_start..].chars().count();
+        let line = source.lines.partition_point(|start| *start <= offset) - 1;
+        // A mark of byte order is no column: editors do not show it.
+        let before = &source.text[source.lines[line] as usize..offset as usize];
+        let column = before.trim_start_matches('\u{feff}').chars().count();
         let shift = if line == 0 { source.origin.1 } else { 0 };
         (source.origin.0 + line + 1, column + shift + 1)
     }
@@ -110,12 +117,4 @@ pub trait World {
 
     /// Whether there is such a file.
     fn exists(&mut self, path: &Path) -> bool;
-
-    /// The items of a Rust file; a world may remember them between runs.
-    ///
-    /// # Errors
-    /// As [`World::read`].
-    fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
-        self.read(path).map(|text| crate::catalog::read_items(&text).into())
-    }
 }

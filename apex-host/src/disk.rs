@@ -1,5 +1,5 @@
 use apex_dsl::{
-    catalog::{Item, read_items},
+    catalog::{Item, RustFiles, read_items},
     source::World,
     syntax::MAX_BYTES,
 };
@@ -8,13 +8,14 @@ use std::{
     collections::BTreeMap,
     fs,
     io::{self, Read},
+    mem,
     path::{Path, PathBuf},
     sync::Arc,
     time::UNIX_EPOCH,
 };
 
 /// Changes when the cached items do.
-const VERSION: u32 = 7;
+const VERSION: u32 = 10;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {
@@ -29,28 +30,50 @@ struct Entry {
     items: Arc<[Item]>,
 }
 
+/// What tells one state of a file from another: time and length; `None` if there is no such file.
+pub(crate) type Stamp = Option<(u128, u64)>;
+
 /// The file system, with a cache of what was found in Rust files (by path, time and length).
 pub struct Disk {
     file: Option<PathBuf>,
-    cache: Cache,
+    /// Read when it is first asked for.
+    cache: Option<Cache>,
     changed: bool,
+    /// The files on which what was answered so far depends.
+    asked: BTreeMap<PathBuf, Stamp>,
 }
 
 impl Disk {
     /// Uses the cache in `folder`; without one nothing is remembered. A cache that cannot be read is made anew.
     pub fn new(folder: Option<&Path>) -> Self {
-        let file = folder.map(|f| f.join("catalog.json"));
-        let cache =
-            file.as_ref().and_then(|f| fs::read(f).ok()).and_then(|bytes| serde_json::from_slice::<Cache>(&bytes).ok());
-        let cache =
-            cache.filter(|c| c.version == VERSION).unwrap_or(Cache { version: VERSION, files: BTreeMap::new() });
-        Self { file, cache, changed: false }
+        Self { file: folder.map(|f| f.join("catalog.json")), cache: None, changed: false, asked: BTreeMap::new() }
+    }
+
+    fn cache(&mut self) -> &mut Cache {
+        self.cache.get_or_insert_with(|| {
+            let bytes = self.file.as_ref().and_then(|f| fs::read(f).ok());
+            let cache = bytes.and_then(|bytes| serde_json::from_slice::<Cache>(&bytes).ok());
+            cache.filter(|c| c.version == VERSION).unwrap_or(Cache { version: VERSION, files: BTreeMap::new() })
+        })
+    }
+
+    /// The files that were asked for since this was called last, as they were then.
+    pub(crate) fn take_asked(&mut self) -> BTreeMap<PathBuf, Stamp> {
+        mem::take(&mut self.asked)
+    }
+
+    /// Whether it was asked for the items of a file.
+    #[cfg(test)]
+    pub(crate) fn has_read_items(&self) -> bool {
+        self.cache.is_some()
     }
 
     /// Writes the cache if it changed. It is only a cache: where it cannot be written, nothing is lost.
     pub fn save(&mut self) {
         let Some(file) = self.file.as_ref().filter(|_| self.changed) else { return };
-        let _ = write_whole(file, &self.cache);
+        if let Some(cache) = &self.cache {
+            let _ = write_whole(file, cache);
+        }
         self.changed = false;
     }
 }
@@ -64,7 +87,7 @@ pub(crate) fn write_whole(file: &Path, value: &impl Serialize) -> io::Result<()>
     fs::rename(&temporary, file)
 }
 
-pub(crate) fn stamp(path: &Path) -> Option<(u128, u64)> {
+pub(crate) fn stamp(path: &Path) -> Stamp {
     let metadata = fs::metadata(path).ok()?;
     let modified = metadata.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
     Some((modified.as_nanos(), metadata.len()))
@@ -106,12 +129,16 @@ impl World for Disk {
     }
 
     fn exists(&mut self, path: &Path) -> bool {
+        self.asked.insert(path.to_owned(), stamp(path));
         path.is_file()
     }
+}
 
+impl RustFiles for Disk {
     fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
         let stamp = stamp(path);
-        if let (Some(entry), Some(stamp)) = (self.cache.files.get(path), stamp)
+        self.asked.insert(path.to_owned(), stamp);
+        if let (Some(entry), Some(stamp)) = (self.cache().files.get(path), stamp)
             && (entry.modified, entry.length) == stamp
         {
             return Ok(entry.items.clone());
@@ -119,7 +146,7 @@ impl World for Disk {
         let text = self.read(path)?;
         let items: Arc<[Item]> = read_items(&text).into();
         if let Some((modified, length)) = stamp {
-            self.cache.files.insert(path.to_owned(), Entry { modified, length, items: items.clone() });
+            self.cache().files.insert(path.to_owned(), Entry { modified, length, items: items.clone() });
             self.changed = true;
         }
         Ok(items)

@@ -2,7 +2,9 @@
 //! `apex` command share this crate to give it files and the crates that cargo knows of.
 
 mod disk;
+mod kept;
 mod workspace;
 
 pub use disk::{Disk, read_from, read_text};
-pub use workspace::{Seen, Workspace, cargo, no_cargo};
+pub use kept::Kept;
+pub use workspace::{Seen, Workspace, cargo, name_of, no_cargo};

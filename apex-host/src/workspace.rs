@@ -1,10 +1,13 @@
-use crate::disk::{stamp, write_whole};
-use apex_dsl::catalog::{CrateSpec, Crates};
+use crate::disk::{Stamp, stamp, write_whole};
+use apex_dsl::catalog::{Conditions, CrateSpec, Crates, Site};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
-    env, fs,
+    env,
+    ffi::OsStr,
+    fs,
+    hash::{DefaultHasher, Hash as _, Hasher as _},
     io::{self, ErrorKind},
     path::{Path, PathBuf},
     process::Command,
@@ -29,6 +32,10 @@ pub struct Workspace {
     runtime: Option<PathBuf>,
     packages: Vec<Package>,
     here: usize,
+    /// What rustc says of the conditions of a compilation for this machine.
+    conditions: Conditions,
+    /// The files and folders that decide about all this.
+    stamps: Vec<(PathBuf, Stamp)>,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -50,7 +57,7 @@ struct Target {
 
 #[derive(Serialize, Deserialize)]
 struct Cached {
-    stamps: Vec<(PathBuf, Option<(u128, u64)>)>,
+    manifest: PathBuf,
     workspace: Workspace,
 }
 
@@ -62,29 +69,34 @@ impl Workspace {
     pub fn load(folder: &Path) -> Result<Self, String> {
         let manifest = folder.join("Cargo.toml");
         let lock = folder.ancestors().map(|a| a.join("Cargo.lock")).find(|p| p.is_file());
-        let cache =
-            lock.as_ref().and_then(|l| l.parent()).map(|root| root.join("target/apex").join(cache_name(&manifest)));
+        let cache = lock.as_ref().and_then(|l| l.parent()).map(|root| cache_file(root, &manifest));
         let cached = cache
             .as_ref()
             .and_then(|c| fs::read(c).ok())
             .and_then(|bytes| serde_json::from_slice::<Cached>(&bytes).ok());
-        if let Some(cached) = cached
-            && cached.stamps.iter().all(|(path, old)| stamp(path) == *old)
-            && cached.stamps.iter().any(|(path, _)| Some(path) == lock.as_ref())
+        if let Some(Cached { manifest: of, workspace }) = cached
+            && of == manifest
+            && workspace.is_current()
+            && workspace.stamps.iter().any(|(path, _)| Some(path) == lock.as_ref())
         {
-            return Ok(cached.workspace);
+            return Ok(workspace);
         }
-        let workspace = Self::from_metadata(&metadata(&manifest)?, &manifest)?;
+        let mut workspace = Self::from_metadata(&metadata(&manifest)?, &manifest)?;
+        let manifests = workspace.packages.iter().map(|p| p.manifest.clone());
+        // A new file in one of these folders may be a new target.
+        let folders = ["src", "src/bin", "examples", "tests", "benches"].map(|name| folder.join(name));
+        let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]).chain(folders);
+        workspace.stamps = watched.map(|path| (path.clone(), stamp(&path))).collect();
         if let Some(cache) = cache {
-            let manifests = workspace.packages.iter().map(|p| p.manifest.clone());
-            // A new file in one of these folders may be a new target.
-            let folders = ["src", "src/bin", "examples", "tests", "benches"].map(|name| folder.join(name));
-            let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]).chain(folders);
-            let stamps = watched.map(|path| (path.clone(), stamp(&path))).collect();
             // Only a cache: where it cannot be written, cargo is asked again.
-            let _ = write_whole(&cache, &Cached { stamps, workspace: workspace.clone() });
+            let _ = write_whole(&cache, &Cached { manifest, workspace: workspace.clone() });
         }
         Ok(workspace)
+    }
+
+    /// Whether nothing changed since cargo was asked.
+    pub(crate) fn is_current(&self) -> bool {
+        self.stamps.iter().all(|(path, old)| stamp(path) == *old)
     }
 
     /// The folder for caches.
@@ -144,6 +156,8 @@ impl Workspace {
             packages,
             runtime: runtime_package.map(|p| text(&p["manifest_path"]).into()),
             here: index[&own],
+            conditions: conditions(),
+            stamps: vec![],
         })
     }
 
@@ -209,11 +223,14 @@ impl Workspace {
                 let position = targets.zip(&own).find(|(t, _)| matches(t)).map(|(_, k)| *k);
                 let here = position.or(lib).unwrap_or(0);
                 let own = [Some(here), lib].into_iter().flatten().collect::<Vec<_>>();
-                Crates { root, all, here, own: if own.len() == 2 && own[0] == own[1] { vec![here] } else { own } }
+                let own = if own.len() == 2 && own[0] == own[1] { vec![here] } else { own };
+                let conditions = told(&self.conditions);
+                Crates { root, all, here, own, site: Site::Crate, conditions }
             }
             Seen::Package => {
                 let own: Vec<usize> = lib.into_iter().chain(own).collect();
-                Crates { root, all, here: own.first().copied().unwrap_or(0), own }
+                let (here, conditions) = (own.first().copied().unwrap_or(0), self.conditions.clone());
+                Crates { root, all, here, own, site: Site::Text, conditions }
             }
         }
     }
@@ -222,6 +239,11 @@ impl Workspace {
     pub fn binary(&self) -> (&str, Option<&str>) {
         let package = &self.packages[self.here];
         (&package.name, package.targets.iter().find(|t| t.kind == "bin").map(|t| t.name.as_str()))
+    }
+
+    /// What cargo can build of the package: kind, name and root file.
+    pub fn targets(&self) -> impl Iterator<Item = (&str, &str, &Path)> {
+        self.packages[self.here].targets.iter().map(|t| (t.kind.as_str(), t.name.as_str(), t.root.as_path()))
     }
 
     /// The crates that a program outside of the package would need for a graph in it: name and folder.
@@ -263,10 +285,34 @@ fn spec(package: &Package, target: &Target) -> CrateSpec {
     }
 }
 
+/// Where the answer about one package is kept. Cargo itself may be told another folder by its configuration, too, but asking it is
+/// what the cache avoids.
+fn cache_file(root: &Path, manifest: &Path) -> PathBuf {
+    let target = env::var_os("CARGO_TARGET_DIR").map(PathBuf::from).filter(|folder| folder.is_absolute());
+    target.unwrap_or_else(|| root.join("target")).join("apex").join(cache_name(manifest))
+}
+
 fn cache_name(manifest: &Path) -> String {
-    let name: String =
-        manifest.display().to_string().chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
-    format!("crates{name}.json")
+    let package = manifest.parent().and_then(Path::file_name).unwrap_or_default();
+    format!("{}.json", name_of(&format!("crates {}", package.to_string_lossy()), &[manifest.as_os_str()]))
+}
+
+/// A name for a file or a package that stands for `what` alone: what a person can read of `shown`, and a number of
+/// all of `what`. It has small letters, digits and `-`, and is short enough for any file system.
+pub fn name_of(shown: &str, what: &[&OsStr]) -> String {
+    const MOST: usize = 48;
+    let mut name = String::new();
+    for c in shown.chars().filter_map(|c| if c.is_alphanumeric() { c.is_ascii().then_some(c) } else { Some('-') }) {
+        if name.len() < MOST && (c != '-' || !name.ends_with('-')) {
+            name.push(c.to_ascii_lowercase());
+        }
+    }
+    let number = |salt: u64| {
+        let mut hasher = DefaultHasher::new();
+        (salt, what).hash(&mut hasher);
+        hasher.finish()
+    };
+    format!("{}-{:016x}{:016x}", name.trim_end_matches('-'), number(0), number(1))
 }
 
 /// `cargo metadata`, without network if that is possible: a build of one package downloads only what that package
@@ -307,9 +353,73 @@ pub fn no_cargo(reason: &io::Error) -> String {
     }
 }
 
-fn host_triple() -> Option<String> {
+/// The conditions of a compilation inside of rustc, whose arguments tell more: those of this machine are `host`. For another
+/// machine none are known.
+fn told(host: &Conditions) -> Conditions {
+    let args: Vec<String> = env::args().collect();
+    if args.iter().any(|arg| arg == "--target") {
+        return Conditions::default();
+    }
+    let mut set = host.0.clone();
+    let values = |name: &'static str| args.windows(2).filter(move |pair| pair[0] == name).map(|pair| pair[1].clone());
+    set.extend(values("--cfg"));
+    if args.iter().any(|arg| arg == "--test") {
+        set.insert("test".to_owned());
+    }
+    let flags: Vec<String> = values("-C").collect();
+    let flag = |name: &str| flags.iter().rev().find_map(|f| f.strip_prefix(name)?.strip_prefix('='));
+    let checks = match flag("debug-assertions") {
+        Some(value) => matches!(value, "on" | "yes" | "y" | "true"),
+        None => flag("opt-level").is_none_or(|level| level == "0"),
+    };
+    if !checks {
+        set.remove("debug_assertions");
+    }
+    Conditions(set)
+}
+
+/// The conditions of a compilation for this machine; none if rustc cannot be asked.
+fn conditions() -> Conditions {
+    Conditions(rustc(&["--print", "cfg"]).unwrap_or_default().lines().map(str::to_owned).collect())
+}
+
+fn rustc(args: &[&str]) -> Option<String> {
     let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = Command::new(rustc).arg("-vV").output().ok()?;
-    let text = String::from_utf8(output.stdout).ok()?;
-    text.lines().find_map(|line| line.strip_prefix("host: ")).map(str::to_owned)
+    String::from_utf8(Command::new(rustc).args(args).output().ok()?.stdout).ok()
+}
+
+fn host_triple() -> Option<String> {
+    rustc(&["-vV"])?.lines().find_map(|line| line.strip_prefix("host: ")).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Paths that differ in one sign, in what a file system may take for one, or in length only.
+    #[test]
+    fn what_differs_has_another_name() {
+        let long = "x".repeat(4000);
+        let paths = [
+            "/foo-bar",
+            "/foo_bar",
+            "/foo/bar",
+            "/foo bar",
+            "/foo'bar",
+            "/Foo-bar",
+            "/fo\u{f6}",
+            "/foo\u{308}",
+            "/",
+            "",
+            &long,
+            &long[1..],
+        ];
+        let mut names: Vec<String> = paths.iter().map(|path| cache_name(&Path::new(path).join("Cargo.toml"))).collect();
+        names.extend([["a", "bc"], ["ab", "c"], ["a", "b c"]].map(|parts| name_of("a", &parts.map(OsStr::new))));
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || ['-', '.'].contains(&c);
+        assert!(names.iter().all(|name| name.len() < 100 && name.chars().all(plain)), "{names:?}");
+        assert!(names[0].starts_with("crates-foo-bar-"), "{}", names[0]);
+        let different: BTreeSet<&String> = names.iter().collect();
+        assert_eq!(different.len(), names.len(), "{names:?}");
+    }
 }

@@ -1,43 +1,59 @@
-//! What is known about one text.
+//! Results of the checks of one text.
 
 use crate::{
+    features::actions::Certain,
+    places::Places,
     position::{Encoding, Lines},
     project::Project,
 };
 use apex_dsl::{
     catalog::Catalog,
-    claims,
+    claims, fix,
     ide::{self, Occurrence, View},
     passes::{self, Checked},
-    report::{Diagnostic, Diagnostics},
+    report::Diagnostics,
     resolve::{Link, Texts},
-    source::{FileId, Sources, Span, World},
+    source::{Sources, World},
     syntax,
 };
-use lsp_types::{Location, Range};
-use std::{
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use lsp_types::Position;
+use std::{path::Path, sync::Arc};
 
 /// States that are looked at to decide claims while somebody types.
 const QUICK_STATES: usize = 1000;
 
 /// What is known about one text.
 pub struct Analysis {
-    /// What it said.
+    /// The text.
     pub text: Arc<str>,
-    /// Where its lines begin.
-    pub lines: Lines,
-    /// What is wrong.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The names in it and in what it imports.
+    /// Its messages.
+    pub report: Report,
+    /// Its names and connections; if it is half-written, those of the text that was checked in its place.
+    pub names: Names,
+    lines: Lines,
+    encoding: Encoding,
+}
+
+/// The messages of a check, with the places that they name.
+pub struct Report {
+    /// The messages.
+    pub diagnostics: Diagnostics,
+    /// The places.
+    pub places: Places,
+    /// States that were looked at to decide claims.
+    states: usize,
+    /// Changes that were tried, and whether they mend something.
+    tried: Vec<(Certain, bool)>,
+}
+
+/// The names and connections of a check, with the places that they name.
+pub struct Names {
+    /// The names in the text and in those that it imports.
     pub occurrences: Vec<Occurrence>,
-    /// The texts; the first is this one, mended if it was half-written.
-    pub sources: Sources,
+    /// The places.
+    pub places: Places,
     texts: Texts,
     links: Vec<Link>,
-    encoding: Encoding,
 }
 
 impl Analysis {
@@ -51,55 +67,71 @@ impl Analysis {
     ) -> Self {
         let (catalog, world) = project;
         let states = if thorough { claims::MAX_STATES } else { QUICK_STATES };
+        let places = |sources| Places::new(sources, text, encoding);
         let mut diagnostics = Diagnostics::default();
-        let (mut sources, mut checked) = check(path, text, catalog, world, states, &mut diagnostics);
-        if let Some(mended) = syntax::mended(text) {
-            let mut said_already = Diagnostics::default();
-            (sources, checked) = check(path, &mended.into(), catalog, world, states, &mut said_already);
-        }
+        let (sources, checked) = check(path, text, catalog, world, states, &mut diagnostics);
         if !thorough {
             diagnostics.retain(|d| d.code != "claim-undecided");
         }
-        let Checked { texts, links, .. } = checked;
-        let occurrences = ide::occurrences(&View { texts: &texts, links: &links, sources: &sources, catalog });
-        let diagnostics = diagnostics.sorted().into_iter().cloned().collect();
-        let lines = Lines::new(text, encoding);
-        Self { text: text.clone(), lines, diagnostics, occurrences, sources, texts, links, encoding }
+        let names = match syntax::mended(text) {
+            Some(mended) => {
+                let mut said_already = Diagnostics::default();
+                let (sources, checked) = check(path, &mended.into(), catalog, world, states, &mut said_already);
+                Names::new(checked, places(sources), catalog)
+            }
+            None => Names::new(checked, places(sources.clone()), catalog),
+        };
+        let report = Report { diagnostics, places: places(sources), states, tried: vec![] };
+        Self { text: text.clone(), report, names, lines: Lines::new(text, encoding), encoding }
     }
 
-    /// The text as the questions of `apex_dsl::ide` want it.
-    pub fn view<'a>(&'a self, project: &'a Project) -> View<'a> {
-        View { texts: &self.texts, links: &self.links, sources: &self.sources, catalog: &project.catalog }
+    /// Whether a change of the text mends something: checks the changed text, once for each change.
+    pub fn mends(&mut self, path: &Path, certain: &Certain, project: (&mut Catalog, &mut dyn World)) -> bool {
+        if let Some((_, mends)) = self.report.tried.iter().find(|(tried, _)| tried == certain) {
+            return *mends;
+        }
+        let (catalog, world) = project;
+        let changed = fix::applied(&self.text, &certain.fix).into();
+        let mut after = Diagnostics::default();
+        check(path, &changed, catalog, world, self.report.states, &mut after);
+        let mends = fix::mends(&self.report.diagnostics, &after, &certain.message);
+        self.report.tried.push((certain.clone(), mends));
+        mends
     }
 
     /// Whether the text at `path` is part of it.
     pub fn reads(&self, path: &Path) -> bool {
-        self.sources.find(path).is_some()
+        self.report.places.reads(path) || self.names.places.reads(path)
     }
 
-    /// The file that a span lies in.
-    pub fn path(&self, span: Span) -> &PathBuf {
-        &self.sources.get(span.file).path
+    /// The byte at a position.
+    pub fn offset(&self, position: Position) -> usize {
+        self.lines.offset(&self.text, self.encoding, position)
     }
 
-    /// Whether a span lies in the text itself.
-    pub fn is_own(&self, span: Span) -> bool {
-        span.file == FileId(0)
+    /// The lines of another text, in the encoding of the client.
+    pub fn lines_of(&self, text: &str) -> Lines {
+        Lines::new(text, self.encoding)
     }
 
-    /// The lines and columns of a span.
-    pub fn range(&self, span: Span) -> Range {
-        let (start, end) = (span.start as usize, span.end as usize);
-        if self.is_own(span) {
-            return self.lines.range(&self.text, start, end);
-        }
-        let text = &self.sources.get(span.file).text;
-        Lines::new(text, self.encoding).range(text, start, end)
+    /// The lines of the text.
+    pub fn lines(&self) -> &Lines {
+        &self.lines
+    }
+}
+
+impl Names {
+    fn new(checked: Checked, places: Places, catalog: &Catalog) -> Self {
+        let Checked { texts, links, .. } = checked;
+        let sources = places.sources();
+        let occurrences = ide::occurrences(&View { texts: &texts, links: &links, sources, catalog });
+        Self { occurrences, places, texts, links }
     }
 
-    /// A span as the protocol wants it.
-    pub fn location(&self, span: Span) -> Option<Location> {
-        Some(Location::new(crate::uri::from_path(self.path(span))?, self.range(span)))
+    /// The text as the questions of `apex_dsl::ide` want it.
+    pub fn view<'a>(&'a self, project: &'a Project) -> View<'a> {
+        let sources = self.places.sources();
+        View { texts: &self.texts, links: &self.links, sources, catalog: &project.catalog }
     }
 }
 

@@ -23,7 +23,8 @@ impl Document {
                 None => text.clone_from(&change.text),
                 Some(range) => {
                     let lines = Lines::new(&text, encoding);
-                    let (start, end) = (lines.offset(&text, range.start), lines.offset(&text, range.end));
+                    let (start, end) =
+                        (lines.offset(&text, encoding, range.start), lines.offset(&text, encoding, range.end));
                     text.replace_range(start..end.max(start), &change.text);
                 }
             }

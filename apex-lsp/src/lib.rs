@@ -6,9 +6,15 @@ mod analysis;
 mod capabilities;
 mod documents;
 mod features;
+mod frames;
+mod places;
 mod position;
 mod project;
+mod queue;
+mod serve;
 mod server;
+mod stdio;
 mod uri;
 
-pub use server::{serve, stdio};
+pub use serve::{PATIENCE, serve};
+pub use stdio::stdio;

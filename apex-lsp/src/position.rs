@@ -34,11 +34,24 @@ impl Encoding {
     }
 }
 
-/// Where the lines of a text begin.
+/// Line starts and wide characters of a text: positions are found without reading the text again, however long a line.
 #[derive(Debug, Clone)]
 pub struct Lines {
+    /// Where the lines begin.
     starts: Vec<usize>,
-    encoding: Encoding,
+    /// The characters of several bytes.
+    wide: Vec<Wide>,
+    /// Length of the text.
+    length: usize,
+}
+
+/// A character of several bytes.
+#[derive(Debug, Clone, Copy)]
+struct Wide {
+    start: usize,
+    end: usize,
+    /// By how much the bytes up to its end outnumber the columns.
+    surplus: usize,
 }
 
 impl Lines {
@@ -47,25 +60,36 @@ impl Lines {
         let bytes = text.as_bytes();
         let ends = |i: usize| bytes[i] == b'\n' || bytes[i] == b'\r' && bytes.get(i + 1) != Some(&b'\n');
         let starts = std::iter::once(0).chain((0..bytes.len()).filter(|i| ends(*i)).map(|i| i + 1)).collect();
-        Self { starts, encoding }
+        let mut surplus = 0;
+        let wide = text.char_indices().filter(|(_, c)| !c.is_ascii()).map(|(start, c)| {
+            surplus += c.len_utf8() - encoding.width(c);
+            Wide { start, end: start + c.len_utf8(), surplus }
+        });
+        Self { starts, wide: wide.collect(), length: text.len() }
     }
 
-    /// The position of a byte of `text`; behind the end for one that lies further.
-    pub fn position(&self, text: &str, offset: usize) -> Position {
-        let offset = offset.min(text.len());
+    /// The position of a byte; the end of the text for one that lies further.
+    pub fn position(&self, offset: usize) -> Position {
+        let offset = offset.min(self.length);
         let line = self.starts.partition_point(|start| *start <= offset) - 1;
-        let before = text[self.starts[line]..].char_indices().take_while(|(i, _)| self.starts[line] + i < offset);
-        let column: usize = before.map(|(_, c)| self.encoding.width(c)).sum();
+        let column = self.columns(offset) - self.columns(self.starts[line]);
         Position::new(line as u32, column as u32)
     }
 
-    /// The range of `start..end`.
-    pub fn range(&self, text: &str, start: usize, end: usize) -> Range {
-        Range::new(self.position(text, start), self.position(text, end))
+    /// How many columns there would be before a byte if the text were one line; a character counts as a whole.
+    fn columns(&self, offset: usize) -> usize {
+        let passed = self.wide.partition_point(|c| c.start < offset);
+        passed.checked_sub(1).map_or(offset, |last| offset.max(self.wide[last].end) - self.wide[last].surplus)
     }
 
-    /// The byte at a position: the end of the line for one behind it, the end of the text for a line that there is not.
-    pub fn offset(&self, text: &str, position: Position) -> usize {
+    /// The range of `start..end`.
+    pub fn range(&self, start: usize, end: usize) -> Range {
+        Range::new(self.position(start), self.position(end))
+    }
+
+    /// The byte at a position of `text`, which these are the lines of: the end of the line for one behind it, the end
+    /// of the text for a line that there is not.
+    pub fn offset(&self, text: &str, encoding: Encoding, position: Position) -> usize {
         let Some(&start) = self.starts.get(position.line as usize) else { return text.len() };
         let end = self.starts.get(position.line as usize + 1).copied().unwrap_or(text.len());
         let line = text[start..end].trim_end_matches(['\r', '\n']);
@@ -74,7 +98,7 @@ impl Lines {
             if column >= position.character as usize {
                 return start + i;
             }
-            column += self.encoding.width(c);
+            column += encoding.width(c);
         }
         start + line.len()
     }
@@ -92,12 +116,16 @@ mod tests {
             for (offset, line, column) in
                 [(3, 0, columns[0]), (9, 1, columns[1]), (10, 1, columns[2]), (11, 2, 0), (13, 3, 0)]
             {
-                assert_eq!(lines.position(text, offset), Position::new(line, column), "{encoding:?} {offset}");
-                assert_eq!(lines.offset(text, Position::new(line, column)), offset, "{encoding:?} {line}:{column}");
+                assert_eq!(lines.position(offset), Position::new(line, column), "{encoding:?} {offset}");
+                assert_eq!(
+                    lines.offset(text, encoding, Position::new(line, column)),
+                    offset,
+                    "{encoding:?} {line}:{column}"
+                );
             }
-            assert_eq!(lines.offset(text, Position::new(0, 99)), 3);
-            assert_eq!(lines.offset(text, Position::new(99, 0)), text.len());
-            assert_eq!(lines.position(text, 99), Position::new(3, 0));
+            assert_eq!(lines.offset(text, encoding, Position::new(0, 99)), 3);
+            assert_eq!(lines.offset(text, encoding, Position::new(99, 0)), text.len());
+            assert_eq!(lines.position(99), Position::new(3, 0));
         }
     }
 
@@ -105,7 +133,9 @@ mod tests {
     #[test]
     fn no_position_splits_a_character() {
         let text = "😀b";
-        assert_eq!(Lines::new(text, Encoding::Utf16).offset(text, Position::new(0, 1)), 4);
-        assert_eq!(Lines::new(text, Encoding::Utf8).offset(text, Position::new(0, 2)), 4);
+        for (encoding, column) in [(Encoding::Utf16, 1), (Encoding::Utf8, 2)] {
+            let lines = Lines::new(text, encoding);
+            assert_eq!(lines.offset(text, encoding, Position::new(0, column)), 4);
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::documents::Document;
 use apex_dsl::{
-    catalog::{Catalog, Crates, Item},
+    catalog::{Catalog, Crates},
     source::World,
 };
 use apex_host::{Disk, Seen, Workspace};
@@ -63,9 +63,5 @@ impl World for Overlay<'_> {
 
     fn exists(&mut self, path: &Path) -> bool {
         self.open.contains_key(path) || self.disk.exists(path)
-    }
-
-    fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
-        self.disk.items(path)
     }
 }

@@ -1,25 +1,29 @@
-//! The server: takes messages, keeps the open texts, answers.
+//! The worker: keeps the open texts and what is known of them, answers.
 
 use crate::{
     analysis::Analysis,
-    capabilities::{Client, capabilities},
+    capabilities::Client,
     documents::Document,
     features::{
-        Ready, actions, completion, definition, diagnostics, formatting, hints, hover,
+        Ready,
+        actions::{self, Certain},
+        completion, definition, diagnostics, formatting, hints, hover,
         references::{self, Target},
         rename, symbols,
     },
     project::{Overlay, Project, package_of},
+    queue::{Queue, Task},
     uri,
 };
 use apex_dsl::source::World as _;
-use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response};
+use crossbeam_channel::Sender;
+use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response};
 use lsp_types::{
-    CompletionParams, CompletionResponse, DidChangeTextDocumentParams, DidChangeWatchedFilesParams,
-    DidChangeWatchedFilesRegistrationOptions, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    DidSaveTextDocumentParams, DocumentSymbolResponse, FileSystemWatcher, GlobPattern, GotoDefinitionResponse,
-    InitializeParams, InitializeResult, PublishDiagnosticsParams, ReferenceParams, Registration, RegistrationParams,
-    RenameParams, ServerInfo, TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
+    CodeActionOrCommand, CodeActionParams, CompletionParams, CompletionResponse, DidChangeTextDocumentParams,
+    DidChangeWatchedFilesParams, DidChangeWatchedFilesRegistrationOptions, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, DidSaveTextDocumentParams, DocumentSymbolResponse, FileSystemWatcher, GlobPattern,
+    GotoDefinitionResponse, PublishDiagnosticsParams, ReferenceParams, Registration, RegistrationParams, RenameParams,
+    TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
     notification::{self, Notification as _},
     request::{self, Request as _},
 };
@@ -27,66 +31,21 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
+    sync::Arc,
     time::Duration,
 };
 
 /// How long nothing has to be written before what is wrong is said.
 const QUIET: Duration = Duration::from_millis(5);
+/// Most changes that are tried for one request: each one is a check of the text.
+const MAX_TRIALS: usize = 32;
+/// Said where the server itself is wrong.
+const FAILED: &str = "the server failed; please report this";
 
-/// Serves an editor on standard input and output until it leaves; whether it did so in good order.
-///
-/// # Errors
-/// Says what the editor sent that is no message.
-pub fn stdio() -> Result<bool, String> {
-    let (connection, threads) = Connection::stdio();
-    let orderly = serve(&connection);
-    drop(connection);
-    threads.join().map_err(|e| format!("the messages of the editor cannot be read: {e}"))?;
-    Ok(orderly)
-}
-
-/// Serves an editor until it leaves. `false` if it says `exit` without `shutdown` before.
-pub fn serve(connection: &Connection) -> bool {
-    let Some(client) = initialize(connection) else { return true };
-    let mut server = Server {
-        connection,
-        client,
-        open: BTreeMap::new(),
-        projects: BTreeMap::new(),
-        analyses: BTreeMap::new(),
-        unsaid: BTreeMap::new(),
-        is_shut_down: false,
-    };
-    server.watch_files();
-    server.run()
-}
-
-/// Greets the client; `None` if it leaves.
-fn initialize(connection: &Connection) -> Option<Client> {
-    while let Ok(message) = connection.receiver.recv() {
-        let answer = match message {
-            Message::Request(Request { id, method, params }) if method == request::Initialize::METHOD => {
-                let params: InitializeParams = serde_json::from_value(params).unwrap_or_default();
-                let client = Client::new(&params.capabilities);
-                let info = ServerInfo { name: "apex".to_owned(), version: Some(env!("CARGO_PKG_VERSION").to_owned()) };
-                let result = InitializeResult { capabilities: capabilities(client.encoding), server_info: Some(info) };
-                connection.sender.send(Response::new_ok(id, result).into()).ok()?;
-                return Some(client);
-            }
-            Message::Request(request) => {
-                let message = "the first request is `initialize`".to_owned();
-                Response::new_err(request.id, ErrorCode::ServerNotInitialized as i32, message)
-            }
-            Message::Notification(n) if n.method == notification::Exit::METHOD => return None,
-            _ => continue,
-        };
-        connection.sender.send(answer.into()).ok()?;
-    }
-    None
-}
-
-struct Server<'c> {
-    connection: &'c Connection,
+/// The worker: knows the open texts and what was found in them.
+pub struct Server {
+    sender: Sender<Message>,
+    queue: Arc<Queue>,
     client: Client,
     open: BTreeMap<PathBuf, Document>,
     /// The packages by folder, and what texts outside of all of them see.
@@ -94,71 +53,63 @@ struct Server<'c> {
     analyses: BTreeMap<PathBuf, Analysis>,
     /// The texts of which the client does not know what is wrong, and whether to look thoroughly.
     unsaid: BTreeMap<PathBuf, bool>,
-    is_shut_down: bool,
 }
 
 type Answer<T> = Result<T, String>;
 
-impl Server<'_> {
-    fn run(&mut self) -> bool {
+impl Server {
+    /// A server for a client, to which it sends; its messages are in `queue`.
+    pub fn new(sender: Sender<Message>, queue: Arc<Queue>, client: Client) -> Self {
+        let (open, projects, analyses, unsaid) = Default::default();
+        Self { sender, queue, client, open, projects, analyses, unsaid }
+    }
+
+    /// Works until the client leaves.
+    pub fn run(&mut self) {
+        self.watch_files();
         loop {
             // What is wrong is said when nothing else is to be done.
-            let message = if self.unsaid.is_empty() {
-                self.connection.receiver.recv().map_err(|_| true)
-            } else {
-                self.connection.receiver.recv_timeout(QUIET).map_err(|e| e.is_disconnected())
-            };
-            match message {
-                Ok(Message::Notification(n)) if n.method == notification::Exit::METHOD => return self.is_shut_down,
-                Ok(message) => self.guarded(|server| server.take(message)),
-                Err(true) => return true,
-                Err(false) => self.guarded(Self::say_what_is_wrong),
+            let quiet = (!self.unsaid.is_empty()).then_some(QUIET);
+            match self.queue.take(quiet) {
+                Some(Task::Message(Message::Request(request))) => self.answer(request),
+                Some(Task::Message(Message::Notification(notification))) => {
+                    let _ = self.guarded(|server| server.notification(notification));
+                }
+                Some(Task::Message(Message::Response(_))) => {}
+                Some(Task::Quiet) => self.say_what_is_wrong(),
+                None => return,
             }
         }
     }
 
-    /// An error in the server must not take the editor's session with it: what is known is made anew.
-    fn guarded(&mut self, step: impl FnOnce(&mut Self)) {
-        if catch_unwind(AssertUnwindSafe(|| step(self))).is_err() {
+    /// An error in the server must not take the editor's session with it: what was known is found again.
+    fn guarded<T>(&mut self, step: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        let done = catch_unwind(AssertUnwindSafe(|| step(self))).ok();
+        if done.is_none() {
             self.projects.clear();
             self.analyses.clear();
-            self.unsaid.clear();
         }
+        done
     }
 
-    fn take(&mut self, message: Message) {
-        match message {
-            Message::Request(request) => {
-                let id = request.id.clone();
-                let answer = catch_unwind(AssertUnwindSafe(|| self.request(request)));
-                let answer = answer.unwrap_or_else(|_| {
-                    self.projects.clear();
-                    self.analyses.clear();
-                    Response::new_err(
-                        id,
-                        ErrorCode::InternalError as i32,
-                        "the server failed; please report this".to_owned(),
-                    )
-                });
-                self.send(answer.into());
-            }
-            Message::Notification(notification) => self.notification(notification),
-            Message::Response(_) => {}
+    fn answer(&mut self, request: Request) {
+        let id = request.id.clone();
+        let answer = self
+            .guarded(|server| server.request(request))
+            .unwrap_or_else(|| Response::new_err(id.clone(), ErrorCode::InternalError as i32, FAILED.to_owned()));
+        if self.queue.wants(&id) {
+            self.send(answer.into());
         }
     }
 
     /// A client that has gone away is noticed where messages are received.
     fn send(&self, message: Message) {
-        let _ = self.connection.sender.send(message);
+        let _ = self.sender.send(message);
     }
 
     fn request(&mut self, request: Request) -> Response {
         let Request { id, method, params } = request;
         match method.as_str() {
-            request::Shutdown::METHOD => {
-                self.is_shut_down = true;
-                Response::new_ok(id, ())
-            }
             request::Completion::METHOD => answer(id, params, |p| self.completion(&p)),
             request::HoverRequest::METHOD => answer(id, params, |p: lsp_types::HoverParams| {
                 let at = p.text_document_position_params;
@@ -188,9 +139,7 @@ impl Server<'_> {
             request::Formatting::METHOD => answer(id, params, |p: lsp_types::DocumentFormattingParams| {
                 Ok(self.ready(&p.text_document.uri).map(|r| formatting::formatting(&r)))
             }),
-            request::CodeActionRequest::METHOD => answer(id, params, |p: lsp_types::CodeActionParams| {
-                Ok(self.ready(&p.text_document.uri).map(|r| actions::actions(&r, p.range)))
-            }),
+            request::CodeActionRequest::METHOD => answer(id, params, |p| Ok(self.actions(&p))),
             _ => Response::new_err(id, ErrorCode::MethodNotFound as i32, format!("`{method}` is not supported")),
         }
     }
@@ -294,17 +243,21 @@ impl Server<'_> {
         self.send(Request::new(id, R::METHOD.to_owned(), params).into());
     }
 
+    /// Checks the texts that have changed, one after the other, as long as no message waits.
     fn say_what_is_wrong(&mut self) {
-        for (path, thorough) in std::mem::take(&mut self.unsaid) {
+        while self.queue.is_empty()
+            && let Some((path, thorough)) = self.unsaid.pop_first()
+        {
             let Some(document) = self.open.get(&path) else { continue };
             let (uri, version) = (document.uri.clone(), document.version);
             if thorough {
                 self.analyses.remove(&path);
             }
-            let found = self.analysed(&path, thorough).map(|ready| diagnostics::diagnostics(&ready));
+            let found = self.guarded(|server| server.analysed(&path, thorough).map(|r| diagnostics::diagnostics(&r)));
+            let found = found.unwrap_or_else(|| Some(vec![diagnostics::failure(FAILED)]));
             self.publish(uri, Some(version), found.unwrap_or_default());
         }
-        if self.client.refreshes_hints {
+        if self.unsaid.is_empty() && self.client.refreshes_hints {
             self.ask::<request::InlayHintRefreshRequest>(());
         }
     }
@@ -340,6 +293,27 @@ impl Server<'_> {
     }
 
     // Questions about more than one text
+
+    /// The changes that are offered. One that is said to be certain is tried, and preferred only if it mends something.
+    fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<CodeActionOrCommand>> {
+        let mut offered = actions::actions(&self.ready(&params.text_document.uri)?, params.range);
+        let path = uri::to_path(&params.text_document.uri);
+        let certain = offered.iter_mut().filter_map(|o| Some((&mut o.action, o.certain.as_ref()?)));
+        for (action, fix) in certain.take(MAX_TRIALS) {
+            action.is_preferred = Some(self.mends(&path, fix));
+        }
+        Some(offered.into_iter().map(|o| CodeActionOrCommand::CodeAction(o.action)).collect())
+    }
+
+    /// Whether a change of an open text leaves less errors.
+    fn mends(&mut self, path: &Path, fix: &Certain) -> bool {
+        let folder = package_of(path);
+        let (Some(project), Some(analysis)) = (self.projects.get_mut(&folder), self.analyses.get_mut(path)) else {
+            return false;
+        };
+        let mut world = Overlay { disk: &mut project.disk, open: &self.open };
+        analysis.mends(path, fix, (&mut project.catalog, &mut world as &mut _))
+    }
 
     fn completion(&mut self, params: &CompletionParams) -> Answer<Option<CompletionResponse>> {
         let at = &params.text_document_position;

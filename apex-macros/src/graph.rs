@@ -1,18 +1,18 @@
 //! `graph!`: finds the text, calls the compiler, hands back tokens.
 
 use apex_dsl::{
-    catalog::Catalog,
     passes,
     report::{Diagnostic, Diagnostics, Severity, render},
     source::{FileId, Sources, Span, World},
 };
-use apex_host::{Disk, Seen, Workspace};
+use apex_host::{Disk, Kept, Seen, Workspace};
 use proc_macro::TokenTree;
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use std::{
     env,
     path::{Path, PathBuf},
+    sync::{Mutex, MutexGuard, PoisonError},
 };
 
 /// The text of a call and how to point into it.
@@ -35,10 +35,24 @@ fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
     let folder = env::var_os("CARGO_MANIFEST_DIR")
         .map(PathBuf::from)
         .ok_or("`graph!` needs cargo: `CARGO_MANIFEST_DIR` is not set")?;
-    let workspace = Workspace::load(&folder)?;
+    // Whoever calls while another one has it, as editors may, begins with nothing; so does whoever comes after a panic.
+    let mut kept = lock().take().unwrap_or_default();
+    let expanded = expand_with(input, &folder, &mut kept);
+    *lock() = Some(kept);
+    expanded
+}
+
+/// What is kept from one call to the next.
+fn lock() -> MutexGuard<'static, Option<Kept>> {
+    static KEPT: Mutex<Option<Kept>> = Mutex::new(None);
+    KEPT.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn expand_with(input: proc_macro::TokenStream, folder: &Path, kept: &mut Kept) -> Result<TokenStream, String> {
+    let workspace = kept.workspace(folder)?.clone();
     let mut disk = Disk::new(Some(&workspace.cache_folder()));
     let mut text = match file_name(&input) {
-        Some(name) => from_file(&name, &folder, &workspace, &mut disk)?,
+        Some(name) => from_file(&name, folder, &workspace, &mut disk)?,
         None => inline(input),
     };
     let name = env::var("CARGO_CRATE_NAME").unwrap_or_default();
@@ -46,13 +60,27 @@ fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
     let crates = workspace.crates_for(&seen, &workspace.root.join(&text.sources.get(text.root).path));
     // The positions of the compiler's own tokens would all be on line 1.
     proc_macro2::fallback::force();
-    let mut catalog = Catalog::load(crates, &mut disk);
+    let catalog = kept.catalog(crates, &mut disk);
     proc_macro2::fallback::unforce();
+    let call = proc_macro::Span::call_site();
+    if let Some(file) = call.local_file() {
+        catalog.stand_at(&env::current_dir().unwrap_or_default().join(file), call.line());
+    }
     let mut diagnostics = Diagnostics::default();
-    let programs = passes::check(text.root, &mut catalog, &mut text.sources, &mut disk, &mut diagnostics);
+    let checked = passes::check(text.root, catalog, &mut text.sources, &mut disk, &mut diagnostics);
     disk.save();
     let place = |span: Span| place(&text, span);
-    let code = passes::generate(&programs, &catalog, &text.sources, &place, cfg!(feature = "record"), &mut diagnostics);
+    let code = passes::generate(
+        &checked.programs,
+        &checked.texts.machines,
+        catalog,
+        &text.sources,
+        &place,
+        cfg!(feature = "record"),
+        &mut diagnostics,
+    );
+    // They belong to this text.
+    catalog.forget_machines();
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error).map(|d| error(d, &text));
     let watched = watched(&text, &workspace);
     Ok(quote! { #(#errors)* #(#watched)* #code })
@@ -77,8 +105,8 @@ fn from_file(name: &str, folder: &Path, workspace: &Workspace, disk: &mut Disk) 
     let path = beside.filter(|p| disk.exists(p)).unwrap_or_else(|| folder.join(name));
     let text = disk.read(&path).map_err(|reason| {
         format!(
-            "cannot read `{name}`: {reason}\nnote: it is looked for beside this source file, then in `{}`",
-            folder.display()
+            "cannot read `{name}`: {reason}\nnote: it is looked for beside this source file, then in the folder of the \
+             package"
         )
     })?;
     let shown = path.strip_prefix(&workspace.root).unwrap_or(&path).to_owned();

@@ -3,7 +3,7 @@
 use apex_dsl::catalog::signature::{self, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
-use syn::{Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, Visibility};
+use syn::{Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, TypeParamBound, Visibility};
 
 /// Expands `#[node]` on a function, a struct or an `impl`.
 pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> {
@@ -31,6 +31,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &item.sig.generics);
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
+    let unbound = unbound(generics);
     let ports = ports(&callable, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
     let events: Vec<&Type> =
         callable.args.iter().filter_map(|a| if let Form::Event(ty) = &a.form { Some(ty) } else { None }).collect();
@@ -47,11 +48,21 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
 
         #[doc(hidden)]
         #[allow(non_camel_case_types)]
-        #vis struct #name #impl_generics #bounds { _ports: ::core::marker::PhantomData<fn() -> (#(#phantom,)*)> }
+        #vis struct #name #unbound { _ports: ::core::marker::PhantomData<fn() -> (#(#phantom,)*)> }
         #ports
         #events
         #params
     })
+}
+
+/// Type parameters without bounds: a type that does not meet them can be named, and rustc asked about it.
+fn unbound(generics: &Generics) -> Generics {
+    let mut unbound = Generics { where_clause: None, ..generics.clone() };
+    let is_relaxed = |bound: &TypeParamBound| matches!(bound, TypeParamBound::Trait(bound) if bound.maybe.is_some());
+    for param in unbound.type_params_mut() {
+        param.bounds = std::mem::take(&mut param.bounds).into_iter().filter(is_relaxed).collect();
+    }
+    unbound
 }
 
 /// A struct gets a constructor from its parameters; all other fields start at their default.
@@ -65,6 +76,7 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     let params = params(&decls, &fields, &item.generics, &quote!(#name #type_args));
     let accessors = fields.iter().enumerate().map(|(i, field)| {
         quote! {
+            #[allow(deprecated)]
             impl #impl_generics ::apex_rt::ParamField<#i> for #name #type_args #bounds {
                 #[inline(always)]
                 fn field(&mut self) -> &mut Self::Value { &mut self.#field }
@@ -73,8 +85,12 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     });
     let state: Vec<&Ident> =
         item.fields.iter().filter_map(|f| f.ident.as_ref()).filter(|name| !fields.contains(name)).collect();
+    // Names that nothing of the Rust around is called by: a tuple struct of the same name would be a pattern.
+    let numbers: Vec<syn::Index> = (0..fields.len()).map(syn::Index::from).collect();
     let constructor = match &item.fields {
-        syn::Fields::Named(_) => quote!(Self { #(#fields,)* #(#state: ::apex_rt::Fresh::fresh(),)* }),
+        syn::Fields::Named(_) => {
+            quote!(Self { #(#fields: apex_params.#numbers,)* #(#state: ::apex_rt::Fresh::fresh(),)* })
+        }
         syn::Fields::Unit => quote!(Self),
         syn::Fields::Unnamed(_) => {
             return Err(syn::Error::new_spanned(&item.fields, "a node has named fields"));
@@ -91,9 +107,10 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     }
     let bounds = &where_fresh.where_clause;
     let make = quote! {
+        #[allow(deprecated)]
         impl #impl_generics ::apex_rt::Construct<(#(#types,)*)> for #name #type_args #bounds {
             #[inline]
-            fn construct((#(#fields,)*): (#(#types,)*)) -> Self { #constructor }
+            fn construct(#[allow(unused)] apex_params: (#(#types,)*)) -> Self { #constructor }
         }
     };
     let accessors = quote! { #(#accessors)* };
@@ -150,6 +167,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
     let slots = methods.slots.iter().enumerate().map(|(i, slot)| {
         let ty = slot.token.as_ref().unwrap_or(&unit);
         quote! {
+            #[allow(deprecated)]
             impl #impl_generics ::apex_rt::Slot<#i> for #self_type #bounds { type Token = #ty; }
         }
     });
@@ -174,11 +192,13 @@ fn ports(callable: &Callable, generics: &TokenStream, node: &TokenStream, bounds
     let outputs = outs.chain(callable.returns.token.as_ref().map(|t| &t.ty));
     let inputs = inputs.enumerate().map(|(i, ty)| {
         quote! {
+            #[allow(deprecated)]
             impl #generics ::apex_rt::Input<#i> for #node #bounds { type Token = #ty; }
         }
     });
     let outputs = outputs.enumerate().map(|(i, ty)| {
         quote! {
+            #[allow(deprecated)]
             impl #generics ::apex_rt::Output<#i> for #node #bounds { type Token = #ty; }
         }
     });
@@ -189,6 +209,7 @@ fn ports(callable: &Callable, generics: &TokenStream, node: &TokenStream, bounds
 fn triggers(events: &[&Type], generics: &TokenStream, node: &TokenStream, bounds: &TokenStream) -> TokenStream {
     let events = events.iter().enumerate().map(|(i, ty)| {
         quote! {
+            #[allow(deprecated)]
             impl #generics ::apex_rt::Trigger<#i> for #node #bounds { type Token = #ty; }
         }
     });
@@ -201,14 +222,15 @@ fn params(decls: &[&ParamDecl], names: &[Ident], generics: &Generics, node: &Tok
     let impls = decls.iter().enumerate().map(|(i, decl)| {
         let ty = &decl.ty;
         let accepts = match &decl.range {
-            Some(range) => quote! { (#range).contains(value) },
-            None => quote! { { let _ = value; true } },
+            Some(range) => quote! { (#range).contains(apex_value) },
+            None => quote! { { let _ = apex_value; true } },
         };
         quote! {
+            #[allow(deprecated)]
             impl #impl_generics ::apex_rt::Param<#i> for #node #bounds {
                 type Value = #ty;
                 #[inline]
-                fn accepts(value: &Self::Value) -> bool { #accepts }
+                fn accepts(apex_value: &Self::Value) -> bool { #accepts }
             }
         }
     });
@@ -222,6 +244,7 @@ fn params(decls: &[&ParamDecl], names: &[Ident], generics: &Generics, node: &Tok
     });
     quote! {
         #(#impls)*
+        #[allow(deprecated)]
         impl #impl_generics #node #bounds { #(#defaults)* }
     }
 }

@@ -11,6 +11,18 @@ pub trait Clock {
     /// Lets the time pass until `time`; returns `false` if the clock ends before.
     fn wait_until(&mut self, time: Time) -> bool;
 
+    /// Lets the time pass until `until`, for ever if that is `None`, but only as long as `woken` says no: it is asked
+    /// at the beginning, and again whenever the thread was unparked. Returns `false` if the clock ends before, or if
+    /// nothing could end the wait.
+    ///
+    /// As it is here, it is for clocks that stand still while a program reacts: nothing comes from outside then, so
+    /// that a wait without end is one in vain. The clock of a machine parks the thread.
+    #[cfg(feature = "std")]
+    fn wait(&mut self, until: Option<Time>, woken: &dyn Fn() -> bool) -> bool {
+        let _ = woken;
+        until.is_some_and(|time| self.wait_until(time))
+    }
+
     /// What sets the pace of threads, if this is the machine's clock.
     #[cfg(feature = "std")]
     fn pace(&self) -> Option<crate::threads::Pace> {
@@ -86,6 +98,17 @@ impl Clock for WallClock {
         let left = time.since(self.now());
         if !left.is_zero() {
             std::thread::sleep(left);
+        }
+        true
+    }
+
+    fn wait(&mut self, until: Option<Time>, woken: &dyn Fn() -> bool) -> bool {
+        while !woken() {
+            match until.map(|time| time.since(self.now())) {
+                Some(left) if left.is_zero() => break,
+                Some(left) => std::thread::park_timeout(left),
+                None => std::thread::park(),
+            }
         }
         true
     }

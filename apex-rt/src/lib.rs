@@ -21,6 +21,8 @@ mod observer;
 mod out;
 mod parallel;
 pub mod params;
+#[cfg(feature = "std")]
+mod ports;
 #[cfg(feature = "profile")]
 pub mod profile;
 mod queue;
@@ -29,6 +31,8 @@ pub mod record;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
+#[cfg(feature = "std")]
+mod switch;
 mod sync;
 #[cfg(feature = "std")]
 #[doc(hidden)]
@@ -58,10 +62,16 @@ pub use observer::StdErr;
 pub use out::Out;
 pub use parallel::par_map;
 pub use params::Parameters;
+#[cfg(feature = "std")]
+pub use ports::{PortReceiver, PortSender, Ports};
 pub use queue::{Queue, Steps};
+#[cfg(feature = "std")]
+pub use run::drive_from;
 pub use run::{Next, Program, drive, drive_with, run};
 #[cfg(feature = "std")]
 pub use stop::UntilStopped;
+#[cfg(feature = "std")]
+pub use switch::Switch;
 pub use time::Time;
 pub use timer::{Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};

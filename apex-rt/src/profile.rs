@@ -1,7 +1,7 @@
 //! Where the time goes: how long every firing and every call of a slot takes, as a table by node and as a trace that
 //! Perfetto and Chrome show (`ui.perfetto.dev`, `chrome://tracing`), active nodes in another colour.
 
-use crate::{Clock, Info, Observer, Program, StdErr, UntilStopped, run::drive_groups};
+use crate::{Clock, Info, Observer, Ports, Program, StdErr, UntilStopped, run::drive_groups};
 use hdrhistogram::Histogram;
 use std::{
     fmt::Write as _,
@@ -163,7 +163,7 @@ impl Profile {
 }
 
 /// Drives a program and says where its time went.
-pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> u8 {
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, path: &Path) -> u8 {
     let cannot_write = |error: io::Error| eprintln!("error: cannot write `{}`: {error}", path.display());
     let info = const { &P::INFO };
     let profile = match Profile::to_file(info, path) {
@@ -174,7 +174,7 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> 
         }
     };
     let observer = |group| (StdErr(info), Profile::of_group(&profile, group));
-    let code = drive_groups(program, UntilStopped::ctrl_c_if_free(clock), observer);
+    let code = drive_groups(program, UntilStopped::ctrl_c_if_free(clock), ports, observer);
     let mut profile = profile.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Err(error) = profile.finish() {
         cannot_write(error);

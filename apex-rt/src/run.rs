@@ -1,3 +1,5 @@
+#[cfg(feature = "std")]
+use crate::Ports;
 use crate::{
     Clock, Info, Observer, Time,
     threads::{Alone, Spawn, Wake},
@@ -36,8 +38,17 @@ pub trait Program {
     /// Its static description.
     const INFO: Info;
 
+    /// The mailboxes of its graph-level inputs and slots.
+    type Inputs;
+
+    /// The mailboxes of its events.
+    type Events;
+
     /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next;
+
+    /// Its mailboxes, between two reactions.
+    fn mailboxes(&mut self) -> (&mut Self::Inputs, &mut Self::Events);
 
     /// The file in which the program is recorded, by its `record` statement.
     #[cfg(feature = "record")]
@@ -70,8 +81,10 @@ pub trait Program {
 
     /// Hands out the thread groups of a program that has several, the main group last. `wake` is told when one of them has
     /// something to look at.
-    fn on_threads<'a, W: Wake + Copy + Send + 'a, S: Spawn<'a>>(&'a mut self, wake: W, spawn: &mut S)
+    fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
     where
+        W: Wake + Copy + Send + 'a,
+        S: Spawn<'a, Self::Inputs, Self::Events>,
         Self: Sized,
     {
         let _ = wake;
@@ -88,13 +101,27 @@ pub trait Program {
 
 impl<P: Program> Program for &mut P {
     const INFO: Info = P::INFO;
+    type Inputs = P::Inputs;
+    type Events = P::Events;
 
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next {
         (**self).react_with(now, observer)
     }
 
-    fn on_threads<'a, W: Wake + Copy + Send + 'a, S: Spawn<'a>>(&'a mut self, wake: W, spawn: &mut S) {
+    fn mailboxes(&mut self) -> (&mut Self::Inputs, &mut Self::Events) {
+        (**self).mailboxes()
+    }
+
+    fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
+    where
+        W: Wake + Copy + Send + 'a,
+        S: Spawn<'a, Self::Inputs, Self::Events>,
+    {
         (**self).on_threads(wake, spawn);
+    }
+
+    fn waiting(&self, found: impl FnMut(usize)) {
+        (**self).waiting(found);
     }
 
     #[cfg(feature = "record")]
@@ -131,8 +158,37 @@ impl<C: Clock> Observer for Stopwatch<'_, C> {
     }
 }
 
+/// What a program that is driven has to do with besides its clock: here with nobody.
+pub(crate) trait Outside<P> {
+    /// Moves tokens into the program and out of it; whether there were some.
+    fn exchange(&mut self, program: &mut P) -> bool;
+
+    /// Whether a program that waits for input alone may still get some.
+    fn is_open(&self) -> bool;
+
+    /// Waits for the time, or for ever, or until there are tokens to be moved; `false` if the clock ends before.
+    fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool;
+}
+
+impl<P> Outside<P> for () {
+    fn exchange(&mut self, _program: &mut P) -> bool {
+        false
+    }
+
+    fn is_open(&self) -> bool {
+        false
+    }
+
+    fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool {
+        until.is_some_and(|time| clock.wait_until(time))
+    }
+}
+
 /// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
 /// token comes to `exit`. Returns the exit code: 0, or 1 after a token came to `abort`.
+///
+/// Nobody can put a token into the program meanwhile: one that waits for nothing else has ended. [`drive_from`] is for
+/// programs that other threads give their tokens to.
 ///
 /// The thread groups of a program each run on a thread of their own if the clock is the machine's
 /// ([`Clock::pace`]); in simulated time they run in turn, so that the result is always the same.
@@ -142,18 +198,28 @@ impl<C: Clock> Observer for Stopwatch<'_, C> {
 /// With the feature `record`, the run is recorded in the file that the environment variable `APEX_RECORD` names, or else a
 /// `record` statement of the text; or, if `APEX_REPLAY` names a recording, that is replayed instead.
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
+    #[cfg(feature = "std")]
+    return drive_from(program, clock, Ports::new());
+    #[cfg(not(feature = "std"))]
+    drive_with(program, clock, ())
+}
+
+/// As [`drive`], with `ports` by which other threads put tokens in and take the program's events out. As long as one of
+/// the senders of `ports` is there, a program that waits for input waits, and sleeps: any of them wakes it.
+///
+/// In simulated time a program that waits for input alone ends nevertheless: its time stands still, and what others do
+/// meanwhile would come at no time.
+#[cfg(feature = "std")]
+pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -> u8 {
     #[cfg(feature = "profile")]
     if let Some(path) = std::env::var_os("APEX_PROFILE") {
-        return crate::profile::drive(program, clock, path.as_ref());
+        return crate::profile::drive(program, clock, ports, path.as_ref());
     }
     #[cfg(feature = "record")]
     if let Some(wish) = crate::record::Wish::of::<P>() {
-        return crate::record::drive(program, clock, &wish);
+        return crate::record::drive(program, clock, ports, &wish);
     }
-    #[cfg(feature = "std")]
-    return drive_groups(program, clock, |_| crate::StdErr(const { &P::INFO }));
-    #[cfg(not(feature = "std"))]
-    drive_with(program, clock, ())
+    drive_groups(program, clock, ports, |_| crate::StdErr(const { &P::INFO }))
 }
 
 /// Drives a program with an observer for each of its thread groups: on threads if it has groups and the clock is the
@@ -162,11 +228,12 @@ pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
 pub(crate) fn drive_groups<P: Program, C: Clock, O: Observer + Send>(
     mut program: P,
     clock: C,
+    ports: Ports<P>,
     observer: impl Fn(usize) -> O,
 ) -> u8 {
     match pace_of_threads::<P, C>(&clock) {
-        Some(pace) => crate::threads::drive_on_threads(&mut program, pace, observer),
-        None => drive_with(program, clock, observer(0)),
+        Some(pace) => crate::threads::drive_from_threads(&mut program, pace, ports.0, observer),
+        None => drive_ports(program, clock, observer(0), ports),
     }
 }
 
@@ -176,22 +243,44 @@ pub(crate) fn pace_of_threads<P: Program, C: Clock>(clock: &C) -> Option<crate::
     clock.pace().filter(|_| !P::INFO.groups.is_empty())
 }
 
+/// Drives a program with ports on this thread.
+#[cfg(feature = "std")]
+pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(program: P, clock: C, observer: O, ports: Ports<P>) -> u8 {
+    let bell = ports.0.bell();
+    let _listens = bell.listen();
+    drive_beside(program, clock, observer, ports.0)
+}
+
 /// As [`drive`], with an observer of one's own. Nothing is written to standard error then: that is what
 /// [`StdErr`](crate::StdErr) does, which can be a part of it.
-pub fn drive_with<P: Program, C: Clock, O: Observer>(mut program: P, mut clock: C, mut observer: O) -> u8 {
+pub fn drive_with<P: Program, C: Clock, O: Observer>(program: P, clock: C, observer: O) -> u8 {
+    drive_beside(program, clock, observer, ())
+}
+
+fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
+    mut program: P,
+    mut clock: C,
+    mut observer: O,
+    mut outside: W,
+) -> u8 {
+    outside.exchange(&mut program);
     loop {
         let now = clock.now();
         let stopwatch = Stopwatch { clock: &mut clock, start: now };
-        let wake = match program.react_with(now, &mut (&mut observer, stopwatch)) {
-            Next::Now => now,
-            Next::At(time) => time,
-            Next::Input => {
+        let next = program.react_with(now, &mut (&mut observer, stopwatch));
+        let came = outside.exchange(&mut program);
+        let until = match next {
+            Next::Exit(code) => return code,
+            _ if came => continue,
+            Next::Now => Some(now),
+            Next::At(time) => Some(time),
+            Next::Input if C::SIMULATED || !outside.is_open() => {
                 program.waiting(|connection| observer.waits(connection));
                 return 0;
             }
-            Next::Exit(code) => return code,
+            Next::Input => None,
         };
-        if !clock.wait_until(wake) {
+        if !outside.wait(&mut clock, until) {
             return 0;
         }
     }
@@ -206,4 +295,65 @@ pub fn run<P: Program, C: Clock>(program: P, clock: C) {
     }
     #[cfg(not(feature = "std"))]
     let _ = code;
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+
+    /// A program that says of each question that it was asked.
+    struct Asked(std::vec::Vec<&'static str>);
+
+    impl Program for Asked {
+        const INFO: Info = Info {
+            name: "Asked",
+            nodes: &[],
+            graphs: &[],
+            connections: &[],
+            clusters: &[],
+            groups: &[],
+            end_if_hung: None,
+            claims: &[],
+        };
+        type Inputs = u8;
+        type Events = u16;
+
+        fn react_with<O: Observer>(&mut self, _now: Time, _observer: &mut O) -> Next {
+            self.0.push("react_with");
+            Next::Exit(3)
+        }
+        fn mailboxes(&mut self) -> (&mut u8, &mut u16) {
+            std::unreachable!("nobody drives it with ports")
+        }
+        fn waiting(&self, mut found: impl FnMut(usize)) {
+            found(7);
+        }
+        fn is_active(&self, node: usize) -> bool {
+            node == 5
+        }
+        fn is_graph_active(&self, graph: usize) -> bool {
+            graph == 6
+        }
+        #[cfg(feature = "record")]
+        const RECORD: Option<&'static str> = Some("a.mcap");
+    }
+
+    /// Asks a program for all that has a default.
+    fn ask<P: Program>(program: &P) {
+        let mut found = std::vec![];
+        program.waiting(|connection| found.push(connection));
+        assert_eq!(found, [7]);
+        assert!(program.is_active(5) && program.is_graph_active(6));
+        #[cfg(feature = "record")]
+        assert_eq!(P::RECORD, Some("a.mcap"));
+    }
+
+    #[test]
+    fn a_borrowed_program_answers_as_the_program_does() {
+        let mut program = Asked(std::vec![]);
+        ask(&program);
+        ask(&&mut program);
+        assert_eq!(drive_with(&mut program, crate::SimClock::until(Time::MAX), ()), 3);
+        assert_eq!(program.0, ["react_with"]);
+    }
 }

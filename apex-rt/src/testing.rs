@@ -10,6 +10,8 @@ use core::{
 const STEP: Duration = Duration::from_millis(1);
 /// So many moments of a failed test are shown.
 const SHOWN: usize = 20;
+/// So many characters of a token are shown: a laser scan has thousands.
+const LONGEST: usize = 120;
 
 /// The tokens that came to a place where a test looks, in one reaction.
 #[derive(Debug)]
@@ -93,7 +95,10 @@ pub struct Timeline {
 impl Timeline {
     /// A token came to a place where the test looks.
     pub fn token(&mut self, port: &str, token: &str) {
-        self.now.notes.push(format!("{port}: {token}"));
+        match token.char_indices().nth(LONGEST) {
+            Some((end, _)) => self.now.notes.push(format!("{port}: {} …", &token[..end])),
+            None => self.now.notes.push(format!("{port}: {token}")),
+        }
     }
 
     fn end(&mut self, time: Time) {
@@ -295,5 +300,19 @@ impl<P: Program + 'static> Test<P> {
             self.name,
             self.timeline.text().trim_end()
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_tokens_are_cut() {
+        let mut timeline = Timeline { names: Vec::new(), now: Moment::default(), moments: Vec::new() };
+        timeline.token("name", &"é".repeat(LONGEST));
+        timeline.token("scan", &"é".repeat(10_000));
+        let shown = "é".repeat(LONGEST);
+        assert_eq!(timeline.now.notes, [format!("name: {shown}"), format!("scan: {shown} …")]);
     }
 }

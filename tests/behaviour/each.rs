@@ -116,3 +116,12 @@ fn each_par_in_each_par() {
     react(&mut program, 2);
     assert_eq!(program.nodes().k.seen, [vec![2, 6], vec![6]]);
 }
+
+#[test]
+fn what_is_repeated_may_be_missing() {
+    let mut program = Repeated::new();
+    react(&mut program, 3);
+    let expected = [vec![0, 0, 0], vec![100, 101, 102], vec![2, 4, 6]];
+    assert_eq!(program.nodes().k.seen, expected);
+    assert_eq!(program.nodes().b.seen, expected);
+}

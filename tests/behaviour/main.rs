@@ -13,6 +13,7 @@ mod failures;
 mod figures;
 mod forms;
 mod handed;
+mod hygiene;
 mod lifecycle;
 mod machines;
 mod missing;

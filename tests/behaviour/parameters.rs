@@ -50,6 +50,7 @@ fn values_are_evaluated_and_reach_rust_in_si() {
     assert_eq!((given.length, given.angle, given.speed), (1.5, PI, 10.0));
     assert_eq!((given.pause, given.name, given.on, given.count), (Duration::from_secs(2), "given", true, 6));
     assert_eq!(program.nodes().constant.count, 7);
+    assert_eq!(program.nodes().shared.speed, 2.0, "a share of a share is brought into its unit once");
     assert_eq!(program.nodes().k.seen, [1, 2, 3, 4, 5, 6]);
 }
 

@@ -75,3 +75,23 @@ fn a_node_is_told_of_each_missing_token() {
     assert_eq!(program.nodes().k.seen, [Some(10), Some(11), None, None]);
     assert_eq!(log.count("k"), 4, "being told is a firing, as it is at one rate");
 }
+
+#[test]
+fn a_node_that_panics_is_made_again() {
+    let mut program = Restarted::new();
+    react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [Some(1), Some(2), None, Some(1)], "0 1 | 10 11");
+}
+
+#[test]
+fn what_was_written_before_a_failure_is_not_sent() {
+    let mut program = Spoiled::new();
+    let log = react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [Some(0), Some(3), None, Some(9)]);
+    assert_eq!(log.failed, [("f", "no 2".to_owned())]);
+}
+
+#[test]
+fn a_delayed_node_without_a_taker_runs() {
+    react(&mut Unused::new(), 2);
+}

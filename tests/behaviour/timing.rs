@@ -219,3 +219,35 @@ fn what_has_no_pace_waits_for_none_of_two_takers_apart() {
 fn what_has_no_pace_fires_once_in_a_reaction_with_a_taker_without_one() {
     assert_eq!(latched!(Unpaced).nodes().k.seen, [10, 10, 20, 20, 30, 30, 40]);
 }
+
+/// When `said` heard of a timeout, if a node is disabled at `off` and enabled at `on`, in milliseconds.
+macro_rules! switched {
+    ($program:ident, $off:literal, $on:literal) => {{
+        let mut program = $program::new();
+        for ms in (0..200).step_by(5) {
+            if ms == $off {
+                program.inputs().off.put(()).unwrap();
+            }
+            if ms == $on {
+                program.inputs().on.put(()).unwrap();
+            }
+            program.react(Time::from_millis(ms));
+        }
+        program.nodes().said.late.iter().map(|time| time.as_nanos() / 1_000_000).collect::<Vec<_>>()
+    }};
+}
+
+#[test]
+fn a_disabled_node_times_out_when_it_is_enabled_again() {
+    assert_eq!(switched!(Paused, 5, 10), [20], "its time went on");
+    assert_eq!(switched!(Paused, 5, 60), [60], "its time was over long ago");
+    assert_eq!(switched!(Paused, 5, 1000), [] as [i64; 0], "it is disabled");
+    assert_eq!(switched!(Paused, 30, 60), [20], "it is over");
+}
+
+#[test]
+fn a_disabled_source_has_not_fallen_silent() {
+    assert_eq!(switched!(Hushed, 5, 60), [85], "its second value comes at 60 ms");
+    assert_eq!(switched!(Hushed, 5, 1000), [] as [i64; 0], "it is to be silent");
+    assert_eq!(switched!(Hushed, 100, 150), [35, 175], "its time begins anew when it is enabled");
+}

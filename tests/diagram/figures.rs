@@ -6,7 +6,7 @@ use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
 
 const INTRODUCTION: &str = "# Figures
 
-The figures of the dissertation that are about the model itself, as texts in [`tests/figures`](../tests/figures), drawn by `apex graph`. The tests
+The figures of the dissertation that are about the model itself, as they are written in `tests/figures` and drawn by `apex graph`. The tests
 run all of them, and write this page.
 
 Data goes from left to right: inputs are at the left of a box, outputs at the right. Slots are at the top, events at the bottom. Double lines
@@ -40,9 +40,11 @@ fn written() -> BTreeMap<String, String> {
         let words = words.split_once(": ").map_or(words.as_str(), |(_, words)| words);
         let mut begin = words.chars();
         let words: String = begin.next().into_iter().flat_map(char::to_uppercase).chain(begin).collect();
-        let _ = write!(page, "\n## {}\n\n{words}\n\n[`{name}`](../tests/figures/{name})\n", number.join("."));
+        let source: Vec<&str> = text.lines().skip_while(|line| line.starts_with("//!")).collect();
+        let source = source.join("\n");
+        let _ = write!(page, "\n## {}\n\n{words}\n\n```afg\n{}\n```\n", number.join("."), source.trim());
         for graph in drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}")) {
-            let picture = diagram(&graph, &drawer.0);
+            let picture = diagram(&graph, &drawer.1, &drawer.0);
             let docs = graph.docs.trim();
             let docs = if docs.is_empty() { String::new() } else { format!(": {}", docs.replace('\n', " ")) };
             let _ = write!(page, "\n`{}`{docs}\n", graph.name);
@@ -72,7 +74,7 @@ fn drawn(folder: &str, file: &str, name: &str) -> Item {
     let mut drawer = Drawer::of(&folder);
     let graphs = drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}"));
     let graph = graphs.iter().find(|graph| graph.name == name).expect("it is in the text");
-    diagram(graph, &drawer.0)
+    diagram(graph, &drawer.1, &drawer.0)
 }
 
 #[test]

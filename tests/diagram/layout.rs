@@ -1,9 +1,9 @@
 //! Where things are drawn.
 
-use crate::random;
+use crate::{Drawer, random};
 use apex_diagram::{
     Anchor, Frame, Item,
-    layout::{Placed, Point, Text, place},
+    layout::{Placed, Point, Stroke, Text, place, strokes},
     states, svg,
 };
 
@@ -91,6 +91,11 @@ fn lines(frame: &Frame, placed: &Placed, boxes: &[Rect]) -> Vec<String> {
     faults
 }
 
+fn on_each_other((p, q): &(Rect, Rect)) -> bool {
+    let (x, y) = (p.2.min(q.2) - p.0.max(q.0), p.3.min(q.3) - p.1.max(q.1));
+    x == 0 && y > 0 && p.0 == p.2 && q.0 == q.2 || y == 0 && x > 0 && p.1 == p.3 && q.1 == q.3
+}
+
 /// Pieces of lines that have no end in common, but lie on each other.
 fn hidden(frame: &Frame, placed: &Placed) -> Vec<String> {
     let mut found = vec![];
@@ -100,10 +105,6 @@ fn hidden(frame: &Frame, placed: &Placed) -> Vec<String> {
                 continue;
             }
             let pairs = pieces(&placed.routes[i]).flat_map(|p| pieces(&placed.routes[j]).map(move |q| (p, q)));
-            let on_each_other = |(p, q): &(Rect, Rect)| {
-                let (x, y) = (p.2.min(q.2) - p.0.max(q.0), p.3.min(q.3) - p.1.max(q.1));
-                x == 0 && y > 0 && p.0 == p.2 && q.0 == q.2 || y == 0 && x > 0 && p.1 == p.3 && q.1 == q.3
-            };
             found.extend(pairs.filter(on_each_other).map(|(p, q)| format!("{a:?} at {p:?} and {b:?} at {q:?}")));
         }
     }
@@ -112,20 +113,53 @@ fn hidden(frame: &Frame, placed: &Placed) -> Vec<String> {
     found
 }
 
+/// Pieces of strokes that lie on each other: what lines have in common is drawn once, or their dashes would fill each
+/// other.
+fn drawn_twice(frame: &Frame, placed: &Placed) -> Vec<String> {
+    let strokes = strokes(frame, placed);
+    let mut found = vec![];
+    for (i, a) in strokes.iter().enumerate() {
+        for b in &strokes[i + 1..] {
+            let pairs = pieces(&a.points).flat_map(|p| pieces(&b.points).map(move |q| (p, q)));
+            found.extend(pairs.filter(on_each_other).map(|(p, q)| format!("{a:?} at {p:?} and {b:?} at {q:?}")));
+        }
+    }
+    let inner = frame.items.iter().zip(&placed.items);
+    found.extend(inner.filter_map(|(i, p)| Some(drawn_twice(i.inside.as_ref()?, p))).flatten());
+    found
+}
+
+/// How many strokes begin or end at another one, at all depths.
+fn forks(frame: &Frame, placed: &Placed) -> (usize, usize) {
+    let strokes = strokes(frame, placed);
+    let count = |is: fn(&Stroke) -> bool| strokes.iter().filter(|stroke| is(stroke)).count();
+    let mut sum = (count(|stroke| stroke.parts), count(|stroke| stroke.joins));
+    for (item, placed) in frame.items.iter().zip(&placed.items) {
+        let (parts, joins) = item.inside.as_ref().map_or((0, 0), |frame| forks(frame, placed));
+        sum = (sum.0 + parts, sum.1 + joins);
+    }
+    sum
+}
+
 #[test]
 fn nothing_stands_or_runs_over_anything_else() {
-    let mut activity = 0;
+    let (mut activity, mut met) = (0, (0, 0));
     for (text, item) in random(50) {
         let seen = states(&item);
         activity += usize::from(seen.is_some());
         for picture in [Some(item), seen].into_iter().flatten() {
             let placed = place(&picture);
             let mut found = faults(&picture, &placed);
-            found.extend(hidden(picture.inside.as_ref().unwrap(), &placed));
+            let frame = picture.inside.as_ref().unwrap();
+            found.extend(hidden(frame, &placed));
+            found.extend(drawn_twice(frame, &placed));
+            let (parts, joins) = forks(frame, &placed);
+            met = (met.0 + parts, met.1 + joins);
             assert!(found.is_empty(), "{}\n{text}", found.join("\n"));
         }
     }
     assert!(activity > 12, "only {activity} pictures with activity");
+    assert!(met.0 > 20 && met.1 > 5, "few lines part and join: {met:?}");
 }
 
 #[test]
@@ -134,4 +168,22 @@ fn the_same_graph_gives_the_same_picture() {
     for ((text, a), (_, b)) in one.iter().zip(&other) {
         assert_eq!(svg(a), svg(b), "{text}");
     }
+}
+
+#[test]
+fn long_ways_are_labelled_at_both_ends() {
+    let text = "use apex_tests::nodes::{Count, Snk, add, mul};
+graph A {
+    node s = Count();
+    node a = mul(k = 1);
+    node b = mul(k = 1);
+    node c = mul(k = 1);
+    node j = add();
+    s -> a -> b -> c -> j.a;
+    s -> j.b;
+    j -> Snk();
+}";
+    let placed = place(&Drawer::new().one(text));
+    let labels: Vec<&str> = placed.texts.iter().map(|text| text.plain.as_str()).filter(|t| t.contains('→')).collect();
+    assert_eq!(labels, ["→ j.b", "s →"]);
 }

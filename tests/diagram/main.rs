@@ -10,6 +10,7 @@ use apex_diagram::{Item, diagram};
 use apex_dsl::{
     catalog::Catalog,
     graph::Graph,
+    machine::Machines,
     passes,
     report::{Diagnostics, render},
     source::Sources,
@@ -17,8 +18,8 @@ use apex_dsl::{
 use apex_host::{Disk, Seen, Workspace};
 use std::path::{Path, PathBuf};
 
-/// The nodes that texts can use.
-struct Drawer(Catalog);
+/// The nodes that texts can use, and the state machines of the one that was read last.
+struct Drawer(Catalog, Machines);
 
 impl Drawer {
     /// Sees the nodes of this package.
@@ -32,7 +33,7 @@ impl Drawer {
         let mut disk = Disk::new(Some(&workspace.cache_folder()));
         let catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
         disk.save();
-        Self(catalog)
+        Self(catalog, Machines::new())
     }
 
     /// The graphs of a text that stands in this folder.
@@ -40,18 +41,19 @@ impl Drawer {
         let mut sources = Sources::default();
         let file = sources.add(folder.join("text.afg"), text);
         let mut diagnostics = Diagnostics::default();
-        let programs = passes::check(file, &mut self.0, &mut sources, &mut Disk::new(None), &mut diagnostics);
+        let checked = passes::check(file, &mut self.0, &mut sources, &mut Disk::new(None), &mut diagnostics);
         if diagnostics.has_errors() {
             return Err(diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect());
         }
-        Ok(programs.into_iter().filter(|p| p.script.is_none()).map(|p| p.graph).collect())
+        self.1 = checked.texts.machines;
+        Ok(checked.programs.into_iter().filter(|p| p.script.is_none()).map(|p| p.graph).collect())
     }
 
     /// The picture of the only graph of a text.
     fn one(&mut self, text: &str) -> Item {
         let graphs = self.graphs(&root().join("tests"), text).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(graphs.len(), 1, "one graph is expected");
-        diagram(&graphs[0], &self.0)
+        diagram(&graphs[0], &self.1, &self.0)
     }
 }
 
@@ -70,7 +72,7 @@ fn random(count: usize) -> Vec<(String, Item)> {
     for text in &texts {
         // Not all random graphs are legal.
         for graph in drawer.graphs(&root().join("tests"), text).unwrap_or_default() {
-            pictures.push((text.clone(), diagram(&graph, &drawer.0)));
+            pictures.push((text.clone(), diagram(&graph, &drawer.1, &drawer.0)));
         }
     }
     assert!(pictures.len() > count * 3 / 4, "only {} graphs of {count} are legal", pictures.len());

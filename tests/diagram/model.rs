@@ -1,7 +1,7 @@
 //! Everything is drawn, and drawn once.
 
 use crate::{Drawer, root};
-use apex_diagram::{Anchor, Flow, Frame, Item, Shape, Side, diagram, states};
+use apex_diagram::{Anchor, Flow, Frame, Item, READABLE, Shape, Side, diagram, folded, folded_states, states};
 use apex_dsl::graph::{Graph, NodeKind};
 
 const KINDS: &str = "
@@ -171,6 +171,76 @@ graph House { slot push; node door = Door(); push -> door.push; }
     assert_eq!(labels, ["", "push / bell", "push", "lock [lock > 3]"]);
 }
 
+#[test]
+fn what_every_program_has_is_told_apart_from_the_start() {
+    let text = "
+use apex_nodes::flow::{ActivityGate, Relay, tick};
+robot Runner {
+    thread main { hang = 200ms }
+    thread vision { hang = 2s }
+    node clock = tick() every 50ms;
+    node watch = Relay() on vision;
+    node gate  = ActivityGate<()>();
+    clock -> watch.put;
+    clock -> gate.value;
+    start => gate.activate;
+    hung  -> abort;
+}
+";
+    let item = Drawer::new().one(text);
+    let frame = item.inside.as_ref().unwrap();
+    let shapes = ["start", "hung", "abort"].map(|name| named(frame, name).1.shape);
+    assert_eq!(shapes, [Shape::Start, Shape::Event, Shape::End]);
+    assert!(lines(&item).contains(&"hung. -> abort. Asynchronous".to_owned()), "{:?}", lines(&item));
+}
+
+/// A graph of `count` instances of a graph of three nodes, which has one of two nodes in it.
+fn large(count: usize) -> String {
+    let parts: String = (0..count).map(|i| format!("    node p{i} = Middle();\n    s -> p{i}.x;\n")).collect();
+    format!(
+        "use apex_tests::nodes::{{Count, Snk, mul}};
+graph Large {{
+    node s = Count();
+{parts}}}
+graph Middle {{ in x: i64; node m = mul(k = 2); node inner = Inner(); x -> m -> inner.x; }}
+graph Inner {{ in x: i64; node m = mul(k = 3); x -> m -> Snk(); }}
+"
+    )
+}
+
+#[test]
+fn large_pictures_are_folded() {
+    let mut drawer = Drawer::new();
+    let mut item = |count| drawer.one(&large(count));
+    let small = item(3);
+    assert_eq!(folded(small.clone()), (small, Default::default()));
+    for (count, depth) in [(6, 1), (12, 0), (40, 0)] {
+        let (item, folding) = folded(item(count));
+        assert_eq!((folding.depth, folding.chains), (Some(depth), 0), "{count}");
+        assert_eq!(item.count() <= READABLE, count < 40);
+    }
+    assert_eq!(folded_states(&item(40)), None);
+}
+
+#[test]
+fn long_chains_become_one_box() {
+    let chain: Vec<String> = (0..30).map(|i| format!("n{i}")).collect();
+    let nodes: String = chain.iter().map(|name| format!("    node {name} = mul(k = 2);\n")).collect();
+    let text = format!(
+        "use apex_tests::nodes::{{Count, Snk, mul}};\ngraph Long {{\n    node s = Count();\n{nodes}    s -> {};\n    s -> Snk();\n    n29 -> Snk();\n}}\n",
+        chain.join(" -> ")
+    );
+    let item = Drawer::new().one(&text);
+    let (small, folding) = folded(item.clone());
+    assert_eq!((folding.depth, folding.chains, small.count()), (None, 1, 4));
+    let frame = small.inside.as_ref().unwrap();
+    let (_, chain) = named(frame, "n0 … snk_2");
+    assert_eq!(chain.words.len(), 31, "{:?}", chain.words);
+    assert_eq!(chain.words[7], "n7: mul");
+    assert_eq!(frame.lines.len(), 2);
+    assert_eq!(lines(&small), ["s. -> n0 … snk_2.x Synchronous", "s. -> snk_1.x Synchronous"]);
+}
+
 /// Nodes and connections that a picture must have.
 fn expected(graph: &Graph) -> (usize, usize) {
     let drawn = |n: &&apex_dsl::graph::Node| !matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Relay);
@@ -196,7 +266,7 @@ fn each_node_and_each_connection_is_drawn_once() {
     for seed in 0..40 {
         let text = apex_tests::oracle::generate(seed, true).text("Random");
         for graph in drawer.graphs(&root().join("tests"), &text).unwrap_or_default() {
-            let item = diagram(&graph, &drawer.0);
+            let item = diagram(&graph, &drawer.1, &drawer.0);
             let frame = item.inside.as_ref().unwrap();
             let starts = graph.nodes.iter().filter(|n| matches!(n.kind, NodeKind::Start)).count();
             let (nodes, connections) = expected(&graph);

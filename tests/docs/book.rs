@@ -1,7 +1,7 @@
 //! The pages as a book: each stands in the summary, and every link leads somewhere.
 
 use crate::{page, pages, root};
-use std::{collections::BTreeSet, path::Path};
+use std::collections::BTreeSet;
 
 /// The text without its blocks of code.
 fn prose(text: &str) -> String {
@@ -42,7 +42,7 @@ fn resolved(name: &str, target: &str) -> String {
 fn every_page_is_in_the_summary() {
     let listed: BTreeSet<String> =
         links("docs/SUMMARY.md").iter().map(|target| resolved("docs/SUMMARY.md", target)).collect();
-    let there = pages().into_iter().filter(|name| !["README.md", "docs/SUMMARY.md"].contains(&name.as_str()));
+    let there = pages().into_iter().filter(|name| name.starts_with("docs/") && name != "docs/SUMMARY.md");
     let missing: Vec<String> = there.filter(|name| !listed.contains(name)).collect();
     assert!(missing.is_empty(), "docs/SUMMARY.md does not list {missing:?}");
 }
@@ -55,11 +55,54 @@ fn every_link_leads_somewhere() {
             count += 1;
             let (path, anchor) = target.split_once('#').map_or((target.as_str(), None), |(p, a)| (p, Some(a)));
             let path = if path.is_empty() { name.clone() } else { resolved(&name, path) };
-            assert!(Path::new(&root()).join(&path).exists(), "{name}: there is no `{path}`");
+            let file = root().join(&path);
+            assert!(file.exists(), "{name}: there is no `{path}`");
+            // In the book are the files below `docs`: all other links would work in the repository alone.
+            let in_book = path.starts_with("docs/") && file.is_file();
+            assert!(in_book || !name.starts_with("docs/"), "{name}: `{target}` leads out of the book");
             if let Some(anchor) = anchor {
                 assert!(anchors(&path).contains(anchor), "{name}: `{path}` has no heading `#{anchor}`");
             }
         }
     }
     assert!(count > 20, "only {count} links were found");
+}
+
+#[test]
+fn the_licences_of_the_manifest_are_there() {
+    let manifest = page("Cargo.toml");
+    let (_, licence) = manifest.split_once("\nlicense = \"").expect("the manifest names its licences");
+    let names: Vec<&str> = licence.split('"').next().unwrap_or_default().split(" OR ").collect();
+    for name in &names {
+        let short = name.split('-').next().unwrap_or_default().to_uppercase();
+        assert!(page(&format!("LICENSE-{short}")).lines().count() > 15, "{name}");
+        assert!(page("README.md").contains(&format!("[{name}](LICENSE-{short})")), "{name}");
+    }
+    assert_eq!(names.len(), 2);
+}
+
+/// What a page describes is there: no page for those who come from elsewhere says that it is missing.
+#[test]
+fn what_is_there_is_not_denied() {
+    let topics = [
+        ("docs/recording.md", &["record", "replay", "rosbag"][..]),
+        ("docs/threads.md", &["thread"]),
+        ("docs/tools.md", &["profil"]),
+        ("docs/editors.md", &["completion"]),
+    ];
+    let names = pages().into_iter().filter(|name| name.starts_with("docs/from/"));
+    let mut denied = vec![];
+    for name in names {
+        let text = page(&name).to_lowercase();
+        let (before, missing) = text.split_once("## what is not there").expect("there is such a section");
+        let rows = before.lines().filter(|line| ["not there", "not yet", "not run"].iter().any(|no| line.contains(no)));
+        // A list says with its first words what is missing, and then what there is instead.
+        let points = missing.lines().filter_map(|line| line.strip_prefix("- "));
+        let points = points.map(|point| point.split(['.', ':', ';']).next().unwrap_or(point));
+        for said in rows.chain(points) {
+            let topic = topics.iter().find(|(_, words)| words.iter().any(|word| said.contains(word)));
+            denied.extend(topic.map(|(described, _)| format!("{name}: `{said}`, but see {described}")));
+        }
+    }
+    assert_eq!(denied, Vec::<String>::new());
 }

@@ -2,7 +2,9 @@
 
 use apex_dsl::{
     catalog::Catalog,
-    passes::{self, Program},
+    machine::Machines,
+    passes,
+    program::Program,
     report::{Diagnostics, render},
     source::Sources,
 };
@@ -28,6 +30,9 @@ mod tour;
 /// The page whose texts belong to a package of their own.
 const TOUR: &str = "docs/tour.md";
 
+/// The page that another test writes from the texts in `tests/figures`, whose tests are run there.
+const FIGURES: &str = "docs/figures.md";
+
 /// The folder of the repository.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -35,7 +40,7 @@ fn root() -> PathBuf {
 
 /// All pages, by their paths from the root.
 fn pages() -> Vec<String> {
-    let mut pages = vec!["README.md".to_owned()];
+    let mut pages = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(str::to_owned).to_vec();
     collect("docs", &mut pages);
     pages.sort();
     assert!(pages.len() > 10, "only {} pages were found", pages.len());
@@ -87,15 +92,20 @@ struct Package {
 struct Checked {
     messages: Vec<String>,
     programs: Vec<Program>,
+    machines: Machines,
 }
 
 impl Package {
     /// The one whose nodes the texts of a page use.
     fn of(page: &str) -> Self {
-        let (folder, file) = if page == TOUR { ("robots/rover", "rover.afg") } else { ("tests", "robot.afg") };
+        // The nodes of the other pages stand in the modules of this test.
+        let (folder, file, seen) = match page {
+            TOUR => ("robots/rover", "near.afg", Seen::Package),
+            _ => ("tests", "robot.afg", Seen::Crate("docs", false)),
+        };
         let workspace = Workspace::load(&root().join(folder)).expect("cargo knows the package");
         let mut disk = Disk::new(None);
-        Self { catalog: Catalog::load(workspace.crates(&Seen::Package), &mut disk), disk, file }
+        Self { catalog: Catalog::load(workspace.crates(&seen), &mut disk), disk, file }
     }
 
     /// Checks a text, as `apex check` does.
@@ -103,16 +113,19 @@ impl Package {
         let mut sources = Sources::default();
         let file = sources.add(self.file, text);
         let mut diagnostics = Diagnostics::default();
-        let programs = passes::check(file, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
-        let messages = diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect();
-        Checked { messages, programs }
+        let checked = passes::check(file, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
+        let messages = diagnostics.sorted().into_iter().map(|d| render(d, &sources, false).replace(tour::FOLDER, ""));
+        let messages = messages.collect();
+        Checked { messages, programs: checked.programs, machines: checked.texts.machines }
     }
 }
 
 #[test]
 fn every_graph_in_the_documentation_is_right() {
     let (mut rover, mut tests) = (Package::of(TOUR), Package::of("README.md"));
-    let graphs = graphs();
+    let mut graphs = graphs();
+    // Its texts stand beside each other, and are checked where it is written.
+    graphs.retain(|(name, _)| name != FIGURES);
     for (name, block) in &graphs {
         let package = if name == TOUR { &mut rover } else { &mut tests };
         assert_eq!(package.check(block).messages, Vec::<String>::new(), "{name}:\n{block}");
@@ -123,7 +136,7 @@ fn every_graph_in_the_documentation_is_right() {
 #[test]
 fn every_test_in_the_documentation_is_run() {
     let with_tests = graphs().into_iter().filter(|(_, block)| block.contains("\ntest "));
-    for (name, block) in with_tests.filter(|(name, _)| name != TOUR) {
+    for (name, block) in with_tests.filter(|(name, _)| ![TOUR, FIGURES].contains(&name.as_str())) {
         assert!(texts::TEXTS.contains(&block.as_str()), "{name}: no file in tests/docs/texts is\n{block}");
     }
 }

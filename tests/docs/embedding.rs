@@ -6,13 +6,15 @@ mod own_loop;
 mod parameters;
 #[allow(dead_code)]
 mod parts;
+mod ports;
 mod watching;
 
 /// Their texts, in the order of the page.
-pub const BLOCKS: [&str; 6] = [
+pub const BLOCKS: [&str; 7] = [
     include_str!("embedding/first.rs"),
     include_str!("embedding/own_loop.rs"),
     include_str!("embedding/driven.rs"),
+    include_str!("embedding/ports.rs"),
     include_str!("embedding/parts.rs"),
     include_str!("embedding/parameters.rs"),
     include_str!("embedding/watching.rs"),
@@ -23,6 +25,7 @@ pub fn main() {
     first::main();
     own_loop::main();
     driven::main();
+    ports::main();
     parts::main();
     parameters::main();
     watching::main();

@@ -34,7 +34,7 @@ pub fn catalog() -> Catalog {
     };
     let dependencies = BTreeMap::from([("library".to_owned(), 1)]);
     let all = vec![spec("nodes", dependencies), spec("library", BTreeMap::new())];
-    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0] }, &mut Disk::new(None))
+    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0], ..Crates::default() }, &mut Disk::new(None))
 }
 
 /// Takes `text`, which stands in `path`, through all passes up to generated code.
@@ -42,8 +42,8 @@ pub fn compile(path: &Path, text: &str, catalog: &mut Catalog) -> Compiled {
     let mut sources = Sources::default();
     let mut diagnostics = Diagnostics::default();
     let root = sources.add(path, text);
-    let programs = passes::check(root, catalog, &mut sources, &mut Disk::new(None), &mut diagnostics);
+    let checked = passes::check(root, catalog, &mut sources, &mut Disk::new(None), &mut diagnostics);
     let place = |_| proc_macro2::Span::call_site();
-    passes::generate(&programs, catalog, &sources, &place, false, &mut diagnostics);
+    passes::generate(&checked.programs, &checked.texts.machines, catalog, &sources, &place, false, &mut diagnostics);
     Compiled { sources, diagnostics }
 }

@@ -6,6 +6,7 @@ mod compile;
 mod expect;
 #[allow(dead_code, reason = "the compiler reads them; nothing runs them")]
 mod library;
+mod mistakes;
 #[allow(dead_code, reason = "the compiler reads them; nothing runs them")]
 mod nodes;
 mod pages;
@@ -47,7 +48,7 @@ fn bare_catalog() -> Catalog {
     };
     let dependencies = BTreeMap::from([("library".to_owned(), 1)]);
     let all = vec![spec("bare", dependencies), spec("library", BTreeMap::new())];
-    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0] }, &mut Disk::new(None))
+    Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0], ..Crates::default() }, &mut Disk::new(None))
 }
 
 /// All texts with what the compiler says about them.
@@ -143,7 +144,7 @@ fn emitted() -> BTreeSet<String> {
     let mut emitted = BTreeSet::new();
     for path in files(&sources, "rs") {
         let text = fs::read_to_string(path).unwrap();
-        for constructor in ["error(", "warning("] {
+        for constructor in ["error(", "warning(", "unknown(", "everywhere("] {
             for (at, _) in text.match_indices(constructor) {
                 let arguments = text[at + constructor.len()..].trim_start();
                 let code = arguments.strip_prefix('"').and_then(|a| a.split_once('"')).map(|(code, _)| code);

@@ -165,6 +165,12 @@ fn connections(add: &mut impl FnMut(&str, String)) {
         "circle",
         graph(many(scaled(10_000), |i| format!("node n{i} = double(); n{i} -> n{};", (i + 1) % scaled(10_000)))),
     );
+    let events = |count: usize| {
+        let nodes = many(count, |i| format!("node t{i} = Pass(); node u{i} = Pass();"));
+        let list = |name: &str, port: &str| many(count, |i| format!("{name}{i}.{port},"));
+        graph(format!("{nodes} [{}] -> [{}];", list("t", "sent"), list("u", "put")))
+    };
+    add("more slots than numbers", events(260));
     let uneven = format!("node s = sum(); n{} -> halve() -> s.a; n0 -> s.b;", scaled(10_000));
     add(
         "rates",

@@ -27,7 +27,10 @@ mod idle;
 use cell::{CellReceiver, CellSender, TokenCell};
 use idle::{Alarm, Shared};
 use loom::{
-    sync::{Arc, Notify},
+    sync::{
+        Arc, Notify,
+        atomic::{AtomicBool, Ordering},
+    },
     thread,
 };
 
@@ -164,5 +167,68 @@ fn who_may_wait_was_not_woken_before() {
             shared.alarm(0).0.wait();
         }
         wakes.join().expect("it does not panic");
+    });
+}
+
+/// A thread that can be rung as soon as it has begun, as one of the machine can.
+struct Late {
+    began: AtomicBool,
+    bell: Notify,
+}
+
+impl Alarm for Late {
+    fn ring(&self) {
+        if self.began.load(Ordering::Acquire) {
+            self.bell.notify();
+        }
+    }
+}
+
+fn late(groups: usize) -> Arc<Shared<Late>> {
+    let alarm = || Late { began: AtomicBool::new(false), bell: Notify::new() };
+    Arc::new(Shared::new((0..groups).map(|_| alarm())))
+}
+
+#[test]
+fn a_program_that_stops_while_a_thread_begins_stops_that_too() {
+    loom::model(|| {
+        let shared = late(2);
+        let other = shared.clone();
+        let begins = thread::spawn(move || {
+            other.alarm(1).began.store(true, Ordering::Release);
+            while !other.is_stopped() {
+                other.begin(1);
+                if other.may_idle(1) {
+                    while other.sleeps(1) {
+                        other.alarm(1).bell.wait();
+                    }
+                }
+            }
+        });
+        shared.begin(0);
+        shared.stop();
+        begins.join().expect("it does not panic");
+    });
+}
+
+#[test]
+fn who_watches_sees_a_group_that_hangs() {
+    loom::model(|| {
+        let (shared, stirred, seen) = (shared(1), Arc::new(Notify::new()), Arc::new(Notify::new()));
+        assert!(shared.may_wait(0), "it sleeps at first");
+        let (other, stirs, hangs) = (shared.clone(), stirred.clone(), seen.clone());
+        let group = thread::spawn(move || {
+            other.begin(0);
+            if other.wakes_watch() {
+                stirs.notify();
+            }
+            // It hangs until somebody sees it.
+            hangs.wait();
+        });
+        while shared.may_watch_sleep() {
+            stirred.wait();
+        }
+        seen.notify();
+        group.join().expect("it does not panic");
     });
 }

@@ -1,6 +1,6 @@
 //! Compiled programs against the Petri nets of their graphs.
 
-mod cargo;
+mod compile;
 mod nets;
 mod pnml;
 mod programs;

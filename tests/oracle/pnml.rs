@@ -1,26 +1,19 @@
-//! The exported net is read by a public tool: `pm4py`, from `target/pm4py` or from the system's Python.
+//! The exported net is read by a public tool: `pm4py`.
 
 use apex_dsl::petri::pnml;
-use apex_tests::oracle::{Checker, generate};
+use apex_tests::{
+    oracle::{Checker, generate},
+    python,
+};
 use std::{fs, path::Path, process::Command};
 
 const READ: &str = "import sys, pm4py
 net, initial, _ = pm4py.read_pnml(sys.argv[1])
 print('read', len(net.places), len(net.transitions), len(net.arcs), sum(initial.values()))";
 
-/// A Python that has `pm4py`.
-fn python() -> Option<String> {
-    let own = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../pm4py/bin/python3").display().to_string();
-    let has = |p: &String| Command::new(p).args(["-c", "import pm4py"]).output().is_ok_and(|o| o.status.success());
-    [own, "python3".to_owned()].into_iter().find(has)
-}
-
 #[test]
 fn nets_are_read_by_pm4py() {
-    let Some(python) = python() else {
-        println!("skipped: no Python with pm4py; `python3 -m venv target/pm4py && target/pm4py/bin/pip install pm4py`");
-        return;
-    };
+    let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR")), "pm4py", "pm4py") else { return };
     let checker = Checker::new();
     for seed in [1, 2, 3, 37] {
         let Ok(checked) = checker.check(&generate(seed, true).text("Random")) else { continue };

@@ -3,12 +3,12 @@
 //! `APEX_ORACLE_GRAPHS` says how many (40), `APEX_ORACLE_SEED` where to begin; with `APEX_ORACLE_RAW` what fails is shown
 //! as it is, not made small first.
 
-use crate::cargo::{How, Program, run};
+use crate::compile::{How, Program, run};
 use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, read};
 use std::{collections::BTreeMap, env};
 
 /// Programs that are compiled together.
-const BATCH: usize = 40;
+const BATCH: usize = 120;
 /// Most failures that are made small and shown.
 const SHOWN: usize = 3;
 /// Most times that one is made smaller: each compiles many graphs.
@@ -19,7 +19,7 @@ fn number(name: &str) -> Option<u64> {
 }
 
 /// What is wrong with each of `cases`, which are legal; nothing where all is right.
-fn judge(checker: &Checker, folder: &str, how: How, cases: &[&Case]) -> Vec<Option<String>> {
+fn judge(checker: &Checker, folder: &str, ways: &[How], cases: &[&Case]) -> Vec<Option<String>> {
     if cases.is_empty() {
         return vec![];
     }
@@ -28,15 +28,15 @@ fn judge(checker: &Checker, folder: &str, how: How, cases: &[&Case]) -> Vec<Opti
         .enumerate()
         .map(|(i, case)| Program { name: format!("Random{i}"), text: case.text(&format!("Random{i}")) })
         .collect();
-    match run(folder, &programs, how) {
-        Ok(traces) => cases.iter().zip(&programs).zip(traces).map(|((_, p), t)| wrong(checker, p, &t)).collect(),
+    match run(folder, &programs, ways) {
+        Ok(records) => programs.iter().enumerate().map(|(i, p)| wrong(checker, p, ways, &records, i)).collect(),
         Err(message) => {
             let blamed = |i: usize| message.contains(&format!("Random{i}.afg"));
             if cases.len() == 1 || !(0..cases.len()).any(blamed) {
                 return cases.iter().map(|_| Some(message.clone())).collect();
             }
             let rest: Vec<&Case> = cases.iter().enumerate().filter(|(i, _)| !blamed(*i)).map(|(_, c)| *c).collect();
-            let mut judged = judge(checker, folder, how, &rest).into_iter();
+            let mut judged = judge(checker, folder, ways, &rest).into_iter();
             (0..cases.len()).map(|i| if blamed(i) { Some(message.clone()) } else { judged.next().flatten() }).collect()
         }
     }
@@ -47,7 +47,13 @@ fn kind(why: &str) -> &str {
     why.lines().next().and_then(|line| line.split_whitespace().nth(2)).unwrap_or_default()
 }
 
-fn wrong(checker: &Checker, program: &Program, trace: &str) -> Option<String> {
+/// What is wrong with program `at` in the first way in which something is.
+fn wrong(checker: &Checker, program: &Program, ways: &[How], records: &[Vec<String>], at: usize) -> Option<String> {
+    let mut all = ways.iter().zip(records);
+    all.find_map(|(how, of_all)| wrong_record(checker, program, &of_all[at]).map(|why| format!("{why}\n  ({how:?})")))
+}
+
+fn wrong_record(checker: &Checker, program: &Program, trace: &str) -> Option<String> {
     let records = read(trace);
     if !trace.ends_with("E\n") {
         return Some(format!("the program stopped early:\n{}", last_lines(trace, 20)));
@@ -67,7 +73,7 @@ fn last_lines(text: &str, count: usize) -> String {
 }
 
 /// A small graph that is still wrong, and what is wrong with it.
-fn smallest(checker: &Checker, how: How, case: Case, why: String) -> (Case, String) {
+fn smallest(checker: &Checker, folder: &str, ways: &[How], case: Case, why: String) -> (Case, String) {
     let (mut case, mut why) = (case, why);
     for _ in 0..ROUNDS {
         let legal: Vec<Case> =
@@ -75,7 +81,7 @@ fn smallest(checker: &Checker, how: How, case: Case, why: String) -> (Case, Stri
         let mut found = None;
         for batch in legal.chunks(BATCH) {
             let cases: Vec<&Case> = batch.iter().collect();
-            let judged = judge(checker, "oracle-smaller", how, &cases);
+            let judged = judge(checker, &format!("{folder}-smaller"), ways, &cases);
             let same = batch.iter().zip(judged).filter_map(|(c, w)| Some((c.clone(), w?)));
             found = same.filter(|(_, w)| kind(w) == kind(&why)).min_by_key(|(c, _)| c.nodes.len() + c.links.len());
             if found.is_some() {
@@ -91,30 +97,30 @@ fn smallest(checker: &Checker, how: How, case: Case, why: String) -> (Case, Stri
 }
 
 /// Shows the first failure of each kind made small: the others are mostly the same.
-fn show(checker: &Checker, how: How, failures: &[(&Case, String)]) {
+fn show(checker: &Checker, folder: &str, ways: &[How], failures: &[(&Case, String)]) {
     let mut shown: Vec<&str> = vec![];
     for (case, why) in failures {
         if shown.contains(&kind(why)) || shown.len() == SHOWN {
             continue;
         }
         shown.push(kind(why));
-        let (small, why) = smallest(checker, how, (*case).clone(), why.clone());
+        let (small, why) = smallest(checker, folder, ways, (*case).clone(), why.clone());
         println!("seed {}: {why}\n{}", case.seed, small.text("Random"));
     }
 }
 
 /// Judges random graphs, `made` from a seed each: one of `share` of those that are wanted.
-fn try_all(folder: &str, how: How, share: u64, made: impl Fn(u64) -> Case) {
+fn try_all(folder: &str, ways: &[How], share: u64, made: impl Fn(u64) -> Case) {
     let count = number("APEX_ORACLE_GRAPHS").unwrap_or(40).div_ceil(share);
     let first = number("APEX_ORACLE_SEED").unwrap_or(1);
-    println!("{how:?}: {count} graphs, APEX_ORACLE_SEED={first}");
+    println!("{ways:?}: {count} graphs, APEX_ORACLE_SEED={first}");
     let checker = Checker::new();
     let cases: Vec<Case> =
         (first..first + count).map(made).filter(|case| checker.check(&case.text("Random")).is_ok()).collect();
     let mut failures: Vec<(&Case, String)> = vec![];
     for batch in cases.chunks(BATCH) {
         let batch: Vec<&Case> = batch.iter().collect();
-        let judged = judge(&checker, folder, how, &batch);
+        let judged = judge(&checker, folder, ways, &batch);
         failures.extend(batch.iter().zip(judged).filter_map(|(case, why)| Some((*case, why?))));
     }
     println!("{} legal graphs, {} of them wrong", cases.len(), failures.len());
@@ -126,22 +132,18 @@ fn try_all(folder: &str, how: How, share: u64, made: impl Fn(u64) -> Case) {
     if env::var_os("APEX_ORACLE_RAW").is_some() {
         failures.iter().for_each(|(case, why)| println!("seed {}: {why}\n{}", case.seed, case.text("Random")));
     } else {
-        show(&checker, how, &failures);
+        show(&checker, folder, ways, &failures);
     }
     assert!(failures.is_empty(), "{} of {} programs do what their nets may not", failures.len(), cases.len());
 }
 
 #[test]
 fn compiled_programs_run_as_their_nets_may() {
-    try_all("oracle", How::InTurn, 1, |seed| generate(seed, true));
+    try_all("oracle", &[How::InTurn], 1, |seed| generate(seed, true));
 }
 
+/// In turn and on threads, compiled once.
 #[test]
-fn thread_groups_in_turn_run_as_their_nets_may() {
-    try_all("oracle-in-turn", How::InTurn, 4, |seed| on_threads(generate(seed, true)));
-}
-
-#[test]
-fn thread_groups_on_threads_run_as_their_nets_may() {
-    try_all("oracle-threads", How::OnThreads, 4, |seed| on_threads(generate(seed, true)));
+fn thread_groups_run_as_their_nets_may() {
+    try_all("oracle-threads", &[How::InTurn, How::OnThreads], 4, |seed| on_threads(generate(seed, true)));
 }

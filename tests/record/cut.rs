@@ -15,7 +15,8 @@ graph! {
     }
 }
 
-fn run(path: &std::path::Path, ms: i64) {
+/// Records so many milliseconds of it.
+pub fn run(path: &std::path::Path, ms: i64) {
     record::<Small>(path, |tap| {
         drive_with(Small::new(), SimClock::until(Time::from_millis(ms)), tap);
     });
@@ -41,7 +42,8 @@ fn a_file_that_was_cut_anywhere_is_read_up_to_the_cut() {
             Err(error) => assert!(last == 0, "{length}: {error}"),
         }
     }
-    assert_eq!(most, 12);
+    // Whether the last reaction is whole is certain only where the end of the file says so.
+    assert_eq!(most, 11);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Recordings: a run that is repeated from its file is the same run, bit by bit.
 
 mod cut;
+mod damage;
 mod feed;
 mod full;
 mod python;

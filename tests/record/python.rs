@@ -1,8 +1,8 @@
-//! Others read what was recorded: the Python packages `mcap` and `mcap-ros2-support`, from `target/mcap` or from the
-//! system's Python.
+//! Others read what was recorded: the Python packages `mcap` and `mcap-ros2-support`.
 
 use crate::{Folder, record};
 use apex_rt::{drive_with, prelude::*};
+use apex_tests::python;
 use std::{path::Path, process::Command};
 
 graph! {
@@ -59,21 +59,10 @@ with open(sys.argv[1], 'rb') as file:
             print(schema.name, m.linear.x, m.linear.y, m.angular.z)
 ";
 
-/// A Python that has the packages.
-fn python() -> Option<String> {
-    let own = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../mcap/bin/python3").display().to_string();
-    let has = |p: &String| Command::new(p).args(["-c", "import mcap_ros2"]).output().is_ok_and(|o| o.status.success());
-    [own, "python3".to_owned()].into_iter().find(has)
-}
-
 /// What Python reads of a recording; `None` without a Python.
 fn read(path: &Path) -> Option<String> {
-    let Some(python) = python() else {
-        println!(
-            "skipped: no Python with mcap; `python3 -m venv target/mcap && target/mcap/bin/pip install mcap mcap-ros2-support`"
-        );
-        return None;
-    };
+    let packages = "mcap mcap-ros2-support";
+    let python = python(Path::new(env!("CARGO_TARGET_TMPDIR")), "mcap_ros2", packages)?;
     let output = Command::new(&python).args(["-c", READ]).arg(path).output().expect("python runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     Some(String::from_utf8_lossy(&output.stdout).into_owned())

@@ -64,9 +64,16 @@ fn compile(text: &str) -> (Vec<Found>, String) {
     let mut sources = Sources::default();
     let root = sources.add(folder.join("text.afg"), text);
     let mut diagnostics = Diagnostics::default();
-    let programs = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
-    let code =
-        passes::generate(&programs, &catalog, &sources, &|_| proc_macro2::Span::call_site(), false, &mut diagnostics);
+    let checked = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
+    let code = passes::generate(
+        &checked.programs,
+        &checked.texts.machines,
+        &catalog,
+        &sources,
+        &|_| proc_macro2::Span::call_site(),
+        false,
+        &mut diagnostics,
+    );
     disk.save();
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error);
     (errors.map(|d| Found::new(d, &sources)).collect(), code.to_string())

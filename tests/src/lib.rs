@@ -4,10 +4,13 @@
 
 mod compile;
 mod dice;
+mod libraries;
 mod log;
 mod machines;
 pub mod oracle;
+mod python;
 mod random;
+pub mod texts;
 
 pub mod nodes {
     //! Nodes for the texts of the tests.
@@ -44,8 +47,10 @@ pub mod nodes {
 
 pub use compile::{Found, check, error, expand};
 pub use dice::Dice;
+pub use libraries::{Libraries, root};
 pub use log::{Log, active, active_after_each, react, simulate};
 pub use machines::{LETTERS, Machine, machine, machines_text};
+pub use python::python;
 pub use random::{Case, SEED, Trace, cases, text};
 
 /// A constant that texts use.

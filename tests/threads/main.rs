@@ -2,3 +2,5 @@
 
 mod groups;
 mod real;
+mod signals;
+mod waits;

@@ -175,10 +175,10 @@ fn a_panic_in_one_group_ends_the_others_and_goes_on() {
 
 #[test]
 fn somebody_else_can_end_the_program_while_it_sleeps() {
-    static STOPPED: AtomicBool = AtomicBool::new(false);
+    static STOPPED: apex_rt::Switch = apex_rt::Switch::new();
     let ends = thread::spawn(|| {
         thread::sleep(Duration::from_millis(60));
-        STOPPED.store(true, Ordering::Relaxed);
+        STOPPED.set();
     });
     let mut program = There::new();
     let clock = apex_rt::UntilStopped::new(WallClock::new(), &STOPPED);

@@ -1,12 +1,12 @@
 //! A checked text → what its pages say.
 
 use super::book::{Claim, Files, Item, Key, Picture, State, Test, Text, Use};
-use apex_diagram::{MAX_ITEMS, Shape, diagram, machine, states, svg};
+use apex_diagram::{MAX_ITEMS, chart, diagram, folded, folded_states, svg};
 use apex_dsl::{
     claims::Verdict,
     graph::Graph,
     ide::{Definition, MachineId, NodeType, Origin, View, declaration},
-    passes::Program,
+    program::Program,
     resolve::{GraphId, Meaning},
     source::Span,
     syntax::tree::{Arg, Endpoint, GraphItem, Instance, Modifier, NodeBody, PathExpr, StateItem, TypeKind},
@@ -87,7 +87,7 @@ impl Checked<'_> {
                 let line = self.view.sources.line_column(span.file, span.start).0;
                 Key { file: self.file(span.file), line, name }
             }
-            Some(Origin::Rust(file, line)) => {
+            Some(Origin::Rust(file, line, _)) => {
                 let file = self.package.map_or_else(|| file.clone(), |(root, _)| root.join(&file));
                 Key { file, line, name }
             }
@@ -115,28 +115,21 @@ impl Checked<'_> {
     }
 
     fn pictures(&self, graph: &Graph) -> Vec<Picture> {
-        let whole = diagram(graph, self.view.catalog);
-        let activity = states(&whole).map(|item| picture("Activity", &item));
-        [picture("Diagram", &whole)].into_iter().chain(activity).collect()
+        let whole = diagram(graph, &self.view.texts.machines, self.view.catalog);
+        let activity = folded_states(&whole).map(|(item, _)| picture("Activity", &item));
+        [picture("Diagram", &folded(whole).0)].into_iter().chain(activity).collect()
     }
 
     fn machine(&self, id: MachineId) -> Item {
         let item = self.view.machine(id);
         let signature = match self.view.texts.names(id.file).get(&item.name.text) {
-            Some(Meaning::Machine(signature)) => self.view.catalog.machines.get(signature),
+            Some(Meaning::Machine(signature)) => self.view.texts.machines.get(signature),
             _ => None,
-        };
-        let picture_of = |known| {
-            let frame = apex_diagram::Item {
-                inside: Some(machine(known)),
-                ..apex_diagram::Item::new(Shape::Node, &item.name.text)
-            };
-            picture("Diagram", &frame)
         };
         let mut states = vec![];
         item.states.iter().for_each(|state| add_state(state, "", &mut states));
         Item {
-            pictures: signature.map(picture_of).into_iter().collect(),
+            pictures: signature.map(|known| picture("Diagram", &chart(known))).into_iter().collect(),
             states,
             code: Some(self.source(item.extent)),
             ..self.item(NodeType::Machine(id), "fsm")
@@ -145,7 +138,8 @@ impl Checked<'_> {
 
     fn rust(&self, id: usize) -> Item {
         let signature = &self.view.catalog.signatures[id];
-        let path: Vec<&str> = signature.path.iter().map(String::as_str).filter(|word| !word.is_empty()).collect();
+        let written = self.view.catalog.written(&signature.path);
+        let path: Vec<&str> = written.iter().map(String::as_str).collect();
         let package = self.package.map_or_else(String::new, |(_, name)| name.replace('-', "_"));
         let module: Vec<&str> = match path.split_last() {
             Some((_, ["crate", inner @ ..])) => [package.as_str()].into_iter().chain(inner.iter().copied()).collect(),
@@ -215,7 +209,7 @@ impl Checked<'_> {
 
     fn claim(&self, span: Span) -> Claim {
         let of_program = |program: &Program| {
-            let claims = program.graph.claims.iter().zip(&program.analysis.claims.verdicts);
+            let claims = program.graph.claims.iter().zip(&program.claims.verdicts);
             claims.filter(|(claim, _)| claim.span == span).map(|(_, verdict)| *verdict).collect::<Vec<_>>()
         };
         // It is decided wherever its graph is used.

@@ -1,11 +1,13 @@
 //! The folder that pages are written to. Files in it that are not pages of ours stay as they are.
 
-use super::names::is_page;
+use super::{html::SIGNATURE, names::is_page};
 use crate::replace::put;
+use apex_host::read_text;
 use std::{
     collections::{BTreeMap, BTreeSet},
+    fmt::Display,
     fs,
-    io::{self, ErrorKind},
+    io::{self, ErrorKind, Read as _, Seek as _, SeekFrom},
     path::{Path, PathBuf},
 };
 
@@ -13,6 +15,9 @@ use std::{
 const LIST: &str = ".apex-doc";
 /// Its first line.
 const HEAD: &str = "Made by `apex doc`, which writes and removes the files that are named here.";
+
+/// Most bytes of the list that are read.
+const MAX_BYTES: usize = 16 << 20;
 
 /// A folder that is empty, or that was made for pages.
 pub struct Folder {
@@ -24,15 +29,17 @@ pub struct Folder {
 impl Folder {
     /// Looks at a folder, which need not be there. One with other things in it is refused.
     pub fn open(path: PathBuf) -> Result<Self, String> {
-        let failed = |e: io::Error| format!("cannot write pages to `{}`: {e}", path.display());
-        let list = match fs::read_to_string(path.join(LIST)) {
+        let failed = |e: &dyn Display| format!("cannot write pages to `{}`: {e}", path.display());
+        let list = path.join(LIST);
+        let list = match list.symlink_metadata() {
+            Ok(_) => Some(read_text(&list, MAX_BYTES).map_err(|reason| failed(&format!("`{LIST}`: {reason}")))?),
             Err(e) if e.kind() == ErrorKind::NotFound => None,
-            list => Some(list.map_err(failed)?),
+            Err(e) => return Err(failed(&e)),
         };
         let is_empty = match fs::read_dir(&path) {
             Ok(mut entries) => entries.next().is_none(),
             Err(e) if e.kind() == ErrorKind::NotFound => true,
-            Err(e) => return Err(failed(e)),
+            Err(e) => return Err(failed(&e)),
         };
         if list.is_none() && !is_empty {
             return Err(format!(
@@ -41,7 +48,9 @@ impl Folder {
             ));
         }
         let lines = list.iter().flat_map(|list| list.lines().skip(1));
-        let pages = lines.filter(|name| is_page(name)).map(str::to_owned).collect();
+        // The list may come from a stranger: what it names is ours only if it looks as we make it.
+        let is_ours = |name: &&str| is_page(name) && is_signed(&path.join(name));
+        let pages = lines.filter(is_ours).map(str::to_owned).collect();
         Ok(Self { path, pages })
     }
 
@@ -81,6 +90,21 @@ impl Folder {
     pub fn index(&self) -> PathBuf {
         self.path.join(super::names::Names::INDEX)
     }
+}
+
+/// Whether a file, not what a link leads to, ends as pages do.
+fn is_signed(path: &Path) -> bool {
+    let end = || {
+        if !path.symlink_metadata()?.is_file() {
+            return Err(ErrorKind::InvalidInput.into());
+        }
+        let mut file = fs::File::open(path)?;
+        file.seek(SeekFrom::End(-(SIGNATURE.len() as i64)))?;
+        let mut end = vec![];
+        file.take(SIGNATURE.len() as u64).read_to_end(&mut end)?;
+        Ok::<_, io::Error>(end)
+    };
+    end().is_ok_and(|end| end == SIGNATURE.as_bytes())
 }
 
 fn failed(what: &str, path: &Path, error: &io::Error) -> String {

@@ -43,6 +43,9 @@ pub fn folded(title: &str, inner: &str) -> String {
     format!("<details>\n<summary>{}</summary>\n{inner}</details>\n", escaped(title))
 }
 
+/// The end of every page, by which those that were made here are known again.
+pub const SIGNATURE: &str = "<footer>Made by <code>apex doc</code>.</footer>\n</body>\n</html>\n";
+
 /// A whole page. `path` are links to the pages above it. Nothing in it may run or load anything.
 pub fn page(title: &str, path: &[String], body: &str) -> String {
     let title = escaped(title);
@@ -52,7 +55,6 @@ pub fn page(title: &str, path: &[String], body: &str) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{nav}<main>\n{body}</main>\n\
-         <footer>Made by <code>apex doc</code>.</footer>\n</body>\n</html>\n"
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{nav}<main>\n{body}</main>\n{SIGNATURE}"
     )
 }

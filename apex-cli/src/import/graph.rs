@@ -1,7 +1,8 @@
 //! What a graph file says.
 
 use super::{
-    Wrong, known, names,
+    Wrong, known,
+    names::{self, Taken},
     ports::{End, Kind, Port},
     text::MESSAGE,
     yaml::{Value, Yaml},
@@ -28,7 +29,10 @@ pub struct Node {
     pub name: String,
     /// Its type, as the file spells it.
     pub ty: String,
+    /// Its parameters that have a value, by the names that they get in the text.
     pub params: Vec<(String, Param)>,
+    /// The names of these.
+    pub param_names: BTreeSet<String>,
     /// Its thread group.
     pub group: Option<String>,
     pub enabled: bool,
@@ -56,7 +60,7 @@ pub enum Param {
 
 /// What is the same in all graphs of a file.
 struct File {
-    graph_names: BTreeSet<String>,
+    graph_names: Taken,
     /// The thread groups, by the ids of nodes from the outermost graph on.
     groups: BTreeMap<String, String>,
 }
@@ -67,16 +71,17 @@ pub fn read(yaml: &Yaml, file_name: &str) -> Result<Graph, Wrong> {
     let name = yaml.get("name").filter(|_| snippet.is_some());
     let name = name.and_then(|n| n.scalar("").ok()).filter(|n| !n.is_empty()).unwrap_or(file_name);
     let yaml = snippet.unwrap_or(yaml);
-    let mut file = File { graph_names: BTreeSet::from([MESSAGE.to_owned()]), groups: groups(yaml)? };
+    let mut file = File { graph_names: Taken::default(), groups: groups(yaml)? };
+    file.graph_names.reserve(MESSAGE.to_owned());
     take_types(yaml, &mut file.graph_names);
     file.graph(yaml, name, "", 0)
 }
 
 /// A graph cannot have the name of a node type.
-fn take_types(yaml: &Yaml, taken: &mut BTreeSet<String>) {
+fn take_types(yaml: &Yaml, taken: &mut Taken) {
     for node in yaml.get("nodes").and_then(|nodes| nodes.list("").ok()).into_iter().flatten() {
         let ty = node.get("type").and_then(|ty| ty.scalar("").ok()).unwrap_or_default();
-        taken.insert(known::find(ty).map_or_else(|| names::camel(ty), |known| known.ours.1.to_owned()));
+        taken.reserve(known::find(ty).map_or_else(|| names::camel(ty), |known| known.ours.1.to_owned()));
         node.get("subgraph").into_iter().for_each(|graph| take_types(graph, taken));
     }
 }
@@ -106,10 +111,10 @@ impl File {
         if depth > MAX_DEPTH {
             return Err(Wrong::new(yaml.line, format!("graphs are nested deeper than {MAX_DEPTH} times")));
         }
-        let name = names::unique(names::camel(name), &mut self.graph_names);
+        let name = self.graph_names.unique(names::camel(name));
         let mut graph = Graph { name, nodes: vec![], connections: vec![], ports: BTreeSet::new() };
         let mut places: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
-        let mut taken = BTreeSet::new();
+        let mut taken = Taken::default();
         for node in yaml.need("nodes", "a graph")?.list("`nodes`")? {
             let uuid = node.need("uuid", "a node")?;
             let id = uuid.scalar("`uuid`")?;
@@ -125,14 +130,7 @@ impl File {
         Ok(graph)
     }
 
-    fn node(
-        &mut self,
-        yaml: &Yaml,
-        id: &str,
-        path: &str,
-        depth: usize,
-        taken: &mut BTreeSet<String>,
-    ) -> Result<Node, Wrong> {
+    fn node(&mut self, yaml: &Yaml, id: &str, path: &str, depth: usize, taken: &mut Taken) -> Result<Node, Wrong> {
         let ty = yaml.need("type", "a node")?.scalar("`type`")?;
         // A label that nobody has changed is the id of the node or that of one of which it is a copy.
         let label = yaml.get("label").and_then(|label| label.scalar("").ok());
@@ -140,11 +138,13 @@ impl File {
         let path = if path.is_empty() { id.to_owned() } else { format!("{path}:|:{id}") };
         let graph = yaml.get("subgraph").map(|graph| self.graph(graph, label, &path, depth + 1)).transpose()?;
         let params = yaml.get("state").and_then(|state| state.get("params"));
+        // Those of a graph say which ports it has.
+        let params = params.filter(|_| graph.is_none()).map_or(Ok(vec![]), read_params)?;
         Ok(Node {
-            name: names::unique(names::snake(label), taken),
+            name: taken.unique(names::snake(label)),
             ty: ty.to_owned(),
-            // Those of a graph say which ports it has.
-            params: params.filter(|_| graph.is_none()).map_or(Ok(vec![]), read_params)?,
+            param_names: params.iter().map(|(name, _)| name.clone()).collect(),
+            params,
             group: self.groups.get(&path).cloned(),
             enabled: yaml.get("enabled").is_none_or(|e| e.value != Value::Scalar("false".to_owned())),
             graph,
@@ -190,6 +190,7 @@ impl Graph {
     fn note_ports(&mut self, end: &End) {
         match end {
             End::Own(kind, k) => drop(self.ports.insert((*kind, *k))),
+            End::Whole(_) => {}
             End::Node(index, port) => {
                 let graph = self.nodes[*index].graph.as_mut();
                 graph.and_then(|graph| port.of_graph().map(|port| graph.ports.insert(port)));
@@ -197,50 +198,89 @@ impl Graph {
         }
     }
 
-    /// The ports of node `index` that are connected, each once.
-    pub fn connected(&self, index: usize) -> BTreeSet<&Port> {
-        let ends = self.connections.iter().flat_map(|c| [&c.from, &c.to]);
-        ends.filter_map(|end| match end {
-            End::Node(node, port) if *node == index => Some(port),
-            _ => None,
-        })
-        .collect()
+    /// The ports of each node that are connected, each once.
+    pub fn connected(&self) -> Vec<BTreeSet<&Port>> {
+        let mut connected = vec![BTreeSet::new(); self.nodes.len()];
+        for end in self.connections.iter().flat_map(|c| [&c.from, &c.to]) {
+            if let End::Node(node, port) = end {
+                connected[*node].insert(port);
+            }
+        }
+        connected
     }
 }
 
+/// The parameters that have a value, by the names that they get in the text.
 fn read_params(yaml: &Yaml) -> Result<Vec<(String, Param)>, Wrong> {
-    let entries = yaml.map("`params`")?.iter();
-    entries.map(|(name, entry)| Ok((name.clone(), read_param(entry)?))).collect()
+    let (mut taken, mut params) = (Taken::default(), vec![]);
+    for (name, entry) in yaml.map("`params`")? {
+        let param = read_param(entry)?;
+        let is_empty = matches!(&param, Param::List(items) if items.is_empty());
+        if param != Param::None && !is_empty {
+            params.push((taken.unique(names::snake(name)), param));
+        }
+    }
+    Ok(params)
 }
 
-/// A parameter has its value under the name of its type.
+/// What stands under a key.
+#[derive(Clone, Copy)]
+enum Form {
+    Int,
+    Float,
+    Bool,
+    Text,
+}
+
+/// The keys under which a parameter can have its value: those that come first count first.
+const FORMS: [(&str, Form); 8] = [
+    ("txt", Form::Text),
+    ("string", Form::Text),
+    ("value", Form::Text),
+    ("double", Form::Float),
+    ("int", Form::Int),
+    ("bool", Form::Bool),
+    ("list", Form::Text),
+    ("values", Form::Int),
+];
+
+/// A parameter has its value, or the two ends of an interval, under the name of its type.
 fn read_param(yaml: &Yaml) -> Result<Param, Wrong> {
-    let wrong = |yaml: &Yaml, what: &str| Wrong::new(yaml.line, format!("this is no {what}"));
-    for (key, what) in [
-        ("txt", "text"),
-        ("string", "text"),
-        ("value", "text"),
-        ("double", "number"),
-        ("int", "whole number"),
-        ("bool", "`true` or `false`"),
-    ] {
-        let Some(value) = yaml.get(key) else { continue };
-        let text = value.scalar(&format!("`{key}`"))?;
-        let param = match key {
-            "double" => text.parse().ok().map(|x: f64| if x.is_finite() { Param::Float(x) } else { Param::None }),
-            "int" => text.parse().ok().map(Param::Int),
-            "bool" => text.parse().ok().map(Param::Bool),
-            _ => Some(Param::Text(text.to_owned())),
+    let Some((value, form)) = FORMS.iter().find_map(|(key, form)| Some((yaml.get(key)?, *form))) else {
+        return Ok(Param::None);
+    };
+    let is_angle = yaml.get("type").is_some_and(|ty| ty.scalar("").is_ok_and(|ty| ty == "angle"));
+    let form = if is_angle { Form::Float } else { form };
+    match &value.value {
+        Value::Scalar(_) => form.read(value),
+        Value::List(items) => {
+            let items: Vec<Param> = items.iter().map(|item| form.read(item)).collect::<Result<_, _>>()?;
+            // A list in which something cannot be written is no value.
+            Ok(if items.contains(&Param::None) { Param::None } else { Param::List(items) })
+        }
+        Value::Map(_) => Ok(Param::None),
+    }
+}
+
+impl Form {
+    /// Reads one value; one that is structured has no form that could be written.
+    fn read(self, yaml: &Yaml) -> Result<Param, Wrong> {
+        let Value::Scalar(text) = &yaml.value else { return Ok(Param::None) };
+        let (param, what) = match self {
+            Self::Text => (Some(Param::Text(text.clone())), "text"),
+            Self::Int => (text.parse().ok().map(Param::Int), "whole number"),
+            Self::Bool => (text.parse().ok().map(Param::Bool), "`true` or `false`"),
+            Self::Float => (read_float(text), "number"),
         };
-        return param.ok_or_else(|| wrong(value, what));
+        param.ok_or_else(|| Wrong::new(yaml.line, format!("this is no {what}")))
     }
-    if let Some(list) = yaml.get("list") {
-        let texts = list.list("`list`")?.iter().map(|t| Ok(Param::Text(t.scalar("an element")?.to_owned())));
-        return Ok(Param::List(texts.collect::<Result<_, Wrong>>()?));
+}
+
+/// A number as YAML writes it; those that are not finite cannot be written.
+fn read_float(text: &str) -> Option<Param> {
+    let bare = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    if [".inf", ".nan", "inf", "nan"].contains(&&*bare) {
+        return Some(Param::None);
     }
-    if let Some(values) = yaml.get("values") {
-        let number = |v: &Yaml| v.scalar("an element")?.parse().map(Param::Int).map_err(|_| wrong(v, "whole number"));
-        return Ok(Param::List(values.list("`values`")?.iter().map(number).collect::<Result<_, Wrong>>()?));
-    }
-    Ok(Param::None)
+    text.parse().ok().map(|x: f64| if x.is_finite() { Param::Float(x) } else { Param::None })
 }

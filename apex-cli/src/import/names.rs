@@ -1,6 +1,6 @@
 //! Names of a graph file as names of the language.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// Words that cannot be names in a text or in Rust.
 const RESERVED: &[&str] = &[
@@ -51,15 +51,32 @@ pub fn camel(name: &str) -> String {
     }
 }
 
-/// The name, or the name with a number if it is taken; takes it.
-pub fn unique(name: String, taken: &mut BTreeSet<String>) -> String {
-    let mut candidate = name.clone();
-    let mut number = 2;
-    while !taken.insert(candidate.clone()) {
-        candidate = format!("{name}_{number}");
-        number += 1;
+/// Names that are taken, each with the number that the next one like it gets.
+#[derive(Default)]
+pub struct Taken(BTreeMap<String, usize>);
+
+impl Taken {
+    /// Takes a name that must not be given to others.
+    pub fn reserve(&mut self, name: String) {
+        self.0.entry(name).or_insert(2);
     }
-    candidate
+
+    /// The name, or the name with a number if it is taken; takes it.
+    pub fn unique(&mut self, name: String) -> String {
+        let Some(mut number) = self.0.get(&name).copied() else {
+            self.reserve(name.clone());
+            return name;
+        };
+        let numbered = |number| format!("{name}_{number}");
+        while self.0.contains_key(&numbered(number)) {
+            number += 1;
+        }
+        let candidate = numbered(number);
+        // The search goes on where it ended: a thousand nodes of one name are no thousand searches from the beginning.
+        self.0.insert(name, number + 1);
+        self.reserve(candidate.clone());
+        candidate
+    }
 }
 
 #[cfg(test)]
@@ -72,7 +89,8 @@ mod tests {
         let snakes = ["random_trees_0", "priors_0", "max_depth", "n2_of", "unnamed", "in_", "httpnode"];
         assert_eq!(names.map(snake), snakes);
         assert_eq!(["csapex::Graph_0", "my graph", "3d", ""].map(camel), ["Graph0", "MyGraph", "N3d", "Unnamed"]);
-        let mut taken = BTreeSet::new();
-        assert_eq!(["a", "a", "a"].map(|name| unique(name.to_owned(), &mut taken)), ["a", "a_2", "a_3"]);
+        let mut taken = Taken::default();
+        let names = ["a", "a_3", "a", "a", "a_3", "a"].map(|name| taken.unique(name.to_owned()));
+        assert_eq!(names, ["a", "a_3", "a_2", "a_4", "a_3_2", "a_5"]);
     }
 }

@@ -27,7 +27,46 @@ pub enum End {
     Node(usize, Port),
     /// A port of the graph itself, seen from inside.
     Own(Kind, u32),
+    /// A slot or an event of CS::APEX itself.
+    Whole(&'static Whole),
 }
+
+impl End {
+    /// Whether its tokens are of type `()`, whatever they are there.
+    pub fn sends_signals(&self) -> bool {
+        match self {
+            Self::Node(_, port) => port.common().is_some(),
+            Self::Whole(_) => true,
+            Self::Own(..) => false,
+        }
+    }
+
+    /// Whether it takes tokens of type `()`, although there it takes any.
+    pub fn takes_signals(&self) -> bool {
+        match self {
+            Self::Node(_, port) => port.common().is_some(),
+            Self::Whole(whole) => whole.ours.is_some(),
+            Self::Own(..) => false,
+        }
+    }
+}
+
+/// A port of the program as a whole, there and here.
+#[derive(Debug, PartialEq)]
+pub struct Whole {
+    pub theirs: &'static str,
+    /// What the language has for it.
+    pub ours: Option<&'static str>,
+    kind: Kind,
+}
+
+const WHOLES: [Whole; 5] = [
+    Whole { theirs: "event_activation", ours: Some("start"), kind: Kind::Event },
+    Whole { theirs: "event_deactivation", ours: None, kind: Kind::Event },
+    Whole { theirs: "slot_exit", ours: Some("exit"), kind: Kind::Slot },
+    Whole { theirs: "slot_abort", ours: Some("abort"), kind: Kind::Slot },
+    Whole { theirs: "slot_save", ours: None, kind: Kind::Slot },
+];
 
 /// Slots and events that every node has come first.
 pub const COMMON_SLOTS: [&str; 2] = ["enable", "disable"];
@@ -77,6 +116,9 @@ impl End {
     pub fn read(id: &str, line: usize, node: impl Fn(&str) -> Option<usize>) -> Result<Self, Wrong> {
         let unknown = |what: String| Wrong::new(line, format!("unknown id `{id}`: {what}"));
         let Some((owner, port)) = id.rsplit_once(":|:") else {
+            if let Some(whole) = WHOLES.iter().find(|whole| whole.theirs == id) {
+                return Ok(Self::Whole(whole));
+            }
             // Inside, an input of the graph is where tokens come from.
             let kinds = [
                 ("relayout", Kind::In),
@@ -94,11 +136,20 @@ impl End {
         Ok(Self::Node(index, port))
     }
 
+    /// Its name there, if the language has no such port.
+    pub fn without_counterpart(&self) -> Option<&'static str> {
+        match self {
+            Self::Whole(Whole { theirs, ours: None, .. }) => Some(theirs),
+            _ => None,
+        }
+    }
+
     /// Whether tokens come from here.
     pub fn is_source(&self) -> bool {
         match self {
             Self::Node(_, port) => matches!(port.kind(), Kind::Out | Kind::Event),
             Self::Own(kind, _) => matches!(kind, Kind::In | Kind::Slot),
+            Self::Whole(whole) => whole.kind == Kind::Event,
         }
     }
 }

@@ -26,16 +26,15 @@ pub struct Type<'a> {
 pub fn types(top: &Graph) -> BTreeMap<&str, Type<'_>> {
     let mut types: BTreeMap<&str, Type<'_>> = BTreeMap::new();
     text::visit(top, &mut |graph| {
-        for (index, node) in graph.nodes.iter().enumerate() {
+        for (node, ports) in graph.nodes.iter().zip(graph.connected()) {
             if node.graph.is_some() || node.ty == NOTE || known::find(&node.ty).is_some() {
                 continue;
             }
             let is_new = !types.contains_key(&*node.ty);
             let ty = types.entry(&node.ty).or_default();
-            for (name, param) in text::params(node) {
-                ty.params.entry(name).or_insert(param);
+            for (name, param) in &node.params {
+                ty.params.entry(name.clone()).or_insert(param);
             }
-            let ports = graph.connected(index);
             let named = ports.into_iter().filter(|p| p.common().is_none()).map(|p| (p, text::port_name(node, p)));
             ty.add(named.collect(), is_new);
         }
@@ -46,8 +45,9 @@ pub fn types(top: &Graph) -> BTreeMap<&str, Type<'_>> {
 impl Type<'_> {
     /// Adds the connected ports of one more node.
     fn add(&mut self, ports: Vec<(&Port, String)>, is_first: bool) {
+        let connected: BTreeSet<&String> = ports.iter().map(|(_, name)| name).collect();
         for (name, mandatory) in &mut self.inputs {
-            *mandatory &= ports.iter().any(|(_, other)| other == name);
+            *mandatory &= connected.contains(name);
         }
         for (port, name) in ports {
             let (Port::Number(kind, _) | Port::Param(kind, _)) = port;
@@ -124,7 +124,12 @@ fn rust_value(param: &Param) -> (String, String) {
         Param::Bool(value) => ("bool".to_owned(), value.to_string()),
         Param::Text(value) => ("String".to_owned(), format!("String::from({value:?})")),
         Param::List(values) => {
-            let ty = if matches!(values[..], [Param::Text(_), ..]) { "&'static str" } else { "i64" };
+            let ty = match values[..] {
+                [Param::Text(_), ..] => "&'static str",
+                [Param::Float(_), ..] => "f64",
+                [Param::Bool(_), ..] => "bool",
+                _ => "i64",
+            };
             (format!("&'static [{ty}]"), format!("&{}", text::value(param)))
         }
         Param::None => ("i64".to_owned(), "0".to_owned()),

@@ -17,6 +17,10 @@ pub fn write(top: &Graph, module: &str) -> String {
     visit(top, &mut |graph| {
         has_ports |= !graph.ports.is_empty();
         library.extend(graph.nodes.iter().filter_map(|node| known::find(&node.ty)).map(|known| known.ours));
+        let mut ends = graph.connections.iter().map(|connection| (&connection.from, &connection.to));
+        if ends.any(|(from, to)| !from.sends_signals() && to.takes_signals()) {
+            library.insert(("flow", "Signal"));
+        }
     });
     for (module, name) in library {
         let _ = writeln!(text, "use apex_nodes::{module}::{name};");
@@ -43,21 +47,29 @@ fn write_graph(graph: &Graph, text: &mut String) {
         let _ = writeln!(text, "{word} {word}_{k}: {MESSAGE};");
     }
     text.push('\n');
-    for (index, node) in graph.nodes.iter().enumerate() {
-        write_node(graph, index, node, text);
+    for (node, connected) in graph.nodes.iter().zip(graph.connected()) {
+        write_node(node, &connected, text);
     }
     text.push('\n');
-    for Connection { from, to, active } in &graph.connections {
-        let arrow = if *active { "=>" } else { "->" };
-        let _ = writeln!(text, "{} {arrow} {};", end(graph, from), end(graph, to));
-    }
+    graph.connections.iter().for_each(|connection| write_connection(graph, connection, text));
     text.push_str("}\n");
+}
+
+fn write_connection(graph: &Graph, Connection { from, to, active }: &Connection, text: &mut String) {
+    // What the language has no port for stays in the text for whoever knows better.
+    for whole in [from, to].into_iter().filter_map(End::without_counterpart) {
+        let _ = write!(text, "// `{whole}` of CS::APEX itself has nothing like it here: ");
+    }
+    let arrow = if *active { "=>" } else { "->" };
+    // There any token is a signal; here `enable` and its like take `()`.
+    let signal = if !from.sends_signals() && to.takes_signals() { format!("Signal() {arrow} ") } else { String::new() };
+    let _ = writeln!(text, "{} {arrow} {signal}{};", end(graph, from), end(graph, to));
 }
 
 /// The type of the notes on the canvas, which do nothing.
 pub const NOTE: &str = "csapex::Note";
 
-fn write_node(graph: &Graph, index: usize, node: &Node, text: &mut String) {
+fn write_node(node: &Node, connected: &BTreeSet<&Port>, text: &mut String) {
     if node.ty == NOTE {
         for (_, param) in &node.params {
             let Param::Text(note) = param else { continue };
@@ -73,7 +85,7 @@ fn write_node(graph: &Graph, index: usize, node: &Node, text: &mut String) {
         (Some(graph), _) => (graph.name.clone(), String::new()),
         (None, Some(known)) => (known.ours.1.to_owned(), String::new()),
         (None, None) => {
-            let ports: Vec<String> = graph.connected(index).into_iter().map(|port| port_name(node, port)).collect();
+            let ports: Vec<String> = connected.iter().map(|port| port_name(node, port)).collect();
             let ports =
                 if ports.is_empty() { "no ports used".to_owned() } else { format!("uses {}", ports.join(", ")) };
             text.push_str(&format!("// `{}` is not in the library; {ports}.\n", plain(&node.ty)));
@@ -88,21 +100,8 @@ fn plain(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).collect()
 }
 
-/// The parameters of a node that have values and names of their own.
-pub fn params(node: &Node) -> Vec<(String, &Param)> {
-    let mut taken = BTreeSet::new();
-    let has_value = |(_, param): &&(String, Param)| !matches!(param, Param::None) && !is_empty(param);
-    let params = node.params.iter().filter(has_value);
-    params.map(|(name, param)| (names::unique(names::snake(name), &mut taken), param)).collect()
-}
-
-fn is_empty(param: &Param) -> bool {
-    matches!(param, Param::List(items) if items.is_empty())
-}
-
 fn arguments(node: &Node) -> String {
-    let arguments: Vec<String> =
-        params(node).into_iter().map(|(name, param)| format!("{name} = {}", value(param))).collect();
+    let arguments: Vec<String> = node.params.iter().map(|(name, param)| format!("{name} = {}", value(param))).collect();
     arguments.join(", ")
 }
 
@@ -121,6 +120,7 @@ pub fn value(param: &Param) -> String {
 fn end(graph: &Graph, end: &End) -> String {
     match end {
         End::Own(kind, k) => format!("{}_{k}", kind.word()),
+        End::Whole(whole) => whole.ours.unwrap_or(whole.theirs).to_owned(),
         End::Node(index, port) => {
             let node = &graph.nodes[*index];
             format!("{}.{}", node.name, port_name(node, port))
@@ -139,9 +139,7 @@ pub fn port_name(node: &Node, port: &Port) -> String {
     let name = match port {
         Port::Number(kind, k) => format!("{}_{k}", kind.word()),
         // It is the port of the parameter itself, if that is there.
-        Port::Param(Kind::In, param) if params(node).iter().any(|(name, _)| *name == names::snake(param)) => {
-            names::snake(param)
-        }
+        Port::Param(Kind::In, param) if node.param_names.contains(&names::snake(param)) => names::snake(param),
         Port::Param(kind, param) => format!("{}_{}", kind.word(), names::snake(param)),
     };
     let known = known::find(&node.ty).and_then(|known| known.ports.iter().find(|(theirs, _)| *theirs == name));

@@ -2,6 +2,7 @@
 
 use super::Wrong;
 use saphyr_parser::{Event, Parser};
+use std::collections::BTreeSet;
 
 /// How deep lists and maps may be in each other.
 const MAX_DEPTH: usize = 200;
@@ -67,7 +68,17 @@ impl Yaml {
 /// A list or map that has not ended.
 enum Open {
     List(usize, Vec<Yaml>),
-    Map(usize, Vec<(String, Yaml)>, Option<String>),
+    Map(usize, Entries),
+}
+
+/// The entries of a map that has not ended.
+#[derive(Default)]
+struct Entries {
+    all: Vec<(String, Yaml)>,
+    /// The keys of all of them.
+    keys: BTreeSet<String>,
+    /// The key that waits for its value.
+    key: Option<String>,
 }
 
 /// The one document of a text.
@@ -88,12 +99,12 @@ pub fn read(text: &str) -> Result<Yaml, Wrong> {
                 continue;
             }
             Event::MappingStart(..) => {
-                open.push(Open::Map(line, vec![], None));
+                open.push(Open::Map(line, Entries::default()));
                 continue;
             }
             Event::SequenceEnd | Event::MappingEnd => match open.pop() {
                 Some(Open::List(line, items)) => Yaml { line, value: Value::List(items) },
-                Some(Open::Map(line, entries, _)) => Yaml { line, value: Value::Map(entries) },
+                Some(Open::Map(line, entries)) => Yaml { line, value: Value::Map(entries.all) },
                 None => continue,
             },
             // A graph that contains itself can only be written so.
@@ -113,14 +124,14 @@ impl Open {
     fn add(&mut self, value: Yaml) -> Result<(), Wrong> {
         match self {
             Self::List(_, items) => items.push(value),
-            Self::Map(_, entries, key) => match key.take() {
-                Some(name) => entries.push((name, value)),
+            Self::Map(_, entries) => match entries.key.take() {
+                Some(name) => entries.all.push((name, value)),
                 None => {
                     let name = value.scalar("a key")?;
-                    if entries.iter().any(|(other, _)| other == name) {
+                    if !entries.keys.insert(name.to_owned()) {
                         return Err(Wrong::new(value.line, format!("the key `{name}` is there twice")));
                     }
-                    *key = Some(name.to_owned());
+                    entries.key = Some(name.to_owned());
                 }
             },
         }

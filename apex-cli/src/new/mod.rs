@@ -1,41 +1,107 @@
-//! `apex new`: a project that runs at once.
+//! `apex new`: a project that works at once.
 
 mod name;
 
 use crate::project;
+use clap::ValueEnum;
 use std::{
     fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
-/// The files of a project. `{name}`, `{checkout}`, `{runtime}` and `{nodes}` are filled in.
-const FILES: [(&str, &str); 6] = [
-    ("Cargo.toml", include_str!("template/Cargo.toml.txt")),
-    ("README.md", include_str!("template/README.md")),
-    (".gitignore", include_str!("template/gitignore.txt")),
-    ("robot.afg", include_str!("template/robot.afg")),
-    ("src/lib.rs", include_str!("template/src/lib.rs")),
-    ("src/main.rs", include_str!("template/src/main.rs")),
+/// A kind of project.
+#[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum Template {
+    /// A robot with a base and a laser scanner in a small simulated world: a mission, a live picture, a test.
+    #[default]
+    Robot,
+    /// A library crate with nodes of its own, and a graph that tests them.
+    Node,
+    /// A cart on a microcontroller: a graph without the standard library and heap, which runs on this computer, too.
+    Firmware,
+}
+
+/// A file of a project, and its text. `{name}`, `{crate}`, `{checkout}` and the crates' paths are filled in.
+type File = (&'static str, &'static str);
+
+const GITIGNORE: File = (".gitignore", include_str!("template/gitignore.txt"));
+const RUSTFMT: File = ("rustfmt.toml", include_str!("../../../rustfmt.toml"));
+
+/// The robot is that of `robots/rover`, the firmware that of `robots/firmware`: they are built and tested there.
+const ROBOT: [File; 8] = [
+    ("Cargo.toml", include_str!("template/robot/Cargo.toml.txt")),
+    ("README.md", include_str!("template/robot/README.md")),
+    GITIGNORE,
+    RUSTFMT,
+    ("robot.afg", include_str!("../../../robots/rover/robot.afg")),
+    ("world.txt", include_str!("../../../robots/rover/world.txt")),
+    ("src/lib.rs", include_str!("../../../robots/rover/src/lib.rs")),
+    ("src/main.rs", include_str!("../../../robots/rover/src/main.rs")),
 ];
+
+const NODE: [File; 6] = [
+    ("Cargo.toml", include_str!("template/node/Cargo.toml.txt")),
+    ("README.md", include_str!("template/node/README.md")),
+    GITIGNORE,
+    RUSTFMT,
+    ("tests.afg", include_str!("template/node/tests.afg")),
+    ("src/lib.rs", include_str!("template/node/src/lib.rs")),
+];
+
+const FIRMWARE: [File; 8] = [
+    ("Cargo.toml", include_str!("template/firmware/Cargo.toml.txt")),
+    ("README.md", include_str!("template/firmware/README.md")),
+    GITIGNORE,
+    RUSTFMT,
+    ("firmware.afg", include_str!("../../../robots/firmware/firmware.afg")),
+    ("src/lib.rs", include_str!("../../../robots/firmware/src/lib.rs")),
+    ("src/line.rs", include_str!("../../../robots/firmware/src/line.rs")),
+    ("src/main.rs", include_str!("template/firmware/src/main.rs.txt")),
+];
+
+impl Template {
+    fn files(self) -> &'static [File] {
+        match self {
+            Self::Robot => &ROBOT,
+            Self::Node => &NODE,
+            Self::Firmware => &FIRMWARE,
+        }
+    }
+
+    /// What to do first in the project.
+    fn next(self) -> &'static [&'static str] {
+        match self {
+            Self::Robot => &["apex check robot.afg", "apex test robot.afg", "cargo run"],
+            Self::Node => &["apex check tests.afg", "apex test tests.afg"],
+            Self::Firmware => &["apex check firmware.afg", "apex test firmware.afg", "cargo run"],
+        }
+    }
+}
 
 /// Makes a project in `folder`, which is named as the folder is. Its crates are those of `checkout`, or of the one that
 /// this command was built from.
-pub fn run(folder: &Path, checkout: Option<&Path>) -> Result<ExitCode, String> {
-    let name = name::of(folder)?;
-    is_free(folder)?;
+pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result<ExitCode, String> {
     let checkout = find(checkout)?;
-    let path = |path: PathBuf| toml_string(&path);
-    let (runtime, nodes) = (path(checkout.join("apex-rt"))?, path(checkout.join("nodes"))?);
-    for (file, template) in FILES {
-        let text = template
-            .replace("{name}", name)
-            .replace("{checkout}", &checkout.display().to_string())
-            .replace("{runtime}", &runtime)
-            .replace("{nodes}", &nodes);
+    let name = name::of(folder, &name::locked(&checkout))?;
+    is_free(folder)?;
+    let path = |path: &str| toml_string(&checkout.join(path));
+    let filled = [
+        // The package that the files of the robot belong to where they are tested.
+        ("rover::", format!("{}::", name.replace('-', "_"))),
+        ("{name}", name.to_owned()),
+        ("{crate}", name.replace('-', "_")),
+        ("{checkout}", checkout.display().to_string()),
+        ("{runtime}", path("apex-rt")?),
+        ("{nodes}", path("nodes")?),
+        ("{sim}", path("robots/sim")?),
+    ];
+    for (file, template) in template.files() {
+        let text = filled.iter().fold((*template).to_owned(), |text, (hole, word)| text.replace(hole, word));
         write(&folder.join(file), &text)?;
     }
-    project::print(&format!("made `{name}`; next\n  cd {}\n  cargo run", shell_word(folder)))?;
+    let next: String = template.next().iter().map(|line| format!("\n  {line}")).collect();
+    project::print(&format!("made `{name}`; next\n  cd {}{next}", shell_word(folder)))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -56,12 +122,14 @@ fn is_free(folder: &Path) -> Result<(), String> {
 fn find(given: Option<&Path>) -> Result<PathBuf, String> {
     let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("/"));
     let checkout = given.unwrap_or(built_from);
-    if ["apex-rt", "nodes"].iter().all(|name| checkout.join(name).join("Cargo.toml").is_file()) {
+    if ["apex-rt", "nodes", "robots/sim"].iter().all(|name| checkout.join(name).join("Cargo.toml").is_file()) {
         return fs::canonicalize(checkout).map_err(|e| format!("cannot find `{}`: {e}", checkout.display()));
     }
     let shown = checkout.display();
     Err(match given {
-        Some(_) => format!("`{shown}` is no checkout of Apex: there is no `apex-rt` and no `nodes` in it"),
+        Some(_) => {
+            format!("`{shown}` is not a checkout of Apex: there is no `apex-rt`, `nodes` and `robots/sim` in it")
+        }
         None => format!("the checkout of Apex is no longer in `{shown}`: say where it is with `--path`"),
     })
 }

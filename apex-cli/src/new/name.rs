@@ -1,78 +1,29 @@
 //! Names that a package can have.
 
-use std::path::Path;
+use std::{fs, path::Path};
 
-/// Words that cannot be the name of a crate: cargo, rustc or the project itself uses them.
-const TAKEN: &[&str] = &[
-    "abstract",
-    "alloc",
-    "apex-nodes",
-    "apex-rt",
-    "as",
-    "async",
-    "await",
-    "become",
-    "box",
-    "break",
-    "build",
-    "const",
-    "continue",
-    "core",
-    "crate",
-    "deps",
-    "do",
-    "dyn",
-    "else",
-    "enum",
-    "examples",
-    "extern",
-    "false",
-    "final",
-    "fn",
-    "for",
-    "gen",
-    "if",
-    "impl",
-    "in",
-    "incremental",
-    "let",
-    "loop",
-    "macro",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "override",
-    "priv",
-    "proc-macro",
-    "pub",
-    "ref",
-    "return",
-    "self",
-    "static",
-    "std",
-    "struct",
-    "super",
-    "test",
-    "trait",
-    "true",
-    "try",
-    "type",
-    "typeof",
-    "unsafe",
-    "unsized",
-    "use",
-    "virtual",
-    "where",
-    "while",
-    "yield",
-];
+/// Words that cannot be the name of a crate: Rust or cargo uses them.
+const TAKEN: &str = "\
+    abstract alloc as async await become box break build const continue core crate deps do dyn else enum \
+    examples extern false final fn for gen if impl in incremental let loop macro match mod move mut \
+    override priv proc-macro pub ref return self static std struct super test trait true try type typeof \
+    unsafe unsized use virtual where while yield";
+
+/// Names that no file can have on Windows, whatever stands behind a dot; `com` and `lpt` with a digit come to them.
+const DEVICES: &str = "aux con nul prn";
 
 /// Cargo's own limit is the file system's.
 const LONGEST: usize = 64;
 
-/// The name of the package in `folder`: that of the folder.
-pub fn of(folder: &Path) -> Result<&str, String> {
+/// The crates from elsewhere that the crates of Apex are locked to: a package of the same name would be taken for one.
+pub fn locked(checkout: &Path) -> Vec<String> {
+    let lock = fs::read_to_string(checkout.join("Cargo.lock")).unwrap_or_default();
+    let name = |block: &str| block.split_once("name = \"")?.1.split_once('"').map(|(name, _)| name.to_owned());
+    lock.split("[[package]]").filter(|block| block.contains("\nsource = ")).filter_map(name).collect()
+}
+
+/// The name of the package in `folder`: that of the folder. It must not be the same as one of `others`.
+pub fn of<'a>(folder: &'a Path, others: &[String]) -> Result<&'a str, String> {
     let Some(name) = folder.file_name() else {
         return Err(format!(
             "`{}` has no name for the project: give the folder one, as in `my-robot`",
@@ -80,23 +31,30 @@ pub fn of(folder: &Path) -> Result<&str, String> {
         ));
     };
     let shown = name.to_string_lossy();
-    match problem(&shown).map_or_else(|| name.to_str().ok_or("it is not UTF-8"), Err) {
+    match problem(&shown, others).map_or_else(|| name.to_str().ok_or("it is not UTF-8"), Err) {
         Ok(name) => Ok(name),
         Err(reason) => {
-            Err(format!("`{shown}` cannot be the name of a package: {reason}; try `{}`", suggestion(&shown)))
+            Err(format!("`{shown}` cannot be the name of a package: {reason}; try `{}`", suggestion(&shown, others)))
         }
     }
 }
 
 /// What is wrong with a name.
-fn problem(name: &str) -> Option<&'static str> {
+fn problem(name: &str, others: &[String]) -> Option<&'static str> {
     let first = name.chars().next()?;
+    let plain = name.to_ascii_lowercase().replace('_', "-");
     if !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') {
         Some("only the letters `a` to `z`, digits, `-` and `_` are allowed")
     } else if !first.is_ascii_alphabetic() {
         Some("it must begin with a letter")
-    } else if TAKEN.contains(&name.to_ascii_lowercase().replace('_', "-").as_str()) {
-        Some("it is taken by Rust, cargo or Apex")
+    } else if TAKEN.split(' ').any(|word| word == plain) {
+        Some("it is taken by Rust or cargo")
+    } else if is_device(&plain) {
+        Some("Windows has no files of that name")
+    } else if plain == "apex" || plain.starts_with("apex-") {
+        Some("names that begin with `apex` are those of Apex itself")
+    } else if others.iter().any(|other| other.replace('_', "-") == plain) {
+        Some("it is the name of a crate that Apex needs")
     } else if name.len() > LONGEST {
         Some("it is longer than 64 letters")
     } else {
@@ -104,8 +62,14 @@ fn problem(name: &str) -> Option<&'static str> {
     }
 }
 
+/// Whether Windows takes a name for a device.
+fn is_device(name: &str) -> bool {
+    let port = |word| name.strip_prefix(word).is_some_and(|n| n.len() == 1 && n.chars().all(|c| c.is_ascii_digit()));
+    DEVICES.split(' ').any(|device| device == name) || port("com") || port("lpt")
+}
+
 /// A name near to the one that was wished for.
-fn suggestion(name: &str) -> String {
+fn suggestion(name: &str, others: &[String]) -> String {
     let words: Vec<String> = name
         .split(|c: char| !c.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty())
@@ -113,10 +77,9 @@ fn suggestion(name: &str) -> String {
         .collect();
     let plain: String = words.join("-").chars().skip_while(|c| !c.is_ascii_alphabetic()).take(LONGEST).collect();
     let plain = plain.trim_end_matches('-');
-    if plain.is_empty() {
-        return "my-robot".to_owned();
-    }
-    if problem(plain).is_none() { plain.to_owned() } else { format!("{plain}-robot") }
+    let candidates = [plain.to_owned(), format!("{plain}-robot"), format!("my-{plain}")];
+    let right = |name: &String| !plain.is_empty() && problem(name, others).is_none();
+    candidates.into_iter().find(right).unwrap_or_else(|| "my-robot".to_owned())
 }
 
 #[cfg(test)]
@@ -125,6 +88,7 @@ mod tests {
 
     #[test]
     fn names_are_refused_with_a_better_one() {
+        let others = ["syn".to_owned(), "proc_macro2".to_owned()];
         for (name, better) in [
             ("My Robot", "my-robot"),
             ("für_alle", "f-r-alle"),
@@ -133,14 +97,43 @@ mod tests {
             ("_", "my-robot"),
             ("Ω", "my-robot"),
             ("self", "self-robot"),
-            ("apex_rt", "apex-rt-robot"),
+            ("Self", "self-robot"),
+            ("apex_rt", "my-apex-rt"),
+            ("apex", "my-apex"),
+            ("syn", "syn-robot"),
+            ("proc-macro2", "proc-macro2-robot"),
+            ("con", "con-robot"),
+            ("AUX", "aux-robot"),
+            ("nul", "nul-robot"),
+            ("prn", "prn-robot"),
+            ("com1", "com1-robot"),
+            ("LPT9", "lpt9-robot"),
             (&"long".repeat(20), &"long".repeat(16)),
         ] {
-            let message = of(Path::new(name)).unwrap_err();
+            let message = of(Path::new(name), &others).unwrap_err();
             assert!(message.ends_with(&format!("; try `{better}`")), "{message}");
-            assert!(of(Path::new(better)).is_ok(), "{better}");
+            assert!(of(Path::new(better), &others).is_ok(), "{better}");
         }
-        assert_eq!(of(Path::new("some/folder/My_robot-2")), Ok("My_robot-2"));
-        assert!(of(Path::new("..")).is_err());
+        for name in ["some/folder/My_robot-2", "com10", "console", "auxiliary", "apexes", "rover"] {
+            assert!(of(Path::new(name), &others).is_ok(), "{name}");
+        }
+        assert!(of(Path::new(".."), &others).is_err());
+    }
+
+    #[test]
+    fn no_word_of_rust_can_be_a_name() {
+        // rustc's own list is not to be had; syn knows the words that are no identifiers.
+        let words = TAKEN.split(' ').filter(|word| syn::parse_str::<syn::Ident>(&word.replace('-', "_")).is_err());
+        assert!(words.count() > 35);
+        for word in ["async", "await", "dyn", "gen", "try", "fn", "yield", "crate", "super", "Self", "self"] {
+            assert!(of(Path::new(word), &[]).is_err(), "{word}");
+        }
+    }
+
+    #[test]
+    fn crates_from_elsewhere_are_read_from_the_lock() {
+        let names = locked(&Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+        assert!(names.iter().any(|name| name == "heapless") && !names.iter().any(|name| name == "rover"), "{names:?}");
+        assert!(locked(Path::new("/nowhere")).is_empty());
     }
 }

@@ -5,11 +5,11 @@ mod program;
 
 use crate::{
     project::print_error,
-    run::{self, Wanted},
+    run::{self, Found, Wanted},
 };
 use apex_host::Workspace;
 use files::Files;
-use program::{Built, Running};
+use program::{Running, forget, start};
 use std::{
     fs, mem,
     path::{Path, PathBuf},
@@ -34,16 +34,16 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     let (mut is_first, mut has_started) = (true, false);
     while !STOPPED.load(Ordering::Relaxed) {
         let files = Files::below(&folders);
-        match Built::new(wanted) {
+        match built(wanted) {
             Ok(Some(_)) if STOPPED.load(Ordering::Relaxed) => break,
             Ok(Some(built)) => {
                 if let Some(before) = running.take() {
                     before.end();
                 }
                 if !mem::replace(&mut has_started, true) {
-                    built.forget();
+                    forget(&built);
                 }
-                running = Some(built.start(wanted)?);
+                running = Some(start(built, wanted)?);
             }
             Ok(None) => print_error(waiting(running.as_ref())),
             Err(message) if is_first => return Err(message),
@@ -57,6 +57,11 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
         last.end();
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The program, if nothing is wrong with it; what is wrong is printed.
+fn built(wanted: &Wanted<'_>) -> Result<Option<Found>, String> {
+    wanted.check()?.map_or(Ok(None), |programs| wanted.build(&programs))
 }
 
 /// What happens until the next change.

@@ -1,57 +1,23 @@
 use crate::run::{Found, Wanted};
-use apex_host::no_cargo;
-use serde_json::Value;
 use std::{
     fs,
-    path::PathBuf,
-    process::{Child, Command, ExitStatus, Stdio},
+    process::{Child, ExitStatus},
     thread,
     time::Duration,
 };
 
-/// A program that has been built.
-pub struct Built {
-    program: Found,
-    executable: PathBuf,
-}
-
-impl Built {
-    /// Checks and builds; `None` if there are errors, which are printed.
-    pub fn new(wanted: &Wanted<'_>) -> Result<Option<Self>, String> {
-        let Some(program) = wanted.find()? else { return Ok(None) };
-        let mut command = program.cargo("build");
-        command.arg("--message-format=json-render-diagnostics").stderr(Stdio::inherit());
-        let output = command.output().map_err(|e| no_cargo(&e))?;
-        if !output.status.success() {
-            return Ok(None);
-        }
-        let messages = String::from_utf8_lossy(&output.stdout);
-        let executable = messages.lines().filter_map(executable).next_back();
-        let executable = executable.ok_or("cargo has built no program")?;
-        Ok(Some(Self { program, executable }))
-    }
-
-    /// Forgets the parameters that were kept in an earlier watch.
-    pub fn forget(&self) {
-        if let Some(made) = &self.program.made {
-            // It may never have been there.
-            let _ = fs::remove_dir_all(made.join("kept"));
-        }
-    }
-
-    /// Starts it.
-    pub fn start(&self, wanted: &Wanted<'_>) -> Result<Running, String> {
-        let mut command = Command::new(&self.executable);
-        wanted.tell(&self.program, &mut command);
-        let child = command.spawn().map_err(|e| format!("cannot run `{}`: {e}", self.executable.display()))?;
-        Ok(Running(child))
+/// Forgets the parameters that were kept in an earlier watch.
+pub fn forget(program: &Found) {
+    if let Some(made) = &program.made {
+        // It may never have been there.
+        let _ = fs::remove_dir_all(made.join("kept"));
     }
 }
 
-/// The executable that one of cargo's messages speaks of.
-fn executable(message: &str) -> Option<PathBuf> {
-    let message: Value = serde_json::from_str(message).ok()?;
-    message["executable"].as_str().map(PathBuf::from)
+/// Starts a program; others may build as soon as it has.
+pub fn start(program: Found, wanted: &Wanted<'_>) -> Result<Running, String> {
+    let child = wanted.command(&program).spawn().map_err(|e| program.not_started(&e))?;
+    Ok(Running(child))
 }
 
 /// A program that runs, or has ended by itself.

@@ -31,9 +31,20 @@ impl Drop for Folder {
     }
 }
 
-/// The command.
+/// How all is built that tests make, whatever its manifest says: with the same settings cargo builds the compiler once for
+/// all, and what runs for moments is not worth optimising.
+pub const SETTINGS: [(&str, &str); 4] = [
+    ("CARGO_INCREMENTAL", "0"),
+    ("CARGO_PROFILE_DEV_DEBUG", "0"),
+    ("CARGO_PROFILE_DEV_BUILD_OVERRIDE_OPT_LEVEL", "0"),
+    ("CARGO_PROFILE_RELEASE_BUILD_OVERRIDE_OPT_LEVEL", "0"),
+];
+
+/// The command, which says nothing of what it builds.
 pub fn apex() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_apex"))
+    let mut command = Command::new(env!("CARGO_BIN_EXE_apex"));
+    command.env("CARGO_TERM_QUIET", "true").envs(SETTINGS);
+    command
 }
 
 /// What a command said on standard error.

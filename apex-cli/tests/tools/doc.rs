@@ -212,7 +212,7 @@ fn the_robots_of_the_repository() {
     let pages = pages(&folder.0.join("pages"));
     assert_linked(&pages);
     for page in
-        ["patsy.patsy.Simulated.html", "rover.rover.Wander.html", "apex_nodes.flow.Wait.html", "rover.near.html"]
+        ["patsy.patsy.Simulated.html", "rover.robot.Mission.html", "apex_nodes.flow.Wait.html", "rover.free_ahead.html"]
     {
         assert!(pages.contains_key(page), "{page}");
     }
@@ -273,6 +273,38 @@ fn old_pages_go_and_other_files_stay() {
     let output = doc(&folder, &["a.afg", "-o", "pages"]);
     assert_eq!((output.status.code(), files(&pages)), (Some(2), before));
     assert!(stderr(&output).ends_with("a.B.html` was not made by `apex doc`: move it away\n"), "{}", stderr(&output));
+}
+
+/// A list that a stranger has put there names files that nobody made: they stay, and are not written over.
+#[test]
+fn a_planted_list_takes_nothing() {
+    let folder = Folder::new("doc-planted");
+    let pages = folder.0.join("pages");
+    fs::create_dir(&pages).unwrap();
+    fs::write(pages.join(".apex-doc"), "Made by `apex doc`\nmine.html\nlink.html\n../up.html\nfolder.html\n").unwrap();
+    fs::write(pages.join("mine.html"), "<p>mine</p>").unwrap();
+    fs::create_dir(pages.join("folder.html")).unwrap();
+    folder.file("a.afg", "graph A { }\n");
+    assert_eq!(doc(&folder, &["a.afg", "-o", "made"]).status.code(), Some(0));
+    // A page of another folder, and a link to it.
+    let page = fs::read(folder.0.join("made/a.html")).unwrap();
+    folder.file("up.html", &page);
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../up.html", pages.join("link.html")).unwrap();
+    let output = doc(&folder, &["a.afg", "-o", "pages"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(pages.join("mine.html")).unwrap(), "<p>mine</p>");
+    assert!(folder.0.join("up.html").exists() && pages.join("folder.html").is_dir());
+    #[cfg(unix)]
+    assert!(pages.join("link.html").symlink_metadata().is_ok());
+
+    fs::write(pages.join("a.A.html"), "mine").unwrap();
+    let output = doc(&folder, &["a.afg", "-o", "pages"]);
+    assert_eq!(
+        (output.status.code(), fs::read_to_string(pages.join("a.A.html")).unwrap()),
+        (Some(2), "mine".to_owned())
+    );
+    assert!(stderr(&output).ends_with("a.A.html` was not made by `apex doc`: move it away\n"), "{}", stderr(&output));
 }
 
 #[test]

@@ -87,6 +87,7 @@ fulcrums: []
 const TEXT: &str = r#"//! Imported from a graph of CS::APEX.
 use apex_nodes::flow::Count;
 use apex_nodes::flow::Latch;
+use apex_nodes::flow::Signal;
 // The file does not say what the ports of graphs carry: put the types in.
 use crate::nodes::Message;
 
@@ -110,8 +111,8 @@ graph MyRobot {
     camera_0.out_0      -> find_things.in_0;
     camera_0.out_0      -> count_messages_0.value;
     camera_0.event_4    => find_things.slot_0;
-    camera_0.event_4    -> find_things.enable;
-    find_things.event_0 => camera_0.disable;
+    camera_0.event_4    -> Signal() -> find_things.enable;
+    find_things.event_0 => Signal() => camera_0.disable;
     find_things.event_0 -> latch_0.set;
     latch_0.processed   -> count_messages_0.reset;
     find_things.out_0   -> camera_0.gain;

@@ -1,5 +1,5 @@
 use crate::{
-    TARGET,
+    TARGET, cargo,
     common::{Folder, apex, stderr},
 };
 use std::{
@@ -9,7 +9,7 @@ use std::{
 };
 
 /// Runs a command in a folder as a user without network would.
-fn run_in(folder: &Path, command: &mut Command, arguments: &[&str]) -> (Option<i32>, String, String) {
+pub fn run_in(folder: &Path, command: &mut Command, arguments: &[&str]) -> (Option<i32>, String, String) {
     let command = command.args(arguments).current_dir(folder);
     command.env("CARGO_TARGET_DIR", TARGET).env("CARGO_NET_OFFLINE", "true");
     let output = command.output().unwrap();
@@ -21,29 +21,63 @@ fn make(arguments: &[&str], folder: &Path) -> Output {
     apex().arg("new").args(arguments).arg(folder).output().unwrap()
 }
 
-#[test]
-fn a_new_project_is_right_is_tested_and_runs() {
-    let folder = Folder::new("new");
-    let said = run_in(&folder.0, &mut apex(), &["new", "my-robot"]);
-    assert_eq!(said, (Some(0), "made `my-robot`; next\n  cd my-robot\n  cargo run\n".to_owned(), String::new()));
-    let project = folder.0.join("my-robot");
-    for file in ["Cargo.toml", "README.md", ".gitignore", "robot.afg", "src/lib.rs", "src/main.rs"] {
-        let text = fs::read_to_string(project.join(file)).unwrap();
-        assert!(!["{name}", "{checkout}", "{runtime}", "{nodes}"].iter().any(|p| text.contains(p)), "{file}: {text}");
+/// Makes a project and tries what holds of all: nothing is left to be filled in, its texts and its Rust are right and
+/// in style, its text `text` is right, and `cargo test` passes without a warning. Returns what the last one said.
+fn tried(project: &Path, arguments: &[&str], text: &str) -> String {
+    let made = make(arguments, project);
+    assert_eq!((made.status.code(), stderr(&made)), (Some(0), String::new()));
+    for file in files(project) {
+        let text = fs::read_to_string(&file).unwrap();
+        for hole in ["{name}", "{crate}", "{checkout}", "{runtime}", "{nodes}", "{sim}"] {
+            assert!(!text.contains(hole), "{}: {text}", file.display());
+        }
     }
-    for arguments in [&["fmt", "--check", "."][..], &["check", "robot.afg"]] {
-        assert_eq!(run_in(&project, &mut apex(), arguments), (Some(0), String::new(), String::new()));
+    for arguments in [&["fmt", "--check", "."][..], &["check", text]] {
+        assert_eq!(run_in(project, &mut apex(), arguments), (Some(0), String::new(), String::new()));
     }
-    let cargo = || Command::new(env!("CARGO"));
-    let (code, output, errors) = run_in(&project, &mut cargo(), &["test"]);
-    assert!(code == Some(0) && output.contains("a_wall_comes_and_goes::passes ... ok"), "{output}{errors}");
-    assert!(!errors.contains("warning"), "{errors}");
-    let (code, output, errors) = run_in(&project, &mut apex(), &["test", "robot.afg"]);
-    assert!(code == Some(0) && output.contains("1 passed"), "{output}{errors}");
-    let (code, output, errors) = run_in(&project, &mut apex(), &["run", "robot.afg"]);
-    assert_eq!((code, output.as_str()), (Some(0), "a wall: turn\ndrive\na wall: turn\ndrive\n"), "{errors}");
-    let (code, _, errors) = run_in(&project, &mut cargo(), &["fmt", "--check"]);
+    let (code, output, errors) = run_in(project, &mut cargo(), &["test"]);
+    assert!(code == Some(0) && !errors.contains("warning"), "{output}{errors}");
+    let (code, _, errors) = run_in(project, &mut cargo(), &["fmt", "--check"]);
     assert_eq!(code, Some(0), "{errors}");
+    output
+}
+
+fn files(folder: &Path) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+#[test]
+fn a_library_of_nodes_is_right_and_is_tested() {
+    let folder = Folder::new("new-node");
+    let project = folder.0.join("my-nodes");
+    let tested = tried(&project, &["--template", "node"], "tests.afg");
+    assert!(tested.contains("tests_afg::what_stays_above_is_reported_once ... ok"), "{tested}");
+    assert!(tested.contains("what_bounces_is_held_back ... ok"), "{tested}");
+    let (code, listed, errors) = run_in(&project, &mut apex(), &["nodes", "my_nodes"]);
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(listed.starts_with("my_nodes\n  Debounce  Passes a value on when it has changed"), "{listed}");
+}
+
+#[test]
+fn firmware_is_right_is_tested_and_runs_here() {
+    let folder = Folder::new("new-firmware");
+    let project = folder.0.join("my-cart");
+    let tested = tried(&project, &["--template", "firmware"], "firmware.afg");
+    assert!(tested.contains("firmware_afg::starts_and_stops ... ok"), "{tested}");
+    let (code, output, errors) = run_in(&project, &mut cargo(), &["run", "--quiet"]);
+    assert_eq!(code, Some(0), "{errors}");
+    // The same as without the standard library: see `robots/firmware/tests/bare.rs`.
+    assert!(output.starts_with("0 ms: 0 mm/s\n500 ms: starts\n500 ms: 0 mm/s\n1000 ms: 423 mm/s\n"), "{output}");
+}
+
+#[test]
+fn what_a_template_is_stands_in_the_help() {
+    let output = apex().args(["new", "--help"]).output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    for part in ["- robot:", "- node:", "- firmware:", "a base and a laser scanner", "[default: robot]"] {
+        assert!(help.contains(part), "{part}: {help}");
+    }
 }
 
 #[test]
@@ -71,7 +105,10 @@ fn names_that_no_package_can_have_are_refused() {
     for (name, message) in [
         ("My Robot", "only the letters `a` to `z`, digits, `-` and `_` are allowed; try `my-robot`"),
         ("7of9", "it must begin with a letter; try `of9`"),
-        ("match", "it is taken by Rust, cargo or Apex; try `match-robot`"),
+        ("match", "it is taken by Rust or cargo; try `match-robot`"),
+        ("con", "Windows has no files of that name; try `con-robot`"),
+        ("heapless", "it is the name of a crate that Apex needs; try `heapless-robot`"),
+        ("apex-rt", "names that begin with `apex` are those of Apex itself; try `my-apex-rt`"),
     ] {
         let output = make(&[], &folder.0.join(name));
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
@@ -84,7 +121,7 @@ fn names_that_no_package_can_have_are_refused() {
 fn the_crates_come_from_the_checkout_that_is_named() {
     let folder = Folder::new("new-path");
     let checkout = folder.0.join("the \"checkout\"");
-    for name in ["apex-rt", "nodes"] {
+    for name in ["apex-rt", "nodes", "robots/sim"] {
         fs::create_dir_all(checkout.join(name)).unwrap();
         fs::write(checkout.join(name).join("Cargo.toml"), "").unwrap();
     }
@@ -92,8 +129,9 @@ fn the_crates_come_from_the_checkout_that_is_named() {
     assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
     let manifest = fs::read_to_string(folder.0.join("robot/Cargo.toml")).unwrap();
     assert!(manifest.contains(r#"the \"checkout\"/apex-rt" }"#), "{manifest}");
+    assert!(manifest.contains(r#"the \"checkout\"/robots/sim" }"#), "{manifest}");
 
     let output = make(&["--path", folder.0.to_str().unwrap()], &folder.0.join("other"));
     assert_eq!((output.status.code(), folder.0.join("other").exists()), (Some(2), false));
-    assert!(stderr(&output).contains("is no checkout of Apex"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("is not a checkout of Apex"), "{}", stderr(&output));
 }

@@ -160,7 +160,7 @@ fn a_run_is_recorded_and_repeated() {
     folder.file("robot.afg", text(3));
     folder.file("cut.mcap", &bytes[..bytes.len() / 2]);
     let (code, stdout, _) = replay(&folder, "cut.mcap", "Adder");
-    assert!(code == Some(0) && stdout.contains("the recording is not whole: it was cut off"), "{code:?} {stdout}");
+    assert!(code == Some(1) && stdout.contains("the recording is not whole: it was cut off"), "{code:?} {stdout}");
 
     // Another program.
     let output = run(&folder, &["replay", "run.mcap", "robot.afg", "--robot", "Other"]);

@@ -2,10 +2,11 @@
 
 use super::{
     Placed, SMALL, cycles,
+    labels::{Bend, Labels, Way, labels},
     leaf::{self, Sides},
     place, wide,
 };
-use crate::model::{Anchor, Flow, Frame, Item, Side};
+use crate::model::{Anchor, Flow, Frame, Item, Line, Side};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance between the rows of slots and events.
@@ -41,7 +42,7 @@ pub enum Role {
     /// A port of the frame.
     Pin(usize),
     Bend,
-    /// The label of a line, which passes below it.
+    /// A label, by its number; a line passes below it.
     Label(usize),
 }
 
@@ -76,9 +77,11 @@ pub struct Cells {
     pub paths: Vec<Vec<Link>>,
     /// The items, with their ports in the order of the model.
     pub placed: Vec<Placed>,
+    /// What stands at lines.
+    pub labels: Vec<String>,
     /// The ends of lines at ports.
     ends: BTreeMap<Anchor, usize>,
-    bends: BTreeMap<(usize, bool, usize), usize>,
+    bends: BTreeMap<Bend, usize>,
 }
 
 impl Cells {
@@ -91,6 +94,7 @@ impl Cells {
             links: vec![],
             paths: vec![],
             placed: vec![],
+            labels: vec![],
             ends: BTreeMap::new(),
             bends: BTreeMap::new(),
         };
@@ -102,7 +106,7 @@ impl Cells {
             cells.pin(port, &around.ports[port].name, around.ports[port].side, last);
         }
         cells.find_parts(frame);
-        cells.lines(frame);
+        cells.lines(around, frame);
         cells
     }
 
@@ -196,56 +200,67 @@ impl Cells {
         }
     }
 
-    fn lines(&mut self, frame: &Frame) {
+    fn lines(&mut self, around: &Item, frame: &Frame) {
         let mut nets: BTreeMap<(Anchor, bool, Flow, Option<usize>), usize> = BTreeMap::new();
+        let mut ways = vec![];
         for (index, line) in frame.lines.iter().enumerate() {
             let alone = (!line.label.is_empty()).then_some(index);
             let count = nets.len();
             let net = *nets.entry((line.from, line.active, line.flow, alone)).or_insert(count);
-            let label = alone.map(|line_index| (line_index, wide(&line.label, SMALL) + 10));
-            let (from, to) = (self.ends[&line.from], self.ends[&line.to]);
-            let path = self.path(net, from, to, label);
+            ways.push(self.way(net, line));
+        }
+        let labels = labels(around, frame, &ways);
+        for way in &ways {
+            let path = self.path(way, &labels);
             self.paths.push(path);
         }
         let links: BTreeSet<Link> = self.paths.iter().flatten().copied().collect();
         self.links = links.into_iter().collect();
     }
 
-    fn path(&mut self, net: usize, from: usize, to: usize, label: Option<(usize, i64)>) -> Vec<Link> {
+    fn way(&self, net: usize, line: &Line) -> Way {
+        let (from, to) = (self.ends[&line.from], self.ends[&line.to]);
         let layer = |term: usize| self.cells[self.terms[term].cell].layer;
         let (begin, end) = (layer(from), layer(to));
-        let part = self.cells[self.terms[from].cell].part;
         let back = end <= begin;
         let passed: Vec<usize> = if back { (end..=begin).rev().collect() } else { (begin + 1..end).collect() };
         let labelled = if back { end.max(begin.saturating_sub(1)) } else { begin + 1 };
+        Way { net, from, to, back, passed, labelled, end }
+    }
+
+    fn path(&mut self, way: &Way, labels: &Labels) -> Vec<Link> {
+        let (net, back) = (way.net, way.back);
+        let part = self.cells[self.terms[way.from].cell].part;
         let mut path = vec![];
-        let mut at = from;
-        for layer in passed {
-            let label = label.filter(|_| layer == labelled);
-            let bend = self.bend(net, back, layer, part, label);
+        let mut at = way.from;
+        for &layer in &way.passed {
+            let bend = self.bend((net, back, layer), part, labels.get(&(net, back, layer)));
             let (left, right) = (self.cells[bend].left[0], self.cells[bend].right[0]);
             let (enter, leave, gap) = if back { (right, left, layer) } else { (left, right, layer - 1) };
             path.push(Link { gap, net, from: at, to: enter });
             at = leave;
         }
-        path.push(Link { gap: end - 1, net, from: at, to });
+        path.push(Link { gap: way.end - 1, net, from: at, to: way.to });
         path
     }
 
     /// The bend of a net in a layer; there is one for all of its lines.
-    fn bend(&mut self, net: usize, back: bool, layer: usize, part: usize, label: Option<(usize, i64)>) -> usize {
-        if let Some(&bend) = self.bends.get(&(net, back, layer)) {
-            return bend;
+    fn bend(&mut self, bend: Bend, part: usize, label: Option<&String>) -> usize {
+        if let Some(&known) = self.bends.get(&bend) {
+            return known;
         }
         let (role, size, y) = match label {
-            Some((line, width)) => (Role::Label(line), (width, 16), 13),
+            Some(label) => {
+                self.labels.push(label.clone());
+                (Role::Label(self.labels.len() - 1), (wide(label, SMALL) + 10, 16), 13)
+            }
             None => (Role::Bend, (0, 0), 0),
         };
-        let cell = self.add(role, layer, size);
+        let cell = self.add(role, bend.2, size);
         let (left, right) = (self.term(cell, 0), self.term(cell, 0));
         self.give(cell, Some(left), Some(right), y);
         self.cells[cell].part = part;
-        self.bends.insert((net, back, layer), cell);
+        self.bends.insert(bend, cell);
         cell
     }
 

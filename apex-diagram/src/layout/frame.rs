@@ -191,10 +191,10 @@ impl Layout<'_> {
 
     fn labels(&mut self) {
         for (index, cell) in self.cells.cells.iter().enumerate() {
-            let Role::Label(line) = cell.role else { continue };
+            let Role::Label(label) = cell.role else { continue };
             let (left, right) = self.layers[cell.layer];
             let at = ((left + right) / 2, self.y[index] + 9);
-            self.placed.texts.push(Text::new(at, &self.frame.lines[line].label, SMALL, Align::Middle));
+            self.placed.texts.push(Text::new(at, &self.cells.labels[label], SMALL, Align::Middle));
         }
     }
 

@@ -43,7 +43,7 @@ impl Sides {
 
 /// A box with its ports in this order.
 pub fn place(item: &Item, sides: &Sides) -> Placed {
-    if matches!(item.shape, Shape::Start | Shape::End | Shape::Reset) {
+    if !matches!(item.shape, Shape::Node | Shape::State) {
         return dot(item);
     }
     let mut made = Box { item, sides, size: (0, 0), texts: vec![], ports: vec![(0, 0); item.ports.len()] };
@@ -64,7 +64,7 @@ pub fn place(item: &Item, sides: &Sides) -> Placed {
     Placed { at: (0, 0), size: made.size, texts: made.texts, ports: made.ports, items: vec![], routes: vec![] }
 }
 
-/// A dot; its name stands beside it, unless it is the start.
+/// A dot; its name stands at the side where no line is, unless it is the start.
 fn dot(item: &Item) -> Placed {
     let mut placed = Placed {
         at: (0, 0),
@@ -74,12 +74,19 @@ fn dot(item: &Item) -> Placed {
         items: vec![],
         routes: vec![],
     };
-    if item.shape == Shape::Start {
-        placed.ports.iter_mut().for_each(|p| p.0 = DOT);
-    } else {
-        let text = Text::new((DOT + 4, DOT - 3), &item.name, TYPE, Align::Begin);
-        placed.size.0 += 4 + text.width();
-        placed.texts.push(text);
+    match item.shape {
+        Shape::Start => placed.ports.iter_mut().for_each(|p| p.0 = DOT),
+        Shape::Event => {
+            let text = Text::new((0, DOT - 3), &item.name, TYPE, Align::Begin);
+            placed.size.0 += 4 + text.width();
+            placed.ports.iter_mut().for_each(|p| p.0 = placed.size.0);
+            placed.texts.push(text);
+        }
+        _ => {
+            let text = Text::new((DOT + 4, DOT - 3), &item.name, TYPE, Align::Begin);
+            placed.size.0 += 4 + text.width();
+            placed.texts.push(text);
+        }
     }
     placed
 }

@@ -8,10 +8,14 @@ mod cells;
 mod coordinates;
 mod cycles;
 mod frame;
+mod labels;
 mod leaf;
 mod order;
 mod route;
 pub mod simplex;
+mod strokes;
+
+pub use strokes::{Stroke, strokes};
 
 use crate::{model::Item, text};
 

@@ -110,6 +110,7 @@ pub fn check_live(graph: &Graph, links: &Links, live: &[bool], diagnostics: &mut
         let (node, event) = (graph.path(c.to.node), graph.end_name(c.from));
         let message = format!("`{node}` never fires: `{event}` never comes");
         let note = format!("only slots of `{}` trigger it, and no token comes to them", graph.path(c.from.node));
-        diagnostics.push(Diagnostic::warning("never-fires", c.span, message).note(note));
+        let warning = Diagnostic::warning("never-fires", c.span, message).note(note);
+        diagnostics.push(warning.inside(graph.scope_path(graph.nodes[c.to.node].scope)));
     }
 }

@@ -16,9 +16,8 @@ mod steps;
 
 use crate::{
     catalog::Catalog,
-    claims::Decided,
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
-    report::Diagnostics,
+    report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,6 +29,7 @@ pub use clusters::{Cluster, Guard};
 pub use delivery::{Delivery, at_start, ordered};
 pub use order::{Loops, circles, events_on_circles};
 pub use pruning::Characteristics;
+pub use rates::{has_rates, is_multirate};
 pub use schedule::{Block, Step};
 pub use stamps::Stamps;
 
@@ -62,8 +62,6 @@ pub struct Analysis {
     pub links: Links,
     /// The bodies of `each` nodes.
     pub bodies: BTreeMap<NodeId, Analysis>,
-    /// What is known about the claims.
-    pub claims: Decided,
 }
 
 impl Analysis {
@@ -132,6 +130,9 @@ impl Links {
     }
 }
 
+/// Connections to slots that a program may have: its queue counts them in 16 bits.
+const MAX_TO_SLOTS: usize = u16::MAX as usize;
+
 /// Analyses a checked graph. `None` if an error was found that leaves nothing to schedule.
 pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Option<Analysis> {
     let mut links = Links::new(graph);
@@ -146,6 +147,11 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
     }
     let regions = clusters::regions(graph);
     let asynchronous = Asynchronous::new(graph, catalog, &mut links, &regions);
+    if let Some(over) = asynchronous.slots.get(MAX_TO_SLOTS) {
+        let message = format!("this program has more than {MAX_TO_SLOTS} connections to slots");
+        diagnostics.push(Diagnostic::error("too-large", graph.connections[*over].span, message));
+        return None;
+    }
     live::check_live(graph, &links, &asynchronous.live, diagnostics);
     let (guards, mut clusters, cluster_of) =
         clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
@@ -167,7 +173,6 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         active,
         links,
         bodies,
-        claims: Decided::default(),
     };
     for cluster in 0..analysis.clusters.len() {
         let block = schedule::schedule(graph, &analysis.links, &analysis, cluster);
@@ -202,7 +207,8 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
         }
         // What waits in the program itself is looked up where it lies.
         NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
-        NodeKind::Boundary(_) => !graph.is_body,
+        // An element of the list is there; what is repeated may be ⊥ where the body takes that.
+        NodeKind::Boundary(_) => !graph.is_body || graph.port(from).optional,
         NodeKind::Receiver(_) => graph.port(from).optional,
         NodeKind::Start
         | NodeKind::Hung

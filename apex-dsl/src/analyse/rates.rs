@@ -1,5 +1,6 @@
 //! Balance equations (Lee 1987): how often each node fires in one iteration, so that what is sent is what is taken.
 
+use super::Analysis;
 use super::Links;
 use crate::{
     graph::{Graph, NodeId},
@@ -132,4 +133,15 @@ fn contradiction(
         error = error.also(graph.connections[*index].span, describe(*index));
     }
     diagnostics.push(error);
+}
+
+/// Whether a cluster has more than one rate.
+pub fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
+    let region = analysis.clusters[cluster].region;
+    (0..graph.nodes.len()).any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
+}
+
+/// Whether a node has another rate than one.
+pub fn has_rates(graph: &Graph, analysis: &Analysis, node: NodeId) -> bool {
+    analysis.repetitions[node] != 1 || graph.nodes[node].ports.iter().any(|p| p.rate != 1 && p.kind.is_synchronous())
 }

@@ -11,8 +11,8 @@ use syn::{Attribute, Item as Syn, UseTree, Visibility, spanned::Spanned};
 pub struct Item {
     /// Name in its module; empty for an `impl` or a glob import.
     pub name: String,
-    /// Whether it is `pub`.
-    pub public: bool,
+    /// From where it can be named.
+    pub seen: Seen,
     /// Line of its name, from 1.
     pub line: usize,
     /// Conditions (`#[cfg(…)]`) as tokens.
@@ -21,25 +21,46 @@ pub struct Item {
     pub kind: ItemKind,
 }
 
+/// From where an item can be named.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Seen {
+    /// `pub`
+    Everywhere,
+    /// `pub(crate)`
+    InCrate,
+    /// `pub(super)`, `pub(in path)`
+    Within(Vec<String>),
+    /// From its own module and those inside.
+    InModule,
+}
+
 /// What an item is.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum ItemKind {
-    /// `mod name;` with its `#[path]`, or `mod name { … }`.
-    Module(Option<String>, Option<Vec<Item>>),
+    /// `mod name;` with its `#[path]`.
+    ModuleFile(Option<String>),
+    /// `mod name { … }`, which ends in this line.
+    Module(Vec<Item>, usize),
     /// `use path as name`.
     Import(Vec<String>),
     /// `use path::*`.
     Glob(Vec<String>),
-    /// A struct, enum or union; with its fields if it derives `Outputs`.
-    Type(Option<Vec<OutputField>>),
+    /// A struct, enum or union.
+    Type(TypeItem),
     /// `type name = …`; `None` if it is generic.
     Alias(Option<Ty>),
+    /// `const` or `static`, of this type.
+    Constant(Ty),
+    /// The constants in an `impl` of this type.
+    Constants(String, Vec<(String, Ty)>),
     /// A function node.
     Function(NodeItem),
     /// A struct node; its methods come with [`ItemKind::Methods`].
     Struct(NodeItem),
     /// `#[node] impl Name`.
     Methods(NodeMethods),
+    /// `#![no_implicit_prelude]`
+    NoPrelude,
     /// `#![no_std]`; with a condition, the crate can also do without the standard library.
     NoStd {
         /// There is no condition.
@@ -47,10 +68,27 @@ pub enum ItemKind {
     },
     /// `extern crate name`
     Extern,
-    /// A macro call whose tokens hold `#[node]`: its nodes cannot be seen.
-    Hidden,
+    /// Something marked `#[node]` that is no node, and why.
+    Refused(String),
+    /// `graph!("…")`
+    Call(String),
+    /// A macro call: what it makes cannot be seen. `true` if its tokens hold `#[node]`.
+    Macro(bool),
     /// What is wrong with a file that is no Rust: nothing in it can be seen.
     Broken(String),
+}
+
+/// A struct, enum or union.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct TypeItem {
+    /// Its fields, if it derives `Outputs`.
+    pub outputs: Option<Vec<OutputField>>,
+    /// How many type arguments it takes at least and at most.
+    pub arguments: (usize, usize),
+    /// The variants without fields of an enum; a struct without fields stands for itself.
+    pub values: Vec<String>,
+    /// The last words of the traits that it derives.
+    pub derives: Vec<String>,
 }
 
 /// A field of a `#[derive(Outputs)]` struct.
@@ -79,6 +117,8 @@ pub struct NodeItem {
     pub stateful: bool,
     /// The types of its state.
     pub state: Vec<Ty>,
+    /// Bounds of its type parameters, as written: `T: Add<Output = T>`.
+    pub bounds: Vec<String>,
     /// Whether its events take activity away.
     pub deactivates: bool,
     /// The signature of a function node.
@@ -92,6 +132,8 @@ pub struct NodeMethods {
     pub node: String,
     /// The type arguments as named in the `impl`, in the order of the struct's parameters.
     pub generics: Vec<Ty>,
+    /// Bounds of the type parameters of the `impl`.
+    pub bounds: Vec<String>,
     /// `process`.
     pub process: Option<Process>,
     /// Slots: name, token, documentation.
@@ -197,8 +239,12 @@ pub enum Literal {
 
 /// Reads the items of one file.
 pub fn read(text: &str) -> Vec<Item> {
+    if let Some(line) = too_deep(text) {
+        let kind = ItemKind::Broken(format!("brackets nest more than {MAX_DEPTH} deep"));
+        return vec![Item { name: String::new(), seen: Seen::InModule, line, cfg: vec![], kind }];
+    }
     match syn::parse_file(text) {
-        Ok(file) => file.attrs.iter().filter_map(no_std).chain(items(&file.items)).collect(),
+        Ok(file) => file.attrs.iter().filter_map(of_crate).chain(items(&file.items)).collect(),
         Err(error) => {
             let kind = ItemKind::Broken(error.to_string());
             vec![entry(String::new(), &Visibility::Inherited, &[], error.span(), kind)]
@@ -206,8 +252,39 @@ pub fn read(text: &str) -> Vec<Item> {
     }
 }
 
-/// `#![no_std]`, `#![cfg_attr(…, no_std)]`
-fn no_std(attr: &Attribute) -> Option<Item> {
+/// How deep brackets nest: syn calls itself for each.
+const MAX_DEPTH: usize = 128;
+
+/// The line in which brackets nest too deep for syn. `<` is a bracket only as far as the next `;` or brace: it may be an operator.
+fn too_deep(text: &str) -> Option<usize> {
+    let (mut depth, mut angles) = (0usize, 0usize);
+    let mut before = ' ';
+    for (line, content) in text.lines().enumerate() {
+        for c in content.chars() {
+            match c {
+                '(' | '[' => depth += 1,
+                '{' => (depth, angles) = (depth + 1, 0),
+                ')' | ']' => depth = depth.saturating_sub(1),
+                '}' => (depth, angles) = (depth.saturating_sub(1), 0),
+                ';' => angles = 0,
+                '<' => angles += 1,
+                '>' if before != '-' && before != '=' => angles = angles.saturating_sub(1),
+                _ => {}
+            }
+            if depth + angles > MAX_DEPTH {
+                return Some(line + 1);
+            }
+            before = c;
+        }
+    }
+    None
+}
+
+/// `#![no_std]`, `#![cfg_attr(…, no_std)]`, `#![no_implicit_prelude]`
+fn of_crate(attr: &Attribute) -> Option<Item> {
+    if attr.path().is_ident("no_implicit_prelude") {
+        return Some(entry(String::new(), &Visibility::Inherited, &[], attr.span(), ItemKind::NoPrelude));
+    }
     let always = attr.path().is_ident("no_std");
     let conditional = attr.path().is_ident("cfg_attr") && attr.meta.to_token_stream().to_string().contains("no_std");
     let mark = entry(String::new(), &Visibility::Inherited, &[], attr.span(), ItemKind::NoStd { always });
@@ -220,14 +297,11 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
         match item {
             Syn::Mod(m) => {
                 let path = m.attrs.iter().find(|a| a.path().is_ident("path")).and_then(path_value);
-                let content = m.content.as_ref().map(|(_, inner)| items(inner));
-                list.push(entry(
-                    m.ident.to_string(),
-                    &m.vis,
-                    &m.attrs,
-                    m.ident.span(),
-                    ItemKind::Module(path, content),
-                ));
+                let kind = match &m.content {
+                    Some((braces, inner)) => ItemKind::Module(items(inner), braces.span.close().end().line),
+                    None => ItemKind::ModuleFile(path),
+                };
+                list.push(entry(m.ident.to_string(), &m.vis, &m.attrs, m.ident.span(), kind));
             }
             Syn::Use(u) => imports(&u.tree, &mut vec![], &mut |name, kind| {
                 list.push(entry(name, &u.vis, &u.attrs, u.span(), kind));
@@ -237,35 +311,37 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
             }
             Syn::Struct(s) => structure(s, &mut list),
             Syn::Enum(e) => {
-                list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), ItemKind::Type(None)))
+                let variants = e.variants.iter().filter(|v| v.fields.is_empty() && v.attrs.iter().all(|a| !is_cfg(a)));
+                let values = variants.map(|v| v.ident.to_string()).collect();
+                let (arguments, derives) = (arguments_of(&e.generics), derives(&e.attrs));
+                let kind = ItemKind::Type(TypeItem { outputs: None, arguments, values, derives });
+                list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), kind))
             }
             Syn::Union(u) => {
-                list.push(entry(u.ident.to_string(), &u.vis, &u.attrs, u.ident.span(), ItemKind::Type(None)))
+                let kind = ItemKind::Type(TypeItem { arguments: arguments_of(&u.generics), ..TypeItem::default() });
+                list.push(entry(u.ident.to_string(), &u.vis, &u.attrs, u.ident.span(), kind))
+            }
+            Syn::Const(c) => {
+                let kind = ItemKind::Constant(Ty::from_syn(&c.ty));
+                list.push(entry(c.ident.to_string(), &c.vis, &c.attrs, c.ident.span(), kind));
+            }
+            Syn::Static(s) => {
+                let kind = ItemKind::Constant(Ty::from_syn(&s.ty));
+                list.push(entry(s.ident.to_string(), &s.vis, &s.attrs, s.ident.span(), kind));
             }
             Syn::Type(t) => {
                 let target = t.generics.params.is_empty().then(|| Ty::from_syn(&t.ty));
                 list.push(entry(t.ident.to_string(), &t.vis, &t.attrs, t.ident.span(), ItemKind::Alias(target)));
             }
-            Syn::Fn(f) if signature::marked(&f.attrs, "node") => {
-                if let Ok(callable) = signature::function(f) {
-                    let kind = ItemKind::Function(function(f, &callable));
-                    list.push(entry(f.sig.ident.to_string(), &f.vis, &f.attrs, f.sig.ident.span(), kind));
-                }
+            Syn::Fn(f) if signature::is_node(&f.attrs) => {
+                let kind = match signature::function(f) {
+                    Ok(callable) => ItemKind::Function(function(f, &callable)),
+                    Err(error) => ItemKind::Refused(error.to_string()),
+                };
+                list.push(entry(f.sig.ident.to_string(), &f.vis, &f.attrs, f.sig.ident.span(), kind));
             }
-            Syn::Impl(i) if signature::marked(&i.attrs, "node") => {
-                if let Some(methods) = methods(i) {
-                    list.push(entry(
-                        String::new(),
-                        &Visibility::Inherited,
-                        &i.attrs,
-                        i.span(),
-                        ItemKind::Methods(methods),
-                    ));
-                }
-            }
-            Syn::Macro(m) if m.mac.tokens.to_string().replace(' ', "").contains("#[node]") => {
-                list.push(entry(String::new(), &Visibility::Inherited, &m.attrs, m.span(), ItemKind::Hidden));
-            }
+            Syn::Impl(i) => implementation(i, &mut list),
+            Syn::Macro(m) => list.push(macro_call(m)),
             _ => {}
         }
     }
@@ -279,7 +355,74 @@ fn entry(name: String, vis: &Visibility, attrs: &[Attribute], span: proc_macro2:
         .filter_map(|a| a.parse_args::<proc_macro2::TokenStream>().ok())
         .map(|tokens| tokens.to_string())
         .collect();
-    Item { name, public: matches!(vis, Visibility::Public(_)), line: span.start().line, cfg, kind }
+    let seen = match vis {
+        Visibility::Public(_) => Seen::Everywhere,
+        Visibility::Restricted(within) if within.path.is_ident("crate") => Seen::InCrate,
+        Visibility::Restricted(within) if within.path.is_ident("self") => Seen::InModule,
+        Visibility::Restricted(within) => Seen::Within(within.path.segments.iter().map(|s| plain(&s.ident)).collect()),
+        Visibility::Inherited => Seen::InModule,
+    };
+    Item { name: unraw(name), seen, line: span.start().line, cfg, kind }
+}
+
+/// A name without `r#`: paths are spelled anew for generated code.
+fn plain(name: &syn::Ident) -> String {
+    unraw(name.to_string())
+}
+
+fn unraw(name: String) -> String {
+    name.strip_prefix("r#").map(str::to_owned).unwrap_or(name)
+}
+
+fn is_cfg(attr: &Attribute) -> bool {
+    attr.path().is_ident("cfg")
+}
+
+/// How many arguments a generic type takes at least and at most.
+fn arguments_of(generics: &syn::Generics) -> (usize, usize) {
+    let types = generics.params.iter().filter(|p| !matches!(p, syn::GenericParam::Lifetime(_)));
+    let has_default = |p: &&syn::GenericParam| match p {
+        syn::GenericParam::Type(ty) => ty.default.is_some(),
+        syn::GenericParam::Const(value) => value.default.is_some(),
+        syn::GenericParam::Lifetime(_) => true,
+    };
+    let all = types.clone().count();
+    (all - types.filter(has_default).count(), all)
+}
+
+/// `impl`: the methods of a node, or constants.
+fn implementation(item: &syn::ItemImpl, list: &mut Vec<Item>) {
+    let plain = |kind| entry(String::new(), &Visibility::Inherited, &item.attrs, item.span(), kind);
+    let Ty::Path(path, _) = Ty::from_syn(&item.self_ty) else { return };
+    let Some(name) = path.last() else { return };
+    if signature::is_node(&item.attrs) {
+        match methods(item, name) {
+            Ok(methods) => list.push(plain(ItemKind::Methods(methods))),
+            Err(error) => list.push(Item { name: name.clone(), ..plain(ItemKind::Refused(error.to_string())) }),
+        }
+    }
+    let constants = item.items.iter().filter_map(|item| match item {
+        syn::ImplItem::Const(c) if matches!(c.vis, Visibility::Public(_)) => {
+            Some((c.ident.to_string(), Ty::from_syn(&c.ty)))
+        }
+        _ => None,
+    });
+    let constants: Vec<(String, Ty)> = constants.collect();
+    if item.trait_.is_none() && !constants.is_empty() {
+        list.push(plain(ItemKind::Constants(name.clone(), constants)));
+    }
+}
+
+fn macro_call(call: &syn::ItemMacro) -> Item {
+    let is_graph = call.mac.path.segments.last().is_some_and(|s| s.ident == "graph");
+    let file = is_graph.then(|| call.mac.parse_body::<syn::LitStr>().ok()).flatten();
+    let kind = match file {
+        Some(file) => ItemKind::Call(file.value()),
+        // A graph makes nodes, but none that a text could name.
+        None if is_graph => ItemKind::Call(String::new()),
+        None => ItemKind::Macro(call.mac.tokens.to_string().replace(' ', "").contains("#[node]")),
+    };
+    entry(String::new(), &Visibility::Inherited, &call.attrs, call.span(), kind)
 }
 
 fn path_value(attr: &Attribute) -> Option<String> {
@@ -292,7 +435,7 @@ fn path_value(attr: &Attribute) -> Option<String> {
 fn imports(tree: &UseTree, prefix: &mut Vec<String>, found: &mut impl FnMut(String, ItemKind)) {
     match tree {
         UseTree::Path(path) => {
-            prefix.push(path.ident.to_string());
+            prefix.push(plain(&path.ident));
             imports(&path.tree, prefix, found);
             prefix.pop();
         }
@@ -300,13 +443,13 @@ fn imports(tree: &UseTree, prefix: &mut Vec<String>, found: &mut impl FnMut(Stri
             found(prefix.last().cloned().unwrap_or_default(), ItemKind::Import(prefix.clone()));
         }
         UseTree::Name(name) => {
-            let name = name.ident.to_string();
+            let name = plain(&name.ident);
             let path = prefix.iter().cloned().chain([name.clone()]).collect();
             found(name, ItemKind::Import(path));
         }
         UseTree::Rename(rename) => {
-            let path = prefix.iter().cloned().chain([rename.ident.to_string()]).collect();
-            found(rename.rename.to_string(), ItemKind::Import(path));
+            let path = prefix.iter().cloned().chain([plain(&rename.ident)]).collect();
+            found(plain(&rename.rename), ItemKind::Import(path));
         }
         UseTree::Glob(_) => found(String::new(), ItemKind::Glob(prefix.clone())),
         UseTree::Group(group) => group.items.iter().for_each(|tree| imports(tree, prefix, found)),
@@ -316,27 +459,31 @@ fn imports(tree: &UseTree, prefix: &mut Vec<String>, found: &mut impl FnMut(Stri
 fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
     let name = item.ident.to_string();
     let span = item.ident.span();
-    let derives_outputs = item
-        .attrs
-        .iter()
-        .filter(|a| a.path().is_ident("derive"))
-        .any(|a| a.to_token_stream().to_string().split(|c: char| !c.is_alphanumeric()).any(|w| w == "Outputs"));
-    let fields = derives_outputs.then(|| item.fields.iter().map(output_field).collect());
-    list.push(entry(name.clone(), &item.vis, &item.attrs, span, ItemKind::Type(fields)));
-    if !signature::marked(&item.attrs, "node") {
+    let derives = derives(&item.attrs);
+    let outputs = derives.iter().any(|name| name == "Outputs").then(|| item.fields.iter().map(output_field).collect());
+    let values = if matches!(item.fields, syn::Fields::Unit) { vec![String::new()] } else { vec![] };
+    let ty = TypeItem { outputs, arguments: arguments_of(&item.generics), values, derives };
+    list.push(entry(name.clone(), &item.vis, &item.attrs, span, ItemKind::Type(ty)));
+    if !signature::is_node(&item.attrs) {
         return;
     }
-    let Ok(declared) = signature::params(item) else { return };
+    let declared = match signature::params(item) {
+        Ok(declared) => declared,
+        Err(error) => {
+            return list.push(entry(name, &item.vis, &item.attrs, span, ItemKind::Refused(error.to_string())));
+        }
+    };
     let params = declared
         .iter()
         .map(|(field, decl)| {
-            let name = field.ident.as_ref().map(ToString::to_string).unwrap_or_default();
+            let name = field.ident.as_ref().map(plain).unwrap_or_default();
             param(name, signature::docs(&field.attrs), decl)
         })
         .collect();
     let node = NodeItem {
         docs: signature::docs(&item.attrs),
         generics: generics(&item.generics),
+        bounds: bounds(&item.generics),
         stateful: item.fields.len() > declared.len(),
         state: item
             .fields
@@ -354,11 +501,32 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
 fn output_field(field: &syn::Field) -> OutputField {
     let inner = signature::option_of(&field.ty);
     OutputField {
-        name: field.ident.as_ref().map(ToString::to_string).unwrap_or_default(),
+        name: field.ident.as_ref().map(plain).unwrap_or_default(),
         ty: Ty::from_syn(inner.unwrap_or(&field.ty)),
         maybe: inner.is_some(),
         docs: signature::docs(&field.attrs),
     }
+}
+
+/// The last words of the traits that a type derives.
+fn derives(attrs: &[Attribute]) -> Vec<String> {
+    let lists = attrs.iter().filter(|a| a.path().is_ident("derive")).filter_map(|a| {
+        a.parse_args_with(syn::punctuated::Punctuated::<syn::Path, syn::Token![,]>::parse_terminated).ok()
+    });
+    lists.flatten().filter_map(|path| path.segments.last().map(|segment| plain(&segment.ident))).collect()
+}
+
+/// The bounds of type parameters, as a person would write them.
+fn bounds(generics: &syn::Generics) -> Vec<String> {
+    let declared = generics.type_params().filter(|p| !p.bounds.is_empty()).map(|p| {
+        let (name, bounds) = (&p.ident, &p.bounds);
+        quote::quote!(#name: #bounds)
+    });
+    let clauses =
+        generics.where_clause.iter().flat_map(|clause| &clause.predicates).map(quote::ToTokens::to_token_stream);
+    let spaced = declared.chain(clauses).map(|bound| bound.to_string());
+    let tight = [(" :: ", "::"), (":: ", "::"), (" : ", ": "), (" < ", "<"), (" >", ">"), (" ,", ","), ("& ", "&")];
+    spaced.map(|text| tight.iter().fold(text, |text, (wide, narrow)| text.replace(wide, narrow))).collect()
 }
 
 fn generics(generics: &syn::Generics) -> Vec<String> {
@@ -366,8 +534,8 @@ fn generics(generics: &syn::Generics) -> Vec<String> {
         .params
         .iter()
         .filter_map(|p| match p {
-            syn::GenericParam::Type(t) => Some(t.ident.to_string()),
-            syn::GenericParam::Const(c) => Some(c.ident.to_string()),
+            syn::GenericParam::Type(t) => Some(plain(&t.ident)),
+            syn::GenericParam::Const(c) => Some(plain(&c.ident)),
             syn::GenericParam::Lifetime(_) => None,
         })
         .collect()
@@ -419,6 +587,7 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
     NodeItem {
         docs,
         generics: generics(&item.sig.generics),
+        bounds: bounds(&item.sig.generics),
         params,
         stateful: false,
         state: vec![],
@@ -427,9 +596,9 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
     }
 }
 
-fn methods(item: &syn::ItemImpl) -> Option<NodeMethods> {
-    let Ty::Path(path, args) = Ty::from_syn(&item.self_ty) else { return None };
-    let methods = signature::methods(item).ok()?;
+fn methods(item: &syn::ItemImpl, name: &str) -> syn::Result<NodeMethods> {
+    let args = if let Ty::Path(_, args) = Ty::from_syn(&item.self_ty) { args } else { vec![] };
+    let methods = signature::methods(item)?;
     let slots = methods
         .slots
         .iter()
@@ -441,9 +610,10 @@ fn methods(item: &syn::ItemImpl) -> Option<NodeMethods> {
             fallible: slot.fallible,
         })
         .collect();
-    Some(NodeMethods {
-        node: path.last()?.clone(),
+    Ok(NodeMethods {
+        node: name.to_owned(),
         generics: args,
+        bounds: bounds(&item.generics),
         process: methods.process.as_ref().map(process),
         slots,
         no_message: methods.no_message,

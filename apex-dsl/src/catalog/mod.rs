@@ -1,28 +1,38 @@
 //! Node signatures, read from the Rust sources of the node crates. rustc has the last word on types: the
 //! catalog calls a mismatch only where it has seen both definitions.
 
+mod cfg;
+mod constants;
 mod items;
+pub mod library;
+mod reach;
 pub mod signature;
+mod traits;
 mod tree;
 mod ty;
 mod types;
 
-use crate::{machine::Machine, source::World};
+use crate::source::World;
 use std::{
     collections::{BTreeMap, BTreeSet},
-    path::PathBuf,
+    path::{Path, PathBuf},
+    sync::Arc,
 };
 
+pub use cfg::Conditions;
+pub use constants::{Constant, is_path};
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
+pub use reach::Site;
+pub use traits::Trait;
 pub use tree::{DefId, ModuleId, Need};
 pub use ty::Ty;
-pub use types::{Match, Type};
+pub use types::{DURATION, Match, PRIMITIVES, STD, Type};
 
 use items::{ArgKind, ItemKind, NodeItem, NodeMethods};
 use tree::{Def, Tree};
 
 /// A crate to scan.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CrateSpec {
     /// The name under which code refers to it.
     pub name: String,
@@ -37,7 +47,7 @@ pub struct CrateSpec {
 }
 
 /// Which crates there are, and from where the graph is seen.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Crates {
     /// Files below this folder are named by their path in it.
     pub root: PathBuf,
@@ -47,6 +57,21 @@ pub struct Crates {
     pub here: usize,
     /// The crates that `crate::` in a text may mean: the package's own, `here` first.
     pub own: Vec<usize>,
+    /// Where generated code stands.
+    pub site: Site,
+    /// What rustc says of the conditions of the compilation.
+    pub conditions: Conditions,
+}
+
+/// A world with Rust in it.
+pub trait RustFiles: World {
+    /// The items of a Rust file; a world may remember them between runs.
+    ///
+    /// # Errors
+    /// As [`World::read`].
+    fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
+        self.read(path).map(|text| read_items(&text).into())
+    }
 }
 
 /// A node signature.
@@ -69,8 +94,12 @@ pub struct Signature {
     pub is_function: bool,
     /// Names of type parameters and constants.
     pub generics: Vec<String>,
+    /// Bounds of its type parameters, as written.
+    pub bounds: Vec<String>,
     /// Whether firings depend on earlier ones.
     pub stateful: bool,
+    /// The types of its state.
+    pub state: Vec<Type>,
     /// Parameters.
     pub params: Vec<ParamSig>,
     /// Ports: inputs, outputs, slots, events, in the order of the signature.
@@ -98,6 +127,8 @@ pub struct Signature {
 pub struct SlotSig {
     /// The port.
     pub port: usize,
+    /// The method that is called.
+    pub method: String,
     /// Its arguments: the port itself stands for the token.
     pub args: Vec<ArgSig>,
     /// `Result`: may fail.
@@ -105,47 +136,6 @@ pub struct SlotSig {
 }
 
 impl Signature {
-    /// A state machine as a node: slots and events. If something happens when it starts, `begin` is a slot too.
-    fn of_machine(machine: &Machine, (file, line): (PathBuf, usize)) -> Self {
-        use crate::syntax::tree::PortKind;
-        let port = |name: &str, kind, ty: &Type, index| PortSig {
-            name: name.to_owned(),
-            kind,
-            ty: ty.clone(),
-            rate: 1,
-            optional: false,
-            index,
-            field: None,
-            field_is_option: false,
-            docs: String::new(),
-        };
-        let events = machine.events.iter().enumerate().map(|(i, (name, ty))| port(name, PortKind::Event, ty, i));
-        let mut ports: Vec<PortSig> = events.collect();
-        let mut slots = vec![];
-        for (index, slot) in machine.slots.iter().enumerate() {
-            ports.push(port(&slot.name, PortKind::Slot, &slot.ty, index));
-            let token = slot.uses_token().then(|| ArgSig::Port(ports.len() - 1));
-            let args = token.into_iter().chain(slot.events().into_iter().map(ArgSig::Port)).collect();
-            slots.push(SlotSig { port: ports.len() - 1, args, fallible: false });
-        }
-        if !machine.begin.is_empty() {
-            ports.push(port(Machine::BEGIN, PortKind::Slot, &Type::unit(), machine.slots.len()));
-            let args = machine.begin.iter().map(|s| ArgSig::Port(s.event)).collect();
-            slots.push(SlotSig { port: ports.len() - 1, args, fallible: false });
-        }
-        Self {
-            name: machine.name.clone(),
-            docs: machine.docs.clone(),
-            file,
-            line,
-            path: vec![machine.name.clone()],
-            stateful: true,
-            ports,
-            slots,
-            ..Self::default()
-        }
-    }
-
     /// Whether the tokens of a firing at this port stand in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1
@@ -224,18 +214,19 @@ pub struct Catalog {
     pub signatures: Vec<Signature>,
     tree: Tree,
     crates: Crates,
-    /// The state machines of the texts that were checked last, by signature.
-    pub machines: BTreeMap<SignatureId, Machine>,
     by_def: BTreeMap<DefId, SignatureId>,
+    /// The module in which generated code stands now; `None` is outside of all scanned crates.
+    site: Option<ModuleId>,
     paths: BTreeMap<DefId, Vec<String>>,
 }
 
 impl Catalog {
     /// Scans `crates`.
-    pub fn load(crates: Crates, world: &mut dyn World) -> Self {
-        let tree = Tree::scan(&crates.all, world);
-        let paths = if crates.all.is_empty() { BTreeMap::new() } else { tree.public_paths(crates.here) };
-        let mut catalog = Self { tree, crates, paths, ..Self::default() };
+    pub fn load(crates: Crates, world: &mut dyn RustFiles) -> Self {
+        let tree = Tree::scan(&crates.all, &crates.own, &crates.conditions, world);
+        let site = reach::site(&tree, &crates);
+        let paths = tree.paths(site);
+        let mut catalog = Self { tree, crates, site, paths, ..Self::default() };
         catalog.collect();
         catalog
     }
@@ -248,7 +239,6 @@ impl Catalog {
     /// Forgets the machines of texts that were checked before.
     pub fn forget_machines(&mut self) {
         self.signatures.truncate(self.by_def.len());
-        self.machines.clear();
     }
 
     /// Makes room for `count` machines and returns the number of the first.
@@ -258,13 +248,47 @@ impl Catalog {
         first
     }
 
-    /// Makes a state machine that is declared at `place` a node.
-    pub fn add_machine(&mut self, id: SignatureId, machine: Machine, place: (PathBuf, usize)) {
-        self.signatures[id] = Signature::of_machine(&machine, place);
-        self.machines.insert(id, machine);
+    /// Makes a state machine a node.
+    pub fn add_machine(&mut self, id: SignatureId, signature: Signature) {
+        self.signatures[id] = signature;
+    }
+
+    /// Refuses nodes with arguments of types that only have the names of those of Apex: `#[node]` knows them by their names.
+    fn refuse_other_types(&mut self) {
+        let refused: Vec<(DefId, String)> = self
+            .tree
+            .defs
+            .iter()
+            .enumerate()
+            .filter_map(|(id, def)| {
+                let name = arguments(&self.tree, def).find_map(|kind| match kind {
+                    ArgKind::Ctx => self.own_type(def.module, "Ctx"),
+                    ArgKind::Event(_) => self.own_type(def.module, "Event"),
+                    ArgKind::Out(..) => self.own_type(def.module, "Out"),
+                    ArgKind::Input(..) | ArgKind::Optional(_) | ArgKind::Param(_) => None,
+                })?;
+                let reason =
+                    format!("its `{name}` is another type than that of Apex: one of the two needs another name");
+                Some((id, reason))
+            })
+            .collect();
+        for (id, reason) in refused {
+            self.tree.defs[id].kind = ItemKind::Refused(reason);
+        }
+    }
+
+    /// `name`, if it is a type of a crate other than the runtime in a module.
+    fn own_type<'n>(&self, module: ModuleId, name: &'n str) -> Option<&'n str> {
+        let found = self.tree.resolve(module, &[name.to_owned()]);
+        let is_own = |def: &Def| {
+            let krate = self.tree.modules[def.module].krate;
+            matches!(def.kind, ItemKind::Type(_) | ItemKind::Alias(_)) && self.crates.all[krate].name != "apex_rt"
+        };
+        found.iter().any(|def| is_own(&self.tree.defs[*def])).then_some(name)
     }
 
     fn collect(&mut self) {
+        self.refuse_other_types();
         let mut methods: BTreeMap<(ModuleId, &str), Vec<&NodeMethods>> = BTreeMap::new();
         for def in &self.tree.defs {
             if let ItemKind::Methods(m) = &def.kind {
@@ -316,11 +340,11 @@ impl Catalog {
         let slots = methods.iter().flat_map(|m| &m.slots).enumerate().map(|(i, slot)| builder.slot(slot, i)).collect();
         let ports = builder.ports;
         let params: Vec<ParamSig> = node.params.iter().map(|p| self.param(p, def.module, &node.generics)).collect();
-        let state = node.state.iter().map(|ty| self.type_of(ty, def.module, &node.generics));
+        let state: Vec<Type> = node.state.iter().map(|ty| self.type_of(ty, def.module, &node.generics)).collect();
         // Most crates lack nothing.
         let needs = self.lacks().and_then(|_| {
             let ports = ports.iter().map(|p| p.ty.needs());
-            self.needs(def, ports.chain(params.iter().map(|p| p.ty.needs())).chain(state.map(|ty| ty.needs())))
+            self.needs(def, ports.chain(params.iter().map(|p| p.ty.needs())).chain(state.iter().map(Type::needs)))
         });
         Signature {
             needs,
@@ -331,7 +355,9 @@ impl Catalog {
             path: self.paths.get(&id).cloned().unwrap_or_default(),
             is_function,
             generics: node.generics.clone(),
+            bounds: node.bounds.iter().chain(methods.iter().flat_map(|m| &m.bounds)).cloned().collect(),
             stateful: node.stateful,
+            state,
             params,
             ports,
             process: args,
@@ -388,7 +414,7 @@ impl Catalog {
         }
     }
 
-    /// The node types that `path` names where a text stands: `imports` are its `use` lines.
+    /// The node types that `path` names where a text stands.
     pub fn nodes(&self, path: &[String]) -> Vec<SignatureId> {
         self.defs(path).iter().filter_map(|def| self.by_def.get(def).copied()).collect()
     }
@@ -411,10 +437,8 @@ impl Catalog {
         let found = self.tree.resolve(self.tree.roots[krate], path);
         match path {
             [name] if found.is_empty() => {
-                let is_meant = |d: &DefId| {
-                    self.tree.defs[*d].name == *name && self.tree.modules[self.tree.defs[*d].module].krate == krate
-                };
-                (0..self.tree.defs.len()).filter(is_meant).collect()
+                let is_meant = |d: &&DefId| self.tree.modules[self.tree.defs[**d].module].krate == krate;
+                self.tree.named(name).iter().filter(is_meant).copied().collect()
             }
             _ => found,
         }
@@ -431,9 +455,24 @@ impl Catalog {
             || self.crates.own.iter().any(|own| self.crates.all[*own].externs.contains(name))
     }
 
+    /// Whether the crate of the call does without preludes, and so without the attributes of tools.
+    pub fn lacks_prelude(&self) -> bool {
+        self.tree.does_without.get(self.crates.here).is_some_and(|without| without.lacks_prelude)
+    }
+
     /// All definitions with this name.
     pub fn find(&self, name: &str) -> Vec<DefId> {
-        (0..self.tree.defs.len()).filter(|def| self.tree.defs[*def].name == name).collect()
+        self.tree.named(name).to_vec()
+    }
+
+    /// Why what is marked `#[node]` and called so is no node, and where it stands.
+    pub fn refused(&self, name: &str) -> Option<(&str, &Path, usize)> {
+        self.tree.named(name).iter().find_map(|def| match &self.tree.defs[*def] {
+            Def { kind: ItemKind::Refused(reason), file, line, .. } => {
+                Some((reason.as_str(), file.strip_prefix(&self.crates.root).unwrap_or(file), *line))
+            }
+            _ => None,
+        })
     }
 
     /// Names that may stand behind `path`, for suggestions.
@@ -450,8 +489,35 @@ impl Catalog {
     pub fn broken(&self) -> impl Iterator<Item = String> {
         self.tree.broken.iter().map(|(file, line, reason)| {
             let file = file.strip_prefix(&self.crates.root).unwrap_or(file).display();
-            format!("the nodes in {file} are not known, as its line {line} is no Rust: {reason}")
+            format!("the nodes in {file} are not known: its line {line} cannot be read ({reason})")
         })
+    }
+
+    /// Whether a definition is a type.
+    pub fn is_type(&self, def: DefId) -> bool {
+        matches!(self.tree.defs[def].kind, ItemKind::Type(_) | ItemKind::Alias(_))
+    }
+
+    /// How many type arguments a type takes at least and at most.
+    pub fn arguments(&self, def: DefId) -> (usize, usize) {
+        match &self.tree.defs[def].kind {
+            ItemKind::Type(ty) => ty.arguments,
+            ItemKind::Alias(Some(_)) => (0, 0),
+            // A generic alias is not looked into.
+            _ => (0, usize::MAX),
+        }
+    }
+
+    /// The names of the types in the package's own crates.
+    pub fn own_types(&self) -> impl Iterator<Item = &str> {
+        let is_own = |def: &&Def| self.crates.own.contains(&self.tree.modules[def.module].krate);
+        let is_type = |def: &&Def| matches!(def.kind, ItemKind::Type(_) | ItemKind::Alias(_));
+        self.tree.defs.iter().filter(is_own).filter(is_type).map(|def| def.name.as_str())
+    }
+
+    /// Whether a macro in the module `parent` may make what the scan does not see.
+    pub fn may_hide(&self, parent: &[String]) -> bool {
+        self.crates.own.iter().any(|own| self.tree.may_hide(self.tree.roots[*own], parent))
     }
 
     /// The name of a definition.
@@ -478,6 +544,25 @@ impl Catalog {
 }
 
 /// Collects the ports of one signature.
+/// The arguments of a node's functions, with those of its methods.
+fn arguments<'t>(tree: &'t Tree, def: &'t Def) -> impl Iterator<Item = &'t ArgKind> {
+    let process = match &def.kind {
+        ItemKind::Function(node) => node.process.as_ref(),
+        _ => None,
+    };
+    let is_struct = matches!(def.kind, ItemKind::Struct(_));
+    let methods =
+        tree.named("").iter().map(|id| &tree.defs[*id]).filter(move |other| is_struct && other.module == def.module);
+    let of_methods = methods.filter_map(move |other| match &other.kind {
+        ItemKind::Methods(methods) if methods.node == def.name => Some(methods),
+        _ => None,
+    });
+    let of_methods = of_methods.flat_map(|methods| {
+        methods.process.iter().flat_map(|process| &process.args).chain(methods.slots.iter().flat_map(|slot| &slot.args))
+    });
+    process.into_iter().flat_map(|process| &process.args).chain(of_methods).map(|arg| &arg.kind)
+}
+
 struct SignatureBuilder<'a> {
     catalog: &'a Catalog,
     module: ModuleId,
@@ -569,7 +654,7 @@ impl SignatureBuilder<'_> {
         let Ty::Path(path, _) = ty else { return None };
         self.catalog.tree.resolve(self.module, path).into_iter().find_map(|def| {
             match &self.catalog.tree.defs[def].kind {
-                ItemKind::Type(fields) => fields.clone(),
+                ItemKind::Type(ty) => ty.outputs.clone(),
                 _ => None,
             }
         })
@@ -593,6 +678,6 @@ impl SignatureBuilder<'_> {
             ArgKind::Ctx => ArgSig::Ctx,
             _ => ArgSig::Port(port),
         });
-        SlotSig { port, args: args.collect(), fallible: slot.fallible }
+        SlotSig { port, method: slot.name.clone(), args: args.collect(), fallible: slot.fallible }
     }
 }

@@ -170,6 +170,14 @@ impl Methods {
     }
 }
 
+/// Whether `attrs` contain `#[node]`, also by its path.
+pub fn is_node(attrs: &[Attribute]) -> bool {
+    attrs.iter().any(|a| {
+        let segments = &a.path().segments;
+        segments.last().is_some_and(|s| s.ident == "node") && (segments.len() == 1 || segments[0].ident == "apex_rt")
+    })
+}
+
 /// Whether `attrs` contain `#[name]`.
 pub fn marked(attrs: &[Attribute], name: &str) -> bool {
     attrs.iter().any(|a| a.path().is_ident(name))
@@ -220,12 +228,17 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
         }
     }
     let fallible = callable.returns.fallible;
-    Ok(Slot { name: method.sig.ident.to_string(), token, docs: docs(&method.attrs), args: callable.args, fallible })
+    let name = method.sig.ident.to_string();
+    let name = name.strip_prefix("r#").unwrap_or(&name).to_owned();
+    Ok(Slot { name, token, docs: docs(&method.attrs), args: callable.args, fallible })
 }
 
 fn callable(sig: &Signature) -> syn::Result<Callable> {
     if let Some(token) = &sig.asyncness {
         return Err(syn::Error::new(token.span(), "a node runs to completion; `async` is not possible"));
+    }
+    if let syn::Safety::Unsafe(token) = &sig.safety {
+        return Err(syn::Error::new(token.span(), "a node is called by safe code: `unsafe` belongs inside of it"));
     }
     if let Some(lifetime) = sig.generics.lifetimes().next() {
         return Err(syn::Error::new(lifetime.span(), "a node takes tokens by plain reference: leave the lifetime out"));
@@ -244,7 +257,8 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
             None => form(&arg.ty)?,
         };
         let name = name.ident.to_string();
-        args.push(Arg { name: name.strip_prefix('_').unwrap_or(&name).to_owned(), form });
+        let name = name.strip_prefix("r#").unwrap_or(&name);
+        args.push(Arg { name: name.strip_prefix('_').unwrap_or(name).to_owned(), form });
     }
     Ok(Callable { args, returns: returns(&sig.output)? })
 }

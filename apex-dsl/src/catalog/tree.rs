@@ -1,11 +1,12 @@
 //! The module tree of the scanned crates, and what a path means in it.
 
 use super::{
-    CrateSpec,
-    items::{Item, ItemKind},
+    CrateSpec, RustFiles,
+    cfg::{Conditions, Truth},
+    items::{Item, ItemKind, Seen},
+    library,
     ty::Ty,
 };
-use crate::source::World;
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
@@ -18,8 +19,10 @@ pub type DefId = usize;
 
 /// How many imports are followed for one name.
 const MAX_IMPORTS: usize = 32;
-/// How deep module files nest.
+/// How deep modules nest.
 const MAX_MODULES: usize = 64;
+/// Most files that are read.
+const MAX_FILES: usize = 20_000;
 
 /// A module.
 #[derive(Debug)]
@@ -29,13 +32,19 @@ pub struct Module {
     /// What it exists only with.
     need: Option<Need>,
     parent: Option<ModuleId>,
+    /// The file, and the lines of it that are the module, if it is not all of it.
+    file: PathBuf,
+    lines: Option<(usize, usize)>,
+    /// A macro call in it may make what the scan cannot see.
+    is_open: bool,
     names: BTreeMap<String, Vec<Entry>>,
-    globs: Vec<(Vec<String>, bool)>,
+    globs: Vec<(Vec<String>, Option<ModuleId>)>,
 }
 
 #[derive(Debug)]
 struct Entry {
-    public: bool,
+    /// The module in which, with those inside, it can be named; `None` is everywhere.
+    within: Option<ModuleId>,
     target: Target,
 }
 
@@ -51,6 +60,8 @@ enum Target {
 pub struct Without {
     /// It can be built without the standard library.
     pub can_lack_std: bool,
+    /// `#![no_implicit_prelude]`
+    pub lacks_prelude: bool,
     /// It is never built with it.
     pub lacks_std: bool,
     /// It uses `alloc`.
@@ -98,191 +109,173 @@ pub struct Tree {
     pub left_out: Vec<(usize, String, String)>,
     /// Files in which a macro hides nodes.
     pub hidden: Vec<PathBuf>,
+    /// Calls of `graph!` with a file: the module, the folder of its file, and the name of the text.
+    pub calls: Vec<(ModuleId, PathBuf, String)>,
+    by_name: BTreeMap<String, Vec<DefId>>,
+    files: usize,
     /// Files that are no Rust: the line of what is wrong, and what.
     pub broken: Vec<(PathBuf, usize, String)>,
     names: Vec<String>,
     dependencies: Vec<BTreeMap<String, usize>>,
 }
 
-impl Tree {
-    /// Scans `crates`.
-    pub fn scan(crates: &[CrateSpec], world: &mut dyn World) -> Self {
-        let mut tree = Self::default();
-        for (index, spec) in crates.iter().enumerate() {
-            tree.names.push(spec.name.clone());
-            tree.dependencies.push(spec.dependencies.clone());
-            tree.does_without.push(Without::default());
-            let root = tree.module(index, None, None);
-            tree.roots.push(root);
-            let folder = spec.root.parent().unwrap_or(Path::new("")).to_owned();
-            tree.file(root, &spec.root, &folder, spec, world, 0);
-        }
-        tree
-    }
+/// A search for what a path names.
+struct Walk<'a> {
+    tree: &'a Tree,
+    /// Where which rest of the path has been looked for: modules that import all of each other lead there in many ways.
+    seen: BTreeSet<(ModuleId, Vec<String>)>,
+    found: BTreeSet<DefId>,
+}
 
-    fn module(&mut self, krate: usize, parent: Option<ModuleId>, need: Option<Need>) -> ModuleId {
-        self.modules.push(Module { krate, need, parent, names: BTreeMap::new(), globs: vec![] });
-        self.modules.len() - 1
-    }
-
-    /// Adds the items of a file; `folder` is where the files of its child modules are.
-    fn file(
-        &mut self,
-        module: ModuleId,
-        file: &Path,
-        folder: &Path,
-        spec: &CrateSpec,
-        world: &mut dyn World,
-        depth: usize,
-    ) {
-        if depth > MAX_MODULES {
-            return;
-        }
-        // A file that cannot be read is rustc's to report.
-        if let Ok(items) = world.items(file) {
-            self.items(module, &items, file, folder, spec, world, depth);
-        }
-    }
-
-    #[allow(clippy::too_many_arguments)]
-    fn items(
-        &mut self,
-        module: ModuleId,
-        items: &[Item],
-        file: &Path,
-        folder: &Path,
-        spec: &CrateSpec,
-        world: &mut dyn World,
-        depth: usize,
-    ) {
-        for item in items {
-            if let Some(cfg) = item.cfg.iter().find(|cfg| !enabled(cfg, &spec.features)) {
-                let krate = spec_index(self, module);
-                self.left_out.push((krate, item.name.clone(), cfg.split_whitespace().collect()));
-                continue;
-            }
-            let need = self.modules[module].need.max(need(item, &spec.features));
-            let target = match &item.kind {
-                ItemKind::Module(path, content) => {
-                    let child = self.module(spec_index(self, module), Some(module), need);
-                    let inner = folder.join(&item.name);
-                    match (content, path) {
-                        (Some(content), _) => self.items(child, content, file, &inner, spec, world, depth + 1),
-                        (None, Some(path)) => {
-                            let path = file.parent().unwrap_or(Path::new("")).join(path);
-                            let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-                            self.file(child, &path, &folder, spec, world, depth + 1);
-                        }
-                        (None, None) => {
-                            let flat = inner.with_extension("rs");
-                            let nested = inner.join("mod.rs");
-                            let path = if world.exists(&flat) { flat } else { nested };
-                            self.file(child, &path, &inner, spec, world, depth + 1);
-                        }
-                    }
-                    Target::Module(child)
-                }
-                ItemKind::Import(path) => Target::Import(path.clone()),
-                ItemKind::Glob(path) => {
-                    self.modules[module].globs.push((path.clone(), item.public));
-                    continue;
-                }
-                ItemKind::NoStd { always } => {
-                    let krate = spec_index(self, module);
-                    let without = &mut self.does_without[krate];
-                    (without.can_lack_std, without.lacks_std) = (true, *always);
-                    continue;
-                }
-                ItemKind::Extern => {
-                    let krate = spec_index(self, module);
-                    self.does_without[krate].has_heap |= matches!(item.name.as_str(), "alloc" | "std");
-                    continue;
-                }
-                ItemKind::Hidden => {
-                    self.hidden.push(file.to_owned());
-                    continue;
-                }
-                ItemKind::Broken(reason) => {
-                    self.broken.push((file.to_owned(), item.line, reason.clone()));
-                    continue;
-                }
-                kind => {
-                    let (name, file) = (item.name.clone(), file.to_owned());
-                    self.defs.push(Def { need, name, module, file, line: item.line, kind: kind.clone() });
-                    Target::Def(self.defs.len() - 1)
-                }
-            };
-            self.modules[module]
-                .names
-                .entry(item.name.clone())
-                .or_default()
-                .push(Entry { public: item.public, target });
-        }
-    }
-
-    /// The definitions that `path` names in `module`.
-    pub fn resolve(&self, module: ModuleId, path: &[String]) -> Vec<DefId> {
-        let mut found = BTreeSet::new();
-        self.walk(module, path, 0, &mut found);
-        found.into_iter().collect()
-    }
-
-    fn walk(&self, module: ModuleId, path: &[String], imports: usize, found: &mut BTreeSet<DefId>) {
+impl Walk<'_> {
+    /// `path` as Rust that stands in `module` means it.
+    fn path(&mut self, module: ModuleId, path: &[String], imports: usize) {
         let [first, rest @ ..] = path else { return };
         if imports > MAX_IMPORTS {
             return;
         }
-        let krate = self.modules[module].krate;
+        let tree = self.tree;
+        let krate = tree.modules[module].krate;
         match first.as_str() {
-            "crate" => return self.enter(self.roots[krate], rest, imports, found),
-            "self" => return self.enter(module, rest, imports, found),
+            "crate" => return self.enter(tree.roots[krate], rest, imports),
+            "self" => return self.enter(module, rest, imports),
             "super" => {
-                let up = self.modules[module].parent.unwrap_or(module);
-                return if rest.first().is_some_and(|s| s == "super") {
-                    self.walk(up, rest, imports, found)
-                } else {
-                    self.enter(up, rest, imports, found)
-                };
+                let up = tree.modules[module].parent.unwrap_or(module);
+                let more = rest.first().is_some_and(|s| s == "super");
+                return if more { self.path(up, rest, imports) } else { self.enter(up, rest, imports) };
             }
             _ => {}
         }
-        let before = found.len();
-        self.enter(module, path, imports, found);
-        if found.len() == before
+        if self.seen.contains(&(module, path.to_vec())) {
+            return;
+        }
+        let before = self.found.len();
+        self.enter(module, path, imports);
+        if self.found.len() == before
             && !rest.is_empty()
-            && let Some(&other) = self.dependencies[krate].get(first)
+            && let Some(&other) = tree.dependencies[krate].get(first)
         {
-            self.enter(self.roots[other], rest, imports, found);
+            self.enter(tree.roots[other], rest, imports);
         }
     }
 
     /// `path` relative to what stands in `module`.
-    fn enter(&self, module: ModuleId, path: &[String], imports: usize, found: &mut BTreeSet<DefId>) {
+    fn enter(&mut self, module: ModuleId, path: &[String], imports: usize) {
         let [first, rest @ ..] = path else { return };
-        for entry in self.modules[module].names.get(first).into_iter().flatten() {
+        if !self.seen.insert((module, path.to_vec())) {
+            return;
+        }
+        let tree = self.tree;
+        for entry in tree.modules[module].names.get(first).into_iter().flatten() {
             match &entry.target {
-                Target::Module(child) => self.enter(*child, rest, imports, found),
+                Target::Module(child) => self.enter(*child, rest, imports),
                 Target::Def(def) if rest.is_empty() => {
-                    found.insert(*def);
+                    self.found.insert(*def);
                 }
                 Target::Def(_) => {}
                 Target::Import(target) => {
                     // `use a::a;` must not lead back to itself.
                     let full: Vec<String> = target.iter().chain(rest).cloned().collect();
                     if full != path {
-                        self.walk(module, &full, imports + 1, found);
-                    } else if let Some(&other) = self.dependencies[self.modules[module].krate].get(first) {
-                        self.enter(self.roots[other], rest, imports + 1, found);
+                        self.path(module, &full, imports + 1);
+                    } else if let Some(&other) = tree.dependencies[tree.modules[module].krate].get(first) {
+                        self.enter(tree.roots[other], rest, imports + 1);
                     }
                 }
             }
         }
-        for (glob, _) in &self.modules[module].globs {
+        // What a module names itself hides what it imports without a name.
+        if !rest.is_empty() && tree.modules[module].names.contains_key(first) {
+            return;
+        }
+        for (glob, _) in &tree.modules[module].globs {
             if imports < MAX_IMPORTS && glob.first().is_some_and(|g| g != first) {
                 let full: Vec<String> = glob.iter().chain(path).cloned().collect();
-                self.walk(module, &full, imports + 8, found);
+                self.path(module, &full, imports + 8);
             }
         }
+    }
+}
+
+impl Tree {
+    /// Scans `crates`, of which `own` are the package's own, with what rustc says of the conditions of these.
+    pub fn scan(crates: &[CrateSpec], own: &[usize], conditions: &Conditions, world: &mut dyn RustFiles) -> Self {
+        let mut tree = Self::default();
+        for (index, spec) in crates.iter().enumerate() {
+            tree.names.push(spec.name.clone());
+            tree.dependencies.push(spec.dependencies.clone());
+            tree.does_without.push(Without::default());
+            let root = tree.module(index, None, None, &spec.root, None);
+            tree.roots.push(root);
+            let folder = spec.root.parent().unwrap_or(Path::new("")).to_owned();
+            let is_own = own.contains(&index);
+            let mut scan = Scan { tree: &mut tree, spec, is_own, conditions, world, open: vec![] };
+            scan.file(root, &spec.root, &folder);
+        }
+        for (id, def) in tree.defs.iter().enumerate() {
+            tree.by_name.entry(def.name.clone()).or_default().push(id);
+        }
+        tree
+    }
+
+    fn module(
+        &mut self,
+        krate: usize,
+        parent: Option<ModuleId>,
+        need: Option<Need>,
+        file: &Path,
+        lines: Option<(usize, usize)>,
+    ) -> ModuleId {
+        let (file, names, globs) = (file.to_owned(), BTreeMap::new(), vec![]);
+        self.modules.push(Module { krate, need, parent, file, lines, is_open: false, names, globs });
+        self.modules.len() - 1
+    }
+
+    /// All definitions with this name.
+    pub fn named(&self, name: &str) -> &[DefId] {
+        self.by_name.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// The innermost module of crate `krate` in which a line of a file stands.
+    pub fn module_at(&self, krate: usize, file: &Path, line: usize) -> Option<ModuleId> {
+        let holds = |m: &Module| m.lines.is_none_or(|(first, last)| (first..=last).contains(&line));
+        let modules = self.modules.iter().enumerate();
+        modules.filter(|(_, m)| m.krate == krate && m.file == file && holds(m)).map(|(id, _)| id).next_back()
+    }
+
+    /// Whether `module` is `outer`, or stands in it.
+    fn is_inside(&self, module: ModuleId, outer: ModuleId) -> bool {
+        std::iter::successors(Some(module), |m| self.modules[*m].parent).any(|m| m == outer)
+    }
+
+    /// The module in which, with those inside, an item of `module` can be named.
+    fn within(&self, module: ModuleId, seen: &Seen) -> Option<ModuleId> {
+        match seen {
+            Seen::Everywhere => None,
+            Seen::InCrate => Some(self.roots.get(self.modules[module].krate).copied().unwrap_or(module)),
+            Seen::Within(path) => Some(self.find_module(module, path).unwrap_or(module)),
+            Seen::InModule => Some(module),
+        }
+    }
+
+    /// Whether something in the module that `path` leads to may come from a macro.
+    pub fn may_hide(&self, from: ModuleId, path: &[String]) -> bool {
+        match self.find_module(from, path) {
+            Some(module) => {
+                // The preludes of these crates have no types and constants that texts name in another crate.
+                let mut globs = self.modules[module].globs.iter();
+                self.modules[module].is_open || globs.any(|(path, _)| !library::is_listed(path))
+            }
+            // It is not there, unless it comes from what is hidden further out.
+            None => path.split_last().is_none_or(|(_, parent)| self.may_hide(from, parent)),
+        }
+    }
+
+    /// The definitions that `path` names in `module`.
+    pub fn resolve(&self, module: ModuleId, path: &[String]) -> Vec<DefId> {
+        let mut walk = Walk { tree: self, seen: BTreeSet::new(), found: BTreeSet::new() };
+        walk.path(module, path, 0);
+        walk.found.into_iter().collect()
     }
 
     /// The full path of a name that `module` imports from a crate that is not scanned.
@@ -296,19 +289,22 @@ impl Tree {
         })
     }
 
-    /// For each definition the shortest path that generated code in crate `here` can use.
-    pub fn public_paths(&self, here: usize) -> BTreeMap<DefId, Vec<String>> {
+    /// For each definition the shortest path that generated code can use in the module `site`, or outside of all scanned crates.
+    pub fn paths(&self, site: Option<ModuleId>) -> BTreeMap<DefId, Vec<String>> {
+        let here = site.map(|site| self.modules[site].krate);
         let mut paths = BTreeMap::new();
         for (krate, &root) in self.roots.iter().enumerate() {
-            let start =
-                if krate == here { vec!["crate".to_owned()] } else { vec![String::new(), self.names[krate].clone()] };
+            let start = match here == Some(krate) {
+                true => vec!["crate".to_owned()],
+                false => vec![String::new(), self.names[krate].clone()],
+            };
             let mut queue = std::collections::VecDeque::from([(root, start)]);
             let mut seen = BTreeSet::new();
             while let Some((module, path)) = queue.pop_front() {
                 if !seen.insert(module) || path.len() > MAX_MODULES {
                     continue;
                 }
-                self.list(module, krate == here, &path, &mut paths, &mut queue);
+                self.list(module, site, &path, &mut paths, &mut queue);
             }
         }
         paths
@@ -317,31 +313,37 @@ impl Tree {
     fn list(
         &self,
         module: ModuleId,
-        own: bool,
+        site: Option<ModuleId>,
         path: &[String],
         paths: &mut BTreeMap<DefId, Vec<String>>,
         queue: &mut std::collections::VecDeque<(ModuleId, Vec<String>)>,
     ) {
+        let is_seen = |within: Option<ModuleId>| match (within, site) {
+            (None, _) => true,
+            (Some(within), Some(site)) => self.is_inside(site, within),
+            (Some(_), None) => false,
+        };
         for (name, entries) in &self.modules[module].names {
-            for entry in entries.iter().filter(|e| e.public || own) {
+            for entry in entries.iter().filter(|e| is_seen(e.within)) {
                 let here: Vec<String> = path.iter().cloned().chain([name.clone()]).collect();
                 match &entry.target {
                     Target::Module(child) => queue.push_back((*child, here)),
                     Target::Def(def) => {
                         paths.entry(*def).or_insert(here);
                     }
-                    Target::Import(target) if entry.public => {
-                        let mut found = BTreeSet::new();
-                        self.walk(module, target, 0, &mut found);
-                        for def in found {
+                    Target::Import(target) => {
+                        for def in self.resolve(module, target) {
                             paths.entry(def).or_insert_with(|| here.clone());
                         }
+                        // `pub use` of a module.
+                        if let Some(child) = self.find_module(module, target) {
+                            queue.push_back((child, here));
+                        }
                     }
-                    Target::Import(_) => {}
                 }
             }
         }
-        for (glob, _) in self.modules[module].globs.iter().filter(|(_, public)| *public) {
+        for (glob, _) in self.modules[module].globs.iter().filter(|(_, within)| is_seen(*within)) {
             if let Some(child) = self.find_module(module, glob) {
                 queue.push_back((child, path.to_vec()));
             }
@@ -387,88 +389,124 @@ impl Tree {
     }
 }
 
-/// What an item exists only with: without these features it would not be there.
-fn need(item: &Item, features: &BTreeSet<String>) -> Option<Need> {
-    let exists_without = |left_out: &[&str]| {
-        let features = features.iter().filter(|f| !left_out.contains(&f.as_str())).cloned().collect();
-        item.cfg.iter().all(|cfg| enabled(cfg, &features))
-    };
-    match () {
-        () if item.cfg.is_empty() || exists_without(&["std", "alloc"]) => None,
-        () if exists_without(&["std"]) => Some(Need::Heap),
-        () => Some(Need::Std),
-    }
+/// The scan of one crate.
+struct Scan<'a> {
+    tree: &'a mut Tree,
+    spec: &'a CrateSpec,
+    is_own: bool,
+    conditions: &'a Conditions,
+    world: &'a mut dyn RustFiles,
+    /// The files that are being read, outermost first: one that holds itself has no end.
+    open: Vec<PathBuf>,
 }
 
-fn spec_index(tree: &Tree, module: ModuleId) -> usize {
-    tree.modules[module].krate
-}
-
-/// Evaluates the tokens of a `cfg`. What cannot be known (target, rustc's own conditions) counts as true.
-fn enabled(cfg: &str, features: &BTreeSet<String>) -> bool {
-    let compact: String = cfg.chars().filter(|c| !c.is_whitespace()).collect();
-    evaluate(&compact, features, 0).unwrap_or(true)
-}
-
-fn evaluate(cfg: &str, features: &BTreeSet<String>, depth: usize) -> Option<bool> {
-    if depth > 16 {
-        return None;
-    }
-    let inner = |prefix: &str| cfg.strip_prefix(prefix)?.strip_suffix(')');
-    if let Some(feature) = cfg.strip_prefix("feature=\"").and_then(|f| f.strip_suffix('"')) {
-        return Some(features.contains(feature));
-    }
-    if cfg == "test" {
-        return Some(false);
-    }
-    if let Some(of) = inner("not(") {
-        return evaluate(of, features, depth + 1).map(|v| !v);
-    }
-    if let Some(of) = inner("all(") {
-        return Some(split(of).iter().all(|part| evaluate(part, features, depth + 1).unwrap_or(true)));
-    }
-    if let Some(of) = inner("any(") {
-        return Some(split(of).iter().any(|part| evaluate(part, features, depth + 1).unwrap_or(true)));
-    }
-    None
-}
-
-/// The parts between the commas that are in no bracket.
-fn split(list: &str) -> Vec<&str> {
-    let (mut depth, mut start, mut parts) = (0, 0, vec![]);
-    for (i, c) in list.char_indices() {
-        match c {
-            '(' => depth += 1,
-            ')' => depth -= 1,
-            ',' if depth == 0 => {
-                parts.push(&list[start..i]);
-                start = i + 1;
-            }
-            _ => {}
+impl Scan<'_> {
+    /// Adds the items of a file; `folder` is where the files of its child modules are.
+    fn file(&mut self, module: ModuleId, file: &Path, folder: &Path) {
+        if self.open.len() > MAX_MODULES || self.tree.files >= MAX_FILES || self.open.iter().any(|f| f == file) {
+            return;
+        }
+        self.tree.files += 1;
+        // A file that cannot be read is rustc's to report.
+        if let Ok(items) = self.world.items(file) {
+            self.open.push(file.to_owned());
+            self.items(module, &items, file, folder, 0);
+            self.open.pop();
         }
     }
-    parts.push(&list[start..]);
-    parts.retain(|p| !p.is_empty());
-    parts
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+    fn items(&mut self, module: ModuleId, items: &[Item], file: &Path, folder: &Path, depth: usize) {
+        for item in items {
+            let krate = self.tree.modules[module].krate;
+            if let Some(cfg) = item.cfg.iter().find(|cfg| self.is_left_out(cfg)) {
+                self.tree.left_out.push((krate, item.name.clone(), cfg.split_whitespace().collect()));
+                continue;
+            }
+            let Some(target) = self.target(module, item, file, folder, depth) else { continue };
+            let within = self.tree.within(module, &item.seen);
+            let names = &mut self.tree.modules[module].names;
+            names.entry(item.name.clone()).or_default().push(Entry { within, target });
+        }
+    }
 
-    #[test]
-    fn conditions() {
-        let features = BTreeSet::from(["std".to_owned()]);
-        for (cfg, expected) in [
-            ("feature = \"std\"", true),
-            ("feature = \"gui\"", false),
-            ("not (feature = \"std\")", false),
-            ("all (feature = \"std\" , not (feature = \"gui\"))", true),
-            ("any (feature = \"gui\" , feature = \"std\")", true),
-            ("test", false),
-            ("target_os = \"none\"", true),
-        ] {
-            assert_eq!(enabled(cfg, &features), expected, "{cfg}");
+    fn is_left_out(&self, cfg: &str) -> bool {
+        self.conditions.evaluate(cfg, &self.spec.features, self.is_own) == Truth::No
+    }
+
+    /// What an item is called for; nothing if it has no name.
+    fn target(&mut self, module: ModuleId, item: &Item, file: &Path, folder: &Path, depth: usize) -> Option<Target> {
+        let krate = self.tree.modules[module].krate;
+        let need = self.tree.modules[module].need.max(self.need(item));
+        match &item.kind {
+            ItemKind::Module(content, last) => {
+                let child = self.tree.module(krate, Some(module), need, file, Some((item.line, *last)));
+                if depth < MAX_MODULES {
+                    self.items(child, content, file, &folder.join(&item.name), depth + 1);
+                }
+                return Some(Target::Module(child));
+            }
+            ItemKind::ModuleFile(path) => {
+                let (path, folder) = self.module_file(path.as_deref(), &item.name, file, folder);
+                let child = self.tree.module(krate, Some(module), need, &path, None);
+                self.file(child, &path, &folder);
+                return Some(Target::Module(child));
+            }
+            ItemKind::Import(path) => return Some(Target::Import(path.clone())),
+            ItemKind::Glob(path) => {
+                let within = self.tree.within(module, &item.seen);
+                self.tree.modules[module].globs.push((path.clone(), within));
+            }
+            ItemKind::NoPrelude => self.tree.does_without[krate].lacks_prelude = true,
+            ItemKind::NoStd { always } => {
+                let without = &mut self.tree.does_without[krate];
+                (without.can_lack_std, without.lacks_std) = (true, *always);
+            }
+            ItemKind::Extern => {
+                self.tree.does_without[krate].has_heap |= matches!(item.name.as_str(), "alloc" | "std");
+            }
+            ItemKind::Macro(hides_nodes) => {
+                self.tree.modules[module].is_open = true;
+                if *hides_nodes {
+                    self.tree.hidden.push(file.to_owned());
+                }
+            }
+            ItemKind::Call(text) => {
+                let folder = file.parent().unwrap_or(Path::new("")).to_owned();
+                self.tree.calls.push((module, folder, text.clone()));
+            }
+            ItemKind::Broken(reason) => self.tree.broken.push((file.to_owned(), item.line, reason.clone())),
+            kind => {
+                let (name, file) = (item.name.clone(), file.to_owned());
+                self.tree.defs.push(Def { need, name, module, file, line: item.line, kind: kind.clone() });
+                return Some(Target::Def(self.tree.defs.len() - 1));
+            }
+        }
+        None
+    }
+
+    /// The file of a module, and the folder of those inside.
+    fn module_file(&mut self, path: Option<&str>, name: &str, file: &Path, folder: &Path) -> (PathBuf, PathBuf) {
+        if let Some(path) = path {
+            let path = file.parent().unwrap_or(Path::new("")).join(path);
+            let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+            return (path, folder);
+        }
+        let inner = folder.join(name);
+        let flat = inner.with_extension("rs");
+        let path = if self.world.exists(&flat) { flat } else { inner.join("mod.rs") };
+        (path, inner)
+    }
+
+    /// What an item exists only with: without these features it would not be there.
+    fn need(&self, item: &Item) -> Option<Need> {
+        let exists_without = |left_out: &[&str]| {
+            let features = self.spec.features.iter().filter(|f| !left_out.contains(&f.as_str())).cloned().collect();
+            item.cfg.iter().all(|cfg| self.conditions.evaluate(cfg, &features, self.is_own) != Truth::No)
+        };
+        match () {
+            () if item.cfg.is_empty() || exists_without(&["std", "alloc"]) => None,
+            () if exists_without(&["std"]) => Some(Need::Heap),
+            () => Some(Need::Std),
         }
     }
 }

@@ -27,7 +27,8 @@ impl Ty {
         use quote::ToTokens as _;
         match ty {
             syn::Type::Path(path) if path.qself.is_none() => {
-                let segments = path.path.segments.iter().map(|s| s.ident.to_string()).collect();
+                let plain = |name: String| name.strip_prefix("r#").map(str::to_owned).unwrap_or(name);
+                let segments = path.path.segments.iter().map(|s| plain(s.ident.to_string())).collect();
                 let args = match path.path.segments.last().map(|s| &s.arguments) {
                     Some(syn::PathArguments::AngleBracketed(args)) => {
                         args.args.iter().filter_map(Self::from_argument).collect()

@@ -1,4 +1,4 @@
-use super::{Catalog, DefId, ModuleId, Need, Ty};
+use super::{Catalog, DefId, ModuleId, Need, Ty, library};
 use std::fmt;
 
 /// A type whose names have been looked up as far as the scan can see.
@@ -36,11 +36,15 @@ pub enum Match {
     Unknown,
 }
 
-const PRIMITIVES: [&str; 17] = [
+/// The types that the language itself names.
+pub const PRIMITIVES: [&str; 17] = [
     "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
     "f32", "f64",
 ];
-const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
+/// Types of the standard library that need no import.
+pub const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
+/// The time that texts know without an import.
+pub const DURATION: &str = "Duration";
 const LISTS: [&str; 2] = ["Vec", "heapless::Vec"];
 /// Parts of `std` that `core` has under the same name.
 const CORE: [&str; 8] = ["time", "ops", "num", "cmp", "marker", "option", "result", "primitive"];
@@ -162,6 +166,19 @@ impl Type {
         }
     }
 
+    /// Whether the type parameter `name` occurs in it, or may: the scan cannot see through all of it.
+    pub fn may_mention(&self, name: &str) -> bool {
+        let any = |types: &[Self]| types.iter().any(|ty| ty.may_mention(name));
+        match self {
+            Self::Param(param) => param == name,
+            Self::Unknown(text) => !text.is_empty(),
+            Self::Named(_, args) | Self::Def(_, _, args) | Self::Tuple(args) => any(args),
+            Self::Array(inner, len) => inner.may_mention(name) || len.as_deref() == Some(name),
+            Self::Alias(_, _, inner) | Self::Ref(inner) => inner.may_mention(name),
+            Self::Primitive(_) => false,
+        }
+    }
+
     /// The element type of a list; `None` if it is certainly no list that `each` knows.
     pub fn list_item(&self) -> Option<Type> {
         match self {
@@ -274,11 +291,18 @@ impl Catalog {
                         Some(_) => Type::Unknown(ty.to_string()),
                     };
                 }
+                let full = external.as_ref().map(|path| path.split("::").map(str::to_owned).collect::<Vec<_>>());
+                if let Some(short) = library::short(full.as_deref().unwrap_or(path)) {
+                    return Type::Named(short.to_owned(), args);
+                }
                 if let Some(external) = external {
                     return Type::Named(external, args);
                 }
                 if path.len() == 1 && PRIMITIVES.contains(&name) {
                     return Type::Primitive(name.to_owned());
+                }
+                if path.len() == 1 && name == DURATION && args.is_empty() {
+                    return Type::Named("core::time::Duration".to_owned(), args);
                 }
                 if path.len() > 1 || STD.contains(&name) {
                     return Type::Named(path.join("::"), args);

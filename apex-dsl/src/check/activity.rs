@@ -3,57 +3,214 @@
 use crate::{
     analyse::{active_nodes, active_nodes_within},
     catalog::Catalog,
-    graph::{Graph, NodeId, NodeKind},
+    graph::{Connection, Graph, NodeId, NodeKind, Place},
     report::{Diagnostic, Diagnostics},
+    source::Span,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most nodes that a message names.
+const MAX_NAMED: usize = 5;
 
 /// Reports nodes whose active connections can never carry activity, and nodes that hold it although it looks as if
-/// they were meant to pass it on.
+/// they were meant to pass it on. Of nodes that wait for each other only the first is named.
 pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     if graph.is_body || graph.is_open {
         return;
     }
     // Nobody is around a robot; a graph may get its activity from the one that uses it.
     let reached = if graph.robot { active_nodes(graph) } else { active_nodes_within(graph) };
-    let mut named = BTreeSet::new();
-    // Activity goes into a delay only because it goes on from there.
-    let is_delay = |node: NodeId| graph.nodes[node].is_delay();
-    for c in graph.connections.iter().filter(|c| c.active && !is_delay(c.to.node)) {
+    let (waiting, stuck) = (waiting(graph, catalog, &reached), stuck(graph, &reached));
+    let mut check = Check { graph, reached, waiting, stuck, next: next(graph) };
+    check.report_gaps(diagnostics);
+    check.report_waiting(diagnostics);
+    for (node, first) in check.stuck {
+        let name = graph.path(node);
+        let message = format!("activity that enters `{name}` can never leave: all its connections are `->`");
+        let warning = Diagnostic::warning("never-leaves", graph.nodes[node].span, message)
+            .also(graph.connections[first].span, "for example this one")
+            .note("write `=>` where activity is to go on");
+        diagnostics.push(warning.inside(graph.scope_path(graph.nodes[node].scope)));
+    }
+}
+
+/// The nodes with `=>` behind them that activity never comes to, each with such a connection.
+fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
+    let mut waiting = BTreeMap::new();
+    for (index, c) in graph.connections.iter().enumerate() {
         let node = c.from.node;
         // A node that takes activity away does so without any of its own.
         let takes_away =
             matches!(&graph.nodes[node].kind, NodeKind::Library(l) if catalog.signatures[l.signature].deactivates);
-        if takes_away || !graph.can_hold_activity(node) || reached.contains(&node) || !named.insert(node) {
-            continue;
+        // Activity goes into a delay only because it goes on from there.
+        let counts = c.active && !graph.nodes[c.to.node].is_delay() && !takes_away;
+        if counts && graph.can_hold_activity(node) && !reached.contains(&node) {
+            let first = waiting.entry(node).or_insert(index);
+            if c.span < graph.connections[*first].span {
+                *first = index;
+            }
         }
-        let held = graph.connections.iter().find(|c| c.to.node == node).filter(|_| is_delay(node));
+    }
+    waiting
+}
+
+/// The nodes that activity comes to and never leaves although tokens do, each with a connection.
+fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
+    let mut stuck = BTreeMap::new();
+    let mut passes = BTreeSet::new();
+    for (index, c) in graph.connections.iter().enumerate() {
+        if c.active {
+            passes.insert(c.from.node);
+        } else if reached.contains(&c.from.node) {
+            stuck.entry(c.from.node).or_insert(index);
+        }
+    }
+    stuck.retain(|node, _| !passes.contains(node));
+    stuck
+}
+
+/// The nodes that the active connections of each node lead to.
+fn next(graph: &Graph) -> Vec<Vec<NodeId>> {
+    let mut next = vec![vec![]; graph.nodes.len()];
+    for c in graph.connections.iter().filter(|c| c.active) {
+        next[c.from.node].push(c.to.node);
+    }
+    next
+}
+
+struct Check<'a> {
+    graph: &'a Graph,
+    /// Nodes that activity comes to.
+    reached: BTreeSet<NodeId>,
+    /// Nodes that wait for activity, with a connection that never carries any.
+    waiting: BTreeMap<NodeId, usize>,
+    /// Nodes that keep activity, with a connection that could have carried it on.
+    stuck: BTreeMap<NodeId, usize>,
+    next: Vec<Vec<NodeId>>,
+}
+
+impl<'a> Check<'a> {
+    /// Reports each `->` between a node that keeps its activity, or `start`, and nodes that wait for some: it is what was
+    /// meant to be `=>`.
+    fn report_gaps(&mut self, diagnostics: &mut Diagnostics) {
+        let graph = self.graph;
+        for c in graph.connections.iter().filter(|c| !c.active) {
+            let begins = matches!(graph.nodes[c.from.node].kind, NodeKind::Start);
+            if self.waiting.is_empty() || !(begins || self.stuck.contains_key(&c.from.node)) {
+                continue;
+            }
+            if self.behind(c.to.node).iter().any(|node| self.waiting.contains_key(node)) {
+                self.stuck.remove(&c.from.node);
+                self.close(c, diagnostics);
+            }
+        }
+    }
+
+    /// Reports a `->` that is to be `=>`, and goes on as if it were one wherever this piece of the text is used.
+    fn close(&mut self, c: &Connection, diagnostics: &mut Diagnostics) {
+        let mut named = self.behind(c.to.node);
+        named.retain(|node| self.waiting.contains_key(node));
+        diagnostics.push(self.gap(c, &named));
+        for other in self.graph.connections.iter().filter(|other| other.span == c.span) {
+            self.next[other.from.node].push(other.to.node);
+        }
+        let behind = self.behind(c.to.node);
+        self.waiting.retain(|node, _| !behind.contains(node));
+    }
+
+    /// The node and all that activity comes to from it.
+    fn behind(&self, node: NodeId) -> BTreeSet<NodeId> {
+        let (mut found, mut open) = (BTreeSet::new(), vec![node]);
+        while let Some(node) = open.pop() {
+            if found.insert(node) {
+                open.extend(&self.next[node]);
+            }
+        }
+        found
+    }
+
+    fn gap(&self, c: &Connection, behind: &BTreeSet<NodeId>) -> Diagnostic {
+        let graph = self.graph;
+        let first = if behind.contains(&c.to.node) { c.to.node } else { *behind.iter().next().unwrap_or(&c.to.node) };
+        let others: Vec<String> =
+            behind.iter().filter(|n| **n != first).map(|n| format!("`{}`", graph.path(*n))).collect();
+        let (from, to) = (graph.path(c.from.node), graph.path(first));
+        let message = format!("`{to}` is never activated: this `->` keeps the activity of `{from}` from it");
+        let arrow = arrow(graph, c);
+        let warning = Diagnostic::warning("never-activated", arrow, message);
+        let warning = match others.len() {
+            0 => warning,
+            1 => warning.note(format!("nor is {}", others[0])),
+            n if n > MAX_NAMED => {
+                warning.note(format!("nor are {} and {} more", others[..MAX_NAMED].join(", "), n - MAX_NAMED))
+            }
+            _ => warning.note(format!("nor are {}", others.join(", "))),
+        };
+        let warning = warning.guess("let activity pass", arrow, "=>");
+        warning.inside(graph.scope_path(graph.nodes[c.from.node].scope))
+    }
+
+    /// Reports the nodes that wait for activity, but for those that wait only because others do.
+    fn report_waiting(&mut self, diagnostics: &mut Diagnostics) {
+        // First those that nothing leads to, then one of each circle.
+        let covered: BTreeSet<NodeId> = self
+            .waiting
+            .keys()
+            .flat_map(|node| self.next[*node].iter().filter(move |next| *next != node).copied())
+            .collect();
+        let (later, first): (Vec<NodeId>, Vec<NodeId>) = self.waiting.keys().partition(|node| covered.contains(node));
+        for nodes in [first, later] {
+            // An arrow that is missing may be missing wherever its graph is used.
+            for node in &nodes {
+                if let Some(c) = self.only_way(*node).filter(|_| self.waiting.contains_key(node)) {
+                    self.close(c, diagnostics);
+                }
+            }
+            for node in nodes {
+                if self.waiting.contains_key(&node) {
+                    diagnostics.push(self.never_activated(node));
+                    let behind = self.behind(node);
+                    self.waiting.retain(|node, _| !behind.contains(node));
+                }
+            }
+        }
+    }
+
+    /// The one connection over which a node that waits for activity takes tokens of a node that has some.
+    fn only_way(&self, node: NodeId) -> Option<&'a Connection> {
+        let graph: &'a Graph = self.graph;
+        let mut ways = graph.connections.iter().filter(|c| c.to.node == node && self.reached.contains(&c.from.node));
+        let (only, None) = (ways.next()?, ways.next()) else { return None };
+        Some(only)
+    }
+
+    fn never_activated(&self, node: NodeId) -> Diagnostic {
+        let graph = self.graph;
+        let c = &graph.connections[self.waiting[&node]];
+        let held = graph.connections.iter().find(|c| c.to.node == node).filter(|_| graph.nodes[node].is_delay());
         let node = held.map_or(node, |c| c.from.node);
         let message = format!("`{}` is never activated: this `=>` never carries activity", graph.path(node));
-        let warning = Diagnostic::warning("never-activated", c.span, message).note(match sources(graph, node) {
+        let from = graph.connections.iter().find(|c| c.active && c.to.node == node).map(|c| graph.path(c.from.node));
+        let warning = Diagnostic::warning("never-activated", c.span, message).note(match from {
             Some(from) => format!("activity would have to come from `{from}`, which is never activated either"),
             None => format!("activity begins at `start`: write `start => {};`, or `=>` towards it", graph.path(node)),
         });
-        diagnostics.push(warning);
-    }
-    for &node in &reached {
-        let n = &graph.nodes[node];
-        let out: Vec<_> = graph.connections.iter().filter(|c| c.from.node == node).collect();
-        if out.is_empty() || out.iter().any(|c| c.active) {
-            continue;
-        }
-        let message =
-            format!("activity that enters `{}` can never leave: all its connections are `->`", graph.path(node));
-        diagnostics.push(
-            Diagnostic::warning("never-leaves", n.span, message)
-                .also(out[0].span, "for example this one")
-                .note("write `=>` where activity is to go on"),
-        );
+        warning.inside(graph.scope_path(graph.nodes[node].scope))
     }
 }
 
-/// A node from which activity would have to come.
-fn sources(graph: &Graph, node: NodeId) -> Option<String> {
-    let from = graph.connections.iter().find(|c| c.active && c.to.node == node)?;
-    Some(graph.path(from.from.node))
+/// The arrow that keeps activity from a connection: one that leads through ports of nested graphs has several.
+fn arrow(graph: &Graph, c: &Connection) -> Span {
+    let (mut open, mut seen) = (vec![(Place::Port(c.to), None)], BTreeSet::new());
+    while let Some((place, arrow)) = open.pop() {
+        if place == Place::Port(c.from) {
+            return arrow.unwrap_or(c.span);
+        }
+        for wire in graph.wires.iter().filter(|wire| wire.to == place) {
+            if seen.insert((wire.from, wire.to)) {
+                open.push((wire.from, if wire.active { arrow } else { Some(wire.span) }));
+            }
+        }
+    }
+    c.span
 }

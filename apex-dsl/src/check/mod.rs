@@ -3,9 +3,9 @@
 mod activity;
 mod asynchronous;
 mod inputs;
-mod lists;
 mod modifiers;
 mod parallel;
+mod rates;
 mod target;
 mod types;
 
@@ -15,22 +15,21 @@ use crate::{
     report::Diagnostics,
 };
 
-pub use lists::token_type;
+pub use rates::check_rates;
 pub use types::compare as compare_types;
 
 /// Runs all checks on `graph` and on the bodies in it.
-pub fn check(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+pub fn check(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     inputs::check_open_inputs(graph, catalog, diagnostics);
-    lists::resolve_lists(graph, diagnostics);
     types::check_types(graph, catalog, diagnostics);
     modifiers::check_modifiers(graph, catalog, diagnostics);
     asynchronous::check_asynchronous(graph, catalog, diagnostics);
     activity::check_activity(graph, catalog, diagnostics);
     parallel::check_parallel(graph, catalog, diagnostics);
     target::check_target(graph, catalog, diagnostics);
-    for node in &mut graph.nodes {
-        if let NodeKind::Each(each) = &mut node.kind {
-            check(&mut each.body, catalog, diagnostics);
+    for node in &graph.nodes {
+        if let NodeKind::Each(each) = &node.kind {
+            check(&each.body, catalog, diagnostics);
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Both ends of a connection carry the same type.
 
-use super::lists::token_type;
+use crate::resolve::token_type;
 use crate::{
-    catalog::{Catalog, Match, Type},
+    catalog::{Catalog, Match, Type, library},
     graph::{Connection, End, Graph, NodeKind},
     report::{Diagnostic, Diagnostics},
 };
@@ -39,7 +39,8 @@ pub fn compare(graph: &Graph, connection: &Connection) -> Match {
     match &graph.nodes[connection.to.node].kind {
         NodeKind::Each(each) if each.list == connection.to.port => match (from.list_item(), &from) {
             (Some(item), _) => item.compare(to),
-            (None, Type::Unknown(_) | Type::Param(_) | Type::Named(..)) => Match::Unknown,
+            (None, Type::Unknown(_) | Type::Param(_)) => Match::Unknown,
+            (None, Type::Named(name, _)) if !library::is_standard(name) => Match::Unknown,
             (None, _) => Match::Different,
         },
         _ => from.compare(to),

@@ -39,7 +39,7 @@ impl Generator<'_> {
     /// What the tokens on `connection` may carry.
     pub fn carries(&self, whole: Whole<'_>, connection: usize) -> Carries {
         let c = &whole.graph.connections[connection];
-        let checked = self.checks_claims(whole);
+        let checked = self.checks_claims();
         // Claims have to know of activity on its way to the end of the program.
         let ends = checked && matches!(whole.graph.nodes[c.to.node].kind, NodeKind::Exit(_));
         if !c.active || !(ends || whole.analysis.active.contains(&c.to.node)) {
@@ -222,7 +222,7 @@ impl Generator<'_> {
         let gains = self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
         let loses = self.inputs_carry(whole, node, &[Carries::Away]);
         let (gains_flag, loses_flag) = (self.flag(Flag::Gains, node), self.flag(Flag::Loses, node));
-        let check = self.check_claims(whole);
+        let check = self.check_claims();
         let (activate, deactivate) = (self.activate(whole, node), self.deactivate(whole, node));
         let (activate, deactivate) = (quote!(#activate #check), quote!(#deactivate #check));
         match (gains, loses) {
@@ -283,7 +283,7 @@ impl Generator<'_> {
                 code.extend(quote! { if state.#held.take().is_some() { #carry } });
             } else if whole.analysis.active.contains(&node) && !deactivates {
                 let (active, deactivate) = (self.flag(Flag::Active, node), self.deactivate(whole, node));
-                let check = self.check_claims(whole);
+                let check = self.check_claims();
                 code.extend(quote! { if state.#active && #present { #deactivate #carry #check } });
             }
         }

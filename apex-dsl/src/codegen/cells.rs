@@ -74,6 +74,7 @@ impl Generator<'_> {
             .flatten()
             .map(|row| quote! { self.state.dispatcher.settle(&Self::CLUSTERS, #row); });
         let receiver = self.cell(far).1;
+        let store = self.store(graph, c.from, &quote!(parcel.token), &value);
         let is_free = self.look(quote!(ends.#cell.is_free()));
         quote! {
             if !self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#free])) && #is_free {
@@ -81,7 +82,7 @@ impl Generator<'_> {
                     let state = &mut self.state;
                     state.dispatcher.clear(#token);
                     ends.#cell.put(|parcel| {
-                        ::apex_rt::store(&mut parcel.token, #value);
+                        #store
                         #carries
                         #stamp
                     });

@@ -7,7 +7,7 @@ use super::{
     state::{Kept, Kind},
 };
 use crate::{
-    claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
+    claims::{Checks, Decided, FROM, Model, NEARER, Place, PlaceId, scopes_of},
     graph::{ClaimKind, Flow},
 };
 use proc_macro2::TokenStream;
@@ -16,14 +16,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
 impl Generator<'_> {
+    /// The claims that the program looks at.
+    fn undecided(&self) -> Vec<usize> {
+        self.claims.map(Decided::undecided).unwrap_or_default()
+    }
+
     /// Whether the program has claims to look at.
-    pub fn checks_claims(&self, whole: Whole<'_>) -> bool {
-        whole.analysis.claims.has_undecided()
+    pub fn checks_claims(&self) -> bool {
+        !self.undecided().is_empty()
     }
 
     /// Activity has moved: the claims are looked at, if there are any.
-    pub fn check_claims(&self, whole: Whole<'_>) -> TokenStream {
-        if self.checks_claims(whole) {
+    pub fn check_claims(&self) -> TokenStream {
+        if self.checks_claims() {
             quote! { Self::check_claims(state, observer); }
         } else {
             quote!()
@@ -32,20 +37,20 @@ impl Generator<'_> {
 
     /// For each claim that the program looks at, whether it is broken now.
     pub fn claim_state(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let undecided = whole.analysis.claims.undecided().into_iter();
+        let undecided = self.undecided().into_iter();
         let text = |claim: usize| whole.graph.claim_text(&whole.graph.claims[claim]);
         undecided.map(|claim| Kept::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false))).collect()
     }
 
     /// The function that looks at them.
     pub fn claim_function(&self, whole: Whole<'_>) -> TokenStream {
-        if !self.checks_claims(whole) {
+        if !self.checks_claims() {
             return quote!();
         }
         let model = Model::new(whole.graph, self.catalog);
         let checks = Checks::new(whole.graph, &model);
         let flags = self.place_flags(whole, &model);
-        let looks = whole.analysis.claims.undecided().into_iter().map(|claim| {
+        let looks = self.undecided().into_iter().map(|claim| {
             let names = |group| any(&flags, &checks.places(claim, group));
             let is_broken = match whole.graph.claims[claim].kind {
                 ClaimKind::Exclusive => {

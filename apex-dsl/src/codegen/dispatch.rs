@@ -366,13 +366,18 @@ impl Generator<'_> {
         quote!(#free #budget)
     }
 
-    /// A node was active for as long as its `timeout` says: it triggers the event, with its activity.
+    /// A node was active for as long as its `timeout` says: it triggers the event, with its activity. A node that is
+    /// disabled sends nothing; it does so when it is enabled, if it is still active.
     fn expire(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
         let graph = whole.graph;
         let timeout = self.flag(Flag::Timeout, node);
         let free: Vec<usize> =
             whole.analysis.asynchronous.holding_back(graph, whole.links, node).filter_map(|c| bits.free(c)).collect();
-        let test = self.allows(whole, &free);
+        let mut test = self.allows(whole, &free);
+        if graph.nodes[node].can_be_disabled() {
+            let enabled = self.flag(Flag::Enabled, node);
+            test.extend(quote!(&& self.state.#enabled));
+        }
         let clear = self.clear_events(whole, node);
         let trigger = self.trigger(graph, node, Standard::Timeout);
         let pass = self.pass_activity(whole, node, &|end| {

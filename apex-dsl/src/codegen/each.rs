@@ -29,8 +29,12 @@ impl Emitter<'_> {
             let inside = generator.name(End { node: boundary(body, &p.name, PortKind::Input), port: 0 });
             if port == each.list {
                 item = inside;
-            } else if let Some(from) = self.incoming(End { node, port }) {
-                let token = self.reference(from, block);
+            } else if p.optional || self.incoming(End { node, port }).is_some() {
+                let token = self.incoming(End { node, port }).map(|from| match p.optional {
+                    true => self.option(from, block),
+                    false => self.reference(from, block),
+                });
+                let token = token.unwrap_or_else(|| quote!(None));
                 bindings.extend(quote! { let #inside = #token; });
             }
         }
@@ -109,8 +113,9 @@ fn result(clusters: &[Emitter<'_>], output: NodeId) -> (TokenStream, bool) {
     };
     let name = emitter.generator.name(from);
     match emitter.plan.storage(from) {
-        Storage::Argument => (quote!(::core::clone::Clone::clone(#name)), false),
-        Storage::Buffer => (quote!(state.#name.get().cloned()), true),
+        Storage::Argument => (emitter.generator.clone(emitter.graph, from, &quote!(#name)), false),
+        Storage::MaybeArgument => (emitter.generator.cloned(emitter.graph, from, &quote!(#name)), true),
+        Storage::Buffer => (emitter.generator.cloned(emitter.graph, from, &quote!(state.#name.get())), true),
         _ if emitter.plan.is_plain(from) => (quote!(#name), false),
         _ => (quote!(#name), true),
     }

@@ -5,7 +5,6 @@ use super::{
     activity::Whole,
     bits::Bits,
     plan::{BlockId, Plan, Storage},
-    test::probe,
     types::{ident, path, spell},
 };
 use crate::{
@@ -91,7 +90,7 @@ impl<'a> Emitter<'a> {
         ends.dedup();
         let stores = ends.into_iter().filter(|end| self.plan.storage(*end) != Storage::Buffer).map(|end| {
             let (name, token) = (self.generator.name(end), self.option(end, 0));
-            quote! { ::apex_rt::store(&mut state.#name, #token); }
+            self.generator.store(self.graph, end, &quote!(state.#name), &token)
         });
         quote! { #(#stores)* }
     }
@@ -140,6 +139,7 @@ impl<'a> Emitter<'a> {
         match self.plan.storage(end) {
             Storage::Buffer => quote!(state.#name.get()),
             Storage::Outside => quote!(&state.#name),
+            Storage::MaybeArgument => quote!(#name),
             _ => quote!(&#name),
         }
     }
@@ -153,9 +153,15 @@ impl<'a> Emitter<'a> {
         match self.plan.storage(end) {
             Storage::Buffer => quote!(state.#name.get()),
             Storage::Outside => quote!(state.#name.as_ref()),
+            Storage::MaybeArgument => quote!(#name),
             _ if self.plan.is_plain(end) => quote!(Some(&#name)),
             _ => quote!(#name.as_ref()),
         }
+    }
+
+    /// A copy of a token, as `Option<T>`.
+    fn cloned(&self, end: End, block: BlockId) -> TokenStream {
+        self.generator.cloned(self.graph, end, &self.option(end, block))
     }
 
     /// A token that is there, as `&T`.
@@ -214,23 +220,26 @@ impl<'a> Emitter<'a> {
             }
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
+                let token = self.incoming(End { node, port: 0 }).map(|from| self.cloned(from, block));
                 let token = token.unwrap_or_else(|| quote!(None));
                 let activity = self.generator.hold_activity(self.whole, node);
-                quote! { state.#held.put(#token.cloned()); #activity }
+                quote! { state.#held.put(#token); #activity }
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
-                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
-                token.map(|token| quote! { ::apex_rt::store(&mut outputs.#port, #token); }).unwrap_or_default()
+                let from = self.incoming(End { node, port: 0 });
+                let store = from.map(|from| {
+                    let token = self.option(from, block);
+                    self.generator.store(self.graph, from, &quote!(outputs.#port), &token)
+                });
+                store.unwrap_or_default()
             }
             NodeKind::Relay => {
-                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
-                let token = token.unwrap_or_else(|| quote!(None));
-                self.bind(End { node, port: 1 }, quote!(#token.cloned()), true)
+                let token = self.incoming(End { node, port: 0 }).map(|from| self.cloned(from, block));
+                self.bind(End { node, port: 1 }, token.unwrap_or_else(|| quote!(None)), true)
             }
             NodeKind::Probe => {
-                let probe = probe(node);
+                let probe = self.generator.probe(node);
                 let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
                 token
                     .map(|token| quote! { if let Some(token) = #token { outputs.#probe.saw(token); } })
@@ -323,22 +332,20 @@ impl<'a> Emitter<'a> {
                 }
                 Some(from) => {
                     let token = self.reference(from, block);
-                    quote!(::core::clone::Clone::clone(#token))
+                    self.generator.clone(self.graph, from, &token)
                 }
-                None => self.generator.param_value(self.graph, library, param),
+                None => self.generator.argument(self.graph, node, library, param),
             },
         }
     }
 
     /// Lets rustc judge a connection whose types the scan could not compare.
     fn judged(&self, to: End, token: TokenStream, optional: bool) -> TokenStream {
-        let Some(connection) = self.connection(to).filter(|c| self.generator.is_judged(self.graph, *c)) else {
-            return token;
-        };
+        let Some(connection) = self.connection(to) else { return token };
+        let Some(link) = self.generator.link(self.graph, connection) else { return token };
         let NodeKind::Library(library) = &self.graph.nodes[to.node].kind else { return token };
         let node = self.generator.node_type(self.graph, library);
         let index = self.generator.catalog.signatures[library.signature].ports[to.port].index;
-        let link = self.generator.link_name(connection);
         let span = (self.generator.place)(self.graph.connections[connection].span);
         let wanted = quote!(<#node as ::apex_rt::Input<#index>>::Token);
         if optional {
@@ -505,13 +512,14 @@ impl<'a> Emitter<'a> {
     }
 
     /// `let name = value;`, or the assignment to a name declared further out. What is there for certain is used
-    /// by reference in the rest of its own block.
+    /// by reference in the rest of its own block; not what a node that may be disabled sends.
     fn bind(&self, end: End, value: TokenStream, optional: bool) -> TokenStream {
         let name = self.generator.name(end);
         match (self.plan.is_hoisted(end), optional) {
             (false, _) => quote! { let #name = #value; },
             (true, true) => quote! { #name = #value; },
-            (true, false) => quote! { let #name = &*#name.insert(#value); },
+            (true, false) if self.plan.storage(end) == Storage::Local => quote! { let #name = &*#name.insert(#value); },
+            (true, false) => quote! { #name = Some(#value); },
         }
     }
 
@@ -550,7 +558,7 @@ impl<'a> Emitter<'a> {
                 match self.param_source(node, param) {
                     Some(from) => {
                         let token = self.reference(from, block);
-                        quote!(::core::clone::Clone::clone(#token))
+                        self.generator.clone(self.graph, from, &token)
                     }
                     None => {
                         let (ty, constant) = (

@@ -1,6 +1,9 @@
 //! A state machine as Rust: an enum of its states, and a method with one `match` for each slot.
 
-use super::types::{constant, ident, spell};
+use super::{
+    condition::holds,
+    types::{constant, ident, spell},
+};
 use crate::{
     catalog::{Catalog, Type},
     machine::{Machine, Sending, Slot, Token},
@@ -9,12 +12,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
-/// Rust for all state machines of a program.
-pub fn machines(catalog: &Catalog) -> TokenStream {
-    catalog.machines.values().map(|machine| item(machine, catalog)).collect()
-}
-
-fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
+/// Rust for a state machine.
+pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
     let (name, states_name) = (ident(&machine.name), format_ident!("{}State", machine.name));
     let docs =
         if machine.docs.is_empty() { format!("The state machine `{}`.", machine.name) } else { machine.docs.clone() };
@@ -39,7 +38,6 @@ fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
         /// The states of the machine.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum #states_name { #(#[doc = #texts] #states,)* }
-        #[allow(unused, clippy::all, private_interfaces)]
         impl #name {
             /// The state that it is in.
             pub fn state(&self) -> #states_name { self.state }
@@ -49,7 +47,6 @@ fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
         impl ::apex_rt::Construct<()> for #name {
             fn construct((): ()) -> Self { Self { state: #states_name::#first } }
         }
-        #[allow(private_interfaces)]
         const _: () = { #(#slots)* #(#events)* };
     }
 }
@@ -60,7 +57,11 @@ static UNIT: Type = Type::Tuple(vec![]);
 fn states(machine: &Machine) -> Vec<Ident> {
     let mut names: Vec<Ident> = vec![];
     for state in &machine.states {
-        let mut name = super::program::camel(&state.replace('.', "_"));
+        let mut name = crate::graph::camel(&state.replace('.', "_"));
+        // The only word of Rust with a capital letter; and nothing is left of `__`.
+        if name == "Self" || name.is_empty() {
+            name.push_str("State_");
+        }
         while names.iter().any(|other| *other == name) {
             name.push('_');
         }
@@ -89,7 +90,7 @@ fn event_arg(name: &str) -> Ident {
 }
 
 fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -> TokenStream {
-    let (name, states_name) = (ident(&slot.name), format_ident!("{}State", machine.name));
+    let (name, states_name) = (ident(&Machine::method(&slot.name)), format_ident!("{}State", machine.name));
     let token = slot.uses_token().then(|| {
         let ty = token_type(&slot.ty, catalog);
         quote!(token: &#ty,)
@@ -98,7 +99,7 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
     let arms = slot.arms.iter().map(|arm| {
         let state = &states[arm.state];
         let guard = arm.guard.as_ref().map(|guard| {
-            let guard: TokenStream = guard.parse().unwrap_or_default();
+            let guard = holds(guard, &slot.ty);
             quote!(if #guard)
         });
         let target = arm.target.map(|target| {
@@ -122,7 +123,7 @@ fn begin(machine: &Machine, catalog: &Catalog) -> TokenStream {
     if machine.begin.is_empty() {
         return quote!();
     }
-    let (name, events) = (ident(Machine::BEGIN), machine.begin.iter().map(|s| s.event).collect::<Vec<_>>());
+    let (name, events) = (ident(Machine::BEGIN_METHOD), machine.begin.iter().map(|s| s.event).collect::<Vec<_>>());
     let (args, sends) = (event_args(machine, &events, catalog), machine.begin.iter().map(|s| send(machine, s)));
     quote! {
         /// Its first state is entered.

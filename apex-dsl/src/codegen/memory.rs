@@ -11,7 +11,7 @@ use super::{
     types::ident,
 };
 use crate::{
-    analyse::Analysis, catalog::Catalog, graph::Graph, passes::Program, source::Sources, syntax::tree::PortKind,
+    analyse::Analysis, catalog::Catalog, graph::Graph, program::Program, source::Sources, syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,7 +30,7 @@ pub struct Piece {
 pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
     let graph = &program.graph;
     let mut used = BTreeSet::new();
-    let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
+    let names = Names::new(graph, "", &mut 0, &mut used);
     let place = |_| proc_macro2::Span::call_site();
     let generator = Generator {
         catalog,
@@ -39,13 +39,15 @@ pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Pi
         place: &place,
         outer: None,
         part: None,
+        parts: &[],
         cells: &[],
+        claims: program.split.is_none().then_some(&program.claims),
         channels: None,
     };
     let Some(split) = &program.split else { return generator.pieces(graph, &program.analysis) };
     let mut pieces = vec![];
-    for part in &split.parts {
-        let names = names.of_part(part, &mut used);
+    for (part, number) in split.parts.iter().zip(names.count()..) {
+        let names = names.of_part(part, number, &mut used);
         let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
         let field = part_name(part);
         let own = generator.pieces(&part.graph, &part.analysis).into_iter();

@@ -4,6 +4,7 @@ mod activity;
 mod bits;
 mod cells;
 mod claims;
+mod condition;
 mod deliver;
 mod dispatch;
 mod each;
@@ -20,20 +21,20 @@ mod slots;
 mod stamps;
 mod state;
 mod test;
+mod text;
 mod threads;
 mod types;
+mod witness;
 
-pub use machine::machines;
 pub use memory::{Piece, memory};
 pub use plan::{Storage, storage};
-pub use program::camel;
+pub use text::{module_name, text};
 
 use crate::{
-    analyse::Analysis,
     catalog::Catalog,
+    claims::Decided,
     graph::{End, Graph, Node, NodeId, NodeKind},
-    passes::Program,
-    report::Diagnostics,
+    program::Program,
     source::{Sources, Span},
     threads::{Cell, Origin, Part},
 };
@@ -52,8 +53,12 @@ pub struct Generator<'a> {
     outer: Option<(&'a Graph, NodeId, &'a Generator<'a>)>,
     /// The graph of all thread groups, and which of its parts this is.
     part: Option<(&'a Graph, &'a Part)>,
+    /// The thread groups, if there are several.
+    parts: &'a [Part],
     /// What is between the parts.
     cells: &'a [Cell],
+    /// What is known about the claims; nothing in a part of a program and in the body of an `each`.
+    claims: Option<&'a Decided>,
     /// What is recorded, if the program can be recorded; not in the body of an `each`.
     channels: Option<&'a record::Channels>,
 }
@@ -61,8 +66,8 @@ pub struct Generator<'a> {
 /// Names of locals and fields: those of the text, made unique.
 #[derive(Clone, Default)]
 pub struct Names {
-    /// The program, and the nodes around the body of an `each`.
-    prefix: String,
+    /// What tells a program, its parts and the bodies of its `each` apart.
+    number: usize,
     /// The number of each node in the table of all nodes.
     numbers: Vec<usize>,
     tokens: BTreeMap<End, String>,
@@ -101,18 +106,25 @@ impl Flag {
 }
 
 impl Names {
-    fn new(graph: &Graph, program: &str, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
-        let mut names = Self { prefix: format!("{program}_{prefix}"), ..Self::default() };
+    fn new(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
+        // No other graph has nodes with these numbers.
+        let mut names = Self { number: *count, ..Self::default() };
         names.numbers = (*count..*count + graph.nodes.len()).collect();
         *count += graph.nodes.len();
         for (node, n) in graph.nodes.iter().enumerate() {
             let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
             names.add(node, n, &path, used);
             if let NodeKind::Each(each) = &n.kind {
-                names.inner.insert(node, Self::new(&each.body, program, &format!("{path}_"), count, used));
+                names.inner.insert(node, Self::new(&each.body, &format!("{path}_"), count, used));
             }
         }
         names
+    }
+
+    /// More than any number in it.
+    fn count(&self) -> usize {
+        let inner = self.inner.values().map(Self::count).max().unwrap_or(0);
+        self.numbers.iter().map(|number| number + 1).max().unwrap_or(0).max(inner)
     }
 
     /// The names of a node and its tokens.
@@ -120,22 +132,22 @@ impl Names {
         for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
             let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
             let name = if plain { path.to_owned() } else { format!("{path}_{}", p.name) };
-            self.tokens.insert(End { node, port }, unique(name, used));
+            self.tokens.insert(End { node, port }, local(name, used));
         }
         if let NodeKind::Delay(_) = &n.kind {
-            self.held.insert(node, unique(format!("{path}_held"), used));
+            self.held.insert(node, local(format!("{path}_held"), used));
         }
         for (flag, word) in Flag::ALL {
-            self.flags.insert((flag, node), unique(format!("{word}_{path}"), used));
+            self.flags.insert((flag, node), local(format!("{word}_{path}"), used));
         }
         if n.modifiers.has_pace() {
-            self.timers.insert(node, unique(format!("timer_{path}"), used));
+            self.timers.insert(node, local(format!("timer_{path}"), used));
         }
     }
 
     /// The names of a thread group's part of the program with these names.
-    fn of_part(&self, part: &Part, used: &mut BTreeSet<String>) -> Self {
-        let mut names = Self { prefix: part.graph.name.clone(), ..Self::default() };
+    fn of_part(&self, part: &Part, number: usize, used: &mut BTreeSet<String>) -> Self {
+        let mut names = Self { number, ..Self::default() };
         for (node, n) in part.graph.nodes.iter().enumerate() {
             let Origin::Node(origin) = part.origins[node] else {
                 // It is no node of the program: nobody is told of it.
@@ -156,39 +168,42 @@ impl Names {
     }
 }
 
-/// Names that the generated code itself uses; besides, `param_0` …, `carries_0` …, `claim_0` …, `stamp_0` …, `recorded_0` …, and `token_` with
-/// the name of a port.
-const OWN: [&str; 21] = [
-    "state",
-    "nodes",
-    "inputs",
-    "outputs",
-    "events",
-    "observer",
-    "ctx",
-    "self",
-    "now",
-    "i",
-    "sent",
-    "results",
-    "value",
-    "token",
-    "dispatcher",
-    "queue",
-    "steps",
-    "exit",
-    "started",
-    "tap",
-    "recorded",
+/// Names that the generated code itself uses, and those that stand for values in every module.
+#[rustfmt::skip]
+const OWN: [&str; 56] = [
+    "Err", "None", "Ok", "Some", "begins", "bits", "carries", "code", "counts",
+    "ctx", "dispatcher", "ends", "event", "events", "exit", "first", "found", "i",
+    "inputs", "late", "left", "life", "list", "made", "missing", "next", "nodes",
+    "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue",
+    "quiet", "recorded", "result", "results", "round", "row", "self", "sent", "stamp",
+    "started", "state", "step", "steps", "tap", "token", "tokens", "told", "value",
+    "wake", "woken",
+];
+/// Beginnings of names that the generated code itself uses.
+const OWN_PREFIXES: [&str; 11] = [
+    "param_",
+    "token_",
+    "carries_",
+    "claim_",
+    "stamp_",
+    "recorded_",
+    "result_",
+    "cell_",
+    "holding_",
+    "sender_",
+    "receiver_",
 ];
 
-/// `name`, or something like it that is not used yet.
-fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
-    if OWN.contains(&name.as_str())
-        || ["param_", "token_", "carries_", "claim_", "stamp_", "recorded_"].iter().any(|own| name.starts_with(own))
-    {
+/// The name of a local, which no name that the generated code itself uses hides.
+fn local(mut name: String, used: &mut BTreeSet<String>) -> String {
+    if OWN.contains(&name.as_str()) || OWN_PREFIXES.iter().any(|own| name.starts_with(own)) {
         name.push('_');
     }
+    unused(name, used)
+}
+
+/// `name`, or something like it that is not used yet.
+fn unused(mut name: String, used: &mut BTreeSet<String>) -> String {
     while !used.insert(name.clone()) {
         name.push('_');
     }
@@ -196,7 +211,7 @@ fn unique(mut name: String, used: &mut BTreeSet<String>) -> String {
 }
 
 /// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be recorded.
-pub fn generate(
+fn program(
     program: &Program,
     catalog: &Catalog,
     sources: &Sources,
@@ -205,29 +220,21 @@ pub fn generate(
 ) -> TokenStream {
     let graph = &program.graph;
     let mut used = BTreeSet::new();
-    let names = Names::new(graph, &graph.name, "", &mut 0, &mut used);
+    let names = Names::new(graph, "", &mut 0, &mut used);
     let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
     let parts = program.split.as_ref().map_or(&[][..], |split| &split.parts);
     let channels = record::Channels::new(graph, &program.analysis, catalog, parts);
     let channels = recordable.then_some(&channels);
-    let generator = Generator { catalog, sources, names: &names, place, outer: None, part: None, cells, channels };
+    let claims = program.split.is_none().then_some(&program.claims);
+    let generator =
+        Generator { catalog, sources, names: &names, place, outer: None, part: None, parts, cells, claims, channels };
     let code = match &program.split {
         Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
         None => generator.program(graph, &program.analysis),
     };
     match &program.script {
-        Some(script) => generator.test(graph, script, &code),
+        Some(script) => generator.test(graph, script, code),
         None => code,
-    }
-}
-
-/// Reports what cannot be generated for regions with several rates.
-pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
-    rates::check(graph, analysis, diagnostics);
-    for (id, node) in graph.nodes.iter().enumerate() {
-        if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
-            check_rates(&each.body, body, diagnostics);
-        }
     }
 }
 
@@ -235,7 +242,7 @@ impl<'a> Generator<'a> {
     /// The generator for the body of the `each` node `node` of `graph`.
     fn inside(&'a self, graph: &'a Graph, node: NodeId) -> Generator<'a> {
         let names = self.names.inner.get(&node).unwrap_or(self.names);
-        Generator { names, outer: Some((graph, node, self)), part: None, channels: None, ..*self }
+        Generator { names, outer: Some((graph, node, self)), part: None, claims: None, channels: None, ..*self }
     }
 
     /// For types: the generator of the graph of all thread groups. A type may depend on a node of another group.

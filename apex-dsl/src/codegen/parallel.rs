@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     analyse::Analysis,
-    graph::{Graph, Library, NodeKind},
+    graph::{Graph, Library, NodeId, NodeKind},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -53,7 +53,7 @@ impl Generator<'_> {
                             let #name = ::core::clone::Clone::clone(::apex_rt::ParamField::<#param>::field(&mut #place));
                         });
                     }
-                    let (ty, make) = self.local_node(graph, library, first..params.len());
+                    let (ty, make) = self.local_node(graph, id, library, first..params.len());
                     insert(fields, &self.node_path(graph, id), Field::Node { ty, make });
                 }
                 NodeKind::Each(each) => {
@@ -69,14 +69,15 @@ impl Generator<'_> {
     fn local_node(
         &self,
         graph: &Graph,
+        node: NodeId,
         library: &Library,
         params: std::ops::Range<usize>,
     ) -> (TokenStream, TokenStream) {
         let ty = self.node_type(graph, library);
-        let params = params.map(|param| format_ident!("param_of_{param}"));
-        let make = quote! {
-            <#ty as ::apex_rt::Construct<_>>::construct((#(::core::clone::Clone::clone(&#params),)*))
-        };
-        (ty, make)
+        let params = params.map(|param| {
+            let name = format_ident!("param_of_{param}");
+            quote!(::core::clone::Clone::clone(&#name))
+        });
+        (ty, self.construct(graph, node, library, &params.collect::<Vec<_>>()))
     }
 }

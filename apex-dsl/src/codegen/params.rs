@@ -25,7 +25,6 @@ impl Generator<'_> {
         self.param_rows(graph, analysis, &nodes, &mut rows);
         let Rows { table, visits } = rows;
         quote! {
-            #[allow(unused, clippy::all)]
             impl ::apex_rt::params::Parameters for #name {
                 const PARAMS: &'static [::apex_rt::params::ParamInfo] = &[#(#table),*];
                 fn visit_params<V: ::apex_rt::params::ParamVisitor>(&mut self, visitor: &mut V) {

@@ -20,6 +20,8 @@ pub enum Storage {
     Buffer,
     /// An argument of the body of an `each`: a reference.
     Argument,
+    /// An argument of the body of an `each` that may be ⊥: an `Option` of a reference.
+    MaybeArgument,
     /// An `Option` in the program's state, which another cluster left there.
     Outside,
 }
@@ -58,6 +60,7 @@ pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: End) -> bool {
 pub fn storage(graph: &Graph, catalog: &Catalog, end: End) -> Storage {
     match graph.nodes[end.node].kind {
         _ if is_buffer(graph, catalog, end) => Storage::Buffer,
+        NodeKind::Boundary(_) if graph.is_body && graph.port(end).optional => Storage::MaybeArgument,
         NodeKind::Boundary(_) if graph.is_body => Storage::Argument,
         _ if may_be_missing(graph, catalog, end) => Storage::Maybe,
         _ => Storage::Local,

@@ -5,23 +5,29 @@ use super::{
     activity::Whole,
     bits::Bits,
     fire::Emitter,
-    rates, state,
-    test::probe,
+    state,
     threads::{end_if_hung, group_info},
     types::ident,
 };
 use crate::{
-    analyse::{Analysis, Cluster},
-    catalog::Match,
-    check::compare_types,
-    graph::{End, Graph, Library, NodeId, NodeKind},
-    source::Span,
+    analyse::{Analysis, Cluster, is_multirate},
+    graph::{End, Graph, Library, NodeId, NodeKind, camel},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
+
+/// The mailboxes of a program, which are those of the struct `name` at `place`.
+pub fn mailboxes(name: &str, place: &TokenStream) -> TokenStream {
+    let (inputs, events) = (format_ident!("{name}Inputs"), format_ident!("{name}Events"));
+    quote! {
+        type Inputs = #inputs;
+        type Events = #events;
+        fn mailboxes(&mut self) -> (&mut #inputs, &mut #events) { (&mut #place.inputs, &mut #place.events) }
+    }
+}
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
 pub enum Field {
@@ -45,18 +51,18 @@ impl Generator<'_> {
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
         let info = self.info(graph, analysis, &clusters, &groups);
         let parameters = self.parameters(graph, analysis, &|_| quote!(self.nodes));
+        let mailboxes = mailboxes(&graph.name, &quote!(self));
         quote! {
             #items
-            #[allow(unused, clippy::all)]
             impl #name {
                 /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
                 #[inline]
                 pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
                 #own_react
             }
-            #[allow(unused, clippy::all)]
             impl ::apex_rt::Program for #name {
                 const INFO: ::apex_rt::Info = #info;
+                #mailboxes
                 #recording
                 #react
                 #is_active
@@ -102,7 +108,7 @@ impl Generator<'_> {
         let (output_names, output_types) = (port_names(&outputs), port_types(&outputs));
         let probes: Vec<NodeId> = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).collect();
         let (probe_names, probe_types): (Vec<Ident>, Vec<TokenStream>) =
-            (probes.iter().map(|n| probe(*n)).collect(), port_types(&probes));
+            (probes.iter().map(|n| self.probe(*n)).collect(), port_types(&probes));
         let (event_names, event_types) = (port_names(&events), port_types(&events));
         let (part_names, part_types): (Vec<Ident>, Vec<TokenStream>) = handed_in.into_iter().unzip();
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
@@ -113,40 +119,36 @@ impl Generator<'_> {
             let doc = format!("The nodes of [`{}`] that are made in Rust.", graph.name);
             let item = quote! {
                 #[doc = #doc]
-                #[allow(private_interfaces, missing_docs)]
                 pub struct #parts_name { #(pub #part_names: #part_types,)* }
             };
             (quote!(parts: #parts_name), item, quote!())
         };
         let clusters = self.clusters(whole, bits);
         let (dispatcher, claims) = (self.dispatcher(whole, bits), self.claim_function(whole));
-        let links = self.links(graph);
+        let witnesses = self.witnesses(graph);
+        let inner = around_text();
         quote! {
             #[doc = #docs]
             pub struct #name {
-                nodes: #nodes_name,
-                state: #state_name,
-                inputs: #inputs_name,
-                outputs: #outputs_name,
-                events: #events_name,
+                #inner nodes: #nodes_name,
+                #inner state: #state_name,
+                #inner inputs: #inputs_name,
+                #inner outputs: #outputs_name,
+                #inner events: #events_name,
             }
             #parts_item
             #nodes_items
-            #[allow(private_interfaces, missing_docs)]
             #[doc = "Where tokens are put in."]
             pub struct #inputs_name { #(pub #input_names: ::apex_rt::Mailbox<#input_types>,)* }
-            #[allow(private_interfaces, missing_docs)]
             #[doc = "The tokens that came out last; `None` is ⊥."]
             pub struct #outputs_name {
                 #(pub #output_names: ::core::option::Option<#output_types>,)*
-                #(#probe_names: ::apex_rt::testing::Probe<#probe_types>,)*
+                #(#inner #probe_names: ::apex_rt::testing::Probe<#probe_types>,)*
             }
-            #[allow(private_interfaces, missing_docs)]
             #[doc = "Events that wait to be taken. As long as one waits, what triggers it is held back."]
             pub struct #events_name { #(pub #event_names: ::apex_rt::Mailbox<#event_types>,)* }
-            struct #state_name { #state_fields }
-            #links
-            #[allow(unused, clippy::all, private_interfaces)]
+            #inner struct #state_name { #state_fields }
+            #witnesses
             impl #name {
                 /// The program before its first reaction.
                 pub fn new(#new_args) -> Self {
@@ -196,6 +198,16 @@ impl Generator<'_> {
         segments
     }
 
+    /// The field of the struct of parts for a node that Rust makes: `fast_planner`. Where another node has the same, the later one
+    /// ends in `_`.
+    fn part_field(&self, graph: &Graph, node: NodeId, handed_in: &[(Ident, TokenStream)]) -> Ident {
+        let mut name = self.node_path(graph, node).join("_");
+        while handed_in.iter().any(|(other, _)| *other == ident(&name)) {
+            name.push('_');
+        }
+        ident(&name)
+    }
+
     /// The fields of nodes, and those nodes that Rust makes.
     pub fn node_fields(
         &self,
@@ -209,11 +221,11 @@ impl Generator<'_> {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
                     let ty = self.node_type(graph, library);
                     let make = if library.handed_in {
-                        let part = ident(&self.node_path(graph, id).join("_"));
+                        let part = self.part_field(graph, id, handed_in);
                         handed_in.push((part.clone(), ty.clone()));
                         quote!(parts.#part)
                     } else {
-                        self.construct(graph, &ty, library)
+                        self.make(graph, id, library)
                     };
                     insert(fields, &self.node_path(graph, id), Field::Node { ty, make });
                 }
@@ -232,8 +244,7 @@ impl Generator<'_> {
         if library.handed_in || self.catalog.signatures[library.signature].is_function {
             return quote!();
         }
-        let (place, make) =
-            (self.node_place(graph, node), self.construct(graph, &self.node_type(graph, library), library));
+        let (place, make) = (self.node_place(graph, node), self.make(graph, node, library));
         let keeps = (0..library.params.len()).map(|param| {
             quote! { ::core::mem::swap(::apex_rt::ParamField::<#param>::field(&mut #place), ::apex_rt::ParamField::<#param>::field(&mut made)); }
         });
@@ -241,9 +252,9 @@ impl Generator<'_> {
         quote! { let #mutable made = #make; #(#keeps)* #place = made; }
     }
 
-    fn construct(&self, graph: &Graph, ty: &TokenStream, library: &Library) -> TokenStream {
-        let params = (0..library.params.len()).map(|param| self.param_value(graph, library, param));
-        quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*)))
+    fn make(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
+        let params = (0..library.params.len()).map(|param| self.argument(graph, node, library, param));
+        self.construct(graph, node, library, &params.collect::<Vec<_>>())
     }
 
     /// Whether a node is active, by its index.
@@ -269,7 +280,7 @@ impl Generator<'_> {
         let firing = (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires);
         let functions = firing.map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
-            let code = if rates::is_multirate(whole.graph, whole.analysis, cluster) {
+            let code = if is_multirate(whole.graph, whole.analysis, cluster) {
                 let stamp = self.stamp_of_firing(whole, cluster);
                 let code = self.rates(whole.graph, whole.analysis, whole.links, cluster);
                 quote! { #stamp #code }
@@ -337,45 +348,6 @@ impl Generator<'_> {
             }
         }
     }
-
-    /// Whether rustc judges a connection: the scan could not, and both ends can be named.
-    pub fn is_judged(&self, graph: &Graph, connection: usize) -> bool {
-        let c = &graph.connections[connection];
-        let NodeKind::Library(library) = &graph.nodes[c.to.node].kind else { return false };
-        library.types.is_empty() && graph.port(c.to).parameter.is_none() && compare_types(graph, c) == Match::Unknown
-    }
-
-    /// The trait through which rustc judges a connection.
-    pub fn link_name(&self, connection: usize) -> Ident {
-        format_ident!("{}Link{}", camel(&self.names.prefix), connection)
-    }
-
-    fn links(&self, graph: &Graph) -> TokenStream {
-        let mut items = quote!();
-        for (index, c) in graph.connections.iter().enumerate().filter(|(i, _)| self.is_judged(graph, *i)) {
-            let name = self.link_name(index);
-            let message =
-                format!("`{}` sends `{{Self}}`, but `{}` takes `{{T}}`", graph.end_name(c.from), graph.end_name(c.to));
-            let label = format!("--> {}", self.position(c.span));
-            items.extend(quote! {
-                #[diagnostic::on_unimplemented(message = #message, label = #label)]
-                trait #name<T: ?Sized> { fn pass(&self) -> &T; }
-                impl<T: ?Sized> #name<T> for T { #[inline(always)] fn pass(&self) -> &T { self } }
-            });
-        }
-        for (id, node) in graph.nodes.iter().enumerate() {
-            if let NodeKind::Each(each) = &node.kind {
-                items.extend(self.inside(graph, id).links(&each.body));
-            }
-        }
-        items
-    }
-
-    /// Where a piece of the text stands, as `file:line:column`.
-    pub fn position(&self, span: Span) -> String {
-        let (line, column) = self.sources.line_column(span.file, span.start);
-        format!("{}:{line}:{column}", self.sources.get(span.file).path.display())
-    }
 }
 
 fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
@@ -415,10 +387,26 @@ pub fn insert(fields: &mut BTreeMap<String, Field>, path: &[String], field: Fiel
     }
 }
 
+/// The visibility of what belongs to a program alone: where the call of `graph!` stands, it can be looked at. A program
+/// has a module of its own ([`super::Modules`]) in the one of its text.
+pub fn around_text() -> TokenStream {
+    quote!(pub(in super::super))
+}
+
 /// The struct of a level of nodes with all below it, and the expression that makes it.
 ///
 /// If `borrowed`, it has references to nodes that are kept elsewhere.
 pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>, borrowed: bool) -> (TokenStream, TokenStream) {
+    let mut used = BTreeSet::from([name.to_owned()]);
+    node_struct(name, fields, borrowed, &mut used)
+}
+
+fn node_struct(
+    name: &str,
+    fields: &BTreeMap<String, Field>,
+    borrowed: bool,
+    used: &mut BTreeSet<String>,
+) -> (TokenStream, TokenStream) {
     let struct_name = ident(name);
     let (mut items, mut declared, mut made) = (quote!(), quote!(), quote!());
     let life = borrowed.then(|| quote!(<'a>));
@@ -433,8 +421,9 @@ pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>, borrowed: bool
                 made.extend(quote! { #field_name: #make, });
             }
             Field::Nested(inner) => {
-                let inner_name = format!("{name}{}", camel(field));
-                let (inner_items, inner_make) = node_structs(&inner_name, inner, borrowed);
+                // `a` with `b` inside and `a_b` would have the same name.
+                let inner_name = super::unused(format!("{name}{}", camel(field)), used);
+                let (inner_items, inner_make) = node_struct(&inner_name, inner, borrowed, used);
                 let inner_type = ident(&inner_name);
                 items.extend(inner_items);
                 declared.extend(quote! { pub #field_name: #inner_type #life, });
@@ -443,19 +432,8 @@ pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>, borrowed: bool
         }
     }
     let item = quote! {
-        #[allow(private_interfaces, missing_docs)]
         pub struct #struct_name #life { #declared #phantom }
         #items
     };
     (item, quote!(#struct_name { #made #phantom_made }))
-}
-
-/// `fetch_cube` → `FetchCube`
-pub fn camel(word: &str) -> String {
-    word.split('_')
-        .map(|part| {
-            let mut chars = part.chars();
-            chars.next().map(|c| c.to_uppercase().collect::<String>() + chars.as_str()).unwrap_or_default()
-        })
-        .collect()
 }

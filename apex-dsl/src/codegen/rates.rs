@@ -10,74 +10,10 @@ use crate::{
     analyse::{Analysis, Links, is_told},
     catalog::{ArgSig, Signature},
     graph::{End, Graph, Library, NodeId, NodeKind},
-    report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use std::collections::BTreeSet;
-
-/// Whether a cluster has more than one rate.
-pub fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
-    let region = analysis.clusters[cluster].region;
-    (0..graph.nodes.len()).any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
-}
-
-fn has_rates(graph: &Graph, analysis: &Analysis, node: NodeId) -> bool {
-    analysis.repetitions[node] != 1 || graph.nodes[node].ports.iter().any(|p| p.rate != 1 && p.kind.is_synchronous())
-}
-
-/// What cannot be generated for a region with several rates.
-pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
-    let regions: BTreeSet<usize> =
-        (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(|n| analysis.regions[n]).collect();
-    for (index, cluster) in analysis.clusters.iter().enumerate().filter(|(_, c)| regions.contains(&c.region)) {
-        let first = cluster.nodes.iter().min().copied().unwrap_or(0);
-        if !cluster.upstream.is_empty() || !cluster.downstream.is_empty() {
-            let message = "a region with several rates can have only one source with a pace of its own";
-            diagnostics.push(Diagnostic::error("rates", graph.nodes[first].span, message));
-        }
-        for &node in &analysis.clusters[index].nodes {
-            let n = &graph.nodes[node];
-            let count = analysis.repetitions[node];
-            let message = match &n.kind {
-                NodeKind::Boundary(PortKind::Input) if count > 1 && !graph.is_body => {
-                    format!("one iteration would take {count} tokens from the input `{}`, which holds one", n.name)
-                }
-                _ if graph
-                    .connections
-                    .iter()
-                    .any(|c| (c.active || !graph.is_synchronous(c)) && (c.from.node == node || c.to.node == node)) =>
-                {
-                    format!(
-                        "`{}` fires in a region with several rates: it can have neither events and slots nor active connections",
-                        n.name
-                    )
-                }
-                NodeKind::Each(_) => format!("`each` cannot stand in a region with several rates; `{}` does", n.name),
-                NodeKind::Boundary(_) if graph.is_body => "the body of an `each` has one rate".to_owned(),
-                NodeKind::Delay(initial) if (initial.len() as u64) < count => {
-                    format!(
-                        "a delay in a region with several rates holds at least the tokens of one iteration: {count}, not {}",
-                        initial.len()
-                    )
-                }
-                NodeKind::Library(_)
-                    if n.ports.iter().any(|p| p.parameter.is_some() && is_connected(graph, node, p.parameter)) =>
-                {
-                    format!("parameters of `{}` cannot be connected in a region with several rates", n.name)
-                }
-                _ => continue,
-            };
-            diagnostics.push(Diagnostic::error("rates", n.span, message));
-        }
-    }
-}
-
-fn is_connected(graph: &Graph, node: NodeId, parameter: Option<usize>) -> bool {
-    let at = |end: End| end.node == node && graph.port(end).parameter == parameter;
-    graph.connections.iter().any(|c| at(c.from) || at(c.to))
-}
 
 impl Generator<'_> {
     /// The code of a cluster with several rates.
@@ -106,10 +42,11 @@ impl Generator<'_> {
         let n = &graph.nodes[node];
         match n.kind {
             NodeKind::Delay(_) => {
-                let name = self.name(End { node, port: 1 });
+                let (name, held) = (self.name(End { node, port: 1 }), self.held(node));
                 let count = analysis.repetitions[node] as usize;
-                let held = self.held(node);
-                quote! { for i in 0..#count { #name[i] = state.#held.take_at(i); } }
+                let is_used = !analysis.links.out_of[node].is_empty();
+                let keep = if is_used { quote!(#name[i] =) } else { quote!(let _ =) };
+                quote! { for i in 0..#count { #keep state.#held.take_at(i); } }
             }
             NodeKind::Boundary(PortKind::Input) => {
                 let (name, port) = (self.name(End { node, port: 0 }), ident(&n.name));
@@ -121,13 +58,10 @@ impl Generator<'_> {
 
     fn fire_at_rate(&self, graph: &Graph, analysis: &Analysis, links: &Links, node: NodeId) -> TokenStream {
         let count = analysis.repetitions[node] as usize;
-        let source = |port: usize| {
-            links.into[node]
-                .iter()
-                .map(|c| &graph.connections[*c])
-                .find(|c| c.to.port == port)
-                .map(|c| self.name(c.from))
+        let from = |port: usize| {
+            links.into[node].iter().map(|c| &graph.connections[*c]).find(|c| c.to.port == port).map(|c| c.from)
         };
+        let source = |port: usize| from(port).map(|end| self.name(end));
         match &graph.nodes[node].kind {
             NodeKind::Library(library) => {
                 let signature = &self.catalog.signatures[library.signature];
@@ -136,12 +70,20 @@ impl Generator<'_> {
                 quote! { for i in 0..#count { #code } #late }
             }
             NodeKind::Delay(_) => {
-                let (held, from) = (self.held(node), source(0));
-                quote! { for i in 0..#count { state.#held.put(#from[i].clone()); } }
+                let (held, Some(from)) = (self.held(node), from(0)) else { return quote!() };
+                let name = self.name(from);
+                let token = self.cloned(graph, from, &quote!(#name[i].as_ref()));
+                quote! { for i in 0..#count { state.#held.put(#token); } }
             }
             NodeKind::Boundary(PortKind::Output) => {
-                let (port, from) = (ident(&graph.nodes[node].name), source(0));
-                quote! { for i in 0..#count { ::apex_rt::store(&mut outputs.#port, #from[i].as_ref()); } }
+                let (port, Some(from)) = (ident(&graph.nodes[node].name), from(0)) else { return quote!() };
+                let name = self.name(from);
+                let store = self.store(graph, from, &quote!(outputs.#port), &quote!(#name[i].as_ref()));
+                quote! { for i in 0..#count { #store } }
+            }
+            NodeKind::Probe => {
+                let (probe, from) = (self.probe(node), source(0));
+                quote! { for i in 0..#count { if let Some(token) = #from[i].as_ref() { outputs.#probe.saw(token); } } }
             }
             _ => quote!(),
         }
@@ -197,7 +139,7 @@ impl Generator<'_> {
             let place = self.node_place(graph, node);
             quote!(#place.process(#(#args),*))
         };
-        let sends = self.sends_at_rate(graph, links, node, signature, call, index);
+        let sends = self.sends_at_rate(graph, links, node, library, call);
         let sends = self.recorded_at_rate(graph, node, sends);
         let told = if is_told(graph, self.catalog, node) {
             let (place, method) =
@@ -219,24 +161,30 @@ impl Generator<'_> {
         graph: &Graph,
         links: &Links,
         node: NodeId,
-        signature: &Signature,
+        library: &Library,
         call: TokenStream,
-        index: usize,
     ) -> TokenStream {
+        let signature = &self.catalog.signatures[library.signature];
         let returns = signature.returns;
-        let value = match (returns.fallible, returns.maybe) {
-            (true, true) => quote!(::apex_rt::sent(#call, #index, observer).flatten()),
-            (true, false) => quote!(::apex_rt::sent(#call, #index, observer)),
-            (false, true) => quote!(#call),
+        let failing = returns.fallible || graph.nodes[node].is_contained();
+        let call = if failing { self.contained(graph, node, library, call, returns.fallible) } else { call };
+        let value = match (failing, returns.maybe) {
+            (true, true) => quote!(#call.flatten()),
+            (true, false) | (false, true) => call.clone(),
             (false, false) => quote!(Some(#call)),
         };
+        // What a node wrote in place before it failed counts for nothing.
+        let written = (0..signature.ports.len()).map(|port| End { node, port });
+        let written = written.filter(|end| failing && super::plan::is_buffer(graph, self.catalog, *end));
+        let clears: Vec<_> = written.map(|end| self.name(end)).collect();
+        let clear = (!clears.is_empty()).then(|| quote! { if sent.is_none() { #(state.#clears.clear();)* } });
         let used = |port: &usize| links.out_of[node].iter().any(|c| graph.connections[*c].from.port == *port);
         let outputs = (0..signature.ports.len()).filter(|p| signature.ports[*p].kind == PortKind::Output).filter(used);
         let mut puts = quote!();
         for port in outputs {
             let (name, p) = (self.name(End { node, port }), &signature.ports[port]);
             let token = if super::plan::is_buffer(graph, self.catalog, End { node, port }) {
-                quote!(state.#name.get().cloned())
+                self.cloned(graph, End { node, port }, &quote!(state.#name.get()))
             } else if let Some((_, field)) = &p.field {
                 let field = ident(field);
                 if p.field_is_option {
@@ -253,8 +201,8 @@ impl Generator<'_> {
                 quote! { #name[i] = #token; }
             });
         }
-        if returns.value || returns.fallible {
-            quote! { let sent = #value; #puts }
+        if returns.value || failing {
+            quote! { let sent = #value; #clear #puts }
         } else {
             quote! { #call; #puts }
         }

@@ -6,7 +6,6 @@ use super::{
     bits::Bits,
     cells::carries_missing,
     plan::is_buffer,
-    test::probe,
     types::ident,
 };
 use crate::{
@@ -148,7 +147,7 @@ impl Generator<'_> {
                 quote! { if ::core::mem::take(&mut state.#flag) { #activate } }
             }
         };
-        let check = if activity.is_empty() { quote!() } else { self.check_claims(whole) };
+        let check = if activity.is_empty() { quote!() } else { self.check_claims() };
         let call = self.call_slot(whole, connection);
         let call = if takes(whole, connection) { self.taken(graph, c.from, call) } else { call };
         let clear = self.clear_events(whole, node);
@@ -176,10 +175,19 @@ impl Generator<'_> {
         let node = c.to.node;
         match (&graph.nodes[node].kind, graph.port(c.to).standard) {
             (_, Some(Standard::Disable)) => self.set_enabled(node, false),
-            (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => self.set_enabled(node, true),
+            (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => {
+                let (flag, watch) = (self.flag(Flag::Enabled, node), self.watch_silence(whole, node));
+                let enable = self.set_enabled(node, true);
+                // It was told to be silent: that is over now.
+                if watch.is_empty() {
+                    enable
+                } else {
+                    quote! { if !state.#flag { #watch } #enable }
+                }
+            }
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
             (NodeKind::Probe, _) => {
-                let (probe, token) = (probe(node), self.token(whole, connection));
+                let (probe, token) = (self.probe(node), self.token(whole, connection));
                 quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
             }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
@@ -187,8 +195,9 @@ impl Generator<'_> {
             (NodeKind::Boundary(_), _) => {
                 let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, connection));
                 let room = Bits::room_name(node);
+                let copy = self.clone(graph, graph.connections[connection].from, &quote!(token));
                 quote! {
-                    if let Some(token) = #token { let _ = events.#port.put(::core::clone::Clone::clone(token)); }
+                    if let Some(token) = #token { let _ = events.#port.put(#copy); }
                     state.dispatcher.clear(Self::#room);
                 }
             }
@@ -230,7 +239,7 @@ impl Generator<'_> {
                 _ => self.context(whole, node),
             })
             .collect();
-        let (place, method) = (self.node_place(graph, node), ident(&signature.ports[slot.port].name));
+        let (place, method) = (self.node_place(graph, node), ident(&slot.method));
         let call = quote!(#place.#method(#(#args),*));
         let call = self.contained(graph, node, library, call, slot.fallible);
         let late = self.check_late(whole, node);
@@ -289,12 +298,10 @@ impl Generator<'_> {
 
     /// Lets rustc judge a connection to a slot whose types the scan could not compare.
     fn judged_slot(&self, graph: &Graph, connection: usize, library: &Library, signature: &Signature) -> TokenStream {
-        if !self.is_judged(graph, connection) {
-            return quote!(token);
-        }
+        let Some(link) = self.link(graph, connection) else { return quote!(token) };
         let c = &graph.connections[connection];
         let (node, index) = (self.node_type(graph, library), signature.ports[c.to.port].index);
-        let (link, span) = (self.link_name(connection), (self.place)(c.span));
+        let span = (self.place)(c.span);
         quote_spanned!(span=> #link::<<#node as ::apex_rt::Slot<#index>>::Token>::pass(token))
     }
 
@@ -344,7 +351,7 @@ impl Generator<'_> {
                 code.extend(quote! { state.#name = Some(()); #(#gains)* #emit });
             }
         }
-        code.extend(self.check_claims(whole));
+        code.extend(self.check_claims());
         code
     }
 

@@ -5,6 +5,7 @@ use super::{
     activity::Whole,
     bits::Bits,
     plan::{Storage, is_buffer, storage},
+    program::around_text,
     types::{constant, duration},
 };
 use crate::{
@@ -55,7 +56,8 @@ impl Kept {
 
 /// Fields as they stand in the struct, and in the expression that makes it.
 pub fn fields(kept: &[Kept]) -> (TokenStream, TokenStream) {
-    let declared = kept.iter().map(|Kept { name, ty, .. }| quote! { #name: #ty, });
+    let inner = around_text();
+    let declared = kept.iter().map(|Kept { name, ty, .. }| quote! { #inner #name: #ty, });
     let made = kept.iter().map(|Kept { name, make, .. }| quote! { #name: #make, });
     (declared.collect(), made.collect())
 }
@@ -116,7 +118,7 @@ impl Generator<'_> {
         if !is_sent && !crosses() {
             return None;
         }
-        debug_assert_ne!(storage(graph, self.catalog, end), Storage::Argument);
+        debug_assert!(!matches!(storage(graph, self.catalog, end), Storage::Argument | Storage::MaybeArgument));
         let ty = self.token_type(graph, end);
         Some(Kept::new(Kind::Token, of, name, quote!(::core::option::Option<#ty>), quote!(None)))
     }
@@ -129,7 +131,7 @@ impl Generator<'_> {
         let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
         let values = initial.iter().map(|value| match value {
             Some(value) => constant(value, port_ty),
-            None => quote!(::core::default::Default::default()),
+            None => self.first_token(graph, node),
         });
         let make = quote!(::apex_rt::Delay::new([#(Some(#values)),*]));
         let of = self.node_path(graph, node).join(".");

@@ -2,6 +2,9 @@
 
 use super::{
     Generator,
+    condition::holds,
+    text::module,
+    threads::part_name,
     types::{constant, duration, ident},
 };
 use crate::{
@@ -12,43 +15,55 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
-/// The field of a probe.
-pub fn probe(node: NodeId) -> Ident {
-    format_ident!("probe_{node}")
-}
-
 impl Generator<'_> {
-    /// The test around `program`.
-    pub fn test(&self, graph: &Graph, script: &Script, program: &TokenStream) -> TokenStream {
-        let (module, name, program_name) = (ident(&script.name), &script.name, ident(&graph.name));
+    /// The field of a probe.
+    pub fn probe(&self, node: NodeId) -> Ident {
+        format_ident!("probe_{}", self.index(node))
+    }
+
+    /// Where the ports of the program are at which a node stands: with the thread group that the node runs in.
+    fn ports_of(&self, graph: &Graph, node: NodeId) -> TokenStream {
+        match self.parts.iter().find(|part| part.group == graph.group(node)).map(part_name) {
+            Some(part) => quote!(program.#part),
+            None => quote!(program),
+        }
+    }
+
+    /// The test around `program`: a module with the program, and beside it the function that Rust's tests know.
+    pub fn test(&self, graph: &Graph, script: &Script, program: TokenStream) -> TokenStream {
+        let (test, name, program_name) = (ident(&script.name), &script.name, ident(&graph.name));
+        let module_name = format_ident!("test_{}", script.name);
         let docs = (!script.docs.is_empty()).then(|| {
             let docs = &script.docs;
             quote!(#[doc = #docs])
         });
         let drains = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
-            let (field, name) = (probe(node), graph.nodes[node].name.trim_start_matches("probe "));
+            let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
+            let ports = self.ports_of(graph, node);
             quote! {
-                for token in program.outputs.#field.take() {
+                for token in #ports.outputs.#field.take() {
                     timeline.token(#name, &(&::apex_rt::testing::Shown(&token)).shown());
                 }
             }
         });
         let steps = script.steps.iter().map(|step| self.step(graph, step));
+        // Beside the function its name hides others, in the module it does not.
+        let run = quote! {
+            pub fn run() {
+                use ::apex_rt::testing::{ByDebug as _, ByType as _};
+                let program = #program_name::new();
+                let mut test = ::apex_rt::testing::Test::new(#name, program, |program, timeline| { #(#drains)* });
+                #(#steps)*
+            }
+        };
+        let module = module(&module_name, quote! { #program #run });
         quote! {
+            #[cfg(test)]
+            #module
             #docs
             #[cfg(test)]
-            #[allow(unused, clippy::all)]
-            mod #module {
-                use super::*;
-                #program
-
-                #[test]
-                fn passes() {
-                    use ::apex_rt::testing::{ByDebug as _, ByType as _};
-                    let mut test = ::apex_rt::testing::Test::new(#name, #program_name::new(), |program, timeline| { #(#drains)* });
-                    #(#steps)*
-                }
-            }
+            #[test]
+            fn #test() { #module_name::run() }
         }
     }
 
@@ -65,7 +80,8 @@ impl Generator<'_> {
                     }
                     None => quote!(None),
                 };
-                quote! { test.feed::<#token>([#(#values),*], #every, |program, token| program.inputs.#name.put(token)); }
+                let ports = self.ports_of(graph, *port);
+                quote! { test.feed::<#token>([#(#values),*], #every, |program, token| #ports.inputs.#name.put(token)); }
             }
             Step::FeedRecorded { port, file, channel } => self.feed_recorded(graph, *port, file, channel),
             Step::Wait(time) => {
@@ -73,7 +89,7 @@ impl Generator<'_> {
                 quote! { test.wait(#time); }
             }
             Step::Expect(seen, until) => {
-                let (test, text, place) = self.seen(seen);
+                let (test, text, place) = self.seen(graph, seen);
                 let until = match until {
                     Some(Until::By(time)) => {
                         let time = duration(*time);
@@ -88,7 +104,7 @@ impl Generator<'_> {
                 quote! { test.expect(|program| #test, #until, #text, #place); }
             }
             Step::Never(seen) => {
-                let (test, text, place) = self.seen(seen);
+                let (test, text, place) = self.seen(graph, seen);
                 quote! { test.never(|program| #test, #text, #place); }
             }
         }
@@ -101,13 +117,14 @@ impl Generator<'_> {
         }
         let (name, token) = (ident(&graph.nodes[port].name), self.token_type(graph, End { node: port, port: 0 }));
         let text = self.sources.get(graph.span.file).path.display().to_string();
+        let ports = self.ports_of(graph, port);
         quote! {
             let tokens = ::apex_rt::record::tokens::<#token>(#text, #file, #channel, ::apex_rt::__codec!(#token));
-            test.feed_at(tokens, |program, token| program.inputs.#name.put(token));
+            test.feed_at(tokens, |program, token| #ports.inputs.#name.put(token));
         }
     }
 
-    fn seen<'s>(&self, seen: &'s Seen) -> (TokenStream, &'s str, String) {
+    fn seen<'s>(&self, graph: &Graph, seen: &'s Seen) -> (TokenStream, &'s str, String) {
         let test = match &seen.what {
             What::Active(Subject::Node(node)) => quote!(::apex_rt::Program::is_active(program, #node)),
             What::Active(Subject::Scope(scope)) => {
@@ -115,12 +132,13 @@ impl Generator<'_> {
                 quote!(::apex_rt::Program::is_graph_active(program, #graph))
             }
             What::Token(node, None) => {
-                let field = probe(*node);
-                quote!(program.outputs.#field.any(|_| true))
+                let (field, ports) = (self.probe(*node), self.ports_of(graph, *node));
+                quote!(#ports.outputs.#field.any(|_| true))
             }
             What::Token(node, Some(condition)) => {
-                let (field, condition) = (probe(*node), condition.parse::<TokenStream>().unwrap_or_default());
-                quote!(program.outputs.#field.any(|token| #condition))
+                let (field, ports) = (self.probe(*node), self.ports_of(graph, *node));
+                let condition = holds(condition, &graph.nodes[*node].ports[0].ty);
+                quote!(#ports.outputs.#field.any(|token| #condition))
             }
         };
         (test, &seen.text, self.position(seen.span))

@@ -6,7 +6,7 @@ use super::{
     activity::Whole,
     bits::Bits,
     cells::{cell_name, ends_name},
-    program::{Field, node_structs},
+    program::{Field, around_text, mailboxes, node_structs},
     types::{duration, ident},
 };
 use crate::{
@@ -38,7 +38,8 @@ impl Generator<'_> {
         split: &Split,
         used: &mut BTreeSet<String>,
     ) -> TokenStream {
-        let names: Vec<Names> = split.parts.iter().map(|part| self.names.of_part(part, used)).collect();
+        let parts = split.parts.iter().zip(self.names.count()..);
+        let names: Vec<Names> = parts.map(|(part, number)| self.names.of_part(part, number, used)).collect();
         let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
         let all = Program { generator: self, graph, split };
         let mut code = quote!();
@@ -59,14 +60,14 @@ impl Generator<'_> {
             let handle = all.handle(number);
             code.extend(quote! {
                 #items
-                #[allow(unused, clippy::all)]
                 impl #name { #react #is_active #is_graph_active #waiting }
                 #handle
             });
             views.push(view);
         }
         let (structs, program) = (all.structs(&views), all.program(analysis, &views));
-        quote! { #code #structs #program }
+        let moved = self.moved_tokens(graph);
+        quote! { #code #structs #program #moved }
     }
 
     fn fields(&self, graph: &Graph, analysis: &Analysis) -> Fields {
@@ -110,6 +111,7 @@ impl Program<'_> {
         let (ends, handle) = (ends_name(&part.graph), handle_name(&part.graph));
         let call = quote!(self.part.react_part(now, true, &mut self.ends, &self.wake, observer));
         let ports = quote!(self.part);
+        let mailboxes = mailboxes(&part.graph.name, &ports);
         let react = self.generator.recorded_group(self.graph, (number == 0).then_some(&ports), &call);
         let fields = self.ends(number).map(|(cell, sends)| {
             let ty = self.generator.token_type(self.graph, self.split.cells[cell].from);
@@ -117,17 +119,14 @@ impl Program<'_> {
             quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, }
         });
         quote! {
-            #[allow(private_interfaces)]
             struct #ends<'a> { #(#fields)* life: ::core::marker::PhantomData<&'a ()> }
-            #[allow(private_interfaces)]
             struct #handle<'a, W> { part: &'a mut #name, ends: #ends<'a>, wake: W }
-            #[allow(unused, clippy::all)]
             impl<W: ::apex_rt::threads::Wake> ::apex_rt::Program for #handle<'_, W> {
                 const INFO: ::apex_rt::Info = <#program as ::apex_rt::Program>::INFO;
+                #mailboxes
                 #[inline]
                 #react
             }
-            #[allow(unused, clippy::all)]
             impl<W: ::apex_rt::threads::Wake> ::apex_rt::threads::Group for #handle<'_, W> {
                 #[inline]
                 fn react_part<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, begins: bool, observer: &mut O) -> ::apex_rt::Next {
@@ -182,21 +181,19 @@ impl Program<'_> {
                 let (fields, types) = (handed_in.iter().map(|(f, _)| f), handed_in.iter().map(|(_, ty)| ty));
                 let item = quote! {
                     #[doc = #doc]
-                    #[allow(private_interfaces, missing_docs)]
                     pub struct #given { #(pub #fields: #types,)* }
                 };
                 (quote!(parts: #given), item, quote!())
             }
         };
         let ports = self.ports();
+        let inner = around_text();
         quote! {
             #[doc = #docs]
-            pub struct #name { #(#parts: #part_types,)* cells: #cells_name }
-            #[allow(private_interfaces)]
-            struct #cells_name { #(#cells: ::apex_rt::TokenCell<::apex_rt::threads::Parcel<#cell_types>>,)* }
+            pub struct #name { #(#inner #parts: #part_types,)* #inner cells: #cells_name }
+            #inner struct #cells_name { #(#inner #cells: ::apex_rt::TokenCell<::apex_rt::threads::Parcel<#cell_types>>,)* }
             #node_items
             #item
-            #[allow(unused, clippy::all, private_interfaces)]
             impl #name {
                 /// The program before its first reaction.
                 pub fn new(#argument) -> Self {
@@ -280,11 +277,11 @@ impl Program<'_> {
                 }
         };
         let main = part_name(&parts[0]);
+        let mailboxes = mailboxes(&parts[0].graph.name, &quote!(self.#main));
         let (own_react, react) = self.generator.around(self.graph, react, &quote!(self.#main));
         let recording = self.generator.recording(self.graph);
         let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
         quote! {
-            #[allow(unused, clippy::all)]
             impl #name {
                 /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to be called next.
                 #[inline]
@@ -294,15 +291,15 @@ impl Program<'_> {
                 #groups
                 #own_react
             }
-            #[allow(unused, clippy::all)]
             impl ::apex_rt::Program for #name {
                 const INFO: ::apex_rt::Info = #info;
+                #mailboxes
                 #recording
                 #react
                 fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
                 where
                     W: ::apex_rt::threads::Wake + ::core::marker::Copy + ::core::marker::Send + 'a,
-                    S: ::apex_rt::threads::Spawn<'a>,
+                    S: ::apex_rt::threads::Spawn<'a, Self::Inputs, Self::Events>,
                 {
                     let groups = self.groups(wake);
                     #watch

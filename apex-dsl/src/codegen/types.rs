@@ -16,9 +16,13 @@ pub fn path(segments: &[String]) -> TokenStream {
     text.parse().unwrap_or_default()
 }
 
-/// An identifier, also where the word is a keyword of Rust.
+/// An identifier, also where the word is a keyword of Rust. The few that cannot be raw are no names of the language
+/// (`syntax::keywords`).
 pub fn ident(name: &str) -> Ident {
-    syn::parse_str::<Ident>(name).unwrap_or_else(|_| format_ident!("{name}_"))
+    let span = proc_macro2::Span::call_site();
+    // syn takes `gen` for a name: it is a word since the edition of 2024.
+    let plain = syn::parse_str::<Ident>(name).ok().filter(|_| name != "gen");
+    plain.unwrap_or_else(|| Ident::new_raw(name, span))
 }
 
 /// The type as Rust, if the scan has seen all of it.
@@ -29,7 +33,7 @@ pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
         Some(if args.is_empty() { head } else { quote!(#head<#(#args),*>) })
     };
     match ty {
-        Type::Primitive(name) => name.parse().ok(),
+        Type::Primitive(name) => format!("::core::primitive::{name}").parse().ok(),
         Type::Named(name, args) => match name.as_str() {
             "Vec" => with(quote!(::std::vec::Vec), args),
             "String" => Some(quote!(::std::string::String)),
@@ -195,10 +199,7 @@ pub fn constant(value: &Value, ty: &Type) -> TokenStream {
         }
         Value::Text(text) => quote!(#text),
         Value::Duration(time) => duration(*time),
-        Value::Path(segments) => match segments.first().map(String::as_str) {
-            Some("crate") => path(segments),
-            _ => path(&[vec![String::new()], segments.clone()].concat()),
-        },
+        Value::Path(segments, _) => path(segments),
         Value::List(items) => {
             let (element, by_reference) = match ty {
                 Type::Ref(inner) => (inner.as_ref(), true),

@@ -1,12 +1,16 @@
 //! The graph that all passes work on: nodes, ports, connections. Nested graphs are flattened; the scopes keep
 //! where each node came from. Only the body of an `each` stays a graph of its own.
 
+mod condition;
+mod names;
 mod node;
 mod value;
 
 use crate::{source::Span, syntax::tree::PortKind};
 use std::{collections::BTreeSet, time::Duration};
 
+pub use condition::{Condition, is_arithmetic};
+pub use names::camel;
 pub use node::{Each, End, Far, Library, Modifiers, Node, NodeKind, Port, Standard, TypeArg};
 pub use value::{Claim, ClaimKind, Number, Subject, Value};
 
@@ -18,8 +22,8 @@ pub type ScopeId = usize;
 /// The thread group of nodes that the text puts in no other.
 pub const MAIN_GROUP: &str = "main";
 
-/// Who watches the threads is on none of them.
-pub const WATCH_GROUP: &str = "watch";
+/// The group of what watches the threads and is on none of them: a name that no text can give to one.
+pub const WATCH_GROUP: &str = "(watch)";
 
 /// A resolved graph.
 #[derive(Debug, Clone)]

@@ -242,6 +242,17 @@ impl Modifiers {
 }
 
 impl Node {
+    /// Makes the list of an `each` an input that has to be there, and its elements as well.
+    pub fn require_list(&mut self) {
+        let NodeKind::Each(each) = &mut self.kind else { return };
+        let Some(list) = self.ports.get_mut(each.list) else { return };
+        list.optional = false;
+        let is_element = |n: &&mut Self| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) && n.name == list.name;
+        if let Some(element) = each.body.nodes.iter_mut().find(is_element) {
+            element.ports[0].optional = false;
+        }
+    }
+
     /// Its port of this kind, if somebody named it.
     pub fn standard(&self, standard: Standard) -> Option<usize> {
         self.ports.iter().position(|p| p.standard == Some(standard))

@@ -1,7 +1,7 @@
 //! Constants, and claims about activity.
 
 use super::{NodeId, ScopeId};
-use crate::{source::Span, units::Dimension};
+use crate::{catalog::Type, source::Span, units::Dimension};
 use std::time::Duration;
 
 /// A claim about activity.
@@ -64,10 +64,26 @@ pub enum Value {
     Unit,
     /// A duration
     Duration(Duration),
-    /// A constant of Rust, by path.
-    Path(Vec<String>),
+    /// A constant of Rust, by the path with which generated code names it, and its type.
+    Path(Vec<String>, Type),
     /// The default that is written in Rust and that only rustc can evaluate.
     RustDefault,
+}
+
+impl Value {
+    /// The value as a text has it, in SI.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Number(n) => n.integer.map_or_else(|| n.value.to_string(), |integer| integer.to_string()),
+            Self::Bool(value) => value.to_string(),
+            Self::Text(text) => format!("{text:?}"),
+            Self::List(items) => format!("[{}]", items.iter().map(Self::text).collect::<Vec<_>>().join(", ")),
+            Self::Unit => "()".to_owned(),
+            Self::Duration(time) => format!("{}s", time.as_secs_f64()),
+            Self::Path(path, _) => path.join("::").trim_start_matches("::").to_owned(),
+            Self::RustDefault => "…".to_owned(),
+        }
+    }
 }
 
 /// A number in SI.

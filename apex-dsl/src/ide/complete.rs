@@ -179,14 +179,40 @@ impl Completer<'_> {
             let sure = is_sure(&p.ty, types);
             Completion { sure, ..Completion::new(label, kind, port(p), docs) }
         };
-        match fitting.as_slice() {
-            [] => vec![],
+        let dotted = |p: &PortFacts| format!("{name}.{}", p.name);
+        let mut found = match fitting.as_slice() {
             [one] => vec![item(name.to_owned(), CompletionKind::Name, one, docs())],
-            several => {
-                let dotted = |p: &PortFacts| format!("{name}.{}", p.name);
-                several.iter().map(|p| item(dotted(p), CompletionKind::Port, p, p.docs.clone())).collect()
-            }
-        }
+            several => several.iter().map(|p| item(dotted(p), CompletionKind::Port, p, p.docs.clone())).collect(),
+        };
+        // Behind the ports, and only where the types agree: every node has parameters.
+        let params = made.map(|made| self.parameter_ports(made, named)).unwrap_or_default();
+        let agreeing = params.iter().filter(|p| is_sure(&p.ty, types));
+        found.extend(agreeing.map(|p| item(dotted(p), CompletionKind::Param, p, p.docs.clone())));
+        found
+    }
+
+    /// The parameters of a node in Rust, as the ports that they are when a connection names them.
+    fn parameter_ports(&self, node: NodeType, named: Named) -> Vec<PortFacts> {
+        let kind = match named {
+            Named::Takes => PortKind::Input,
+            Named::Sends => PortKind::Output,
+            Named::Tested | Named::Fed | Named::Node => return vec![],
+        };
+        let NodeType::Rust(id) = node else { return vec![] };
+        let signature = &self.view.catalog.signatures[id];
+        // A port hides a parameter of the same name.
+        let is_hidden = |name: &str| signature.ports.iter().any(|p| p.name == name && p.kind.sends() == kind.sends());
+        let params = signature.params.iter().enumerate().filter(|(_, p)| !is_hidden(&p.name));
+        let facts = params.map(|(i, p)| PortFacts {
+            name: p.name.clone(),
+            kind,
+            ty: p.ty.clone(),
+            rate: 1,
+            optional: true,
+            docs: p.docs.clone(),
+            definition: Definition::Param(node, i),
+        });
+        facts.collect()
     }
 
     /// The ports of a node that can stand at an end.
@@ -247,6 +273,9 @@ impl Completer<'_> {
             .map(|p| Completion::new(&p.name, CompletionKind::Port, port(p), p.docs.clone()))
             .collect();
         let made = self.view.made_of(id, i).0;
+        let params = made.map(|made| self.parameter_ports(made, named)).unwrap_or_default();
+        let fitting = params.iter().filter(|p| fits(p.kind, &p.ty, named, types.as_deref()));
+        found.extend(fitting.map(|p| Completion::new(&p.name, CompletionKind::Param, port(p), p.docs.clone())));
         match made {
             Some(NodeType::Graph(inside)) if named == Named::Tested => {
                 found.extend(self.names(Some(inside), Named::Node, None))
@@ -329,7 +358,7 @@ impl Completer<'_> {
         let mut found = self.parameters();
         if let Some(default) = wanted.and_then(|p| p.default.as_ref()).filter(|d| *d != "…") {
             let unit =
-                wanted.and_then(|p| p.unit.as_deref()).filter(|_| default.bytes().all(|b| !b.is_ascii_alphabetic()));
+                wanted.and_then(|p| p.written_in()).filter(|_| default.bytes().all(|b| !b.is_ascii_alphabetic()));
             let text = format!("{default}{}", unit.unwrap_or_default());
             found.push(Completion::new(text, CompletionKind::Value, "the default", ""));
         }
@@ -355,8 +384,8 @@ impl Completer<'_> {
             Quantity::Argument(of, name) => {
                 let params = self.node_type(&of).map(|node| self.view.params(node));
                 match params.unwrap_or_default().into_iter().find(|p| p.name == name) {
-                    Some(param) if param.unit.is_none() => return vec![],
-                    found => found.and_then(|p| p.unit),
+                    Some(param) if param.written_in().is_none() => return vec![],
+                    found => found.and_then(|p| p.written_in().map(str::to_owned)),
                 }
             }
         };
@@ -377,6 +406,8 @@ impl Completer<'_> {
             let Some(named) = named else { return true };
             self.view.ports(node).iter().any(|p| fits(p.kind, &p.ty, named, types.as_deref()))
         };
+        let around = self.graph.map(|id| self.view.graphs_around(id)).unwrap_or_default();
+        let is_recursive = |node: NodeType| matches!(node, NodeType::Graph(id) if around.contains(&id));
         let (mut found, mut known) = (vec![], BTreeSet::new());
         for (name, meaning) in self.view.texts.names(0) {
             let node = match meaning {
@@ -385,9 +416,7 @@ impl Completer<'_> {
                 Meaning::Rust(path) => self.view.catalog.nodes(path).first().map(|id| NodeType::Rust(*id)),
             };
             known.insert(name.as_str());
-            let Some(node) = node.filter(|n| is_meant(*n) && Some(*n) != self.graph.map(NodeType::Graph)) else {
-                continue;
-            };
+            let Some(node) = node.filter(|n| is_meant(*n) && !is_recursive(*n)) else { continue };
             found.push(self.node_type_item(name, node, with_args, None));
         }
         for (id, signature) in self.view.catalog.rust_nodes().iter().enumerate() {
@@ -395,9 +424,9 @@ impl Completer<'_> {
             if signature.path.is_empty() || known.contains(signature.name.as_str()) || !is_meant(node) {
                 continue;
             }
-            let path = signature.path.join("::");
-            let is_own = signature.path.first().is_some_and(|p| p == "crate");
-            let import = (!is_own).then(|| format!("use {};\n", path.trim_start_matches("::")));
+            let path = self.view.catalog.written(&signature.path);
+            let is_own = path.first().is_some_and(|p| p == "crate");
+            let import = (!is_own).then(|| format!("use {};\n", path.join("::")));
             found.push(self.node_type_item(&signature.name, node, with_args, import));
         }
         found

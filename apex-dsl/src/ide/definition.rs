@@ -1,16 +1,19 @@
 //! What a name can mean, and what is declared of it.
 
-use super::View;
+use super::{View, rust::Part};
 use crate::{
     catalog::{DefId, DefaultValue, Literal, ParamSig, SignatureId, Type},
     graph::Standard,
-    resolve::{GraphId, Made},
+    resolve::{GraphId, Meaning},
     source::Span,
     syntax::tree::{
         Expr, FsmItem, GraphItem, Ident, Instance, NodeBody, PathExpr, PortItem, PortKind, StateItem, TypeKind,
     },
 };
-use std::path::PathBuf;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+};
 
 /// A state machine, by text and number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,8 +67,8 @@ pub enum Definition {
 pub enum Origin {
     /// In a text.
     Text(Span),
-    /// In a Rust file, in a line that counts from 1.
-    Rust(PathBuf, usize),
+    /// In a Rust file, in a line that counts from 1: the line of the node or type, of which this is a part.
+    Rust(PathBuf, usize, Part),
 }
 
 /// What is declared of a port.
@@ -92,7 +95,7 @@ pub struct ParamFacts {
     pub name: String,
     /// Its type.
     pub ty: String,
-    /// Its unit; `s` for a time.
+    /// Its unit, if one is declared.
     pub unit: Option<String>,
     /// What it is where no value is given.
     pub default: Option<String>,
@@ -104,6 +107,14 @@ pub struct ParamFacts {
     pub definition: Definition,
 }
 
+impl ParamFacts {
+    /// The unit in which a value is written: the one that is declared, or the one of times.
+    pub fn written_in(&self) -> Option<&str> {
+        let is_time = self.ty.rsplit("::").next() == Some("Duration");
+        self.unit.as_deref().or(is_time.then_some("s"))
+    }
+}
+
 impl<'a> View<'a> {
     /// A state machine.
     pub fn machine(&self, id: MachineId) -> &'a FsmItem {
@@ -112,9 +123,16 @@ impl<'a> View<'a> {
 
     /// What stands behind the path of an instance in text `file`.
     pub fn node_type(&self, file: usize, path: &PathExpr) -> Option<NodeType> {
-        match self.texts.made(file, path, self.catalog).ok()? {
-            Made::Graph(id) => Some(NodeType::Graph(id)),
-            Made::Node(signature) => Some(self.of_signature(signature)),
+        if let [name] = path.segments.as_slice() {
+            match self.texts.names(file).get(&name.text) {
+                Some(Meaning::Graph(id)) => return Some(NodeType::Graph(*id)),
+                Some(Meaning::Machine(signature)) => return Some(self.of_signature(*signature)),
+                _ => {}
+            }
+        }
+        match self.catalog.nodes(&self.texts.full_path(file, path)).as_slice() {
+            [one] => Some(self.of_signature(*one)),
+            _ => None,
         }
     }
 
@@ -213,7 +231,7 @@ impl<'a> View<'a> {
                     let ty = self.sources.text(p.ty.span).to_owned();
                     ParamFacts {
                         name: p.name.text.clone(),
-                        unit: p.unit.as_ref().map(|u| u.text.clone()).or_else(|| unit_of(&ty)),
+                        unit: p.unit.as_ref().map(|u| u.text.clone()),
                         ty,
                         default: p.default.as_ref().map(text),
                         range: range.map(|r| format!("{}{}{}", text(&r.low), dots(r.inclusive), text(&r.high))),
@@ -224,6 +242,32 @@ impl<'a> View<'a> {
                 facts.collect()
             }
         }
+    }
+
+    /// A graph and all graphs that it is nested in, at any depth: none of them can be nested in it.
+    pub fn graphs_around(&self, graph: GraphId) -> BTreeSet<GraphId> {
+        let mut users = BTreeMap::<GraphId, Vec<GraphId>>::new();
+        for (file, (_, tree)) in self.texts.files.iter().enumerate() {
+            for (number, item) in tree.graphs.iter().enumerate() {
+                let paths =
+                    item.instances().into_iter().filter_map(|instance| match instance.path.segments.as_slice() {
+                        [name] => self.texts.names(file).get(&name.text),
+                        _ => None,
+                    });
+                for meaning in paths {
+                    if let Meaning::Graph(used) = meaning {
+                        users.entry(*used).or_default().push(GraphId { file, graph: number });
+                    }
+                }
+            }
+        }
+        let (mut around, mut open) = (BTreeSet::new(), vec![graph]);
+        while let Some(id) = open.pop() {
+            if around.insert(id) {
+                open.extend(users.get(&id).into_iter().flatten());
+            }
+        }
+        around
     }
 
     /// All states of a machine, outer ones before those inside.
@@ -244,18 +288,28 @@ impl<'a> View<'a> {
         }
         match definition {
             Definition::Text(file) => Some(Origin::Text(Span::new(self.texts.file_id(file), 0, 0))),
-            Definition::Node(NodeType::Rust(id))
-            | Definition::Param(NodeType::Rust(id), _)
-            | Definition::Port(NodeType::Rust(id), _) => {
-                let signature = &self.catalog.signatures[id];
-                Some(Origin::Rust(signature.file.clone(), signature.line))
+            Definition::Node(node @ NodeType::Rust(id)) => self.in_rust(id, Part::Name(self.name_of(node).to_owned())),
+            Definition::Param(NodeType::Rust(id), i) => {
+                self.in_rust(id, Part::Param(self.catalog.signatures[id].params[i].name.clone()))
+            }
+            Definition::Port(NodeType::Rust(id), i) => {
+                let port = &self.catalog.signatures[id].ports[i];
+                self.in_rust(id, Part::Port(port.kind, port.name.clone()))
             }
             Definition::Type(def) => {
                 let (file, line) = self.catalog.place(def);
-                Some(Origin::Rust(file, line))
+                let path = self.catalog.name(def);
+                let name = path.rsplit("::").next().unwrap_or_default().to_owned();
+                Some(Origin::Rust(file, line, Part::Name(name)))
             }
             _ => None,
         }
+    }
+
+    /// A part of the declaration of a node in Rust.
+    fn in_rust(&self, id: SignatureId, part: Part) -> Option<Origin> {
+        let signature = &self.catalog.signatures[id];
+        Some(Origin::Rust(signature.file.clone(), signature.line, part))
     }
 
     /// The name in the declaration of something that a text declares.
@@ -282,7 +336,6 @@ pub fn generics(item: &GraphItem) -> Vec<String> {
 }
 
 fn rust_param(param: &ParamSig, definition: Definition) -> ParamFacts {
-    let ty = param.ty.to_string();
     let default = match &param.default {
         Some(DefaultValue::Literal(Literal::Number(value, _))) => Some(value.to_string()),
         Some(DefaultValue::Literal(Literal::Bool(value))) => Some(value.to_string()),
@@ -294,16 +347,11 @@ fn rust_param(param: &ParamSig, definition: Definition) -> ParamFacts {
     let dots = |inclusive| if inclusive { "..=" } else { ".." };
     ParamFacts {
         name: param.name.clone(),
-        unit: param.unit.clone().or_else(|| unit_of(&ty)),
-        ty,
+        unit: param.unit.clone(),
+        ty: param.ty.to_string(),
         default,
         range: param.range.map(|(low, high, inclusive)| format!("{}{}{}", bound(low), dots(inclusive), bound(high))),
         docs: param.docs.clone(),
         definition,
     }
-}
-
-/// The unit that a type has by itself.
-fn unit_of(ty: &str) -> Option<String> {
-    (ty.rsplit("::").next() == Some("Duration")).then(|| "s".to_owned())
 }

@@ -9,6 +9,7 @@ mod lex;
 mod occurrences;
 mod outline;
 mod rename;
+mod rust;
 
 use crate::{
     catalog::Catalog,
@@ -22,6 +23,7 @@ pub use describe::{declaration, describe, describe_link, describe_word, flow_wor
 pub use occurrences::{Occurrence, at, occurrences};
 pub use outline::{Symbol, SymbolKind, outline};
 pub use rename::{may_rename, rename};
+pub use rust::{Part, place_in_rust};
 
 /// A text with what is known of the names in it.
 #[derive(Clone, Copy)]

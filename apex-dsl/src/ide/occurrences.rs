@@ -35,16 +35,10 @@ pub fn at(occurrences: &[Occurrence], view: &View<'_>, offset: usize) -> Option<
 
 /// All names in all texts that mean something, in the order of the texts.
 pub fn occurrences(view: &View<'_>) -> Vec<Occurrence> {
-    let mut names = BTreeMap::new();
-    for (file, (_, tree)) in view.texts.files.iter().enumerate() {
-        for (graph, item) in tree.graphs.iter().enumerate() {
-            let id = GraphId { file, graph };
-            names.insert(id, names_in(id, item));
-        }
-    }
+    let declared = Declared::new(view);
     let mut found = vec![];
     for (file, (_, tree)) in view.texts.files.iter().enumerate() {
-        let mut walker = Walker { view: *view, file, names: &names, found: &mut found };
+        let mut walker = Walker { view: *view, file, declared: &declared, made: BTreeMap::new(), found: &mut found };
         walker.file(tree);
     }
     found.sort();
@@ -54,14 +48,50 @@ pub fn occurrences(view: &View<'_>) -> Vec<Occurrence> {
 
 type Names<'a> = BTreeMap<&'a str, Definition>;
 
-/// The ports and nodes of a graph.
-fn names_in(id: GraphId, item: &GraphItem) -> Names<'_> {
-    let mut names = BTreeMap::new();
-    for (i, port) in item.ports.iter().enumerate() {
-        names.entry(port.name.text.as_str()).or_insert(Definition::Port(NodeType::Graph(id), i));
+/// Names that the texts declare, so that each use is looked up and not searched for.
+struct Declared<'a> {
+    /// Ports and nodes of each graph.
+    graphs: BTreeMap<GraphId, Names<'a>>,
+    /// Ports of each state machine.
+    ports: BTreeMap<MachineId, Names<'a>>,
+    /// States of each state machine.
+    states: BTreeMap<MachineId, Names<'a>>,
+    /// Parameters of each graph.
+    params: BTreeMap<GraphId, Names<'a>>,
+}
+
+impl<'a> Declared<'a> {
+    fn new(view: &View<'a>) -> Self {
+        let (mut graphs, mut params) = (BTreeMap::new(), BTreeMap::new());
+        let (mut ports, mut states) = (BTreeMap::new(), BTreeMap::new());
+        for (file, (_, tree)) in view.texts.files.iter().enumerate() {
+            for (graph, item) in tree.graphs.iter().enumerate() {
+                let id = GraphId { file, graph };
+                let node = NodeType::Graph(id);
+                let all = item.ports.iter().enumerate().map(|(i, p)| (&p.name, Definition::Port(node, i)));
+                let nodes = item.nodes.iter().enumerate().map(|(i, n)| (&n.name, Definition::Instance(id, i)));
+                graphs.insert(id, first_of_each(all.chain(nodes)));
+                let all = item.params.iter().enumerate();
+                params.insert(id, first_of_each(all.map(|(i, p)| (&p.name, Definition::Param(node, i)))));
+            }
+            for (machine, item) in tree.machines.iter().enumerate() {
+                let id = MachineId { file, machine };
+                let all = item.ports.iter().enumerate();
+                let port = |i| Definition::Port(NodeType::Machine(id), i);
+                ports.insert(id, first_of_each(all.map(|(i, p)| (&p.name, port(i)))));
+                let all = view.states(id).into_iter().enumerate();
+                states.insert(id, first_of_each(all.map(|(i, s)| (&s.name, Definition::State(id, i)))));
+            }
+        }
+        Self { graphs, ports, states, params }
     }
-    for (i, node) in item.nodes.iter().enumerate() {
-        names.entry(node.name.text.as_str()).or_insert(Definition::Instance(id, i));
+}
+
+/// What each name means: of two declarations the first.
+fn first_of_each<'a>(declared: impl Iterator<Item = (&'a Ident, Definition)>) -> Names<'a> {
+    let mut names = BTreeMap::new();
+    for (name, definition) in declared {
+        names.entry(name.text.as_str()).or_insert(definition);
     }
     names
 }
@@ -69,17 +99,34 @@ fn names_in(id: GraphId, item: &GraphItem) -> Names<'_> {
 struct Walker<'a, 'b> {
     view: View<'a>,
     file: usize,
-    names: &'b BTreeMap<GraphId, Names<'a>>,
+    declared: &'b Declared<'a>,
+    /// What the paths of instances in this text have turned out to mean.
+    made: BTreeMap<String, Option<NodeType>>,
     found: &'b mut Vec<Occurrence>,
 }
 
 impl<'a> Walker<'a, '_> {
-    fn declared(&mut self, name: &Ident, definition: Definition) {
+    fn declares(&mut self, name: &Ident, definition: Definition) {
         self.found.push(Occurrence { span: name.span, definition, declares: true });
     }
 
     fn used(&mut self, name: &Ident, definition: Definition) {
         self.found.push(Occurrence { span: name.span, definition, declares: false });
+    }
+
+    /// What stands behind the path of an instance.
+    fn made(&mut self, path: &PathExpr) -> Option<NodeType> {
+        let (view, file) = (self.view, self.file);
+        *self.made.entry(path.text()).or_insert_with(|| view.node_type(file, path))
+    }
+
+    /// What a node of a graph is made of; the graph may stand in another text.
+    fn made_of(&mut self, id: GraphId, node: usize) -> Option<NodeType> {
+        let body = &self.view.texts.graph(id).nodes[node].body;
+        match body {
+            NodeBody::Instance(instance) if id.file == self.file => self.made(&instance.path),
+            _ => self.view.made_of(id, node).0,
+        }
     }
 
     fn file(&mut self, tree: &'a File) {
@@ -91,7 +138,7 @@ impl<'a> Walker<'a, '_> {
             self.machine(MachineId { file: self.file, machine }, item);
         }
         for (i, item) in tree.tests.iter().enumerate() {
-            self.declared(&item.name, Definition::Test(self.file, i));
+            self.declares(&item.name, Definition::Test(self.file, i));
             self.test(item);
         }
     }
@@ -127,26 +174,26 @@ impl<'a> Walker<'a, '_> {
 
     fn graph(&mut self, id: GraphId, item: &'a GraphItem) {
         let this = NodeType::Graph(id);
-        self.declared(&item.name, Definition::Node(this));
+        self.declares(&item.name, Definition::Node(this));
         for (i, name) in item.generics.iter().enumerate() {
-            self.declared(name, Definition::Generic(id, i));
+            self.declares(name, Definition::Generic(id, i));
         }
         for (i, param) in item.params.iter().enumerate() {
-            self.declared(&param.name, Definition::Param(this, i));
+            self.declares(&param.name, Definition::Param(this, i));
             self.ty(Some(id), &param.ty);
             let range = param.range.iter().flat_map(|r| [&r.low, &r.high]);
             param.default.iter().chain(range).for_each(|expr| self.expr(Some(id), expr));
         }
         for (i, port) in item.ports.iter().enumerate() {
-            self.declared(&port.name, Definition::Port(this, i));
+            self.declares(&port.name, Definition::Port(this, i));
             port.ty.iter().for_each(|ty| self.ty(Some(id), ty));
         }
         for (i, node) in item.nodes.iter().enumerate() {
-            self.declared(&node.name, Definition::Instance(id, i));
+            self.declares(&node.name, Definition::Instance(id, i));
             match &node.body {
                 NodeBody::Instance(instance) => self.instance(Some(id), instance),
                 NodeBody::HandedIn(ty, modifiers) => {
-                    let made = self.view.made_of(id, i).0;
+                    let made = self.made_of(id, i);
                     self.handed_in(id, ty, made);
                     self.modifiers(Some(id), made, modifiers);
                 }
@@ -180,13 +227,13 @@ impl<'a> Walker<'a, '_> {
         let mut graph = graph;
         let mut parts = reference.parts.as_slice();
         while let [first, rest @ ..] = parts {
-            let Some(definition) = self.names[&graph].get(first.text.as_str()).copied() else {
+            let Some(definition) = self.declared.graphs[&graph].get(first.text.as_str()).copied() else {
                 let own = words_at(Place::Node).find(|w| w.text == first.text);
                 return own.iter().for_each(|w| self.used(first, Definition::Own(w.text)));
             };
             self.used(first, definition);
             let (Definition::Instance(id, node), [port, ..]) = (definition, rest) else { return };
-            let made = self.view.made_of(id, node).0;
+            let made = self.made_of(id, node);
             if let Some(definition) = made.and_then(|made| self.port(made, &port.text)) {
                 return self.used(port, definition);
             }
@@ -197,20 +244,37 @@ impl<'a> Walker<'a, '_> {
 
     /// The port of this name; a parameter can be one too.
     fn port(&self, node: NodeType, name: &str) -> Option<Definition> {
-        let ports = self.view.ports(node).into_iter().filter(|p| p.name == name).map(|p| p.definition).next();
+        let declared = match node {
+            NodeType::Graph(id) => {
+                let is_port = |d: &Definition| matches!(d, Definition::Port(..));
+                self.declared.graphs[&id].get(name).copied().filter(is_port)
+            }
+            NodeType::Machine(id) => self.declared.ports[&id].get(name).copied(),
+            NodeType::Rust(id) => {
+                let ports = &self.view.catalog.signatures[id].ports;
+                ports.iter().position(|p| p.name == name).map(|i| Definition::Port(node, i))
+            }
+        };
         let is_library = !matches!(node, NodeType::Graph(_));
         let param = || is_library.then(|| self.param(node, name)).flatten();
         let is_there = |s: &Standard| (is_library || s.is_shared()) && s.name() == name;
         let standard = || Standard::ALL.into_iter().find(is_there).map(Definition::Standard);
-        ports.or_else(param).or_else(standard)
+        declared.or_else(param).or_else(standard)
     }
 
     fn param(&self, node: NodeType, name: &str) -> Option<Definition> {
-        self.view.params(node).into_iter().find(|p| p.name == name).map(|p| p.definition)
+        match node {
+            NodeType::Graph(id) => self.declared.params[&id].get(name).copied(),
+            NodeType::Machine(_) => None,
+            NodeType::Rust(id) => {
+                let params = &self.view.catalog.signatures[id].params;
+                params.iter().position(|p| p.name == name).map(|i| Definition::Param(node, i))
+            }
+        }
     }
 
     fn instance(&mut self, around: Option<GraphId>, instance: &Instance) {
-        let made = self.view.node_type(self.file, &instance.path);
+        let made = self.made(&instance.path);
         if let (Some(made), Some(name)) = (made, instance.path.segments.last()) {
             self.used(name, Definition::Node(made));
         }
@@ -264,8 +328,8 @@ impl<'a> Walker<'a, '_> {
     /// A parameter of the graph around.
     fn value(&mut self, around: Option<GraphId>, path: &PathExpr) {
         let (Some(id), [name]) = (around, path.segments.as_slice()) else { return };
-        let param = self.view.texts.graph(id).params.iter().position(|p| p.name.text == name.text);
-        param.iter().for_each(|i| self.used(name, Definition::Param(NodeType::Graph(id), *i)));
+        let param = self.declared.params[&id].get(name.text.as_str()).copied();
+        param.iter().for_each(|definition| self.used(name, *definition));
     }
 
     fn ty(&mut self, around: Option<GraphId>, ty: &TypeExpr) {
@@ -289,60 +353,59 @@ impl<'a> Walker<'a, '_> {
     }
 
     fn machine(&mut self, id: MachineId, item: &FsmItem) {
-        self.declared(&item.name, Definition::Node(NodeType::Machine(id)));
+        self.declares(&item.name, Definition::Node(NodeType::Machine(id)));
         for (i, port) in item.ports.iter().enumerate() {
-            self.declared(&port.name, Definition::Port(NodeType::Machine(id), i));
+            self.declares(&port.name, Definition::Port(NodeType::Machine(id), i));
             port.ty.iter().for_each(|ty| self.ty(None, ty));
         }
         for (i, state) in self.view.states(id).into_iter().enumerate() {
-            self.declared(&state.name, Definition::State(id, i));
-            self.state(id, item, state);
+            self.declares(&state.name, Definition::State(id, i));
+            self.state(id, state);
         }
     }
 
-    fn state(&mut self, id: MachineId, item: &FsmItem, state: &StateItem) {
-        let states = self.view.states(id);
+    fn state(&mut self, id: MachineId, state: &StateItem) {
         for transition in &state.transitions {
-            self.machine_port(id, item, &transition.slot);
+            self.machine_port(id, &transition.slot);
             let target = transition.target.as_ref();
-            let found = target.and_then(|name| states.iter().position(|s| s.name.text == name.text));
-            if let (Some(name), Some(i)) = (target, found) {
-                self.used(name, Definition::State(id, i));
+            let found = target.and_then(|name| self.declared.states[&id].get(name.text.as_str()).copied());
+            if let (Some(name), Some(definition)) = (target, found) {
+                self.used(name, definition);
             }
         }
         let actions = state.transitions.iter().flat_map(|t| &t.actions);
         let actions: Vec<&Action> = actions.chain(&state.entry).chain(&state.exit).collect();
-        actions.iter().for_each(|action| self.machine_port(id, item, &action.event));
+        actions.iter().for_each(|action| self.machine_port(id, &action.event));
         // In a guard and in the value of an action, the name of the slot is the token.
         for transition in &state.transitions {
             let values = transition.actions.iter().filter_map(|a| a.value.as_ref());
-            transition.guard.iter().chain(values).for_each(|e| self.token(id, item, e));
+            transition.guard.iter().chain(values).for_each(|e| self.token(id, e));
         }
     }
 
-    fn token(&mut self, id: MachineId, item: &FsmItem, expr: &Expr) {
+    fn token(&mut self, id: MachineId, expr: &Expr) {
         match &expr.kind {
             ExprKind::Path(path) => {
                 if let [name] = path.segments.as_slice() {
-                    self.machine_port(id, item, name);
+                    self.machine_port(id, name);
                 }
             }
-            ExprKind::Unary(_, e) => self.token(id, item, e),
+            ExprKind::Unary(_, e) => self.token(id, e),
             ExprKind::Binary(_, a, b) => {
-                self.token(id, item, a);
-                self.token(id, item, b);
+                self.token(id, a);
+                self.token(id, b);
             }
             _ => {}
         }
     }
 
-    fn machine_port(&mut self, id: MachineId, item: &FsmItem, name: &Ident) {
-        let port = item.ports.iter().position(|p| p.name.text == name.text);
-        port.iter().for_each(|i| self.used(name, Definition::Port(NodeType::Machine(id), *i)));
+    fn machine_port(&mut self, id: MachineId, name: &Ident) {
+        let port = self.declared.ports[&id].get(name.text.as_str()).copied();
+        port.iter().for_each(|definition| self.used(name, *definition));
     }
 
     fn test(&mut self, item: &TestItem) {
-        let made = self.view.node_type(self.file, &item.graph);
+        let made = self.made(&item.graph);
         if let (Some(made), Some(name)) = (made, item.graph.segments.last()) {
             self.used(name, Definition::Node(made));
         }
@@ -353,7 +416,7 @@ impl<'a> Walker<'a, '_> {
         for step in &item.steps {
             match step {
                 TestStep::Feed(port, ..) | TestStep::FeedRecorded(port, ..) => {
-                    let definition = self.names[&id].get(port.text.as_str()).copied();
+                    let definition = self.declared.graphs[&id].get(port.text.as_str()).copied();
                     definition.iter().for_each(|d| self.used(port, *d));
                 }
                 TestStep::Expect(condition, _) | TestStep::Never(condition) => self.reference(id, &condition.of),

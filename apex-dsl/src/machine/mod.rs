@@ -1,19 +1,26 @@
 //! State machines: an `fsm` item with its nested states becomes a table of transitions between the innermost ones
 //! (thesis 7.2.1). It is used as a node with slots and events.
 
-mod resolve;
 mod translate;
 
-pub use resolve::resolve;
 pub use translate::translation;
 
-use crate::{catalog::Type, graph::Value};
+use crate::{
+    catalog::{ArgSig, PortSig, Signature, SignatureId, SlotSig, Type},
+    graph::{Condition, Value},
+    syntax::tree::PortKind,
+};
+use std::{collections::BTreeMap, path::PathBuf};
 
 /// A resolved state machine.
 #[derive(Debug, Clone)]
 pub struct Machine {
     /// Its name.
     pub name: String,
+    /// Its Rust module in that of the text.
+    pub module: String,
+    /// It stands in the text that was read first.
+    pub is_own: bool,
     /// Documentation.
     pub docs: String,
     /// The innermost states, by path: `fetch.drive`. It begins in the first.
@@ -25,6 +32,9 @@ pub struct Machine {
     /// Its events, with the types of their tokens.
     pub events: Vec<(String, Type)>,
 }
+
+/// The state machines of a program's texts, by the nodes that they are.
+pub type Machines = BTreeMap<SignatureId, Machine>;
 
 /// A slot of a state machine.
 #[derive(Debug, Clone)]
@@ -42,8 +52,8 @@ pub struct Slot {
 pub struct Arm {
     /// The state.
     pub state: usize,
-    /// A condition on the token, as Rust.
-    pub guard: Option<String>,
+    /// A condition on the token.
+    pub guard: Option<Condition>,
     /// The state that it leads to, if it leads anywhere.
     pub target: Option<usize>,
     /// What is triggered: what is left, then the transition, then what is entered.
@@ -71,8 +81,60 @@ pub enum Token {
 }
 
 impl Machine {
-    /// The slot that is called at the start.
-    pub const BEGIN: &str = "begin";
+    /// The slot that is called at the start: a name that no text can give to one.
+    pub const BEGIN: &str = "(begin)";
+}
+
+impl Machine {
+    /// A state machine as a node: slots and events. If something happens when it starts, `begin` is a slot too.
+    pub fn signature(&self, (file, line): (PathBuf, usize)) -> Signature {
+        let port = |name: &str, kind, ty: &Type, index| PortSig {
+            name: name.to_owned(),
+            kind,
+            ty: ty.clone(),
+            rate: 1,
+            optional: false,
+            index,
+            field: None,
+            field_is_option: false,
+            docs: String::new(),
+        };
+        let events = self.events.iter().enumerate().map(|(i, (name, ty))| port(name, PortKind::Event, ty, i));
+        let mut ports: Vec<PortSig> = events.collect();
+        let mut slots = vec![];
+        for (index, slot) in self.slots.iter().enumerate() {
+            ports.push(port(&slot.name, PortKind::Slot, &slot.ty, index));
+            let token = slot.uses_token().then(|| ArgSig::Port(ports.len() - 1));
+            let args = token.into_iter().chain(slot.events().into_iter().map(ArgSig::Port)).collect();
+            let method = Self::method(&slot.name);
+            slots.push(SlotSig { port: ports.len() - 1, method, args, fallible: false });
+        }
+        if !self.begin.is_empty() {
+            ports.push(port(Self::BEGIN, PortKind::Slot, &Type::unit(), self.slots.len()));
+            let args = self.begin.iter().map(|s| ArgSig::Port(s.event)).collect();
+            let method = Self::BEGIN_METHOD.to_owned();
+            slots.push(SlotSig { port: ports.len() - 1, method, args, fallible: false });
+        }
+        Signature {
+            name: self.name.clone(),
+            docs: self.docs.clone(),
+            file,
+            line,
+            path: vec!["super".to_owned(), self.module.clone(), self.name.clone()],
+            stateful: true,
+            ports,
+            slots,
+            ..Signature::default()
+        }
+    }
+
+    /// The method that enters the first state.
+    pub const BEGIN_METHOD: &str = "begin";
+
+    /// The method of a slot, which is none of the others, whatever the slot is called.
+    pub fn method(slot: &str) -> String {
+        format!("on_{slot}")
+    }
 }
 
 impl Slot {

@@ -19,10 +19,7 @@ pub fn translation(machine: &Machine) -> String {
     for slot in &machine.slots {
         for (number, arm) in slot.arms.iter().enumerate() {
             let state = &machine.states[arm.state];
-            let guard = arm.guard.as_deref().map(|guard| {
-                let guard = guard.replace("(*token)", &slot.name);
-                format!("   // if {}", guard.strip_prefix('(').and_then(|g| g.strip_suffix(')')).unwrap_or(&guard))
-            });
+            let guard = arm.guard.as_ref().map(|guard| format!("   // if {}", guard.text(&slot.name)));
             let event = format!("{state}.{}_{}", slot.name, number + 1);
             if let Some(target) = arm.target {
                 let guard = guard.as_deref().unwrap_or_default();

@@ -49,6 +49,10 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// Changes that would mend it.
     pub fixes: Vec<Fix>,
+    /// The path of the nested graph that it is about, if it is not about the text by itself.
+    pub instance: String,
+    /// The item whose statements would declare what is missing, if it is one that is known.
+    pub declared_in: Option<Span>,
 }
 
 impl Diagnostic {
@@ -57,7 +61,9 @@ impl Diagnostic {
         let primary = Label { span, text: String::new() };
         let message = shortened(message.into());
         debug_assert!(!message.ends_with('.'), "house style: no final period in {message:?}");
-        Self { code, severity: Severity::Error, message, primary, secondary: vec![], notes: vec![], fixes: vec![] }
+        let (secondary, notes, fixes, instance) = (vec![], vec![], vec![], String::new());
+        let severity = Severity::Error;
+        Self { code, severity, message, primary, secondary, notes, fixes, instance, declared_in: None }
     }
 
     /// A warning at `span`.
@@ -86,6 +92,13 @@ impl Diagnostic {
         self
     }
 
+    /// Says which nested graph it is about, by its path; it is told once for all of them.
+    #[must_use]
+    pub fn inside(mut self, instance: impl Into<String>) -> Self {
+        self.instance = instance.into();
+        self
+    }
+
     /// Adds a change that mends it: nothing else can have been meant.
     #[must_use]
     pub fn fix(self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
@@ -96,6 +109,12 @@ impl Diagnostic {
     #[must_use]
     pub fn guess(self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
         self.change(title.into(), span, replacement.into(), false)
+    }
+
+    /// All places that it names: the primary one, further ones and those of its changes.
+    pub fn places(&self) -> impl Iterator<Item = Span> {
+        let labels = std::iter::once(&self.primary).chain(&self.secondary).map(|label| label.span);
+        labels.chain(self.fixes.iter().map(|fix| fix.span))
     }
 
     fn change(mut self, title: String, span: Span, replacement: String, certain: bool) -> Self {
@@ -112,107 +131,4 @@ fn shortened(text: String) -> String {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text,
     }
-}
-
-/// How many errors are collected before the rest is only counted.
-pub const MAX_ERRORS: usize = 100;
-
-/// All messages of a run. Errors are collected, never thrown.
-#[derive(Debug, Default)]
-pub struct Diagnostics {
-    list: Vec<Diagnostic>,
-    left_out: usize,
-}
-
-impl Diagnostics {
-    /// Adds a message.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
-        if self.list.len() >= MAX_ERRORS {
-            self.left_out += 1;
-        } else if !self.list.contains(&diagnostic) {
-            self.list.push(diagnostic);
-        }
-    }
-
-    /// Adds a message unless there is one of its kind at the same place.
-    pub fn push_once(&mut self, diagnostic: Diagnostic) {
-        let same = |d: &Diagnostic| d.code == diagnostic.code && d.primary.span == diagnostic.primary.span;
-        if !self.list.iter().any(same) {
-            self.push(diagnostic);
-        }
-    }
-
-    /// Whether one of them is an error.
-    pub fn has_errors(&self) -> bool {
-        self.list.iter().any(|d| d.severity == Severity::Error)
-    }
-
-    /// Whether further messages are only counted: what goes on can stop.
-    pub fn is_full(&self) -> bool {
-        self.list.len() >= MAX_ERRORS
-    }
-
-    /// Counts a message that is not worth making because [`Diagnostics::is_full`].
-    pub fn leave_out(&mut self) {
-        self.left_out += 1;
-    }
-
-    /// How many messages were left out for being too many.
-    pub fn left_out(&self) -> usize {
-        self.left_out
-    }
-
-    /// The messages in the order of the text.
-    pub fn sorted(&self) -> Vec<&Diagnostic> {
-        let mut list: Vec<&Diagnostic> = self.list.iter().collect();
-        list.sort_by_key(|d| (d.primary.span, d.severity));
-        list
-    }
-
-    /// Removes all messages for which `keep` is false.
-    pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
-        self.list.retain(keep);
-    }
-}
-
-/// Longer names are not compared: nobody mistypes them, and comparing takes time.
-const MAX_NAME: usize = 64;
-/// Most names that are looked at for one that is like another.
-const MAX_CANDIDATES: usize = 4000;
-
-/// The name of `candidates` that is most like `name`, if one is near enough to be meant.
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (name.chars().count() / 3).max(1);
-    if name.len() > MAX_NAME {
-        return None;
-    }
-    candidates
-        .into_iter()
-        .take(MAX_CANDIDATES)
-        .filter(|c| c.len().abs_diff(name.len()) <= limit)
-        .map(|c| (distance(name, c), c))
-        // Of a word with one letter everything is as far away as everything else.
-        .filter(|(d, _)| *d <= limit && *d < name.len())
-        .min()
-        .map(|(_, c)| c)
-}
-
-/// Edit distance in which a swap of two neighbours counts one, regardless of case.
-fn distance(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.to_lowercase().chars().collect();
-    let b: Vec<char> = b.to_lowercase().chars().collect();
-    let mut rows = vec![(0..=b.len()).collect::<Vec<_>>()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let replace = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut best = replace.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                best = best.min(rows[i - 2][j - 2] + 1);
-            }
-            row.push(best);
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
 }

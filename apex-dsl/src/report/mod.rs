@@ -1,11 +1,15 @@
 //! What the compiler has to say.
 
 mod diagnostic;
-mod explain;
+mod list;
+mod nearest;
 mod pages;
 mod render;
+mod stage;
 
-pub use diagnostic::{Diagnostic, Diagnostics, Fix, Label, MAX_ERRORS, Severity, nearest};
-pub use explain::{explain, explain_json};
+pub use diagnostic::{Diagnostic, Fix, Label, Severity};
+pub use list::{Diagnostics, MAX_ERRORS};
+pub use nearest::{nearest, nearest_within};
 pub use pages::{PAGES, page};
 pub use render::{json, render};
+pub use stage::Stage;

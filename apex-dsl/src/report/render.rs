@@ -21,7 +21,17 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String
     let mut main = title.elements(std::iter::empty::<Element<'_>>());
     for (file, path) in files.iter().zip(&paths) {
         let source = sources.get(*file);
-        let here = |label: &Label| label.span.file == *file;
+        // Two places of one line are shown with all between them.
+        let is_far = |label: &Label| {
+            let (a, b) = (
+                label.span.start.min(diagnostic.primary.span.start),
+                label.span.start.max(diagnostic.primary.span.start),
+            );
+            label.span.file == diagnostic.primary.span.file
+                && (b - a) as usize > MAX_LINE
+                && !source.text[a as usize..b as usize].contains('\n')
+        };
+        let here = |label: &Label| label.span.file == *file && !is_far(label);
         let mut snippet = Snippet::source(&*source.text).path(path.as_str()).line_start(source.origin.0 + 1);
         if here(&diagnostic.primary) {
             snippet = snippet.annotation(annotation(AnnotationKind::Primary, &diagnostic.primary));

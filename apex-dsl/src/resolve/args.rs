@@ -1,6 +1,7 @@
 //! Arguments of nodes and graphs.
 
 use super::{
+    condition::names_in,
     names::suggest,
     value::{Evaluated, Scope, Wanted, duration, evaluate, scaled, seconds},
 };
@@ -9,10 +10,16 @@ use crate::{
     graph::{Modifiers, Number, Value},
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Arg, Expr, Ident, Modifier, ModifierKind, ParamItem},
+    syntax::tree::{Arg, Expr, ExprKind, Ident, Modifier, ModifierKind, ParamItem},
     units::{self, Dimension},
 };
-use std::{collections::BTreeMap, time::Duration};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
+
+/// Stands for a time that is not known.
+const ANY_TIME: Duration = Duration::from_secs(1);
 
 /// The given arguments by name, and whether they all have one; says what is wrong with the list itself.
 fn by_name<'a>(
@@ -70,6 +77,7 @@ pub fn of_node(
     args: &[Arg],
     at: Span,
     scope: &Scope<'_>,
+    origins: &Origins,
     fed: &dyn Fn(&str) -> bool,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Value> {
@@ -78,7 +86,9 @@ pub fn of_node(
     let mut values = vec![];
     for param in &signature.params {
         let value = match given.get(param.name.as_str()) {
-            Some(expr) => evaluate(expr, scope).and_then(|value| wanted(signature, param).fit(value, expr)),
+            Some(expr) => evaluate(expr, scope)
+                .and_then(|value| wanted(signature, param).fit(value, expr))
+                .map_err(|error| handed_down(error, expr, origins)),
             // The argument with a wrong name may be this one.
             None if !whole && param.default.is_none() => Ok(Value::RustDefault),
             None => default(signature, param, at, fed),
@@ -130,11 +140,73 @@ fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str)
     }
 }
 
-/// Values for all parameters of a graph. `ty` looks up the type of each.
+/// Where the value of a parameter was given that is handed down.
+#[derive(Debug, Clone, Copy)]
+pub struct Origin {
+    /// The value, as it is written.
+    given: Span,
+    /// The parameter of the graph that hands it down.
+    declared: Span,
+}
+
+/// Where the values of the parameters of a graph were given.
+pub type Origins = BTreeMap<String, Origin>;
+
+/// Where the values of `params` were given: by `args`, which may name parameters of the graph around, or by a default.
+pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins) -> Origins {
+    let of_param = |param: &ParamItem| {
+        let arg = args.iter().find(|arg| arg.name.as_ref().is_some_and(|name| name.text == param.name.text));
+        let value = arg.map(|arg| &arg.value).or(param.default.as_ref())?;
+        let handed = arg.and_then(|arg| only_param(&arg.value)).and_then(|name| around.get(name));
+        let given = handed.map_or(value.span, |origin| origin.given);
+        Some((param.name.text.clone(), Origin { given, declared: param.name.span }))
+    };
+    params.iter().filter_map(of_param).collect()
+}
+
+/// The parameter that an expression consists of.
+fn only_param(expr: &Expr) -> Option<&str> {
+    match &expr.kind {
+        ExprKind::Path(path) => match path.segments.as_slice() {
+            [name] => Some(&name.text),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// An error about a value that parameters of the graph around are part of, with both ends: a value that is out of range is
+/// wrong where it was given, all else where it is used.
+fn handed_down(mut error: Box<Diagnostic>, expr: &Expr, origins: &Origins) -> Box<Diagnostic> {
+    if let Some(origin) = only_param(expr).and_then(|name| origins.get(name))
+        && error.code == "out-of-range"
+        && error.primary.span == expr.span
+    {
+        error.primary.span = origin.given;
+        return Box::new(error.also(origin.declared, "this parameter").also(expr.span, "is handed on here"));
+    }
+    let names: BTreeSet<&str> = names_in(expr).into_iter().map(|name| name.text.as_str()).collect();
+    let given = names.into_iter().filter_map(|name| Some((name, origins.get(name)?)));
+    given.fold(error, |error, (name, origin)| Box::new(error.also(origin.given, format!("`{name}` is given here"))))
+}
+
+/// Values for all parameters of a graph that stands in no other one.
 pub fn of_graph(
     name: &Ident,
     params: &[(&ParamItem, Type)],
     given: Option<(&[Arg], &Scope<'_>)>,
+    at: Span,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<String, Value> {
+    of_graph_inside(name, params, given, &Origins::new(), at, diagnostics)
+}
+
+/// Values for all parameters of a graph, with the type of each; `origins` are those of the graph around.
+pub fn of_graph_inside(
+    name: &Ident,
+    params: &[(&ParamItem, Type)],
+    given: Option<(&[Arg], &Scope<'_>)>,
+    origins: &Origins,
     at: Span,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Value> {
@@ -145,9 +217,13 @@ pub fn of_graph(
     };
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
     for (param, ty) in params {
+        // What a parameter is like that its own default does not fit, nobody knows.
+        let default = graph_default(name, param, ty, at, &values, false);
         let value = match (exprs.get(param.name.text.as_str()), given) {
+            (Some(_), Some(_)) if default.is_err() => default,
             (Some(expr), Some((_, scope))) => {
-                graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr))
+                let fitting = graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr));
+                fitting.map_err(|error| handed_down(error, expr, origins))
             }
             _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
             // As long as a graph is not used, its parameters need no value.
@@ -198,11 +274,26 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
     })
 }
 
-/// A value in the declaration of a parameter: a plain number there has the unit of the parameter.
+/// A value in the declaration of a parameter: a plain number there has the unit of the parameter. Another parameter has
+/// been brought into that of its own already, which shows where the unit is not one of a ratio.
 fn declared(param: &ParamItem, expr: &Expr, before: &BTreeMap<String, Value>) -> Evaluated<Value> {
-    let value = evaluate(expr, &Scope { params: before, rust_path: &|_| None })?;
+    let value = evaluate(expr, &Scope { params: before, constant: &|_| None })?;
     let unit = param.unit.as_ref().and_then(|unit| units::parse(&unit.text).ok());
-    Ok(unit.map_or(value.clone(), |unit| in_unit(value, unit)))
+    Ok(match unit {
+        Some(unit) if !(unit.dimension.is_none() && names_parameter(expr)) => in_unit(value, unit),
+        _ => value,
+    })
+}
+
+/// Whether a parameter is part of an expression.
+fn names_parameter(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Path(_) => true,
+        ExprKind::List(items) => items.iter().any(names_parameter),
+        ExprKind::Unary(_, inner) => names_parameter(inner),
+        ExprKind::Binary(_, left, right) => names_parameter(left) || names_parameter(right),
+        ExprKind::Number(..) | ExprKind::Text(_) | ExprKind::Bool(_) => false,
+    }
 }
 
 fn in_unit(value: Value, unit: units::Unit) -> Value {
@@ -238,14 +329,14 @@ fn graph_default(
 }
 
 /// The modifiers that stay with a node; `each` and `delay` are left to the caller.
-pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnostics) -> Modifiers {
+pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagnostics: &mut Diagnostics) -> Modifiers {
     let mut modifiers = Modifiers::default();
     let mut time = |expr: &Expr| -> Option<Duration> {
         let value = evaluate(expr, scope).and_then(|value| match value {
             Value::Number(n) => duration(n, expr),
             Value::Duration(d) => Ok(d),
             // Not known yet: any time will do for the checks.
-            Value::RustDefault => Ok(Duration::from_secs(1)),
+            Value::RustDefault => Ok(ANY_TIME),
             other => Err(Box::new(Diagnostic::error(
                 "wrong-value",
                 expr.span,
@@ -259,12 +350,13 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, diagnostics: &mut Diagnos
                     expr.span,
                     "a time of zero would never let anything else happen",
                 ));
-                None
+                Some(ANY_TIME)
             }
             Ok(duration) => Some(duration),
             Err(error) => {
-                diagnostics.push(*error);
-                None
+                diagnostics.push(*handed_down(error, expr, origins));
+                // The modifier is there, whatever time it is.
+                Some(ANY_TIME)
             }
         }
     };

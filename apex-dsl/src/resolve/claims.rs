@@ -16,10 +16,6 @@ use std::collections::BTreeMap;
 impl Builder<'_> {
     /// Resolves the claims of a graph body. Its nodes and nested graphs have these numbers and higher ones.
     pub fn resolve_claims(&mut self, body: &Body<'_>, table: &Table, (node, scope): (usize, usize)) {
-        // A statement that could not be read may declare what a claim is about.
-        if self.texts.are_broken() {
-            return;
-        }
         if body.item.claims.is_empty() {
             return;
         }
@@ -32,7 +28,7 @@ impl Builder<'_> {
             if self.is_exhausted() || self.look(claim.of.len(), claim.span).is_none() {
                 return;
             }
-            let Some(made) = self.claim(claim, table, &subjects) else { continue };
+            let Some(made) = self.claim(body, claim, table, &subjects) else { continue };
             if self.claims.len() == MAX_CLAIMS {
                 let message = format!("this program has more than {MAX_CLAIMS} claims");
                 self.diagnostics.push(
@@ -45,7 +41,13 @@ impl Builder<'_> {
         }
     }
 
-    fn claim(&mut self, claim: &tree::Claim, table: &Table, subjects: &BTreeMap<String, Subject>) -> Option<Claim> {
+    fn claim(
+        &mut self,
+        body: &Body<'_>,
+        claim: &tree::Claim,
+        table: &Table,
+        subjects: &BTreeMap<String, Subject>,
+    ) -> Option<Claim> {
         let Some(kind) = ClaimKind::ALL.into_iter().find(|k| k.word() == claim.kind.text) else {
             let message = format!("there is no claim `{}`", claim.kind.text);
             let error = Diagnostic::error("unknown-claim", claim.kind.span, message);
@@ -54,7 +56,8 @@ impl Builder<'_> {
             return None;
         };
         self.check_count(kind, claim)?;
-        let found: Vec<Option<Subject>> = claim.of.iter().map(|name| self.subject(name, table, subjects)).collect();
+        let found: Vec<Option<Subject>> =
+            claim.of.iter().map(|name| self.subject(body, name, table, subjects)).collect();
         let of: Vec<Subject> = found.into_iter().collect::<Option<_>>()?;
         let mut seen = BTreeMap::new();
         for (subject, name) in of.iter().zip(&claim.of) {
@@ -90,7 +93,13 @@ impl Builder<'_> {
         None
     }
 
-    fn subject(&mut self, name: &PortRef, table: &Table, subjects: &BTreeMap<String, Subject>) -> Option<Subject> {
+    fn subject(
+        &mut self,
+        body: &Body<'_>,
+        name: &PortRef,
+        table: &Table,
+        subjects: &BTreeMap<String, Subject>,
+    ) -> Option<Subject> {
         let first = name.parts.first()?;
         let text = &first.text;
         let error = match (table.get(text), &name.parts[1..]) {
@@ -115,9 +124,8 @@ impl Builder<'_> {
                     .note("name the node that activity comes from, or goes to")
             }
             (None, _) => {
-                let message = format!("there is no node `{text}` in this graph");
-                let error = Diagnostic::error("unknown-node", first.span, message);
-                suggest(error, first, table.names())
+                self.unknown_name(body, table, first);
+                return None;
             }
         };
         self.diagnostics.push(error);

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     catalog::{Match, Type},
     graph::{End, Node, NodeId, NodeKind, Pin, Place, Port, ScopeId, Standard, Wire},
-    report::{Diagnostic, Diagnostics, nearest},
+    report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef},
 };
@@ -110,6 +110,9 @@ impl Table {
             let message = format!("`{}` is already defined in this graph", name.text);
             diagnostics
                 .push(Diagnostic::error("duplicate-name", name.span, message).also(*first, "first defined here"));
+            // Which of the two is meant where the name is used, nobody knows.
+            let first = *first;
+            self.symbols.insert(name.text.clone(), (Symbol::Broken, first));
             return;
         }
         self.symbols.insert(name.text.clone(), (symbol, name.span));
@@ -160,6 +163,13 @@ impl Builder<'_> {
     pub fn chains(&mut self, body: &Body<'_>, table: &Table) {
         let mut in_place = 0;
         for chain in &body.item.chains {
+            // Ends that name nothing cost as well.
+            if self
+                .look(chain.ends.len(), chain.arrows.first().map_or(body.item.name.span, |arrow| arrow.span))
+                .is_none()
+            {
+                return;
+            }
             // Nodes written in place are made once, although they stand behind one arrow and before the next.
             let symbols: Vec<Vec<Option<(Symbol, String, Span)>>> =
                 chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
@@ -218,20 +228,7 @@ impl Builder<'_> {
                 let node = self.own_node(body, first, kind)?;
                 return Some((Symbol::of_node(node, &self.nodes[node]), text, reference.span));
             }
-            // A statement that could not be read may declare it.
-            if self.texts.are_broken() {
-                return None;
-            }
-            let message = format!("there is no node or port `{}` in this graph", first.text);
-            let error = Diagnostic::error("unknown-node", first.span, message);
-            let mut error = super::names::suggest(error, first, table.symbols.keys().map(String::as_str));
-            if error.fixes.is_empty() {
-                error = error.note(format!(
-                    "declare it with `node {} = …;`, or write the node in place with `()` behind its name",
-                    first.text
-                ));
-            }
-            self.diagnostics.push(error);
+            self.unknown_name(body, table, first);
             return None;
         };
         match symbol {
@@ -247,7 +244,7 @@ impl Builder<'_> {
                     named.extend(self.standard_port(*owner, port));
                 }
                 if named.is_empty() {
-                    self.unknown_port(&first.text, port, ports);
+                    self.unknown_port(body, (first, port), symbol);
                     self.excuse(symbol);
                     return None;
                 }
@@ -263,20 +260,6 @@ impl Builder<'_> {
                 None
             }
         }
-    }
-
-    fn unknown_port(&mut self, node: &str, port: &Ident, ports: &[Candidate]) {
-        let message = format!("`{node}` has no port `{}`", port.text);
-        let error = Diagnostic::error("unknown-port", port.span, message);
-        let mut error = match nearest(&port.text, ports.iter().map(|p| p.name.as_str())) {
-            Some(near) => error.guess(format!("did you mean `{near}`?"), port.span, near),
-            None => error,
-        };
-        error = error.note(match list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>()) {
-            ports if ports.is_empty() => format!("`{node}` has no ports"),
-            ports => format!("`{node}` has {ports}"),
-        });
-        self.diagnostics.push(error);
     }
 
     /// The node that stands for a name that every graph knows; there is one in each graph that uses it.
@@ -501,7 +484,8 @@ impl Builder<'_> {
             .note(self.declared(source, &a))
             .note(self.declared(target, &b))
             .note("nothing is converted silently: put a node that converts between them");
-        self.diagnostics.push(error);
+        // A list of ends has one arrow.
+        self.diagnostics.push_once(error);
     }
 
     fn describe(&self, candidate: &Candidate, written: &str) -> String {
@@ -566,7 +550,8 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
     Meant { candidates, all, explicit: explicit || matches!(symbol, Symbol::Own(_)), name: name.clone(), span: *span }
 }
 
-fn list(ports: &[&Candidate]) -> String {
+/// Ports in words.
+pub fn list(ports: &[&Candidate]) -> String {
     let words: Vec<String> = ports.iter().map(|p| format!("{} `{}: {}`", p.kind.word(), p.name, p.ty)).collect();
     words.join(", ")
 }

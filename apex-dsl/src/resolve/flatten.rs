@@ -191,10 +191,26 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
                     .also(wires[before].span, "first connected here")
                     .note("join both streams in a node with two inputs, or send them to a slot, which takes many connections");
                 builder.diagnostics.push(error);
+                excuse_inputs(builder, wire.to);
             }
             None => {
                 first.insert(wire.to, i);
             }
+        }
+    }
+}
+
+/// Of two connections to one input one may be meant for another one of the same node.
+fn excuse_inputs(builder: &mut Builder<'_>, place: Place) {
+    match place {
+        Place::Port(End { node, .. }) => {
+            let ports = 0..builder.nodes[node].ports.len();
+            builder.excused.extend(ports.map(|port| Place::Port(End { node, port })));
+        }
+        Place::Pin(pin) => {
+            let scope = builder.pins[pin].scope;
+            let pins = 0..builder.pins.len();
+            builder.excused.extend(pins.filter(|pin| builder.pins[*pin].scope == scope).map(Place::Pin));
         }
     }
 }
@@ -229,16 +245,23 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
     for wire in wires {
         out_of.entry(wire.from).or_default().push(wire.to);
     }
+    let mut excused = BTreeSet::new();
     for index in 0..builder.pins.len() {
         let place = Place::Pin(index);
+        if !into.contains_key(&place) {
+            // What comes out of a pin that nothing goes into is missing there, not behind it.
+            let behind = places_behind(&out_of, place).into_iter().filter(|behind| *behind != place);
+            excused.extend(behind);
+        }
         let pin = &builder.pins[index];
-        if into.contains_key(&place) || builder.excused.contains(&place) || !pin.kind.is_synchronous() {
+        if into.contains_key(&place) || builder.excused.contains(&place) {
             continue;
         }
         let scope = &builder.scopes[pin.scope];
         let error = match pin.kind {
-            PortKind::Input if needs_token(builder, &out_of, place) => {
-                let message = format!("input `{}` of `{}` is not connected", pin.name, scope.name);
+            // A slot that leads to an input inside is what that waits for.
+            PortKind::Input | PortKind::Slot if needs_token(builder, &out_of, place) => {
+                let message = format!("{} `{}` of `{}` is not connected", pin.kind.word(), pin.name, scope.name);
                 Diagnostic::error("open-input", scope.span, message)
                     .also(pin.span, "declared here")
                     .note(format!("connect it: `… -> {}.{};`", scope.name, pin.name))
@@ -251,23 +274,27 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
         };
         builder.diagnostics.push(error);
     }
+    builder.excused.extend(excused);
+}
+
+/// A pin, those that its tokens go on to, and the ports behind them.
+fn places_behind(out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> BTreeSet<Place> {
+    let (mut ends, mut found) = (vec![pin], BTreeSet::new());
+    while let Some(place) = ends.pop() {
+        if found.insert(place) && matches!(place, Place::Pin(_)) {
+            ends.extend(out_of.get(&place).into_iter().flatten());
+        }
+    }
+    found
 }
 
 /// Whether some node behind an unconnected pin cannot do without its tokens.
 fn needs_token(builder: &Builder<'_>, out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> bool {
-    let mut ends = vec![pin];
-    let mut visited = BTreeSet::new();
-    while let Some(place) = ends.pop() {
-        match place {
-            Place::Port(end) => {
-                let port = &builder.nodes[end.node].ports[end.port];
-                if port.kind == PortKind::Input && !port.optional {
-                    return true;
-                }
-            }
-            Place::Pin(_) if visited.insert(place) => ends.extend(out_of.get(&place).into_iter().flatten()),
-            Place::Pin(_) => {}
+    places_behind(out_of, pin).into_iter().any(|place| match place {
+        Place::Port(end) => {
+            let port = &builder.nodes[end.node].ports[end.port];
+            port.kind == PortKind::Input && !port.optional
         }
-    }
-    false
+        Place::Pin(_) => false,
+    })
 }

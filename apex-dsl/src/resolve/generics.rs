@@ -1,28 +1,62 @@
 //! Type arguments that the text leaves to the connections.
 
+use super::value::Wanted;
 use crate::{
     catalog::{Catalog, Signature, Type},
     graph::{End, Graph, Library, NodeId, NodeKind, Port, TypeArg},
     report::{Diagnostic, Diagnostics},
-    syntax::tree::PortKind,
+    syntax::tree::{Expr, ExprKind, PortKind},
 };
 use std::collections::VecDeque;
 
 /// Finds the type arguments of all generic nodes, and gives the ports their types.
 pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     settle(graph, catalog);
+    // Of what is not known connections may be missing.
+    if diagnostics.has_errors() {
+        return;
+    }
+    fit_values(graph, catalog, diagnostics);
     for node in &graph.nodes {
         let NodeKind::Library(library) = &node.kind else { continue };
         let signature = &catalog.signatures[library.signature];
-        let open = signature.generics.iter().zip(&library.types).find(|(_, arg)| matches!(arg, TypeArg::Open));
-        // The type arguments of a function never have to be written: rustc sees the tokens.
-        if let Some((name, _)) = open.filter(|_| !signature.is_function) {
+        // Those of a function that its inputs mention never have to be written: rustc sees the tokens.
+        let is_seen = |name: &str| {
+            let inputs = signature.ports.iter().filter(|p| p.kind == PortKind::Input).map(|p| &p.ty);
+            let given = signature.params.iter().map(|p| &p.ty);
+            signature.is_function && inputs.chain(given).any(|ty| ty.may_mention(name))
+        };
+        let mut open = signature.generics.iter().zip(&library.types).filter(|(_, arg)| matches!(arg, TypeArg::Open));
+        if let Some((name, _)) = open.find(|(name, _)| !is_seen(name)) {
             let message = format!("`{name}` of `{}` cannot be known from the connections", signature.name);
             let arguments = vec!["…"; signature.generics.len()].join(", ");
             diagnostics.push(
                 Diagnostic::error("unknown-type", node.span, message)
                     .note(format!("write it: `{}<{arguments}>(…)`", signature.name)),
             );
+        }
+    }
+}
+
+/// Fits values to the types of parameters that are known only now.
+fn fit_values(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    for node in &mut graph.nodes {
+        let NodeKind::Library(library) = &mut node.kind else { continue };
+        let signature = &catalog.signatures[library.signature];
+        for (param, declared) in signature.params.iter().enumerate().filter(|(_, p)| p.ty.is_open()) {
+            let ty = declared.ty.substitute(&|name| known_argument(signature, &library.types, name));
+            let at = Expr { kind: ExprKind::Bool(false), span: node.span };
+            let wanted = Wanted {
+                name: &declared.name,
+                ty: &ty,
+                unit: declared.unit.as_deref(),
+                range: declared.range,
+                declared: format!("`{}` of `{}` is a `{ty}` here", declared.name, signature.name),
+            };
+            match wanted.fit(library.params[param].clone(), &at) {
+                Ok(value) => library.params[param] = value,
+                Err(error) => diagnostics.push_once(*error),
+            }
         }
     }
 }
@@ -88,6 +122,7 @@ fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[u
 /// What the connection between `mine`, whose type mentions `name`, and `other` says about `name`.
 fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<TypeArg> {
     let pattern = &graph.port(mine).ty;
+    let other = origin(graph, other);
     let known = match &graph.nodes[other.node].kind {
         NodeKind::Each(_) => Type::Unknown(String::new()),
         _ => graph.port(other).ty.clone(),
@@ -107,6 +142,17 @@ fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<Typ
     }
 }
 
+/// The port that the tokens of a port come from: what only holds them back has no types of its own.
+fn origin(graph: &Graph, mut end: End) -> End {
+    while matches!(graph.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay) && graph.port(end).kind.sends() {
+        match graph.incoming(End { node: end.node, port: 0 }) {
+            Some(connection) => end = connection.from,
+            None => break,
+        }
+    }
+    end
+}
+
 fn substitute(graph: &mut Graph, catalog: &Catalog) {
     for node in 0..graph.nodes.len() {
         substitute_node(graph, catalog, node);
@@ -124,15 +170,17 @@ pub fn substitute_ports(ports: &mut [Port], signature: &Signature, types: &[Type
     if signature.generics.is_empty() {
         return;
     }
-    let lookup = |name: &str| {
-        let index = signature.generics.iter().position(|g| g == name)?;
-        match &types[index] {
-            TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
-            TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => Some(Type::Unknown(name.to_owned())),
-            TypeArg::Open => None,
-        }
-    };
     for port in ports {
-        port.ty = port.ty.substitute(&lookup);
+        port.ty = port.ty.substitute(&|name| known_argument(signature, types, name));
+    }
+}
+
+/// The type that a type parameter stands for, as far as it is known.
+fn known_argument(signature: &Signature, types: &[TypeArg], name: &str) -> Option<Type> {
+    let index = signature.generics.iter().position(|g| g == name)?;
+    match types.get(index)? {
+        TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+        TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => Some(Type::Unknown(name.to_owned())),
+        TypeArg::Open => None,
     }
 }

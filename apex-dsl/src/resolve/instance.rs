@@ -1,11 +1,13 @@
 //! Makes instances: nodes of the catalog become nodes, nested graphs are opened in place.
 
 use super::{
-    Budget, MAX_NESTING, MAX_NODES, args,
+    Budget, MAX_NESTING, MAX_NODES,
+    args::{self, Origins},
     connect::{Symbol, Table, named_ports},
     flatten, generics,
     link::Link,
     names::{GraphId, Made, Texts},
+    types,
     value::Scope as Names,
 };
 use crate::{
@@ -15,7 +17,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{
-        GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr, TypeKind,
+        Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr, TypeKind,
     },
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,6 +33,10 @@ pub struct Builder<'a> {
     pub wires: Vec<Wire>,
     /// Inputs whose connection could not be made, which has been reported.
     pub excused: BTreeSet<Place>,
+    /// The names that no node or port of a graph has, which has been reported.
+    pub unknown: BTreeSet<(GraphId, String)>,
+    /// The initial tokens of delays, as the text has them.
+    pub delays: Vec<(graph::NodeId, Expr)>,
     pub claims: Vec<Claim>,
     /// The graphs that are being opened, outermost first.
     pub open: Vec<GraphId>,
@@ -57,16 +63,23 @@ pub struct Body<'a> {
     pub id: GraphId,
     pub scope: ScopeId,
     pub values: BTreeMap<String, Value>,
+    /// Where the values were given.
+    pub origins: Origins,
     pub item: &'a GraphItem,
     /// All `node.port` that a chain of the body ends at.
     pub fed: BTreeSet<(&'a str, &'a str)>,
 }
 
 impl<'a> Body<'a> {
-    fn new(id: GraphId, scope: ScopeId, values: BTreeMap<String, Value>, item: &'a GraphItem) -> Self {
+    fn new(
+        id: GraphId,
+        scope: ScopeId,
+        (values, origins): (BTreeMap<String, Value>, Origins),
+        item: &'a GraphItem,
+    ) -> Self {
         let mut fed = BTreeSet::new();
         item.chains.iter().flat_map(|c| &c.ends[1..]).for_each(|end| named_ports(end, &mut fed));
-        Self { id, scope, values, item, fed }
+        Self { id, scope, values, origins, item, fed }
     }
 }
 
@@ -102,6 +115,8 @@ impl<'a> Builder<'a> {
             pins: vec![],
             wires: vec![],
             excused: BTreeSet::new(),
+            unknown: BTreeSet::new(),
+            delays: vec![],
             claims: vec![],
             open,
             replaced: BTreeMap::new(),
@@ -119,7 +134,8 @@ impl<'a> Builder<'a> {
             Purpose::Body(values) => (Some(values), true),
             Purpose::Test(values) => (Some(values), false),
         };
-        let is_open = given.is_none() && item.params.iter().any(|p| p.default.is_none());
+        let needs_more = item.params.iter().any(|p| p.default.is_none()) || !item.generics.is_empty();
+        let is_open = given.is_none() && needs_more;
         if item.robot {
             for param in item.params.iter().filter(|p| p.default.is_none()) {
                 let message = format!(
@@ -148,7 +164,8 @@ impl<'a> Builder<'a> {
                 self.diagnostics,
             );
         }
-        self.body(&Body::new(id, 0, values.clone(), item), table);
+        let origins = args::origins(&item.params, &[], &Origins::new());
+        self.body(&Body::new(id, 0, (values.clone(), origins), item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
             let message = "a `robot` has no ports: nothing stands around it";
@@ -182,6 +199,8 @@ impl<'a> Builder<'a> {
             record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
+        super::lists::resolve(&mut graph, self.diagnostics);
+        super::wrap::fit_delays(&mut graph, &self.delays, self.diagnostics);
         // A statement that could not be read may make what is to be recorded.
         if is_program && !self.texts.are_broken() {
             graph.record = super::record::record(&graph, item, self.diagnostics);
@@ -290,7 +309,8 @@ impl<'a> Builder<'a> {
         let path = graph::path(&self.scopes, body.scope, Some(&node.name.text));
         let instance = *self.replaced.get(&path)?;
         let id = GraphId { file: 0, ..body.id };
-        let inside = Body { id, values: BTreeMap::new(), fed: body.fed.clone(), ..*body };
+        let fed = body.fed.clone();
+        let inside = Body { id, values: BTreeMap::new(), origins: Origins::new(), fed, ..*body };
         self.instance(&inside, &node.name, instance, &node.docs)
     }
 
@@ -299,7 +319,7 @@ impl<'a> Builder<'a> {
         let made = match self.texts.made(body.id.file, &instance.path, self.catalog) {
             Ok(made) => made,
             Err(error) => {
-                self.diagnostics.push(*error);
+                error.into_iter().for_each(|error| self.diagnostics.push(*error));
                 return None;
             }
         };
@@ -316,7 +336,10 @@ impl<'a> Builder<'a> {
             }
             (Made::Graph(id), Some(each)) => {
                 let values = self.graph_args(body, id, instance);
-                let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Purpose::Body(values)))?;
+                self.diagnostics.enter(&name.text);
+                let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Purpose::Body(values)));
+                self.diagnostics.leave();
+                let inner = inner?;
                 self.each(body, name, inner, each, instance, docs)?
             }
         };
@@ -326,12 +349,13 @@ impl<'a> Builder<'a> {
     fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
         let params = self.param_types(id);
         let texts = self.texts;
-        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
-        let scope = Names { params: &body.values, rust_path: &rust_path };
-        args::of_graph(
+        let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+        let scope = Names { params: &body.values, constant: &constant };
+        args::of_graph_inside(
             &self.texts.graph(id).name,
             &params,
             Some((&instance.args, &scope)),
+            &body.origins,
             instance.span,
             self.diagnostics,
         )
@@ -351,12 +375,13 @@ impl<'a> Builder<'a> {
             return None;
         }
         let texts = self.texts;
-        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
-        let scope = Names { params: &body.values, rust_path: &rust_path };
+        let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+        let scope = Names { params: &body.values, constant: &constant };
         let fed = |param: &str| body.fed.contains(&(name.text.as_str(), param));
-        let params = args::of_node(signature, &instance.args, instance.span, &scope, &fed, self.diagnostics);
+        let at = instance.span;
+        let params = args::of_node(signature, &instance.args, at, &scope, &body.origins, &fed, self.diagnostics);
         let types = self.type_args(body, signature.generics.len(), &instance.types, instance);
-        let modifiers = args::modifiers(&instance.modifiers, &scope, self.diagnostics);
+        let modifiers = args::modifiers(&instance.modifiers, &scope, &body.origins, self.diagnostics);
         if signature.process.is_none() && !signature.is_function && signature.ports.is_empty() {
             let message = format!("`{}` has neither `process` nor a slot", signature.name);
             let error = Diagnostic::error("no-process", instance.path.span, message).note(format!(
@@ -372,7 +397,7 @@ impl<'a> Builder<'a> {
         let docs = if docs.is_empty() { &signature.docs } else { docs };
         let node = self.node(name, body.scope, kind, ports, docs)?;
         self.nodes[node].modifiers = modifiers;
-        if self.catalog.machines.contains_key(&id) {
+        if self.texts.machines.contains_key(&id) {
             self.begin_machine(body, name.span, node)?;
         }
         Some(Symbol::of_node(node, &self.nodes[node]))
@@ -394,14 +419,8 @@ impl<'a> Builder<'a> {
             return vec![TypeArg::Open; count];
         }
         if given.len() != count {
-            let takes = match count {
-                0 => "no type arguments".to_owned(),
-                1 => "one type argument".to_owned(),
-                _ => format!("{count} type arguments"),
-            };
-            let message = format!("`{}` takes {takes}, not {}", instance.path.text(), given.len());
             let span = given.iter().fold(given[0].span, |all, ty| all.to(ty.span));
-            self.diagnostics.push(Diagnostic::error("type-arguments", span, message));
+            self.diagnostics.push(types::wrong_count(&instance.path, count, given.len(), span));
             return vec![TypeArg::Known(Type::Unknown(String::new())); count];
         }
         given
@@ -444,9 +463,9 @@ impl<'a> Builder<'a> {
                 let docs = if docs.is_empty() { &signature.docs } else { docs };
                 let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
                 let texts = self.texts;
-                let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
-                let scope = Names { params: &body.values, rust_path: &rust_path };
-                self.nodes[node].modifiers = args::modifiers(modifiers, &scope, self.diagnostics);
+                let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+                let scope = Names { params: &body.values, constant: &constant };
+                self.nodes[node].modifiers = args::modifiers(modifiers, &scope, &body.origins, self.diagnostics);
                 Some(Symbol::of_node(node, &self.nodes[node]))
             }
             Ok(_) => {
@@ -458,7 +477,7 @@ impl<'a> Builder<'a> {
                 None
             }
             Err(error) => {
-                self.diagnostics.push(*error);
+                error.into_iter().for_each(|error| self.diagnostics.push(*error));
                 None
             }
         }
@@ -506,7 +525,7 @@ impl<'a> Builder<'a> {
         });
         let scope = self.scopes.len() - 1;
         let mut inside = Table::new();
-        let mut symbol = vec![];
+        let mut symbol: Vec<(String, PortKind, Type, Place)> = vec![];
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             let (name, docs) = (port.name.text.clone(), port.docs.clone());
@@ -515,9 +534,15 @@ impl<'a> Builder<'a> {
             // What takes tokens outside sends them inside.
             let inner = port.kind.seen_from_inside();
             inside.insert(&port.name, Symbol::port(place, inner, &ty, &port.name.text), self.diagnostics);
-            symbol.push((port.name.text.clone(), port.kind, ty, place));
+            // One that is declared twice has been reported.
+            if symbol.iter().all(|(name, ..)| *name != port.name.text) {
+                symbol.push((port.name.text.clone(), port.kind, ty, place));
+            }
         }
-        self.body(&Body::new(id, scope, values, item), inside);
+        let origins = args::origins(&item.params, &instance.args, &body.origins);
+        self.diagnostics.enter(&name.text);
+        self.body(&Body::new(id, scope, (values, origins), item), inside);
+        self.diagnostics.leave();
         Some(Symbol::of_graph(scope, symbol))
     }
 

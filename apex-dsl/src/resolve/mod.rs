@@ -2,50 +2,42 @@
 
 mod args;
 mod claims;
+pub mod condition;
 mod connect;
 mod flatten;
 mod generics;
 mod instance;
 mod link;
+mod lists;
+mod machine;
 mod names;
 mod record;
 mod testing;
 mod threads;
+mod types;
+mod unknown;
 pub mod value;
 mod wrap;
 
 use crate::{
-    catalog::Catalog,
+    catalog::{Catalog, PRIMITIVES},
     graph::Graph,
     report::{Diagnostic, Diagnostics},
     script::Script,
     source::{FileId, Sources, World},
-    syntax::tree::{Endpoint, File, Instance, NodeBody},
+    syntax::tree::{File, GraphItem, Ident, NodeBody},
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use link::{Link, Side};
+pub use lists::token_type;
 pub use names::{GraphId, Made, Meaning, Texts, suggest};
+pub(crate) use unknown::{Known, everywhere, unknown};
 
 /// Most nodes, nested graphs and connections that one program may have, each.
 pub const MAX_NODES: usize = 50_000;
 /// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
 const MAX_LOOKS: usize = 1_000_000;
-/// What may be wrong only because a broken statement is not known.
-const UNCERTAIN: [&str; 10] = [
-    "unknown-port",
-    "open-input",
-    "open-output",
-    "unknown-name",
-    "no-state",
-    "unknown-state",
-    "never-entered",
-    "never-activated",
-    "never-leaves",
-    "never-fires",
-];
-/// What may be wrong only because a broken item is not known.
-const UNCERTAIN_OUTSIDE: [&str; 2] = ["unknown-node", "unknown-import"];
 /// Most claims of one program.
 const MAX_CLAIMS: usize = 256;
 /// How deep graphs nest in each other.
@@ -72,8 +64,6 @@ pub struct Resolved {
     pub nested: Vec<Graph>,
     /// The connections of the graphs of the first text, as written.
     pub links: Vec<Link>,
-    /// Whether a text has statements or items that could not be read.
-    pub broken: bool,
     /// The tests of the first text: the graph that is tested, and what is done with it.
     pub tests: Vec<(Graph, Script)>,
 }
@@ -88,6 +78,7 @@ pub fn resolve(
 ) -> Resolved {
     let texts = Texts::load(root, catalog, sources, world, diagnostics);
     let broken = texts.are_broken();
+    types::check(&texts, catalog, diagnostics);
     let used = used(&texts.files[0].1);
     let (mut graphs, mut nested, mut links) = (vec![], vec![], vec![]);
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
@@ -101,11 +92,18 @@ pub fn resolve(
         let group = if is_nested { &mut nested } else { &mut graphs };
         group.extend(resolved);
     }
-    generated_names(&texts.files[0].1, &used, diagnostics);
+    generated_names(&texts.files[0].1, &used, catalog, diagnostics);
     let mut tests = vec![];
+    test_names(&texts.files[0].1, diagnostics);
     for test in &texts.files[0].1.tests {
         if budget.exceeded || broken {
             break;
+        }
+        // What has no name that is certain can be neither fed nor expected.
+        let graph = texts.files[0].1.graphs.iter().find(|graph| test.graph.text() == graph.name.text);
+        let mut ports = graph.into_iter().flat_map(|graph| &graph.ports);
+        if ports.any(|port| diagnostics.has_errors_in(port.name.span)) {
+            continue;
         }
         tests.extend(testing::test(&texts, catalog, test, sources, &mut budget, diagnostics));
     }
@@ -116,55 +114,69 @@ pub fn resolve(
                 .note("a smallest graph is `graph Name { }`"),
         );
     }
-    Resolved { texts, graphs, nested, broken, links, tests }
+    Resolved { texts, graphs, nested, links, tests }
 }
 
-/// What the types are called that belong to the program of a graph, behind its name.
-const GENERATED: [&str; 6] = ["Nodes", "State", "Inputs", "Outputs", "Parts", "Events"];
+/// Reports tests with the name of another one.
+fn test_names(file: &File, diagnostics: &mut Diagnostics) {
+    let mut known: BTreeMap<&str, &Ident> = BTreeMap::new();
+    for name in file.tests.iter().map(|test| &test.name) {
+        if let Some(first) = known.get(name.text.as_str()) {
+            let message = format!("there is another test `{}`", name.text);
+            let error = Diagnostic::error("duplicate-name", name.span, message);
+            diagnostics.push(error.also(first.span, "first defined here"));
+        } else {
+            known.insert(&name.text, name);
+        }
+    }
+}
 
-/// Reports graphs and machines that have the name of a type that belongs to another one's program.
-fn generated_names(file: &File, used: &BTreeSet<&str>, diagnostics: &mut Diagnostics) {
-    let programs = || file.graphs.iter().map(|g| &g.name).filter(|name| !used.contains(name.text.as_str()));
-    let made = || programs().chain(file.machines.iter().map(|m| &m.name));
-    for owner in programs() {
-        let is_type = |name: &str| name.strip_prefix(&owner.text).is_some_and(|suffix| GENERATED.contains(&suffix));
-        for name in made().filter(|name| is_type(&name.text)) {
-            let message = format!("`{}` is the name of a type that belongs to `{}` in Rust", name.text, owner.text);
-            let error = Diagnostic::error("duplicate-name", name.span, message).also(owner.span, "this graph");
+/// Names that every Rust module knows, and those of `apex_rt::prelude` that signatures of nodes have: one of a text would hide
+/// them from the Rust beside it.
+#[rustfmt::skip]
+const OF_RUST: [&str; 38] = [
+    "AsMut", "AsRef", "Box", "Clone", "Copy", "Debug", "Default", "Drop", "Eq", "Err", "Extend",
+    "Fn", "FnMut", "FnOnce", "From", "Hash", "Into", "IntoIterator", "Iterator", "None", "Ok", "Option",
+    "Ord", "PartialEq", "PartialOrd", "Result", "Send", "Sized", "Some", "String", "Sync", "ToOwned", "ToString",
+    "Vec",
+    "Ctx", "Event", "Out", "Outputs",
+];
+
+/// Reports graphs and machines whose names in Rust are taken: by Rust itself, or by what belongs to another one of the text.
+fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let graphs = || file.graphs.iter().filter(|graph| !used.contains(graph.name.text.as_str()));
+    let made = || graphs().map(|g| &g.name).chain(file.machines.iter().map(|m| &m.name));
+    for name in made().filter(|name| OF_RUST.contains(&name.text.as_str()) || PRIMITIVES.contains(&name.text.as_str()))
+    {
+        let message = format!("`{}` is a name that Rust itself uses everywhere", name.text);
+        diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("choose another name"));
+    }
+    for name in made().filter(|name| catalog.is_extern(&name.text)) {
+        let message = format!("`{}` is the name of a crate, which Rust would find no more", name.text);
+        diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("choose another name"));
+    }
+    let has_parts = |graph: &&GraphItem| graph.nodes.iter().any(|node| matches!(node.body, NodeBody::HandedIn(..)));
+    let by_name = |name: &'_ Ident| name.text.clone();
+    let parts: BTreeMap<String, &Ident> =
+        graphs().filter(has_parts).map(|graph| (by_name(&graph.name), &graph.name)).collect();
+    let states: BTreeMap<String, &Ident> = file.machines.iter().map(|m| (by_name(&m.name), &m.name)).collect();
+    for name in made() {
+        let of = |owners: &BTreeMap<String, &'_ Ident>, suffix: &str| {
+            name.text
+                .strip_suffix(suffix)
+                .and_then(|owner| owners.get(owner))
+                .map(|owner| (owner.text.clone(), owner.span))
+        };
+        if let Some((owner, span)) = of(&parts, "Parts").or_else(|| of(&states, "State")) {
+            let message = format!("`{}` is the name of a type that belongs to `{owner}` in Rust", name.text);
+            let error = Diagnostic::error("duplicate-name", name.span, message).also(span, "this one");
             diagnostics.push(error.note("give one of the two another name"));
         }
     }
 }
 
-impl Resolved {
-    /// Takes back what may be a false alarm because something that could not be read is not known.
-    pub fn retain_certain(texts: &Texts, diagnostics: &mut Diagnostics) {
-        let items = texts.files.iter().any(|(_, file)| file.broken_items);
-        let uncertain = |code| UNCERTAIN.contains(&code) || (items && UNCERTAIN_OUTSIDE.contains(&code));
-        diagnostics.retain(|d| !uncertain(d.code));
-    }
-}
-
 /// The names of all graphs and nodes that the graphs of a text have instances of.
 fn used(file: &File) -> BTreeSet<&str> {
-    fn in_end<'a>(end: &'a Endpoint, found: &mut Vec<&'a Instance>) {
-        match end {
-            Endpoint::Instance(instance) => found.push(instance),
-            Endpoint::List(ends, _) => ends.iter().for_each(|e| in_end(e, found)),
-            Endpoint::Port(_) => {}
-        }
-    }
-    let mut instances = vec![];
-    for graph in &file.graphs {
-        instances.extend(graph.nodes.iter().filter_map(|n| match &n.body {
-            NodeBody::Instance(instance) => Some(instance),
-            NodeBody::HandedIn(..) => None,
-        }));
-        graph.chains.iter().flat_map(|c| &c.ends).for_each(|end| in_end(end, &mut instances));
-    }
-    let names = instances.iter().filter_map(|i| match i.path.segments.as_slice() {
-        [name] => Some(name.text.as_str()),
-        _ => None,
-    });
-    names.collect()
+    let paths = file.graphs.iter().flat_map(|g| g.instances()).map(|i| i.path.segments.as_slice());
+    paths.filter_map(|path| if let [name] = path { Some(name.text.as_str()) } else { None }).collect()
 }

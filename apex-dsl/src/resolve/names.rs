@@ -1,8 +1,8 @@
 //! Which texts belong to a program, and what the names in each of them mean.
 
 use crate::{
-    catalog::{Catalog, DefId, SignatureId, Ty, Type},
-    machine,
+    catalog::{Catalog, Constant, DefId, Signature, SignatureId, Ty, Type},
+    machine::{Machine, Machines},
     report::{Diagnostic, Diagnostics, nearest},
     source::{FileId, Sources, Span, World},
     syntax::{
@@ -15,7 +15,10 @@ use std::{
     path::PathBuf,
 };
 
-use super::value::Scope;
+use super::{
+    unknown::{Known, everywhere, unknown},
+    value::Scope,
+};
 
 /// More texts than one program is made of.
 const MAX_FILES: usize = 256;
@@ -34,9 +37,13 @@ pub struct Texts {
     /// The texts; the first is the one that was asked for.
     pub files: Vec<(FileId, File)>,
     names: Vec<BTreeMap<String, Meaning>>,
-    /// The state machines of each text, as nodes of the catalog.
-    machines: Vec<Vec<SignatureId>>,
+    /// The state machines.
+    pub machines: Machines,
+    /// The nodes of the catalog that the state machines of each text are.
+    machine_nodes: Vec<Vec<SignatureId>>,
     unreadable: BTreeSet<PathBuf>,
+    /// The names in each text that mean nothing or several things, which has been reported.
+    unclear: Vec<BTreeSet<String>>,
 }
 
 /// What a name in a text means.
@@ -68,9 +75,10 @@ impl Texts {
         world: &mut dyn World,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut texts = Self { files: vec![], names: vec![], machines: vec![], unreadable: BTreeSet::new() };
-        let tree = syntax::parse(root, &sources.get(root).text.clone(), diagnostics);
-        texts.files.push((root, tree));
+        let (files, names, machine_nodes, unclear) = (vec![], vec![], vec![], vec![]);
+        let machines = Machines::new();
+        let mut texts = Self { files, names, machines, machine_nodes, unreadable: BTreeSet::new(), unclear };
+        texts.parse(root, &sources.get(root).text.clone(), diagnostics);
         let mut at = 0;
         while at < texts.files.len() {
             texts.imports(at, catalog, sources, world, diagnostics);
@@ -80,11 +88,12 @@ impl Texts {
         for file in 0..texts.files.len() {
             let count = texts.files[file].1.machines.len();
             let first = catalog.reserve_machines(count);
-            texts.machines.push((first..first + count).collect());
+            texts.machine_nodes.push((first..first + count).collect());
         }
         for file in 0..texts.files.len() {
-            let names = texts.names_of(file, catalog, sources, diagnostics);
+            let (names, unclear) = texts.names_of(file, catalog, sources, diagnostics);
             texts.names.push(names);
+            texts.unclear.push(unclear);
         }
         for file in 0..texts.files.len() {
             texts.resolve_machines(file, catalog, sources, diagnostics);
@@ -92,20 +101,39 @@ impl Texts {
         texts
     }
 
-    fn resolve_machines(&self, file: usize, catalog: &mut Catalog, sources: &Sources, diagnostics: &mut Diagnostics) {
+    fn parse(&mut self, file: FileId, text: &str, diagnostics: &mut Diagnostics) {
+        let tree = syntax::parse(file, text, diagnostics);
+        diagnostics.add_items(tree.extents());
+        self.files.push((file, tree));
+    }
+
+    fn resolve_machines(
+        &mut self,
+        file: usize,
+        catalog: &mut Catalog,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let mut machines = vec![];
         let (file_id, tree) = &self.files[file];
-        for (item, &signature) in tree.machines.iter().zip(&self.machines[file]) {
-            let rust_path = |path: &PathExpr| self.rust_path(file, path);
-            let scope = Scope { params: &BTreeMap::new(), rust_path: &rust_path };
+        for (item, &signature) in tree.machines.iter().zip(&self.machine_nodes[file]) {
+            let constant = |path: &PathExpr| self.constant(file, path, catalog);
+            let scope = Scope { params: &BTreeMap::new(), constant: &constant };
             let ty = |port: &PortItem| match &port.ty {
                 Some(ty) => catalog.type_in_text(&self.ty(file, ty), &[]),
                 None => Type::unit(),
             };
-            if let Some(machine) = machine::resolve(item, &ty, &scope, diagnostics) {
+            if let Some(machine) = super::machine::resolve(item, &ty, &scope, diagnostics) {
                 let place = (sources.get(*file_id).path.clone(), sources.line_column(*file_id, item.name.span.start).0);
-                catalog.add_machine(signature, machine, place);
+                // Machines of two texts may have one name.
+                let number = if file == 0 { String::new() } else { file.to_string() };
+                let module = format!("fsm{number}_{}", machine.name);
+                let machine = Machine { module, is_own: file == 0, ..machine };
+                catalog.add_machine(signature, machine.signature(place));
+                machines.push((signature, machine));
             }
         }
+        self.machines.extend(machines);
     }
 
     /// Reads the sibling texts that text `at` imports from.
@@ -141,7 +169,7 @@ impl Texts {
             match world.read(&path) {
                 Ok(text) => {
                     let file = sources.add(path, text.clone());
-                    self.files.push((file, syntax::parse(file, &text, diagnostics)));
+                    self.parse(file, &text, diagnostics);
                 }
                 Err(reason) => {
                     let message = format!("cannot read `{}.afg`: {reason}", module.text);
@@ -152,24 +180,34 @@ impl Texts {
         }
     }
 
+    /// The names that text `file` declares and imports, and those of them that are not clear.
     fn names_of(
         &self,
         file: usize,
         catalog: &Catalog,
         sources: &Sources,
         diagnostics: &mut Diagnostics,
-    ) -> BTreeMap<String, Meaning> {
+    ) -> (BTreeMap<String, Meaning>, BTreeSet<String>) {
         let mut names: BTreeMap<String, Meaning> = BTreeMap::new();
+        let mut unclear = BTreeSet::new();
         let mut places: BTreeMap<String, &Ident> = BTreeMap::new();
         let tree = &self.files[file].1;
-        let imports = tree
-            .uses
-            .iter()
-            .filter_map(|u| Some((&u.name, self.import(file, &u.path, catalog, sources, diagnostics)?)));
-        let imports: Vec<(&Ident, Meaning)> = imports.collect();
+        let mut imports: Vec<(&Ident, Meaning)> = vec![];
+        for u in &tree.uses {
+            match self.import(file, &u.path, catalog, sources) {
+                Ok(meaning) => imports.push((&u.name, meaning)),
+                Err(error) => {
+                    unclear.insert(u.name.text.clone());
+                    // Who misspells an import spells the name well where it is used, or the other way round.
+                    let meant = error.iter().flat_map(|error| &error.fixes).map(|fix| fix.replacement.clone());
+                    unclear.extend(meant);
+                    error.into_iter().for_each(|error| diagnostics.push(*error));
+                }
+            }
+        }
         let graphs =
             tree.graphs.iter().enumerate().map(|(graph, item)| (&item.name, Meaning::Graph(GraphId { file, graph })));
-        let machines = tree.machines.iter().zip(&self.machines[file]);
+        let machines = tree.machines.iter().zip(&self.machine_nodes[file]);
         let machines = machines.map(|(item, signature)| (&item.name, Meaning::Machine(*signature)));
         for (name, meaning) in imports.into_iter().chain(graphs).chain(machines) {
             if let Some(first) = places.insert(name.text.clone(), name) {
@@ -177,59 +215,59 @@ impl Texts {
                 diagnostics.push(
                     Diagnostic::error("duplicate-name", name.span, message).also(first.span, "first defined here"),
                 );
+                unclear.insert(name.text.clone());
             }
             names.insert(name.text.clone(), meaning);
         }
-        names
+        (names, unclear)
     }
 
+    /// What an import means; if nothing, an error, unless another one says why.
     fn import(
         &self,
         file: usize,
         path: &[Ident],
         catalog: &Catalog,
         sources: &Sources,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Meaning> {
+    ) -> Result<Meaning, Option<Box<Diagnostic>>> {
         let words: Vec<String> = path.iter().map(|s| s.text.clone()).collect();
-        let (first, last) = (path.first()?, path.last()?);
+        let (Some(first), Some(last)) = (path.first(), path.last()) else { return Err(None) };
         if catalog.is_crate(&first.text) {
-            if catalog.nodes(&words).is_empty() && catalog.types(&words).is_empty() {
-                diagnostics.push(unknown_import(&words, last, catalog));
-                return None;
+            let is_constant = || matches!(catalog.constant(&words), Constant::Known(..) | Constant::Hidden(_));
+            if catalog.nodes(&words).is_empty() && catalog.types(&words).is_empty() && !is_constant() {
+                return Err(Some(Box::new(unknown_import(&words, last, catalog))));
             }
-            return Some(Meaning::Rust(words));
+            return Ok(Meaning::Rust(words));
         }
         if catalog.is_extern(&first.text) {
-            return Some(Meaning::Rust(words));
+            return Ok(Meaning::Rust(words));
         }
-        let sibling = sources.get(self.files[file].0).path.parent().map(|p| p.join(format!("{}.afg", first.text)))?;
+        let folder = sources.get(self.files[file].0).path.parent().map(std::path::Path::to_owned).unwrap_or_default();
+        let sibling = folder.join(format!("{}.afg", first.text));
         if self.unreadable.contains(&sibling) {
-            return None;
+            return Err(None);
         }
         let found = self.files.iter().position(|(id, _)| sources.get(*id).path == sibling).filter(|_| path.len() == 2);
-        let Some(other) = found else {
-            let message = format!("there is no crate and no text `{}`", first.text);
-            let diagnostic = Diagnostic::error("unknown-import", first.span, message)
-                .note(format!("an import names a crate that depends on `apex-rt`, `crate` for this package, or a text beside this one (`{}.afg`)", first.text));
-            diagnostics.push(diagnostic);
-            return None;
-        };
-        let machines = &self.files[other].1.machines;
-        if let Some(machine) = machines.iter().position(|m| m.name.text == last.text) {
-            return Some(Meaning::Machine(self.machines[other][machine]));
+        let Some(other) = found else { return Err(Some(Box::new(unknown_crate(first, catalog)))) };
+        self.import_item(other, first, last)
+    }
+
+    /// The graph or state machine `name` of text `other`, which is imported from as `module`.
+    fn import_item(&self, other: usize, module: &Ident, name: &Ident) -> Result<Meaning, Option<Box<Diagnostic>>> {
+        let tree = &self.files[other].1;
+        if let Some(machine) = tree.machines.iter().position(|m| m.name.text == name.text) {
+            return Ok(Meaning::Machine(self.machine_nodes[other][machine]));
         }
-        let graphs = &self.files[other].1.graphs;
-        let graph = graphs.iter().position(|g| g.name.text == last.text);
-        if graph.is_none() && !self.files[other].1.broken {
-            let message = format!("`{}.afg` has no graph `{}`", first.text, last.text);
-            diagnostics.push(suggest(
-                Diagnostic::error("unknown-import", last.span, message),
-                last,
-                graphs.iter().map(|g| g.name.text.as_str()),
-            ));
+        if let Some(graph) = tree.graphs.iter().position(|g| g.name.text == name.text) {
+            return Ok(Meaning::Graph(GraphId { file: other, graph }));
         }
-        Some(Meaning::Graph(GraphId { file: other, graph: graph? }))
+        if tree.broken {
+            return Err(None);
+        }
+        let message = format!("`{}.afg` has no graph `{}`", module.text, name.text);
+        let known = tree.graphs.iter().map(|g| &g.name).chain(tree.machines.iter().map(|m| &m.name));
+        let error = Diagnostic::error("unknown-import", name.span, message);
+        Err(Some(Box::new(suggest(error, name, known.map(|name| name.text.as_str())))))
     }
 
     /// Whether one of them has statements or items that could not be read.
@@ -249,8 +287,9 @@ impl Texts {
 
     /// The text and the number in it of a state machine.
     pub fn machine(&self, signature: SignatureId) -> Option<(usize, usize)> {
-        let find = |machines: &Vec<SignatureId>| machines.iter().position(|m| *m == signature);
-        self.machines.iter().enumerate().find_map(|(file, machines)| Some((file, find(machines)?)))
+        // Those of one text have been numbered one after the other.
+        let find = |machines: &Vec<SignatureId>| machines.binary_search(&signature).ok();
+        self.machine_nodes.iter().enumerate().find_map(|(file, machines)| Some((file, find(machines)?)))
     }
 
     /// The number of a text.
@@ -267,8 +306,16 @@ impl Texts {
         }
     }
 
-    /// What stands behind the path of an instance.
-    pub fn made(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Result<Made, Box<Diagnostic>> {
+    /// Whether nobody knows what a path in text `file` stands for, which has been reported.
+    pub fn is_unclear(&self, file: usize, path: &PathExpr) -> bool {
+        path.segments.first().is_some_and(|first| self.unclear[file].contains(&first.text))
+    }
+
+    /// What stands behind the path of an instance; if nothing, an error, unless it has been reported why.
+    pub fn made(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Result<Made, Option<Box<Diagnostic>>> {
+        if self.is_unclear(file, path) {
+            return Err(None);
+        }
         if let [name] = path.segments.as_slice() {
             match self.names[file].get(&name.text) {
                 Some(Meaning::Graph(id)) => return Ok(Made::Graph(*id)),
@@ -278,8 +325,11 @@ impl Texts {
         }
         let full = self.full_path(file, path);
         match catalog.nodes(&full).as_slice() {
+            [one] if catalog.signatures[*one].path.is_empty() => {
+                Err(Some(Box::new(hidden_node(path, &catalog.signatures[*one]))))
+            }
             [one] => Ok(Made::Node(*one)),
-            [] => Err(Box::new(self.unknown_node(file, path, &full, catalog))),
+            [] => Err(Some(Box::new(self.unknown_node(file, path, &full, catalog)))),
             several => {
                 let message = format!("`{}` is the name of several nodes", path.text());
                 let error =
@@ -287,12 +337,12 @@ impl Texts {
                         let signature = &catalog.signatures[*id];
                         error.note(format!(
                             "`{}`, declared at {}:{}",
-                            signature.path.join("::"),
+                            catalog.written(&signature.path).join("::"),
                             signature.file.display(),
                             signature.line
                         ))
                     });
-                Err(Box::new(error.note("import the one that is meant: `use path::Name;`")))
+                Err(Some(Box::new(error.note("import the one that is meant: `use path::Name;`"))))
             }
         }
     }
@@ -301,14 +351,24 @@ impl Texts {
         let Some(last) = path.segments.last() else {
             return Diagnostic::error("unknown-node", path.span, "a node or graph is missing here");
         };
+        if let Some((reason, file, line)) = catalog.refused(&last.text) {
+            let message = format!("`{}` is marked `#[node]`, but is not one", path.text());
+            let error = Diagnostic::error("unknown-node", path.span, message);
+            return error.note(format!("declared at {}:{line}: {reason}", file.display()));
+        }
         let message = format!("there is no node or graph `{}`", path.text());
-        let mut error = Diagnostic::error("unknown-node", path.span, message);
+        let uses = self.uses_of(file, path);
+        // What is not known at all is missing once, however often it is used.
+        let mut error = everywhere("unknown-node", message.clone(), path.span, &uses);
         if !catalog.types(full).is_empty() {
             return error.note(format!("`{}` is a type, but not marked `#[node]`", path.text()));
         }
         let in_text = self.names[file].keys().map(String::as_str);
-        let own =
-            catalog.signatures.iter().filter(|s| s.path.first().is_some_and(|p| p == "crate")).map(|s| s.name.as_str());
+        let own = catalog
+            .signatures
+            .iter()
+            .filter(|s| catalog.written(&s.path).first().is_some_and(|p| p == "crate"))
+            .map(|s| s.name.as_str());
         let elsewhere: Vec<&_> = catalog.signatures.iter().filter(|s| s.name == last.text).collect();
         if !elsewhere.is_empty() {
             return elsewhere.iter().take(4).fold(error, |error, signature| {
@@ -317,7 +377,7 @@ impl Texts {
                     return error
                         .note(format!("the one at {place} cannot be named here: it needs `pub` and a `pub use`"));
                 }
-                let import = signature.path.join("::");
+                let import = catalog.written(&signature.path).join("::");
                 let import = import.trim_start_matches("::");
                 let at = self.files[file].1.imports_at.unwrap_or_default();
                 let (title, at) = (format!("import `{import}`"), Span::new(self.files[file].0, at, at));
@@ -325,8 +385,12 @@ impl Texts {
                 if elsewhere.len() == 1 { error.fix(title, at, text) } else { error.guess(title, at, text) }
             });
         }
-        error = suggest(error, last, in_text.chain(own));
-        if error.fixes.is_empty() {
+        let used = self.paths(file).filter_map(|path| path.segments.first()).map(|name| name.text.as_str()).collect();
+        let known = in_text.map(|name| self.known(file, name, &used)).chain(own.map(Known::elsewhere));
+        let known: Vec<Known<'_>> = known.collect();
+        if let Some(misspelt) = unknown("unknown-node", message, last, &uses, &known) {
+            error = misspelt;
+        } else {
             let all = catalog.signatures.iter().map(|s| s.name.as_str());
             if let Some(near) = nearest(&last.text, all) {
                 error = error.note(format!("there is a node with a similar name, `{near}`, that is not imported here"));
@@ -342,6 +406,35 @@ impl Texts {
         error
     }
 
+    /// A name of text `file` that an instance may mean; `used` are those that some do.
+    fn known<'a>(&'a self, file: usize, name: &'a str, used: &BTreeSet<&str>) -> Known<'a> {
+        let tree = &self.files[file].1;
+        let declared = match self.names[file].get(name) {
+            Some(Meaning::Graph(id)) if id.file == file => Some(self.graph(*id).name.span),
+            Some(Meaning::Machine(_)) => tree.machines.iter().find(|m| m.name.text == name).map(|m| m.name.span),
+            _ => None,
+        };
+        Known { name, declared, used: used.contains(name) }
+    }
+
+    /// The places in text `file` where a node or graph is called as `path` is.
+    fn uses_of(&self, file: usize, path: &PathExpr) -> Vec<Span> {
+        let text = path.text();
+        let mut uses: Vec<Span> = self.paths(file).filter(|p| p.text() == text).map(|p| p.span).collect();
+        if !uses.contains(&path.span) {
+            uses.push(path.span);
+        }
+        uses.sort_unstable();
+        uses
+    }
+
+    /// The paths of all nodes and graphs that text `file` uses.
+    fn paths(&self, file: usize) -> impl Iterator<Item = &PathExpr> {
+        let tree = &self.files[file].1;
+        let of_instances = tree.graphs.iter().flat_map(|graph| graph.instances()).map(|instance| &instance.path);
+        of_instances.chain(tree.tests.iter().map(|test| &test.graph))
+    }
+
     /// A type as written in a text, for the catalog, and spelled for generated code.
     pub fn ty(&self, file: usize, ty: &TypeExpr) -> Ty {
         match &ty.kind {
@@ -354,12 +447,20 @@ impl Texts {
         }
     }
 
-    /// The path of a constant of Rust.
-    pub fn rust_path(&self, file: usize, path: &PathExpr) -> Option<Vec<String>> {
+    /// The constant of Rust that a path names; nothing if it is a name of the text.
+    pub fn constant(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Option<Constant> {
         let known =
             path.segments.first().is_some_and(|s| matches!(self.names[file].get(&s.text), Some(Meaning::Rust(_))));
-        (known || path.segments.len() > 1).then(|| self.full_path(file, path))
+        (known || path.segments.len() > 1).then(|| catalog.constant(&self.full_path(file, path)))
     }
+}
+
+/// A node that generated code cannot name.
+fn hidden_node(path: &PathExpr, signature: &Signature) -> Diagnostic {
+    let message = format!("the program cannot name the node `{}`", path.text());
+    let (file, line) = (signature.file.display(), signature.line);
+    Diagnostic::error("unknown-node", path.span, message)
+        .note(format!("declared at {file}:{line}; it needs `pub`, and so do the modules around it, or a `pub use`"))
 }
 
 /// Adds the nearest of `candidates` as a fix for `word`.
@@ -370,6 +471,20 @@ pub fn suggest<'a>(error: Diagnostic, word: &Ident, candidates: impl Iterator<It
     }
 }
 
+/// What to say of an import whose first word is no crate and no text.
+fn unknown_crate(first: &Ident, catalog: &Catalog) -> Diagnostic {
+    let message = format!("there is no crate and no text `{}`", first.text);
+    let note = format!(
+        "an import names a crate that depends on `apex-rt`, `crate` for this package, or a text beside this one (`{}.afg`)",
+        first.text
+    );
+    suggest(
+        Diagnostic::error("unknown-import", first.span, message).note(note),
+        first,
+        catalog.crate_names().into_iter(),
+    )
+}
+
 fn unknown_import(words: &[String], last: &Ident, catalog: &Catalog) -> Diagnostic {
     let parent = &words[..words.len() - 1];
     let message = format!("`{}` has no node or type `{}`", parent.join("::"), last.text);
@@ -377,7 +492,7 @@ fn unknown_import(words: &[String], last: &Ident, catalog: &Catalog) -> Diagnost
         suggest(Diagnostic::error("unknown-import", last.span, message), last, catalog.names_in(parent).into_iter());
     let elsewhere: Vec<DefId> = catalog.find(&last.text);
     for def in elsewhere.into_iter().filter_map(|def| catalog.path(def)).take(3) {
-        error = error.note(format!("there is `{}`", def.join("::").trim_start_matches("::")));
+        error = error.note(format!("there is `{}`", catalog.written(def).join("::")));
     }
     let names: Vec<&str> = words.iter().map(String::as_str).collect();
     error = catalog.left_out(&names[1..]).into_iter().fold(error, Diagnostic::note);

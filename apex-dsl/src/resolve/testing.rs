@@ -3,14 +3,15 @@
 
 use super::{
     args,
+    condition::Conditions,
     instance::{Builder, Purpose},
     names::{GraphId, Made, Texts, suggest},
     record::sending_port,
-    value::{Scope, Wanted, as_rust, duration, element_of, evaluate},
+    value::{Scope, Wanted, duration, element_of, evaluate},
 };
 use crate::{
     catalog::{Catalog, Type},
-    graph::{Connection, End, Graph, NodeId, NodeKind, Port, Subject, Value},
+    graph::{Connection, End, Graph, Modifiers, NodeId, NodeKind, Port, Subject, Value},
     report::{Diagnostic, Diagnostics},
     script::{Script, Seen, Step, Until, What},
     source::{Sources, Span},
@@ -36,17 +37,27 @@ pub fn test(
             return None;
         }
         Err(error) => {
-            diagnostics.push(*error);
+            error.into_iter().for_each(|error| diagnostics.push(*error));
             return None;
         }
     };
-    let rust_path = |path: &PathExpr| texts.rust_path(0, path);
-    let scope = Scope { params: &BTreeMap::new(), rust_path: &rust_path };
+    if let Some(generic) = texts.graph(id).generics.first() {
+        let message = format!(
+            "`{}` leaves the type `{}` open: a test needs a graph whose types are known",
+            item.graph.text(),
+            generic.text
+        );
+        let note = "write a graph around it, with ports that have types";
+        diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
+        return None;
+    }
+    let constant = |path: &PathExpr| texts.constant(0, path, catalog);
+    let scope = Scope { params: &BTreeMap::new(), constant: &constant };
     let values = arguments(texts, catalog, item, id, &scope, diagnostics);
     let mut builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
     builder.replaced = item.replaced.iter().map(|(of, instance)| (of.text(), instance)).collect();
     let mut graph = builder.top(id, Purpose::Test(values))?;
-    graph.name = format!("{}Test", crate::codegen::camel(&item.name.text));
+    graph.name = format!("{}Test", crate::graph::camel(&item.name.text));
     graph.robot = false;
     let mut writer = Writer { graph: &mut graph, scope: &scope, sources, diagnostics };
     writer.check_replaced(item);
@@ -205,10 +216,10 @@ impl Writer<'_> {
             let test = match &condition.compare {
                 None => None,
                 Some((operator, value)) => {
-                    let span = value.span;
-                    let value = self.value(value)?;
-                    match as_rust(value, Some(&ty), span) {
-                        Ok(value) => Some(format!("*token {operator} {value}")),
+                    let name = condition.of.text();
+                    let conditions = Conditions { name: &name, token: "", ty: &ty, scope: self.scope };
+                    match conditions.comparison(operator, value) {
+                        Ok(condition) => Some(condition),
                         Err(error) => {
                             self.diagnostics.push(*error);
                             return None;
@@ -263,8 +274,9 @@ impl Writer<'_> {
             name,
             scope: 0,
             kind: NodeKind::Probe,
-            ports: vec![Port::new("probe", PortKind::Slot, ty.clone())],
-            modifiers: Default::default(),
+            ports: vec![Port::new("probe", probe_kind(self.graph.port(from).kind), ty.clone())],
+            // Nothing between two threads stands between a port and those who look at it.
+            modifiers: Modifiers { group: Some(self.graph.group(from.node).to_owned()), ..Modifiers::default() },
             span: of.span,
             docs: String::new(),
             starts_active: false,
@@ -283,6 +295,11 @@ impl Writer<'_> {
         });
         Some((to.node, ty))
     }
+}
+
+/// How a test looks at a port: at an output as a node behind it does, which takes what each firing sends.
+fn probe_kind(port: PortKind) -> PortKind {
+    if port == PortKind::Output { PortKind::Input } else { PortKind::Slot }
 }
 
 /// Whether `path` is the node that is meant, or in the nested graph that is meant.

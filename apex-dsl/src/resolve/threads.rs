@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     graph::{self, MAIN_GROUP, Scope, ThreadSettings, Value},
-    report::Diagnostic,
+    report::{Diagnostic, nearest},
     source::Span,
     syntax::tree::{Expr, ExprKind, GraphItem, Ident, PathExpr, ThreadItem},
 };
@@ -26,7 +26,7 @@ impl Builder<'_> {
                 let error = Diagnostic::error("threads", thread.name.span, message);
                 self.diagnostics.push(error.note(format!("write `robot {}` instead of `graph`", item.name.text)));
             }
-            self.check_group(thread, found.iter().any(|t| t.group == thread.name.text));
+            self.check_group(thread, item, found.iter().any(|t| t.group == thread.name.text));
             let mut settings = ThreadSettings { group: thread.name.text.clone(), ..ThreadSettings::default() };
             for (name, value) in &thread.settings {
                 if let Err(error) = self.set(id, values, &mut settings, name, value) {
@@ -35,11 +35,33 @@ impl Builder<'_> {
             }
             found.push(settings);
         }
+        self.check_groups(item);
         found
     }
 
+    /// A group that one node is in, and that no `thread` statement describes, may be meant for one that is described.
+    fn check_groups(&mut self, item: &GraphItem) {
+        let described = || item.threads.iter().map(|thread| thread.name.text.as_str());
+        let groups = item.groups();
+        for group in &groups {
+            let name = group.text.as_str();
+            let is_single = groups.iter().filter(|other| other.text == name).count() == 1;
+            if !is_single || name == MAIN_GROUP || described().any(|thread| thread == name) {
+                continue;
+            }
+            // Groups that are numbered are alike on purpose.
+            let letters = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
+            let near = nearest(name, described()).filter(|near| letters(near) != letters(name));
+            if let Some(near) = near.filter(|near| groups.iter().any(|other| other.text == *near)) {
+                let message = format!("there is no description of a thread `{name}`, but one of `{near}`");
+                let warning = Diagnostic::warning("threads", group.span, message);
+                self.diagnostics.push(suggest(warning, group, [near].into_iter()));
+            }
+        }
+    }
+
     /// A thread is named once, and some node runs on it.
-    fn check_group(&mut self, thread: &ThreadItem, again: bool) {
+    fn check_group(&mut self, thread: &ThreadItem, item: &GraphItem, again: bool) {
         let name = &thread.name;
         if again {
             let message = format!("thread `{}` is described twice", name.text);
@@ -51,7 +73,8 @@ impl Builder<'_> {
         if !groups.contains(&name.text.as_str()) {
             let error = Diagnostic::error("threads", name.span, format!("no node runs on thread `{}`", name.text));
             let error = error.note("a node is put there by `on` behind it; all others run on `main`");
-            self.diagnostics.push(suggest(error, name, groups.into_iter()));
+            let error = misspelt_group(name, item).unwrap_or_else(|| suggest(error, name, groups.into_iter()));
+            self.diagnostics.push(error);
         }
     }
 
@@ -64,8 +87,8 @@ impl Builder<'_> {
         value: &Expr,
     ) -> Evaluated<()> {
         let texts = self.texts;
-        let rust_path = |path: &PathExpr| texts.rust_path(id.file, path);
-        let scope = Names { params: values, rust_path: &rust_path };
+        let constant = |path: &PathExpr| texts.constant(id.file, path, self.catalog);
+        let scope = Names { params: values, constant: &constant };
         match name.text.as_str() {
             "cores" => match evaluate(value, &scope)? {
                 Value::List(cores) if !cores.is_empty() => {
@@ -102,6 +125,19 @@ impl Builder<'_> {
         }
         Ok(())
     }
+}
+
+/// An error about the one `on` that names a thread like `described`, if no `thread` statement describes that one: it is
+/// what was misspelt. Where several name it, the description is.
+fn misspelt_group(described: &Ident, item: &GraphItem) -> Option<Diagnostic> {
+    let is_known = |group: &Ident| item.threads.iter().any(|thread| thread.name.text == group.text);
+    let groups: Vec<&Ident> = item.groups().into_iter().filter(|group| !is_known(group)).collect();
+    let near = nearest(&described.text, groups.iter().map(|group| group.text.as_str()))?;
+    let mut uses = groups.into_iter().filter(|group| group.text == near);
+    let (only, None) = (uses.next()?, uses.next()) else { return None };
+    let message = format!("there is no thread `{near}`: what is described is `{}`", described.text);
+    let error = Diagnostic::error("threads", only.span, message).also(described.span, "no node runs on this one");
+    Some(suggest(error, only, [described.text.as_str()].into_iter()))
 }
 
 fn wrong(span: Span, message: &str) -> Box<Diagnostic> {

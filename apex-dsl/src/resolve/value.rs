@@ -1,11 +1,11 @@
 //! Constant expressions, and whether a value fits the parameter it is given to.
 
 use crate::{
-    catalog::Type,
+    catalog::{Constant, Match, Type, library},
     graph::{Number, Value},
     report::Diagnostic,
     source::Span,
-    syntax::tree::{Expr, ExprKind, Ident},
+    syntax::tree::{Expr, ExprKind, Ident, PathExpr},
     units::{self, Dimension},
 };
 use std::{collections::BTreeMap, time::Duration};
@@ -19,8 +19,8 @@ pub type Evaluated<T> = Result<T, Box<Diagnostic>>;
 pub struct Scope<'a> {
     /// Parameters of the graph around it.
     pub params: &'a BTreeMap<String, Value>,
-    /// The path of a constant of Rust, if it is one.
-    pub rust_path: &'a dyn Fn(&crate::syntax::tree::PathExpr) -> Option<Vec<String>>,
+    /// The constant of Rust that a path names, if it names one.
+    pub constant: &'a dyn Fn(&PathExpr) -> Option<Constant>,
 }
 
 fn error<T>(code: &'static str, span: Span, message: impl Into<String>) -> Evaluated<T> {
@@ -38,10 +38,7 @@ pub fn evaluate(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Value> {
         }
         ExprKind::Path(path) => match path.segments.as_slice() {
             [name] if scope.params.contains_key(&name.text) => Ok(scope.params[&name.text].clone()),
-            _ => match (scope.rust_path)(path) {
-                Some(full) => Ok(Value::Path(full)),
-                None => Err(Box::new(unknown_name(path, scope))),
-            },
+            _ => constant(path, scope),
         },
         ExprKind::Unary(operator, inner) => unary(operator, evaluate(inner, scope)?, expr.span),
         ExprKind::Binary(operator, left, right) => {
@@ -51,7 +48,28 @@ pub fn evaluate(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Value> {
     }
 }
 
-fn unknown_name(path: &crate::syntax::tree::PathExpr, scope: &Scope<'_>) -> Diagnostic {
+fn constant(path: &PathExpr, scope: &Scope<'_>) -> Evaluated<Value> {
+    match (scope.constant)(path) {
+        Some(Constant::Known(path, ty)) => Ok(Value::Path(path, ty)),
+        Some(Constant::Unknown(path)) => Ok(Value::Path(path, Type::Unknown(String::new()))),
+        Some(Constant::Hidden(place)) => {
+            let message = format!("the program cannot name the constant `{}`", path.text());
+            let error = Diagnostic::error("unknown-name", path.span, message);
+            Err(Box::new(error.note(format!("declared at {place}; it needs `pub` and a `pub use`"))))
+        }
+        Some(Constant::Missing(known)) => {
+            let message = format!("there is no constant `{}`", path.text());
+            let error = Diagnostic::error("unknown-name", path.span, message);
+            Err(Box::new(match path.segments.last() {
+                Some(last) => suggest(error, last, known.iter().map(String::as_str)),
+                None => error,
+            }))
+        }
+        None => Err(Box::new(unknown_name(path, scope))),
+    }
+}
+
+fn unknown_name(path: &PathExpr, scope: &Scope<'_>) -> Diagnostic {
     let error = Diagnostic::error("unknown-name", path.span, format!("there is no parameter `{}` here", path.text()))
         .note("a value is a literal, a parameter of the graph around it, or the full path of a constant in Rust");
     match path.segments.first() {
@@ -191,7 +209,7 @@ pub fn describe(value: &Value) -> String {
         Value::List(_) => "a list".to_owned(),
         Value::Duration(_) => "a time".to_owned(),
         Value::Unit => "`()`".to_owned(),
-        Value::Path(path) => format!("`{}`", path.join("::")),
+        Value::Path(..) => format!("`{}`", value.text()),
         Value::RustDefault => "a default".to_owned(),
     }
 }
@@ -213,6 +231,13 @@ pub struct Wanted<'a> {
 impl Wanted<'_> {
     /// Whether `value` can be given to the parameter, and what it is then.
     pub fn fit(&self, value: Value, expr: &Expr) -> Evaluated<Value> {
+        if let Value::Path(_, ty) = &value
+            && ty.compare(self.ty) == Match::Different
+        {
+            let message = format!("`{}` is a `{}`, but {} is a `{ty}`", self.name, self.ty, describe(&value));
+            return error("wrong-value", expr.span, message)
+                .map_err(|e: Box<Diagnostic>| Box::new(e.note(self.declared.clone())));
+        }
         self.fit_type(value, self.ty, expr).map_err(|error| Box::new(error.note(self.declared.clone())))
     }
 
@@ -224,15 +249,13 @@ impl Wanted<'_> {
 
     fn fit_type(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
         match ty.name() {
-            "Duration" => return self.fit_duration(value, ty, expr),
+            "Duration" if !matches!(ty, Type::Def(..)) => return self.fit_duration(value, ty, expr),
             "f32" | "f64" => return self.fit_number(value, ty, expr),
-            "u8" | "u16" | "u32" | "u64" | "u128" | "usize" | "i8" | "i16" | "i32" | "i64" | "i128" | "isize" => {
-                return self.fit_integer(value, ty, expr);
-            }
+            name if limits(name).is_some() => return self.fit_integer(value, ty, expr),
             _ => {}
         }
         match (ty, &value) {
-            (_, Value::Path(_) | Value::RustDefault) => Ok(value),
+            (_, Value::Path(..) | Value::RustDefault) => Ok(value),
             (Type::Ref(inner), _) => self.fit_type(value, inner, expr),
             (Type::Primitive(name), Value::Bool(_)) if name == "bool" => Ok(value),
             (Type::Primitive(name), Value::Text(_)) if name == "str" => Ok(value),
@@ -254,12 +277,9 @@ impl Wanted<'_> {
                     .collect::<Evaluated<_>>()
                     .map(Value::List)
             }
-            // What a type that cannot be seen through takes is rustc's to say.
-            (Type::Unknown(_) | Type::Named(..) | Type::Def(..) | Type::Param(_), _)
-                if !matches!(value, Value::List(_)) =>
-            {
-                Ok(value)
-            }
+            // What a type that cannot be seen through takes is rustc's to say: it may be another name of a number.
+            (Type::Unknown(_) | Type::Alias(..) | Type::Param(_), _) if !matches!(value, Value::List(_)) => Ok(value),
+            (Type::Named(name, _), _) if !library::is_standard(name) && !matches!(value, Value::List(_)) => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
     }
@@ -277,11 +297,10 @@ impl Wanted<'_> {
             let declared = if ty.contains("Duration") { ty } else { format!("{ty}[{unit}]") };
             return Err(Box::new(missing_unit(message, expr, &declared, &[(&format!("`{unit}`"), unit)])));
         }
-        error(
-            "wrong-unit",
-            expr.span,
-            format!("`{}` is {}, but this is {}", self.name, kind(Number { dimension: wanted, ..n }), kind(n)),
-        )
+        let message =
+            format!("`{}` is {}, but this is {}", self.name, kind(Number { dimension: wanted, ..n }), kind(n));
+        let error = Diagnostic::error("wrong-unit", expr.span, message);
+        Err(Box::new(if wanted == Dimension::TIME { minutes(error, expr) } else { error }))
     }
 
     fn check_range(&self, value: f64, span: Span) -> Evaluated<()> {
@@ -305,9 +324,12 @@ impl Wanted<'_> {
             Value::Number(n) => {
                 self.check_unit(n, expr)?;
                 self.check_range(n.value, expr.span)?;
+                if ty.name() == "f32" && n.value.abs() > f32::MAX.into() {
+                    return error("out-of-range", expr.span, format!("{} does not fit into `{ty}`", n.value));
+                }
                 Ok(Value::Number(Number { integer: None, ..n }))
             }
-            Value::Path(_) | Value::RustDefault => Ok(value),
+            Value::Path(..) | Value::RustDefault => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
     }
@@ -320,17 +342,14 @@ impl Wanted<'_> {
                 let Some(integer) = n.integer else {
                     return error("wrong-value", expr.span, format!("`{}` is a whole number (`{ty}`)", self.name));
                 };
-                let (low, high) = limits(ty.name());
-                if integer < low || integer > high {
-                    return error(
-                        "out-of-range",
-                        expr.span,
-                        format!("{integer} does not fit into `{ty}` ({low}..={high})"),
-                    );
+                match limits(ty.name()) {
+                    Some((low, high)) if integer < low || integer > high => {
+                        error("out-of-range", expr.span, format!("{integer} does not fit into `{ty}` ({low}..={high})"))
+                    }
+                    _ => Ok(value),
                 }
-                Ok(value)
             }
-            Value::Path(_) | Value::RustDefault => Ok(value),
+            Value::Path(..) | Value::RustDefault => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
     }
@@ -343,7 +362,7 @@ impl Wanted<'_> {
                 seconds.check_range(n.value, expr.span)?;
                 duration(n, expr).map(Value::Duration)
             }
-            Value::Duration(_) | Value::Path(_) | Value::RustDefault => Ok(value),
+            Value::Duration(_) | Value::Path(..) | Value::RustDefault => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
     }
@@ -378,6 +397,17 @@ fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: 
 const NO_PART_HAS_A_UNIT: &str =
     "nothing in it has a unit: write one behind a number, or declare a parameter in it with one";
 
+/// Metres where a time is wanted: who writes `5m` may mean minutes.
+fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
+    match &expr.kind {
+        ExprKind::Number(_, Some(unit)) if unit == "m" => {
+            let unit = Span { start: expr.span.end - 1, ..expr.span };
+            error.note("`m` is a metre, and a minute is `min`").guess("write it in minutes", unit, "min")
+        }
+        _ => error,
+    }
+}
+
 /// A time as a duration.
 pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
     if n.dimension.is_none() {
@@ -386,7 +416,8 @@ pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
         return Err(Box::new(missing_unit(message, expr, "Duration", &units)));
     }
     if n.dimension != Dimension::TIME {
-        return error("wrong-unit", expr.span, format!("a time is wanted here, but this is {}", kind(n)));
+        let message = format!("a time is wanted here, but this is {}", kind(n));
+        return Err(Box::new(minutes(Diagnostic::error("wrong-unit", expr.span, message), expr)));
     }
     seconds(n.value, expr.span)
 }
@@ -405,8 +436,9 @@ pub fn scaled(value: f64, factor: f64) -> f64 {
     if factor == 1.0 { value } else { format!("{:.14e}", value * factor).parse().unwrap_or(value * factor) }
 }
 
-fn limits(name: &str) -> (i128, i128) {
-    match name {
+/// The smallest and the largest value of a type of whole numbers.
+pub fn limits(name: &str) -> Option<(i128, i128)> {
+    Some(match name {
         "u8" => (0, u8::MAX.into()),
         "u16" => (0, u16::MAX.into()),
         "u32" => (0, u32::MAX.into()),
@@ -416,29 +448,7 @@ fn limits(name: &str) -> (i128, i128) {
         "i32" => (i32::MIN.into(), i32::MAX.into()),
         "i64" | "isize" => (i64::MIN.into(), i64::MAX.into()),
         "u128" => (0, i128::MAX),
-        _ => (i128::MIN, i128::MAX),
-    }
-}
-
-/// A constant that a token of type `ty` is compared with, as Rust.
-pub fn as_rust(value: Value, ty: Option<&Type>, span: Span) -> Evaluated<String> {
-    let is_float = ty.is_some_and(|ty| matches!(ty.name(), "f32" | "f64"));
-    match value {
-        Value::Number(n) => Ok(match n.integer {
-            Some(integer) if !is_float => integer.to_string(),
-            _ => format!("{:?}", n.value),
-        }),
-        Value::Duration(time) => Ok(format!("::core::time::Duration::from_nanos({})", time.as_nanos())),
-        Value::Text(text) => Ok(format!("{text:?}")),
-        Value::Bool(value) => Ok(value.to_string()),
-        Value::Path(segments) => Ok(segments.join("::")),
-        other => {
-            let what = describe(&other);
-            Err(Box::new(Diagnostic::error(
-                "wrong-value",
-                span,
-                format!("a token is compared with numbers, texts and `true`, `false`, but this is {what}"),
-            )))
-        }
-    }
+        "i128" => (i128::MIN, i128::MAX),
+        _ => return None,
+    })
 }

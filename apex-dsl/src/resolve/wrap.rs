@@ -4,14 +4,15 @@ use super::{
     connect::Symbol,
     flatten, generics,
     instance::{Body, Builder},
-    value::{Scope as Names, evaluate},
+    lists::token_type,
+    value::{Scope as Names, Wanted, element_of, evaluate},
 };
 use crate::{
-    catalog::SignatureId,
+    catalog::{SignatureId, Type},
     graph::{Each, End, Graph, Node, NodeId, NodeKind, Place, Port, Scope, Value, Wire},
-    report::Diagnostic,
+    report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
+    syntax::tree::{Expr, Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
 };
 use std::collections::BTreeSet;
 
@@ -29,6 +30,7 @@ impl Builder<'_> {
             let inside = Body {
                 scope: 0,
                 values: body.values.clone(),
+                origins: body.origins.clone(),
                 fed: body.fed.range((name.text.as_str(), "")..).take_while(|(n, _)| *n == name.text).copied().collect(),
                 ..*body
             };
@@ -78,14 +80,17 @@ impl Builder<'_> {
         &mut self,
         body: &Body<'_>,
         name: &Ident,
-        inner: Graph,
+        mut inner: Graph,
         (parallel, port, span): (bool, Option<&Ident>, Span),
         instance: &Instance,
         docs: &str,
     ) -> Option<Symbol> {
         let mut ports: Vec<Port> = vec![];
-        for node in &inner.nodes {
+        for id in 0..inner.nodes.len() {
+            let takes_missing = takes_missing(&inner, id);
+            let node = &mut inner.nodes[id];
             let NodeKind::Boundary(kind) = node.kind else { continue };
+            node.ports[0].optional = takes_missing;
             if !kind.is_synchronous() {
                 self.diagnostics.push(Diagnostic::error(
                     "each-port",
@@ -94,7 +99,8 @@ impl Builder<'_> {
                 ));
                 continue;
             }
-            ports.push(Port { kind, optional: kind == PortKind::Output, ..node.ports[0].clone() });
+            let optional = kind == PortKind::Output || takes_missing;
+            ports.push(Port { kind, optional, ..node.ports[0].clone() });
         }
         let inputs: Vec<usize> = (0..ports.len()).filter(|p| ports[*p].kind == PortKind::Input).collect();
         let list = match (port, inputs.as_slice()) {
@@ -128,6 +134,7 @@ impl Builder<'_> {
         };
         let kind = NodeKind::Each(Each { body: Box::new(inner), list, parallel });
         let node = self.node(name, body.scope, kind, ports, docs)?;
+        self.nodes[node].require_list();
         self.nodes[node].modifiers.group = instance.modifiers.iter().find_map(Modifier::group);
         Some(Symbol::of_node(node, &self.nodes[node]))
     }
@@ -147,8 +154,8 @@ impl Builder<'_> {
             return Some(symbol);
         };
         let texts = self.texts;
-        let rust_path = |path: &PathExpr| texts.rust_path(body.id.file, path);
-        let scope = Names { params: &body.values, rust_path: &rust_path };
+        let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+        let scope = Names { params: &body.values, constant: &constant };
         let initial = match expr.as_ref().map(|e| evaluate(e, &scope)) {
             None => vec![None],
             Some(Ok(Value::List(values))) if !values.is_empty() => values.into_iter().map(Some).collect(),
@@ -170,6 +177,7 @@ impl Builder<'_> {
             ];
             let node = self.node(&ident, body.scope, NodeKind::Delay(initial.clone()), ports, "")?;
             self.nodes[node].modifiers.group = modifiers.iter().find_map(Modifier::group);
+            self.delays.extend(expr.iter().map(|expr| (node, (*expr).clone())));
             self.wires.push(Wire {
                 from: out.place,
                 to: Place::Port(End { node, port: 0 }),
@@ -180,6 +188,38 @@ impl Builder<'_> {
             out.place = Place::Port(End { node, port: 1 });
         }
         Some(symbol)
+    }
+}
+
+/// Whether ⊥ at an input of the body of an `each` is of use inside: a node there takes it as `None`.
+fn takes_missing(body: &Graph, boundary: NodeId) -> bool {
+    let mut leads_to = body.connections.iter().filter(|c| c.from.node == boundary).map(|c| body.port(c.to));
+    leads_to.any(|port| port.optional && port.parameter.is_none())
+}
+
+/// Fits the initial tokens of delays to the types of their ports, which are known only when all connections are.
+pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mut Diagnostics) {
+    for (node, expr) in delays {
+        let from = graph.incoming(End { node: *node, port: 0 }).map(|c| c.from);
+        let (Some(from), NodeKind::Delay(initial)) = (from, &graph.nodes[*node].kind) else { continue };
+        let ty = match token_type(graph, from) {
+            // Some kind of list, which has no literals.
+            Type::Unknown(_) if matches!(graph.nodes[from.node].kind, NodeKind::Each(_)) => {
+                Type::Named("Vec".to_owned(), vec![graph.port(from).ty.clone()])
+            }
+            ty => ty,
+        };
+        let name = graph.end_name(from);
+        let wanted =
+            Wanted { name: &name, ty: &ty, unit: None, range: None, declared: format!("`{name}` sends `{ty}`") };
+        let fitted = initial.iter().enumerate().map(|(i, value)| match value {
+            Some(value) => wanted.fit(value.clone(), element_of(expr, i)).map(Some),
+            None => Ok(None),
+        });
+        match fitted.collect() {
+            Ok(fitted) => graph.nodes[*node].kind = NodeKind::Delay(fitted),
+            Err(error) => diagnostics.push_once(*error),
+        }
     }
 }
 

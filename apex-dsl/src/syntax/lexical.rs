@@ -1,6 +1,7 @@
 //! The first look at a text: what no grammar should have to deal with. Finds characters that mean nothing,
 //! brackets that do not match or nest too deeply, and comments, which are blanked.
 
+use super::characters::{self, Foreign};
 use crate::{
     report::{Diagnostic, Diagnostics},
     source::{FileId, Span},
@@ -12,6 +13,8 @@ pub const MAX_BYTES: usize = 4 << 20;
 pub const MAX_DEPTH: usize = 64;
 /// Characters that mean nothing are reported one by one up to this number.
 const MAX_UNKNOWN: usize = 20;
+/// Stands before the first character of a text that some editors write.
+const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// A text in which comments are blanks.
 pub struct Lexical {
@@ -32,21 +35,26 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
     let mut scanner = Scanner {
         file,
         bytes: text.as_bytes(),
-        at: 0,
+        at: if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 },
         open: vec![],
         angles: 0,
         unknown: 0,
+        foreign: Foreign::default(),
         comments: vec![],
         long_string: None,
         failed: false,
     };
     scanner.run(text, diagnostics);
+    scanner.foreign.report(diagnostics);
     let failed = scanner.failed;
     let comments = scanner.comments;
     if failed {
         return None;
     }
     let mut blanked = text.as_bytes().to_vec();
+    if text.starts_with(BYTE_ORDER_MARK) {
+        blanked[..BYTE_ORDER_MARK.len()].fill(b' ');
+    }
     for span in &comments {
         for byte in &mut blanked[span.start as usize..span.end as usize] {
             if *byte != b'\n' {
@@ -66,6 +74,8 @@ struct Scanner<'a> {
     open: Vec<(u8, usize)>,
     angles: usize,
     unknown: usize,
+    /// Words with letters that no name has.
+    foreign: Foreign,
     comments: Vec<Span>,
     /// The first string that goes over the end of its line.
     long_string: Option<usize>,
@@ -270,47 +280,21 @@ impl Scanner<'_> {
 
     fn unknown(&mut self, text: &str, diagnostics: &mut Diagnostics) {
         let Some(char) = text[self.at..].chars().next() else { return };
+        if let Some(word) = characters::foreign_word(text, self.at) {
+            self.at = word.end;
+            self.failed = true;
+            return self.foreign.add(&text[word.clone()], Span::new(self.file, word.start, word.end));
+        }
         let span = Span::new(self.file, self.at, self.at + char.len_utf8());
         self.at = span.end as usize;
         self.unknown += 1;
-        let shown = match char {
-            _ if is_invisible(char) => format!("U+{:04X}", char as u32),
-            _ if char.is_control() => char.escape_debug().to_string(),
-            _ => char.to_string(),
-        };
-        let message = format!("`{shown}` means nothing here");
-        let diagnostic = explained(char, Diagnostic::error("unknown-character", span, message));
+        let diagnostic = characters::unknown(char, span);
         if self.unknown >= MAX_UNKNOWN {
             self.give_up(diagnostics, diagnostic.note("more follow; is this an `.afg` text"));
         } else {
             self.fail(diagnostics, diagnostic);
         }
     }
-}
-
-/// Marks of byte order, widths of zero and directions of writing: what other programs leave in a text unseen.
-fn is_invisible(char: char) -> bool {
-    matches!(char, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
-}
-
-/// What somebody means by a character that means nothing, if that is known.
-fn explained(char: char, error: Diagnostic) -> Diagnostic {
-    let span = error.primary.span;
-    let meant = match char {
-        '→' | '⟶' | '➔' => "->",
-        '⇒' | '⟹' => "=>",
-        '“' | '”' | '„' => "\"",
-        '−' | '–' | '—' => "-",
-        '°' => "deg",
-        'µ' | 'μ' => "u",
-        '\u{a0}' => " ",
-        '\'' => return error.note("a string stands in double quotes"),
-        '#' => return error.note("a comment begins with `//`"),
-        c if is_invisible(c) => return error.fix("leave out this character, which cannot be seen", span, ""),
-        c if c.is_alphabetic() => return error.note("a name is made of the letters a to z, digits and `_`"),
-        _ => return error,
-    };
-    error.fix(format!("write `{meant}`"), span, meant)
 }
 
 /// Where lines begin with the word of an item and its name.

@@ -6,25 +6,41 @@ use crate::{report::Diagnostics, source::FileId};
 /// The words that begin an item.
 const ITEMS: [&str; 5] = ["use", "graph", "robot", "fsm", "test"];
 
-/// What can be parsed instead of a `text` whose brackets, strings, comments or characters are wrong; `None` if they
-/// are not. What is wrong becomes blank, and items that are not closed are closed: the bytes before the end stay where they
-/// are, so that a place in the one text is the same place in the other.
+/// Text that can be parsed instead of a `text` whose brackets, strings, comments or characters are wrong; `None` if
+/// they are not. What is wrong becomes blank, and items that are not closed are closed: in blanks, or behind the end.
+/// Every other byte of `text` stays at its offset, so that a place in the one text is the same place in the other.
 pub fn mended(text: &str) -> Option<String> {
     let is_fine = lexical::scan(FileId(0), text, &mut Diagnostics::default()).is_some();
     if is_fine || text.len() > MAX_BYTES {
         return None;
     }
-    let mut mender = Mender { text, bytes: text.as_bytes().to_vec(), at: 0, open: vec![], angles: 0, solid: 0 };
+    repaired(text)
+}
+
+fn repaired(text: &str) -> Option<String> {
+    let bytes = text.as_bytes().to_vec();
+    let mut mender = Mender { text, bytes, at: 0, open: vec![], angles: 0, solid: 0, ends_in_comment: false };
     mender.run();
     String::from_utf8(mender.bytes).ok()
 }
 
-/// Where `mended` differs from `text`. If something was added behind the end, the end is such a place: a statement there
-/// may be half of one.
+/// Text that can be parsed instead of one with a comment that begins at `comment` and never ends: nothing of what
+/// stands behind that place is known to be code.
+pub fn mended_before(text: &str, comment: usize) -> Option<String> {
+    let blank = |b: u8| if b == b'\n' { b } else { b' ' };
+    let (before, behind) = text.as_bytes().split_at_checked(comment)?;
+    let cut = before.iter().copied().chain(behind.iter().map(|b| blank(*b))).collect();
+    repaired(&String::from_utf8(cut).ok()?)
+}
+
+/// Places where `mended` differs from `text`, in ascending order. If something was added behind the end, the end is
+/// such a place: a statement there may be half of one.
 pub fn damage(text: &str, mended: &str) -> Vec<usize> {
     let end = (mended.len() > text.len()).then(|| text.trim_end().len());
     let differ = text.bytes().zip(mended.bytes()).enumerate().filter(|(_, (a, b))| a != b);
-    differ.map(|(at, _)| at).filter(|at| text.is_char_boundary(*at)).chain(end).collect()
+    let mut places: Vec<usize> = differ.map(|(at, _)| at).filter(|at| text.is_char_boundary(*at)).chain(end).collect();
+    places.sort_unstable();
+    places
 }
 
 struct Mender<'a> {
@@ -37,6 +53,8 @@ struct Mender<'a> {
     angles: usize,
     /// Behind the last word or sign.
     solid: usize,
+    /// Whether a `//` comment without an end of line ends the text.
+    ends_in_comment: bool,
 }
 
 impl Mender<'_> {
@@ -50,6 +68,7 @@ impl Mender<'_> {
                 }
                 b'/' if self.rest().starts_with("//") => {
                     self.at = self.end_of_line();
+                    self.ends_in_comment = self.at == self.text.len();
                     continue;
                 }
                 b'/' if self.rest().starts_with("/*") => self.block_comment(),
@@ -80,6 +99,9 @@ impl Mender<'_> {
             self.solid = self.at;
         }
         self.drop_until_brace();
+        if self.ends_in_comment && self.open.iter().any(|(bracket, _)| *bracket == b'{') {
+            self.bytes.push(b'\n');
+        }
         while let Some((bracket, at)) = self.open.pop() {
             match bracket {
                 b'{' => self.bytes.extend(self.closer(at)),
@@ -122,9 +144,9 @@ impl Mender<'_> {
 
     /// A string that does not end with its line is taken for one that is being written.
     fn string(&mut self) {
-        let line = &self.bytes[self.at + 1..self.end_of_line()];
         let (mut escaped, mut length) = (false, None);
-        for (i, byte) in line.iter().enumerate() {
+        let line = self.text.as_bytes()[self.at + 1..].iter().take_while(|byte| **byte != b'\n');
+        for (i, byte) in line.enumerate() {
             if *byte == b'"' && !escaped {
                 length = Some(i);
                 break;
@@ -220,5 +242,71 @@ mod tests {
         assert_eq!(mended("graph A {\n\nrobot B { }").as_deref(), Some("graph A {}\nrobot B { }"));
         assert_eq!(mended("graph A { x = \"a\\\"; }\n}").as_deref(), Some("graph A { x =  a  ; }\n "));
         assert_eq!(mended("/* graph").as_deref(), Some("   graph"));
+        assert_eq!(mended("graph A { // b").as_deref(), Some("graph A { // b\n}"));
+        assert_eq!(mended("graph A { /// b\n").as_deref(), Some("graph A { /// b\n}"));
+        assert_eq!(mended("graph A { /* { // b").as_deref(), Some("graph A {    { // b\n}}"));
+        assert_eq!(mended_before("graph A { /* ü\n{", 10).as_deref(), Some("graph A {      \n }"));
+    }
+
+    /// Every byte keeps its place or becomes blank, but for closers in blanks; what comes out can be parsed.
+    #[test]
+    fn offsets_are_kept() {
+        const PIECES: [&str; 31] = [
+            "graph A {",
+            "\ngraph B { ",
+            "\nuse a::{b, ",
+            "\nfsm F {",
+            "{",
+            "}",
+            "(",
+            ")",
+            "[",
+            "]",
+            "<",
+            ">",
+            ";",
+            "\"",
+            "\\",
+            "/*",
+            "*/",
+            "//",
+            "// x",
+            "/// y",
+            "\n",
+            "\r\n",
+            " ",
+            "x",
+            "->",
+            "1.5m",
+            "ü",
+            "😀",
+            "\u{feff}",
+            "\0",
+            "::",
+        ];
+        let mut dice = 1_u64;
+        let mut roll = |below: usize| {
+            dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (dice >> 33) as usize % below
+        };
+        let mut changed = 0;
+        for _ in 0..20_000 {
+            let text: String = (0..roll(24)).map(|_| PIECES[roll(PIECES.len())]).collect();
+            let comment = text.find("/*").unwrap_or(text.len());
+            for mended in [mended(&text), mended_before(&text, comment)].into_iter().flatten() {
+                changed += 1;
+                assert!(mended.len() >= text.len(), "{text:?}: {mended:?}");
+                for (at, c) in text.char_indices() {
+                    let new = &mended[at..at + c.len_utf8()];
+                    let is_kept = new.chars().eq([c]);
+                    let is_blank = new.bytes().all(|b| b == b' ');
+                    let is_closer = c.is_ascii_whitespace() && matches!(new, "}" | ";");
+                    assert!(is_kept || is_blank || is_closer, "{text:?}: {mended:?}");
+                }
+                let read = lexical::scan(FileId(0), &mended, &mut Diagnostics::default());
+                assert!(read.is_some(), "{text:?}: {mended:?}");
+            }
+        }
+        assert!(changed > 10_000, "{changed}");
     }
 }

@@ -1,6 +1,7 @@
 //! Text → tree. A bad statement does not hide the next.
 
 mod build;
+mod characters;
 pub(crate) mod concrete;
 mod lexical;
 mod mend;
@@ -56,15 +57,15 @@ fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Opt
     let mut damage = mend::damage(text, &mended);
     // Of what stands behind a comment without an end nobody knows whether it is one.
     if let Some(at) = damage.iter().copied().find(|at| text[*at..].starts_with("/*")) {
-        let cut = format!("{}{}", &text[..at], " ".repeat(text.len() - at));
-        mended = mend::mended(&cut).unwrap_or(cut);
+        mended = mend::mended_before(text, at)?;
         damage = mend::damage(text, &mended);
     }
     let lexical = lexical::scan(file, &mended, &mut Diagnostics::default())?;
     let pair = Grammar::parse(Rule::file, &lexical.text).ok()?.next()?;
-    let tree = build::Builder::new(file, &lexical.text, damage, diagnostics).file(pair);
+    let tree = build::Builder::new(file, &lexical.text, damage, diagnostics).until(text.len()).file(pair);
     // What was added behind the end is no place in the text.
-    diagnostics.retain(|d| d.primary.span.file != file || d.primary.span.end as usize <= text.len());
+    let is_inside = |span: &Span| span.file != file || span.end as usize <= text.len();
+    diagnostics.retain(|d| d.places().all(|span| is_inside(&span)));
     Some(tree::File { broken: true, comments: lexical.comments, ..tree })
 }
 
@@ -82,9 +83,9 @@ pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostic
     (!tree.broken && !diagnostics.has_errors()).then(|| concrete::read(text, &lexical, pair))
 }
 
-/// The span of a pair in `file`.
-fn span_of(file: FileId, pair: &pest::iterators::Pair<'_, Rule>) -> Span {
+/// The span of a pair in `file`, as far as it lies before the byte `end`.
+fn span_of(file: FileId, pair: &pest::iterators::Pair<'_, Rule>, end: usize) -> Span {
     let span = pair.as_span();
     let trimmed = span.as_str().trim_end().len();
-    Span::new(file, span.start(), span.start() + trimmed)
+    Span::new(file, span.start().min(end), (span.start() + trimmed).min(end))
 }

@@ -31,6 +31,8 @@ impl Slip<'_> {
             Self::number,
             Self::unit,
             Self::reserved,
+            Self::reference,
+            Self::slash,
             Self::declaration,
             Self::arrow,
             Self::argument,
@@ -105,6 +107,39 @@ impl Slip<'_> {
         }
         let message = format!("`{word}` is a word of the language: it cannot be a name");
         Some(Diagnostic::error("syntax", self.here(word.len()), message))
+    }
+
+    /// `in pose: &Pose2`
+    fn reference(&self) -> Option<Diagnostic> {
+        let behind = self.rest().strip_prefix('&')?;
+        if !self.expects("a type") {
+            return None;
+        }
+        let of_rust = behind.trim_start().strip_prefix("mut ").unwrap_or(behind).trim_start();
+        let length = self.rest().len() - of_rust.len();
+        let error = Diagnostic::error(
+            "syntax",
+            self.here(length),
+            format!("a type of a text has no `{}`", self.rest()[..length].trim_end()),
+        );
+        Some(error.note("leave it out: tokens are values, and that a node borrows them is written in Rust alone"))
+    }
+
+    /// `in pose: geometry_msgs/Pose`
+    fn slash(&self) -> Option<Diagnostic> {
+        let is_typed = self.expects("`::`") || self.expects("`<`");
+        if !is_typed || !self.rest().starts_with('/') || !self.before().contains(':') {
+            return None;
+        }
+        let is_path = |c: char| c.is_ascii_alphanumeric() || "_/".contains(c);
+        let start = self.text[..self.at].rfind(|c| !is_path(c)).map_or(0, |before| before + 1);
+        let end = self.rest().find(|c| !is_path(c)).map_or(self.text.len(), |end| self.at + end);
+        let (written, path) = (&self.text[start..end], self.span(start, end));
+        let name = written.rsplit('/').next().filter(|name| !name.is_empty())?;
+        let message = format!("`{written}` is not a path of Rust, as a type is");
+        let error = Diagnostic::error("syntax", path, message);
+        let note = format!("import a type of Rust and call it by its name: `use package::{name};`");
+        Some(error.note(note).guess(format!("write `{name}`"), path, name))
     }
 
     /// `node a Ramp()`, `in x u64`, `in x = u64`, `node a = Ramp;`

@@ -270,7 +270,68 @@ impl Modifier {
     }
 }
 
+impl GraphItem {
+    /// All ends of its connections, those in lists one by one.
+    pub fn ends(&self) -> Vec<&Endpoint> {
+        fn add<'a>(end: &'a Endpoint, found: &mut Vec<&'a Endpoint>) {
+            match end {
+                Endpoint::List(ends, _) => ends.iter().for_each(|end| add(end, found)),
+                Endpoint::Port(_) | Endpoint::Instance(_) => found.push(end),
+            }
+        }
+        let mut found = vec![];
+        self.chains.iter().flat_map(|chain| &chain.ends).for_each(|end| add(end, &mut found));
+        found
+    }
+
+    /// All ports and nodes that its connections and claims name.
+    pub fn references(&self) -> Vec<&PortRef> {
+        let of_chains = self.ends().into_iter().filter_map(|end| match end {
+            Endpoint::Port(reference) => Some(reference),
+            _ => None,
+        });
+        of_chains.chain(self.claims.iter().flat_map(|claim| &claim.of)).collect()
+    }
+
+    /// The thread groups that stand behind its instances.
+    pub fn groups(&self) -> Vec<&Ident> {
+        let of_nodes = self.nodes.iter().map(|node| match &node.body {
+            NodeBody::Instance(instance) => &instance.modifiers,
+            NodeBody::HandedIn(_, modifiers) => modifiers,
+        });
+        let in_place = self.ends().into_iter().filter_map(|end| match end {
+            Endpoint::Instance(instance) => Some(&instance.modifiers),
+            _ => None,
+        });
+        let named = of_nodes.chain(in_place).flatten().filter_map(|modifier| match &modifier.kind {
+            ModifierKind::On(group) => Some(group),
+            _ => None,
+        });
+        named.collect()
+    }
+
+    /// All instances in it.
+    pub fn instances(&self) -> Vec<&Instance> {
+        let of_nodes = self.nodes.iter().filter_map(|node| match &node.body {
+            NodeBody::Instance(instance) => Some(instance),
+            NodeBody::HandedIn(..) => None,
+        });
+        let in_place = self.ends().into_iter().filter_map(|end| match end {
+            Endpoint::Instance(instance) => Some(&**instance),
+            _ => None,
+        });
+        of_nodes.chain(in_place).collect()
+    }
+}
+
 impl File {
+    /// The places of its graphs, machines and tests.
+    pub fn extents(&self) -> impl Iterator<Item = Span> + '_ {
+        let graphs = self.graphs.iter().map(|graph| graph.extent);
+        let machines = self.machines.iter().map(|machine| machine.extent);
+        graphs.chain(machines).chain(self.tests.iter().map(|test| test.extent))
+    }
+
     /// Whether it declares nothing.
     pub fn is_empty(&self) -> bool {
         self.graphs.is_empty() && self.machines.is_empty() && self.tests.is_empty()
@@ -386,7 +447,7 @@ pub struct Condition {
     /// `active(…)`
     pub active: bool,
     /// How the token is compared with what.
-    pub compare: Option<(String, Expr)>,
+    pub compare: Option<(&'static str, Expr)>,
     /// All of it.
     pub span: Span,
 }
@@ -490,7 +551,7 @@ pub enum TypeKind {
 }
 
 /// A constant expression.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Expr {
     /// What it is.
     pub kind: ExprKind,
@@ -499,7 +560,7 @@ pub struct Expr {
 }
 
 /// A constant expression.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum ExprKind {
     /// Digits and the unit behind them.
     Number(String, Option<String>),

@@ -129,9 +129,11 @@ pub fn words_at(place: Place) -> impl Iterator<Item = &'static Word> {
     WORDS.iter().filter(move |w| w.place == place)
 }
 
-/// The words that nothing in a text can be named.
-pub const RESERVED: [&str; 12] =
-    ["use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "record", "true", "false"];
+/// The words that nothing in a text can be named: the last five are those of Rust that no name can be, not even a raw one.
+pub const RESERVED: [&str; 17] = [
+    "use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "record", "true", "false", "self", "Self",
+    "super", "crate", "_",
+];
 
 /// Whether something in a text can be named so.
 pub fn is_name(text: &str) -> bool {

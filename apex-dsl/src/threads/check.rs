@@ -7,6 +7,9 @@ use crate::{
 };
 use std::collections::BTreeMap;
 
+/// Most thread groups of a program: the runtime has a bit for each (`apex_rt::threads::MAX_GROUPS`).
+const MAX_GROUPS: usize = 64;
+
 /// Reports what is split over several thread groups and cannot be.
 pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     for node in &graph.nodes {
@@ -17,6 +20,11 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
     let is_alone = super::groups(graph).len() < 2;
     check_watch(graph, is_alone, diagnostics);
     if is_alone {
+        return;
+    }
+    if super::groups(graph).len() > MAX_GROUPS {
+        let message = format!("a program has at most {MAX_GROUPS} thread groups");
+        diagnostics.push(Diagnostic::error("too-large", graph.span, message));
         return;
     }
     check_loops(graph, diagnostics);

@@ -61,7 +61,8 @@ struct Draft {
 impl Draft {
     fn new(whole: &Graph, group: &str) -> Self {
         let graph = Graph {
-            name: format!("{}On{}", whole.name, crate::codegen::camel(group)),
+            // No letter but those of the group: `a_b` and `aB` are two groups.
+            name: format!("{}On_{group}", whole.name),
             nodes: vec![],
             connections: vec![],
             wires: vec![],

@@ -28,7 +28,7 @@ pub fn completion(
     let text = &ready.analysis.text;
     let offset = ready.offset(position);
     let (start, found) = ide::complete(&ready.view(), text, offset, siblings);
-    let range = ready.analysis.lines.range(text, start, offset);
+    let range = ready.analysis.lines().range(start, offset);
     let import = import_position(ready);
     found.into_iter().map(|c| item(c, range, import, snippets)).collect()
 }
@@ -74,7 +74,7 @@ fn import_position(ready: &Ready<'_>) -> Position {
         Some(start) => text.get(..start as usize).and_then(|before| before.rfind("use")).unwrap_or(0),
         None => text.split_inclusive('\n').take_while(|line| line.starts_with("//!")).map(str::len).sum(),
     };
-    ready.analysis.lines.position(text, offset)
+    ready.analysis.lines().position(offset)
 }
 
 /// Whether only blanks stand before a position in its line: there, a blank asks for nothing.

@@ -1,29 +1,24 @@
-//! Where something is declared.
+//! Places of declarations.
 
 use super::Ready;
-use apex_dsl::ide::Origin;
-use lsp_types::{Location, Position, Range};
-use std::fs;
+use apex_dsl::{
+    ide::{self, Origin},
+    syntax::MAX_BYTES,
+};
+use apex_host::read_text;
+use lsp_types::{Location, Position};
 
-/// Where the name at a position is declared: in a text, or in Rust.
+/// The declaration of the name at a position: in a text, or in Rust.
 pub fn definition(ready: &Ready<'_>, position: Position) -> Option<Location> {
     let found = ready.occurrence(position)?;
-    let view = ready.view();
-    match view.origin(found.definition)? {
-        Origin::Text(span) => ready.analysis.location(span),
-        Origin::Rust(file, line) => {
+    match ready.view().origin(found.definition)? {
+        Origin::Text(span) => ready.analysis.names.places.location(span),
+        Origin::Rust(file, line, part) => {
             let path = ready.project.root.join(file);
-            let line = line.saturating_sub(1);
-            let column = column(&path, line, view.sources.text(found.span));
-            let at = Position::new(line as u32, column as u32);
-            Some(Location::new(crate::uri::from_path(&path)?, Range::new(at, at)))
+            let text = read_text(&path, MAX_BYTES).unwrap_or_default();
+            let range = ide::place_in_rust(&text, line, &part);
+            let lines = ready.analysis.lines_of(&text);
+            Some(Location::new(crate::uri::from_path(&path)?, lines.range(range.start, range.end)))
         }
     }
-}
-
-/// Where `name` stands in a line of a file; at its beginning if it does not.
-fn column(path: &std::path::Path, line: usize, name: &str) -> usize {
-    let text = fs::read_to_string(path).unwrap_or_default();
-    // Rust before a name is ASCII, as good as always: no matter how columns are counted.
-    text.lines().nth(line).and_then(|line| line.find(name)).unwrap_or(0)
 }

@@ -1,31 +1,39 @@
 //! What is wrong.
 
 use super::Ready;
+use crate::places::is_own;
 use apex_dsl::report::{Diagnostic as Found, Severity};
 use lsp_types::{Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, NumberOrString, Range};
 
 /// The messages about a text. One about a text that it imports stands at the import.
 pub fn diagnostics(ready: &Ready<'_>) -> Vec<Diagnostic> {
-    let package = ready.project.failure.iter().map(|reason| Diagnostic {
+    let failed = ready.project.failure.as_ref();
+    let package =
+        failed.into_iter().map(|reason| failure(&format!("the nodes of the package are not known: {reason}")));
+    package.chain(ready.analysis.report.diagnostics.sorted().into_iter().map(|d| diagnostic(ready, d))).collect()
+}
+
+/// An error that has nothing to do with any place in the text.
+pub fn failure(message: &str) -> Diagnostic {
+    Diagnostic {
         severity: Some(DiagnosticSeverity::ERROR),
         source: Some("apex".to_owned()),
-        message: format!("the nodes of the package are not known: {reason}"),
+        message: message.to_owned(),
         ..Diagnostic::default()
-    });
-    package.chain(ready.analysis.diagnostics.iter().map(|found| diagnostic(ready, found))).collect()
+    }
 }
 
 /// A message as the protocol wants it.
 pub fn diagnostic(ready: &Ready<'_>, found: &Found) -> Diagnostic {
     let label = |span, text: &str| {
-        let location = ready.analysis.location(span)?;
+        let location = ready.analysis.report.places.location(span)?;
         Some(DiagnosticRelatedInformation { location, message: text.to_owned() })
     };
     let mut related: Vec<_> = found.secondary.iter().filter_map(|l| label(l.span, &l.text)).collect();
     let mut message = found.message.clone();
-    if !ready.analysis.is_own(found.primary.span) {
+    if !is_own(found.primary.span) {
         related.extend(label(found.primary.span, "here"));
-        message = format!("{}: {message}", ready.analysis.path(found.primary.span).display());
+        message = format!("{}: {message}", ready.analysis.report.places.path(found.primary.span).display());
     }
     let label = (!found.primary.text.is_empty()).then_some(&found.primary.text);
     for line in label.into_iter().chain(&found.notes) {
@@ -49,12 +57,12 @@ pub fn diagnostic(ready: &Ready<'_>, found: &Found) -> Diagnostic {
 /// Where a message stands.
 fn range(ready: &Ready<'_>, found: &Found) -> Range {
     let span = found.primary.span;
-    if ready.analysis.is_own(span) {
-        return ready.analysis.range(span);
+    if is_own(span) {
+        return ready.analysis.report.places.range(span);
     }
-    let path = ready.analysis.path(span);
+    let path = ready.analysis.report.places.path(span);
     let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
     let uses = &ready.view().texts.files[0].1.uses;
     let import = uses.iter().filter_map(|u| u.path.first()).find(|first| first.text == stem);
-    import.map_or_else(Range::default, |first| ready.analysis.range(first.span))
+    import.map_or_else(Range::default, |first| ready.analysis.report.places.range(first.span))
 }

@@ -17,6 +17,6 @@ pub fn formatting(ready: &Ready<'_>) -> Vec<TextEdit> {
     if old.is_empty() && new.is_empty() {
         return vec![];
     }
-    let range = ready.analysis.lines.range(text, before, text.len() - after);
+    let range = ready.analysis.lines().range(before, text.len() - after);
     vec![TextEdit::new(range, new[..new.len() - after].to_owned())]
 }

@@ -18,7 +18,7 @@ pub fn hints(ready: &Ready<'_>, range: Range) -> Vec<InlayHint> {
         let pages: Vec<String> = links.iter().map(|l| ide::describe_link(&view, l)).collect();
         let value = pages.join("\n\n---\n\n");
         InlayHint {
-            position: ready.analysis.range(arrow).end,
+            position: ready.analysis.names.places.range(arrow).end,
             label: InlayHintLabel::String(words.join("/")),
             kind: Some(InlayHintKind::TYPE),
             text_edits: None,

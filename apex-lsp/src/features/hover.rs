@@ -8,7 +8,7 @@ use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
 pub fn hover(ready: &Ready<'_>, position: Position) -> Option<Hover> {
     let (view, offset) = (ready.view(), ready.offset(position));
     let (value, range) = match ready.occurrence(position) {
-        Some(found) => (ide::describe(&view, found.definition), Some(ready.analysis.range(found.span))),
+        Some(found) => (ide::describe(&view, found.definition), Some(ready.analysis.names.places.range(found.span))),
         None => match arrow(ready, offset) {
             Some((value, range)) => (value, Some(range)),
             None => (ide::describe_word(&view, &ready.analysis.text, offset)?, None),
@@ -25,5 +25,5 @@ fn arrow(ready: &Ready<'_>, offset: usize) -> Option<(String, lsp_types::Range)>
     let links: Vec<_> = view.links.iter().filter(|l| here(l.arrow)).collect();
     let first = links.first()?;
     let pages: Vec<String> = links.iter().map(|l| ide::describe_link(&view, l)).collect();
-    Some((pages.join("\n\n---\n\n"), ready.analysis.range(first.arrow)))
+    Some((pages.join("\n\n---\n\n"), ready.analysis.names.places.range(first.arrow)))
 }

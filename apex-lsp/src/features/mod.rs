@@ -26,16 +26,16 @@ pub struct Ready<'a> {
 impl<'a> Ready<'a> {
     /// The text as the questions of `apex_dsl::ide` want it.
     pub fn view(&self) -> View<'a> {
-        self.analysis.view(self.project)
+        self.analysis.names.view(self.project)
     }
 
     /// The byte at a position.
     pub fn offset(&self, position: Position) -> usize {
-        self.analysis.lines.offset(&self.analysis.text, position)
+        self.analysis.offset(position)
     }
 
     /// The name at a position.
     pub fn occurrence(&self, position: Position) -> Option<Occurrence> {
-        ide::at(&self.analysis.occurrences, &self.view(), self.offset(position))
+        ide::at(&self.analysis.names.occurrences, &self.view(), self.offset(position))
     }
 }

@@ -1,6 +1,7 @@
 //! Where else something is used.
 
 use super::Ready;
+use crate::places::is_own;
 use apex_dsl::ide::{Definition, Occurrence, Origin};
 use lsp_types::{DocumentHighlight, Location, Position};
 use std::path::PathBuf;
@@ -17,7 +18,7 @@ pub enum Target {
 /// What the definition is in all texts.
 pub fn target(ready: &Ready<'_>, definition: Definition) -> Target {
     match ready.view().origin(definition) {
-        Some(Origin::Text(span)) => Target::Text(ready.analysis.path(span).clone(), span.start),
+        Some(Origin::Text(span)) => Target::Text(ready.analysis.names.places.path(span).to_owned(), span.start),
         _ => Target::Rust(definition),
     }
 }
@@ -29,20 +30,20 @@ pub fn target_at(ready: &Ready<'_>, position: Position) -> Option<Target> {
 
 /// The names of a text, and of no other that it imports, that mean the target.
 pub fn uses<'a>(ready: &'a Ready<'_>, wanted: &Target) -> Vec<&'a Occurrence> {
-    let own = ready.analysis.occurrences.iter().filter(|o| ready.analysis.is_own(o.span));
+    let own = ready.analysis.names.occurrences.iter().filter(|o| is_own(o.span));
     own.filter(|o| target(ready, o.definition) == *wanted).collect()
 }
 
 /// Where a text uses the target.
 pub fn references(ready: &Ready<'_>, wanted: &Target, with_declaration: bool) -> Vec<Location> {
     let uses = uses(ready, wanted).into_iter().filter(|o| with_declaration || !o.declares);
-    uses.filter_map(|o| ready.analysis.location(o.span)).collect()
+    uses.filter_map(|o| ready.analysis.names.places.location(o.span)).collect()
 }
 
 /// Where the text uses what stands at a position.
 pub fn highlights(ready: &Ready<'_>, position: Position) -> Vec<DocumentHighlight> {
     let Some(found) = ready.occurrence(position) else { return vec![] };
-    let same = |o: &&Occurrence| o.definition == found.definition && ready.analysis.is_own(o.span);
-    let uses = ready.analysis.occurrences.iter().filter(same);
-    uses.map(|o| DocumentHighlight { range: ready.analysis.range(o.span), kind: None }).collect()
+    let same = |o: &&Occurrence| o.definition == found.definition && is_own(o.span);
+    let uses = ready.analysis.names.occurrences.iter().filter(same);
+    uses.map(|o| DocumentHighlight { range: ready.analysis.names.places.range(o.span), kind: None }).collect()
 }

@@ -4,6 +4,7 @@ use super::{
     Ready,
     references::{Target, uses},
 };
+use crate::places::is_own;
 use apex_dsl::ide;
 use lsp_types::{Position, PrepareRenameResponse, TextEdit};
 
@@ -15,13 +16,16 @@ pub fn prepare(ready: &Ready<'_>, position: Position) -> Result<PrepareRenameRes
     if view.sources.text(found.span) != name {
         return Err(format!("this is what the text calls `{name}`; rename that, or change the import"));
     }
-    Ok(PrepareRenameResponse::RangeWithPlaceholder { range: ready.analysis.range(found.span), placeholder: name })
+    Ok(PrepareRenameResponse::RangeWithPlaceholder {
+        range: ready.analysis.names.places.range(found.span),
+        placeholder: name,
+    })
 }
 
 /// The changes of one text that give the target another name.
 pub fn edits(ready: &Ready<'_>, wanted: &Target, name: &str) -> Result<Vec<TextEdit>, String> {
     let Some(definition) = uses(ready, wanted).first().map(|o| o.definition) else { return Ok(vec![]) };
-    let spans = ide::rename(&ready.view(), &ready.analysis.occurrences, definition, name)?;
-    let own = spans.into_iter().filter(|span| ready.analysis.is_own(*span));
-    Ok(own.map(|span| TextEdit::new(ready.analysis.range(span), name.to_owned())).collect())
+    let spans = ide::rename(&ready.view(), &ready.analysis.names.occurrences, definition, name)?;
+    let own = spans.into_iter().filter(|span| is_own(*span));
+    Ok(own.map(|span| TextEdit::new(ready.analysis.names.places.range(span), name.to_owned())).collect())
 }

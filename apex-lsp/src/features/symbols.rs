@@ -18,8 +18,8 @@ fn symbol(ready: &Ready<'_>, found: &Symbol) -> DocumentSymbol {
         kind: kind(found.kind),
         tags: None,
         deprecated: None,
-        range: ready.analysis.range(found.extent),
-        selection_range: ready.analysis.range(found.name_span),
+        range: ready.analysis.names.places.range(found.extent),
+        selection_range: ready.analysis.names.places.range(found.name_span),
         children: (!children.is_empty()).then_some(children),
     }
 }

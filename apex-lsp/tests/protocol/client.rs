@@ -5,7 +5,11 @@ use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
     thread::JoinHandle,
+    time::Duration,
 };
+
+/// Longer than any check takes, also in a debug build on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// An editor with its server.
 pub struct Client {
@@ -44,7 +48,7 @@ impl Client {
     /// Starts a server for an editor that can do `capabilities`; gives what the server can do, too.
     pub fn with(capabilities: Value) -> (Self, Value) {
         let (server, connection) = Connection::memory();
-        let server = std::thread::spawn(move || apex_lsp::serve(&server));
+        let server = std::thread::spawn(move || apex_lsp::serve(&server, PATIENCE));
         let mut client = Self { connection: Some(connection), server: Some(server), next: 0, version: 0, said: vec![] };
         let answer = client.ask("initialize", json!({ "capabilities": capabilities })).unwrap();
         client.tell("initialized", json!({}));
@@ -157,6 +161,7 @@ impl Client {
 
 /// Line and column behind a text, in UTF-16.
 pub fn position(before: &str) -> Value {
+    let before = before.replace("\r\n", "\n").replace('\r', "\n");
     let line = before.matches('\n').count();
     let column = before.rsplit('\n').next().unwrap_or_default().encode_utf16().count();
     json!({ "line": line, "character": column })

@@ -101,6 +101,45 @@ fn arguments_and_units() {
     assert!(client.stop());
 }
 
+/// A connection may name a parameter: to set it, or to read it.
+#[test]
+fn parameters_as_ports() {
+    let mut client = Client::start();
+    let found = in_graph(&mut client, "gap -> jump.|");
+    has(&found, &["scan", "gap", "bridge"]);
+    has(&in_graph(&mut client, "jump.|"), &["segments", "gap", "failed"]);
+    let path = unsaved("parameters.afg");
+    let graph = |statement: &str| {
+        let head = "use apex_nodes::scan::{RangeFilter, Scan};\ngraph A { in near: f32; in scan: Scan;";
+        format!("{head} node cut = RangeFilter();\n{statement}\n}}\n")
+    };
+    let found = client.completions(&path, &graph("near -> |"));
+    has(&found, &["cut.min", "cut.max"]);
+    // Only where the types agree for certain.
+    let found = client.completions(&path, &graph("scan -> |"));
+    has(&found, &["cut"]);
+    lacks(&found, &["cut.min", "cut.scan"]);
+    assert!(client.stop());
+}
+
+/// What is nested in a graph, however deep, cannot hold it.
+#[test]
+fn no_recursion() {
+    let mut client = Client::start();
+    let path = unsaved("recursion.afg");
+    let text = |inner: &str| {
+        format!(
+            "graph Outer {{ in x: u8; node m = Middle(); x -> m; }}\ngraph Middle {{ in x: u8; x -> [Inner()]; }}\ngraph Inner {{ in x: u8; {inner} }}\ngraph Other {{ in x: u8; }}\n"
+        )
+    };
+    for statement in ["node n = |", "x -> |"] {
+        let found = client.completions(&path, &text(statement));
+        has(&found, &["Other"]);
+        lacks(&found, &["Outer", "Middle", "Inner"]);
+    }
+    assert!(client.stop());
+}
+
 #[test]
 fn what_is_written() {
     let mut client = Client::start();

@@ -113,6 +113,43 @@ fn the_rest_is_known() {
     assert!(client.stop());
 }
 
+/// Closers are added behind a comment that ends the text, not in it.
+#[test]
+fn a_comment_at_the_end() {
+    let mut client = Client::start();
+    let path = unsaved("comment.afg");
+    for end in ["// x", "/// x", "/* { // x", "/* { // x\n//", "y -> /* // */ // \"", "//"] {
+        client.open(&path, &format!("graph A {{\n    in x: u8;\n    {end}"));
+        let params = json!({ "textDocument": { "uri": uri(&path) } });
+        let found = client.ask("textDocument/documentSymbol", params).unwrap();
+        assert_eq!((&found[0]["name"], &found[0]["children"][0]["name"]), (&json!("A"), &json!("x")), "{end}: {found}");
+    }
+    assert!(client.stop());
+}
+
+/// What is said is said of the text that was checked: the one that stands in for a half-written text may import more.
+#[test]
+fn errors_in_imports_of_a_half_written_text() {
+    let mut client = Client::start();
+    let (inner, outer) = (unsaved("wrong.afg"), unsaved("half.afg"));
+    client.open(&inner, "graph Inner { nonsense }\n");
+    for text in [
+        "use wrong::Inner;\ngraph A { /* {\n// x",
+        "/* {\nuse wrong::Inner;\n// x",
+        "graph A { }\n/* use wrong::Inner;\ngraph B { // x",
+        "use wrong::Inner;\ngraph A { } /* } use other::B; {",
+        "use wrong::{Inner, \"\ngraph A { node a = Inner(",
+    ] {
+        client.open(&outer, text);
+        let found = client.diagnostics(&outer);
+        let codes: Vec<&str> = found.iter().map(|d| d["code"].as_str().unwrap_or("the server failed")).collect();
+        assert!(codes.contains(&"unclosed"), "{text}: {codes:?}");
+        assert!(!codes.contains(&"the server failed"), "{text}");
+        client.ask_at(&outer, position(text), "completion", json!({})).unwrap();
+    }
+    assert!(client.stop());
+}
+
 /// A text that nests without end, and one that is too large.
 #[test]
 fn too_much() {

@@ -2,8 +2,11 @@
 
 mod client;
 mod completing;
+mod edits;
+mod fixing;
 mod half_written;
 mod navigating;
+mod package;
 mod renaming;
 mod showing;
 mod speed;

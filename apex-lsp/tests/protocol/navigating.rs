@@ -57,10 +57,17 @@ fn definitions() {
     ] {
         assert_eq!(client.at(&path, &marked(word, n), "definition").unwrap(), target, "{word} {n}");
     }
-    // A parameter and a port of a node in Rust lead to the node.
-    for (word, n) in [("gap", 1), ("scan;", 0)] {
+    // A parameter and a port of a node in Rust lead to the field and the argument.
+    let file = repository().join("nodes/src/scan/segment.rs");
+    let text = std::fs::read_to_string(&file).unwrap();
+    for (word, n, before) in [("gap", 1, "    "), ("scan;", 0, "    fn process(&mut self, ")] {
         let found = client.at(&path, &marked(word, n), "definition").unwrap();
-        assert_eq!(found["uri"], uri(&repository().join("nodes/src/scan/segment.rs")));
+        assert_eq!(found["uri"], uri(&file));
+        let (start, end) = (&found["range"]["start"], &found["range"]["end"]);
+        let line = text.lines().nth(start["line"].as_u64().unwrap() as usize).unwrap();
+        let [start, end] = [start, end].map(|at| at["character"].as_u64().unwrap() as usize);
+        let name = word.trim_end_matches(';');
+        assert_eq!((&line[..start], &line[start..end]), (before, name));
     }
     assert_eq!(client.at(&path, &marked("in  input", 0), "definition").unwrap(), Value::Null);
     assert!(client.stop());

@@ -62,6 +62,25 @@ fn what_a_name_means() {
     assert!(client.stop());
 }
 
+/// A unit is shown where one is declared; a time can be written in any.
+#[test]
+fn no_unit_is_invented() {
+    let mut client = Client::start();
+    let path = unsaved("units.afg");
+    let text = "graph A(wait: Duration = 20ms, far: f64[m] = 1m) { }\ngraph B { node a = A(wait = 2, far = 3); }\n";
+    for (word, declaration) in [("wait", "wait: Duration = 20ms"), ("far", "far: f64[m] = 1m")] {
+        client.open(&path, text);
+        let at = text.find(word).unwrap();
+        let found = client.ask_at(&path, position(&text[..at]), "hover", json!({})).unwrap();
+        let shown = found["contents"]["value"].as_str().unwrap();
+        assert!(shown.starts_with(&format!("```afg\n{declaration}\n```")), "{shown}");
+    }
+    let marked = text.replace("wait = 2,", "wait = 2|,");
+    let units = client.completions(&path, &marked);
+    assert!(units.iter().any(|u| u == "ms") && !units.iter().any(|u| u == "m"), "{units:?}");
+    assert!(client.stop());
+}
+
 #[test]
 fn what_an_arrow_does() {
     let mut client = Client::start();

@@ -11,6 +11,63 @@ use std::{
 /// Keystrokes that are measured.
 const KEYS: usize = 100;
 
+/// What a text is full of, how often, and the text of that size.
+type Shape<'a> = (&'a str, usize, &'a dyn Fn(usize) -> String);
+
+/// Large texts of many shapes, each in two sizes: what takes more than twice the time for twice the text grows too fast.
+#[test]
+#[ignore = "a measurement: it prints, and decides nothing"]
+fn large_texts() {
+    let many = |n: usize, of: &dyn Fn(usize) -> String| (0..n).map(of).collect::<String>();
+    let shapes: [Shape<'_>; 14] = [
+        ("graphs", 50_000, &|n| many(n, &|i| format!("graph G{i} {{ in x: u8; }}\n"))),
+        ("graphs in one line", 50_000, &|n| many(n, &|i| format!("graph G{i} {{ in x: u8; }} "))),
+        ("graphs with ü", 50_000, &|n| many(n, &|i| format!("graph G{i} {{ /* ü */ }} "))),
+        ("half-written graphs", 50_000, &|n| many(n, &|i| format!("graph G{i} {{ in x: u8;\n"))),
+        ("machines", 20_000, &|n| many(n, &|i| format!("fsm M{i} {{ slot a: u8; state s {{ on a => s; }} }}\n"))),
+        ("states", 10_000, &|n| {
+            let states = many(n, &|i| format!("state s{i} {{ on a => s{}; }}\n", (i + 1) % n));
+            format!("fsm M {{ slot a: u8;\n{states}}}\n")
+        }),
+        ("ports", 10_000, &|n| {
+            let ports = many(n, &|i| format!("in x{i}: u8; out y{i}: u8; x{i} -> y{i};\n"));
+            let uses = many(n, &|i| format!("in x{i}: u8; x{i} -> n.x{i};\n"));
+            format!("graph Inner {{ {ports} }}\ngraph Outer {{ node n = Inner(); {uses} }}\n")
+        }),
+        ("parameters", 20_000, &|n| format!("graph A({}) {{ }}\n", many(n, &|i| format!("p{i}: u8 = 1, ")))),
+        ("unknown nodes", 20_000, &|n| format!("graph A {{ {} }}\n", many(n, &|i| format!("node a{i} = B{i}();\n")))),
+        ("broken statements", 50_000, &|n| format!("graph A {{ {} }}\n", many(n, &|_| "-> ->;\n".to_owned()))),
+        ("tests", 20_000, &|n| format!("graph A {{ }}\n{}", many(n, &|i| format!("test t{i}: A {{ wait 1s; }}\n")))),
+        ("imports", 20_000, &|n| many(n, &|i| format!("use a{i}::B;\n"))),
+        ("strings in one line", 200_000, &|n| format!("graph A {{ ( {} ", "\"\"".repeat(n))),
+        ("an open comment", 200_000, &|n| format!("graph A {{ /* {} ", "x ü -> y; { ".repeat(n / 10))),
+    ];
+    for (name, size, shape) in shapes {
+        for size in [size / 2, size] {
+            let text = shape(size);
+            let mut client = Client::start();
+            let path = std::env::temp_dir().join("large.afg");
+            let start = Instant::now();
+            client.open(&path, &text);
+            client.diagnostics(&path);
+            let checked = start.elapsed();
+            let start = Instant::now();
+            let document = json!({ "textDocument": { "uri": uri(&path) } });
+            client.ask("textDocument/documentSymbol", document).unwrap();
+            let outline = start.elapsed();
+            let start = Instant::now();
+            let half = (text.len() / 2..).find(|i| text.is_char_boundary(*i)).unwrap();
+            client.ask_at(&path, position(&text[..half]), "completion", json!({})).unwrap();
+            let completion = start.elapsed();
+            let size = format!("{size} ({} KiB)", text.len() >> 10);
+            println!(
+                "{name:20} {size:20} checked {checked:8.2?}  outline {outline:8.2?}  completion {completion:8.2?}"
+            );
+            assert!(client.stop());
+        }
+    }
+}
+
 #[test]
 #[ignore = "a measurement: it prints, and decides nothing"]
 fn a_thousand_nodes() {

@@ -1,7 +1,7 @@
 use super::{
     Channel, Codec, Message as _,
     cdr::Writer,
-    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS, free},
+    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS, free},
 };
 use crate::{
     GroupInfo, Mailbox, Parameters, Program, Time,
@@ -12,7 +12,7 @@ use std::{
     collections::BTreeMap,
     io,
     path::{Path, PathBuf},
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{Mutex, PoisonError},
     thread,
 };
 
@@ -31,7 +31,11 @@ const PAUSE: Duration = Duration::from_micros(100);
 /// Records a run, or what one group of threads does in it.
 pub struct Recorder {
     channels: Vec<Channel>,
-    shared: Arc<Mutex<Shared>>,
+    /// The file, which one of the recorders of a run ends.
+    sink: Option<Sink>,
+    near: Near,
+    /// The ways to the file of the groups that have none yet.
+    others: Mutex<Vec<Near>>,
     frame: Frame,
     /// The number of the group, if it is one of several that run side by side.
     group: Option<u32>,
@@ -40,6 +44,8 @@ pub struct Recorder {
     when_full: WhenFull,
     path: PathBuf,
     now: Time,
+    /// How many reactions there were, with this one.
+    reactions: u32,
     /// How often each node was called in this reaction.
     calls: Vec<u32>,
     /// Which mailboxes held a token after the last reaction, by channel.
@@ -50,13 +56,6 @@ pub struct Recorder {
     params_now: Vec<u8>,
     /// The reaction that goes on was dropped, and all in it.
     lost: bool,
-}
-
-/// What the recorders of all groups share.
-struct Shared {
-    sink: Sink,
-    /// How many messages were lost, by channel.
-    dropped: Vec<u64>,
 }
 
 /// What is left to say when a recording has ended.
@@ -87,25 +86,25 @@ impl Recorder {
         when_full: WhenFull,
         left_out: impl Fn(&Channel) -> bool,
     ) -> io::Result<Self> {
-        Self::new::<P>(path, when_full, ROOM, &[], left_out)
+        Self::new::<P>(path, when_full, ROOM, None, left_out)
     }
 
     /// As [`to_file`](Self::to_file), with another number of bytes that can wait to be written.
     #[doc(hidden)]
     pub fn with_room<P: Program>(path: &Path, when_full: WhenFull, room: usize) -> io::Result<Self> {
-        Self::new::<P>(path, when_full, room, &[], |_| false)
+        Self::new::<P>(path, when_full, room, None, |_| false)
     }
 
     /// A recording of a program whose `groups` run side by side: each has a recorder [`beside`](Self::beside) this one.
     pub(super) fn of_threads<P: Program>(path: &Path, groups: &[GroupInfo]) -> io::Result<Self> {
-        Self::new::<P>(path, WhenFull::Drop, ROOM, groups, |_| false)
+        Self::new::<P>(path, WhenFull::Drop, ROOM, Some(groups), |_| false)
     }
 
     fn new<P: Program>(
         path: &Path,
         when_full: WhenFull,
         room: usize,
-        groups: &[GroupInfo],
+        groups: Option<&[GroupInfo]>,
         left_out: impl Fn(&Channel) -> bool,
     ) -> io::Result<Self> {
         let (info, mut channels) = (const { &P::INFO }, P::channels());
@@ -117,29 +116,30 @@ impl Recorder {
         out.iter_mut().for_each(|channel| channel.schema = None);
         let path = free(path);
         let mut about = BTreeMap::from([("name".to_owned(), info.name.to_owned())]);
-        if !groups.is_empty() {
+        if let Some(groups) = groups.filter(|groups| !groups.is_empty()) {
             about.insert(THREADS.to_owned(), names(groups));
         }
-        let sink = Sink::new(path.clone(), about, &channels, room)?;
-        let shared = Arc::new(Mutex::new(Shared { sink, dropped: vec![0; FIRST + channels.len()] }));
-        Ok(Self::sharing(shared, channels, when_full, path, info.nodes.len()))
+        // One for each group, and one for who watches over them.
+        let beside = groups.map_or(0, |groups| groups.len().max(1) + 1);
+        let (sink, mut ends) = Sink::new(path.clone(), about, &channels, 1 + beside, room)?;
+        let near = ends.remove(0);
+        let own = Self::by(near, channels, when_full, path, info.nodes.len());
+        Ok(Self { sink: Some(sink), others: Mutex::new(ends), ..own })
     }
 
-    fn sharing(
-        shared: Arc<Mutex<Shared>>,
-        channels: Vec<Channel>,
-        when_full: WhenFull,
-        path: PathBuf,
-        nodes: usize,
-    ) -> Self {
+    /// A recorder that writes by `near`.
+    fn by(near: Near, channels: Vec<Channel>, when_full: WhenFull, path: PathBuf, nodes: usize) -> Self {
         Self {
-            shared,
+            sink: None,
+            near,
+            others: Mutex::default(),
             frame: Frame::default(),
             group: None,
             looks: 0,
             when_full,
             path,
             now: Time::ZERO,
+            reactions: 0,
             calls: vec![0; nodes],
             full: vec![false; channels.len()],
             params: vec![],
@@ -149,10 +149,16 @@ impl Recorder {
         }
     }
 
-    /// Records in the same file, where there are several groups what this `group` does.
+    /// Records in the same file, where there are several groups what this `group` does. All that was sent by this one
+    /// comes before what is sent by that.
+    ///
+    /// # Panics
+    /// There are more of them than was said.
     pub(super) fn beside(&self, group: Option<usize>) -> Self {
-        let shared = Arc::clone(&self.shared);
-        let own = Self::sharing(shared, self.channels.clone(), self.when_full, self.path.clone(), self.calls.len());
+        self.near.settle();
+        let near = self.others.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let near = near.expect("there is one for each group, and one for who watches over them");
+        let own = Self::by(near, self.channels.clone(), self.when_full, self.path.clone(), self.calls.len());
         Self { group: group.map(|group| group as u32), ..own }
     }
 
@@ -166,19 +172,15 @@ impl Recorder {
     /// # Errors
     /// It could not be written.
     pub fn finish(self) -> io::Result<Finished> {
+        let Self { sink: Some(sink), mut near, channels, path, .. } = self else {
+            return Err(io::Error::other("another recorder ends the file"));
+        };
         let own = OWN.iter().map(|(name, _)| *name);
-        let names = own.chain(self.channels.iter().map(|c| c.name));
-        let mut shared = self.shared();
-        let lost = names.zip(&shared.dropped).filter(|(_, count)| **count > 0);
-        let dropped: Vec<(String, u64)> = lost.map(|(name, count)| (name.to_owned(), *count)).collect();
-        shared.sink.finish(&dropped)?;
-        drop(shared);
-        Ok(Finished { path: self.path, dropped })
-    }
-
-    /// A thread that panicked while it had this left nothing half done.
-    fn shared(&self) -> MutexGuard<'_, Shared> {
-        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+        let names = own.chain(channels.iter().map(|c| c.name));
+        let lost = names.zip(sink.dropped()).filter(|(_, count)| *count > 0);
+        let dropped: Vec<(String, u64)> = lost.map(|(name, count)| (name.to_owned(), count)).collect();
+        sink.finish(&mut near, &dropped)?;
+        Ok(Finished { path, dropped })
     }
 
     pub(super) fn begin(&mut self, now: Time) {
@@ -187,7 +189,8 @@ impl Recorder {
         self.looks = 0;
         self.calls.fill(0);
         let group = self.group.unwrap_or(0);
-        let sent = self.own(REACTION, |message| {
+        self.reactions = self.reactions.wrapping_add(1);
+        let sent = self.numbered(REACTION, self.reactions, |message| {
             message.u32(group);
             message.i64(now.as_nanos());
         });
@@ -275,24 +278,26 @@ impl Recorder {
 
     /// Sends a message on a channel that every recording has.
     fn own(&mut self, channel: u16, write: impl FnOnce(&mut Writer<'_>)) -> bool {
-        let frame = self.frame.begin(channel, 0, time(self.now));
+        self.numbered(channel, 0, write)
+    }
+
+    fn numbered(&mut self, channel: u16, number: u32, write: impl FnOnce(&mut Writer<'_>)) -> bool {
+        let frame = self.frame.begin(channel, number, time(self.now));
         write(&mut Writer::new(frame));
         self.send(usize::from(channel), true)
     }
 
-    /// Sends what was written of a message, or counts it as lost. Others can send while this one waits for room.
+    /// Sends what was written of a message, or counts it as lost.
     fn send(&mut self, channel: usize, written: bool) -> bool {
+        let written = written && !self.lost;
         loop {
-            let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-            if written && !self.lost && shared.sink.send(&mut self.frame) {
+            if written && self.near.send(&mut self.frame) {
                 return true;
             }
-            let waits = written && !self.lost && self.when_full == WhenFull::Wait;
-            if !waits || !shared.sink.may_fit(&self.frame) {
-                shared.dropped[channel] += 1;
+            if !written || self.when_full == WhenFull::Drop || !self.near.may_fit(&self.frame) {
+                self.near.lose(channel);
                 return false;
             }
-            drop(shared);
             thread::sleep(PAUSE);
         }
     }

@@ -3,7 +3,7 @@ use super::{
     cdr::Reader,
     report::{Compared, Difference},
     sink::OWN,
-    source::{FileMessage, Source},
+    source::{CUT, FileMessage, Source},
     waits::{Waited, Waits},
 };
 use crate::{
@@ -34,6 +34,13 @@ pub enum ReplayError {
         /// The program that was to replay it.
         wanted: &'static str,
     },
+    /// It has not a single whole reaction.
+    Nothing {
+        /// The file.
+        path: PathBuf,
+        /// Why it ends before.
+        why: Option<String>,
+    },
     /// It was recorded on other groups of threads than the program has.
     OtherThreads {
         /// The file.
@@ -54,6 +61,10 @@ impl fmt::Display for ReplayError {
             }
             Self::OtherProgram { path, recorded, wanted } => {
                 write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
+            }
+            Self::Nothing { path, why } => {
+                write!(f, "nothing of `{}` can be replayed: it has no reaction that is whole", path.display())?;
+                why.as_ref().map_or(Ok(()), |why| write!(f, "; {why}"))
             }
             Self::OtherThreads { path, recorded, wanted } => {
                 write!(f, "`{}` was recorded on the threads `{recorded}`", path.display())?;
@@ -108,6 +119,8 @@ pub struct Replay {
     meanings: BTreeMap<u16, Option<Meaning>>,
     /// The beginning of the reaction after this one, which was read already.
     next: Option<Time>,
+    /// The number and the time of the reaction that was read last.
+    read: (u32, Time),
     /// The reaction that goes on.
     now: Time,
     reaction: Reaction,
@@ -156,6 +169,7 @@ impl Replay {
             source: Source::open(path).map_err(at)?,
             meanings: BTreeMap::new(),
             next: None,
+            read: (0, Time::ZERO),
             now: Time::ZERO,
             reaction: Reaction::new(channels.len()),
             calls: vec![0; info.nodes.len()],
@@ -176,7 +190,8 @@ impl Replay {
             Some(_) => {}
             None if replay.source.cut.is_none() => return Err(ReplayError::NoRecording(path.to_owned())),
             None => {
-                let what = "it is empty, or was cut off before anything was recorded";
+                let cut = "it is empty, or was cut off before anything was recorded".to_owned();
+                let what = replay.source.cut.take().filter(|why| why != CUT).unwrap_or(cut);
                 return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
             }
         }
@@ -233,23 +248,39 @@ impl Replay {
             return Ok(None);
         }
         self.report.reactions += 1;
+        self.report.last = Some(now);
         Ok(Some(now))
     }
 
     fn load(&mut self) -> io::Result<()> {
         while let Some(message) = self.source.next()? {
             match self.meaning(message.channel) {
-                Some(Meaning::Reaction) => {
-                    self.next = time_of(&message.data).filter(|(group, _)| self.is_own(*group)).map(|(_, time)| time);
-                    if self.next.is_some() {
+                Some(Meaning::Reaction) => match time_of(&message.data) {
+                    Some((group, _)) if !self.is_own(group) => {}
+                    Some((_, time)) => {
+                        self.follow(message.sequence, time);
                         return Ok(());
                     }
-                }
+                    None => self.source.damaged("the time of a reaction cannot be read"),
+                },
                 Some(meaning) => self.keep(meaning, message),
                 None => {}
             }
         }
         Ok(())
+    }
+
+    /// A reaction is read, which comes after the one before.
+    fn follow(&mut self, number: u32, time: Time) {
+        let (last, before) = mem::replace(&mut self.read, (number, time));
+        // Older recordings do not number them.
+        let ahead = if number == 0 { 1 } else { number.wrapping_sub(last) };
+        if time < before || !(1..=u32::MAX / 2).contains(&ahead) {
+            self.source.damaged(&format!("the reaction at {time} comes after the one at {before}"));
+            return;
+        }
+        self.report.skipped += u64::from(ahead - 1);
+        self.next = Some(time);
     }
 
     /// What messages of a channel of the file are for, which is found out once.
@@ -308,6 +339,13 @@ impl Replay {
 
     /// What came of it.
     pub(super) fn finish(mut self) -> Report {
+        // Whether the rest is as it should be: a thread that waits for what others were cut off from ends before.
+        while let Some(more) = self.source.next().transpose() {
+            if let Err(error) = more {
+                self.source.cut = Some(error.to_string());
+                break;
+            }
+        }
         self.report.cut = self.source.cut.take();
         self.report.dropped = mem::take(&mut self.source.dropped);
         self.report

@@ -7,6 +7,10 @@ use core::fmt::{self, Display, Formatter};
 pub struct Report {
     /// The reactions that were repeated.
     pub reactions: u64,
+    /// The time of the last one.
+    pub last: Option<Time>,
+    /// Reactions that are missing between others.
+    pub skipped: u64,
     /// The connections that were compared.
     pub compared: Vec<Compared>,
     /// Channels of the program that the recording does not have.
@@ -65,11 +69,18 @@ impl Report {
         self.missed == 0 && self.compared.iter().all(|c| c.different == 0)
     }
 
+    /// Whether all that happened was repeated: nothing of the recording is missing or was lost.
+    pub fn is_whole(&self) -> bool {
+        self.cut.is_none() && self.skipped == 0 && self.dropped.is_empty() && self.unreadable == 0
+    }
+
     /// What came of all groups of a program, each of which has a report of its own; that of the main group is the first.
     pub(super) fn of_groups(reports: Vec<Self>, channels: &[Channel]) -> Self {
         let mut all = Self::default();
         for (group, report) in reports.into_iter().enumerate() {
             all.reactions += report.reactions;
+            all.last = all.last.max(report.last);
+            all.skipped += report.skipped;
             all.unreadable += report.unreadable;
             all.repeated += report.repeated;
             all.missed += report.missed;
@@ -94,7 +105,14 @@ impl Report {
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if let Some(cut) = &self.cut {
-            writeln!(f, "the recording is not whole: {cut}; compared as far as it goes")?;
+            write!(f, "the recording is not whole: {cut}; compared as far as it goes")?;
+            match self.last {
+                Some(last) => writeln!(f, ", up to the reaction at {last}")?,
+                None => writeln!(f)?,
+            }
+        }
+        if self.skipped > 0 && self.dropped.is_empty() {
+            writeln!(f, "{} reactions between others are missing: what follows from them differs", self.skipped)?;
         }
         for (channel, count) in &self.dropped {
             writeln!(

@@ -2,9 +2,12 @@
 
 use super::{
     Finished, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
-    threads::{record_on_threads, recorded_threads, replay_on_threads},
+    threads::{record_from_threads, recorded_threads, replay_on_threads},
 };
-use crate::{Clock, Observer, Program, StdErr, UntilStopped, drive_with, run::pace_of_threads};
+use crate::{
+    Clock, Observer, Ports, Program, StdErr, UntilStopped,
+    run::{drive_ports, pace_of_threads},
+};
 use std::{
     env, io,
     path::{Path, PathBuf},
@@ -34,16 +37,16 @@ impl Wish {
 }
 
 /// Drives a program and records it, or replays a recording of it.
-pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, wish: &Wish) -> u8 {
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, wish: &Wish) -> u8 {
     match wish {
-        Wish::Record(path) => record(program, clock, path).unwrap_or_else(|error| {
+        Wish::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
             eprintln!("error: cannot record to `{}`: {error}", path.display());
             2
         }),
         Wish::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
             Ok(report) => {
                 print!("{report}");
-                u8::from(!report.is_same())
+                u8::from(!report.is_same() || !report.is_whole())
             }
             Err(error) => {
                 eprintln!("error: {error}");
@@ -53,11 +56,11 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, wish: &Wish) -> 
     }
 }
 
-fn record<P: Program, C: Clock>(mut program: P, clock: C, path: &Path) -> io::Result<u8> {
+fn record<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, path: &Path) -> io::Result<u8> {
     let clock = UntilStopped::ctrl_c_if_free(clock);
     let (code, finished) = match pace_of_threads::<P, _>(&clock) {
-        Some(pace) => record_on_threads(&mut program, pace, path, |_| StdErr(const { &P::INFO }))?,
-        None => record_in_turn(program, clock, path)?,
+        Some(pace) => record_from_threads(&mut program, pace, ports.0, path, |_| StdErr(const { &P::INFO }))?,
+        None => record_in_turn(program, clock, ports, path)?,
     };
     eprintln!("recorded to `{}`", finished.path.display());
     for (channel, count) in finished.dropped {
@@ -67,10 +70,15 @@ fn record<P: Program, C: Clock>(mut program: P, clock: C, path: &Path) -> io::Re
 }
 
 /// Records a program on one thread.
-fn record_in_turn<P: Program, C: Clock>(program: P, clock: C, path: &Path) -> io::Result<(u8, Finished)> {
+fn record_in_turn<P: Program, C: Clock>(
+    program: P,
+    clock: C,
+    ports: Ports<P>,
+    path: &Path,
+) -> io::Result<(u8, Finished)> {
     let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
     let mut tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
-    let code = drive_with(program, clock, (StdErr(const { &P::INFO }), &mut tap));
+    let code = drive_ports(program, clock, (StdErr(const { &P::INFO }), &mut tap), ports);
     let Tap::Record(recorder) = tap else { unreachable!("it was made so") };
     Ok((code, recorder.finish()?))
 }
@@ -96,5 +104,16 @@ pub fn replay<P: Program>(
         program.react_with(now, &mut (&mut observer, &mut tap));
     }
     let Tap::Replay(replay) = tap else { unreachable!("it was made so") };
-    Ok(replay.finish())
+    something(replay.finish(), path)
+}
+
+/// A report of at least one reaction.
+///
+/// # Errors
+/// Nothing was repeated, which is the same as anything.
+pub(super) fn something(report: Report, path: &Path) -> Result<Report, ReplayError> {
+    match report.reactions {
+        0 => Err(ReplayError::Nothing { path: path.to_owned(), why: report.cut }),
+        _ => Ok(report),
+    }
 }

@@ -10,9 +10,9 @@ use std::{
     path::{Path, PathBuf},
     sync::{
         Arc,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
     },
-    thread::{self, JoinHandle},
+    thread::{self, JoinHandle, Thread},
     time::{Duration, Instant},
 };
 
@@ -20,7 +20,8 @@ use std::{
 pub const ROOM: usize = 16 << 20;
 /// What came within this time is written together; a power failure takes no more.
 const FLUSH: Duration = Duration::from_millis(500);
-/// How long the thread sleeps when there is nothing to write.
+/// How long the thread sleeps when it has written all there is: what comes meanwhile is written together. If nothing
+/// comes, it sleeps until something does.
 const NAP: Duration = Duration::from_millis(2);
 /// The largest part of a file that is read and found as a whole.
 const CHUNK: u64 = 1 << 20;
@@ -88,30 +89,107 @@ impl Frame {
     }
 }
 
-/// The near end of the ring.
+/// The near ends of the rings: one for each thread that writes, so that none of them ever waits for another one.
 pub struct Sink {
-    ring: Producer<u8>,
-    over: Arc<AtomicBool>,
+    shared: Arc<Shared>,
+    /// Until it has ended.
     thread: Option<JoinHandle<io::Result<()>>>,
+}
+
+/// What the near end of a ring and the thread at the far ends share.
+struct Shared {
+    over: AtomicBool,
+    /// The thread sleeps until it is unparked.
+    sleeps: AtomicBool,
+    /// Messages that were lost, by channel.
+    dropped: Box<[AtomicU64]>,
+}
+
+/// The near end of one ring.
+pub struct Near {
+    ring: Producer<u8>,
+    shared: Arc<Shared>,
+    far: Thread,
     /// Bytes of the largest frame that ever fits.
     room: usize,
 }
 
 impl Sink {
-    /// Makes the file and begins to write. `about` says what program it is, and `room` bytes can wait.
-    pub fn new(path: PathBuf, about: BTreeMap<String, String>, channels: &[Channel], room: usize) -> io::Result<Self> {
-        let (ring, taken) = RingBuffer::new(room);
+    /// Makes the file and begins to write, from so many `rings`. `about` says what program it is, and `room` bytes can
+    /// wait in each ring. What is in the first ring is written before what is in the others, once it is
+    /// [`settled`](Near::settle).
+    pub fn new(
+        path: PathBuf,
+        about: BTreeMap<String, String>,
+        channels: &[Channel],
+        rings: usize,
+        room: usize,
+    ) -> io::Result<(Self, Vec<Near>)> {
+        let (near, far): (Vec<_>, Vec<_>) = (0..rings).map(|_| RingBuffer::new(room)).unzip();
         let file = File::create_new(&path)?;
         let writer = open(file.try_clone()?, about, channels).map_err(as_io)?;
-        let over = Arc::new(AtomicBool::new(false));
-        let far = Far { ring: taken, writer, file, over: Arc::clone(&over), frame: vec![], path };
+        let dropped = (0..FIRST + channels.len()).map(|_| AtomicU64::new(0)).collect();
+        let shared = Arc::new(Shared { over: AtomicBool::new(false), sleeps: AtomicBool::new(false), dropped });
+        let far = Far { rings: far, writer, file, shared: Arc::clone(&shared), frame: vec![], path };
         let thread = thread::Builder::new().name("apex-record".to_owned()).spawn(move || far.run())?;
-        Ok(Self { ring, over, thread: Some(thread), room })
+        let near =
+            near.into_iter().map(|ring| Near { ring, shared: Arc::clone(&shared), far: thread.thread().clone(), room });
+        let near = near.collect();
+        Ok((Self { shared, thread: Some(thread) }, near))
     }
 
+    /// How many messages were lost, by channel.
+    pub fn dropped(&self) -> impl Iterator<Item = u64> + '_ {
+        self.shared.dropped.iter().map(|count| count.load(Ordering::Relaxed))
+    }
+
+    /// Writes what is left, and what was lost, and ends the file. `near` is any of the ends; the others are not used
+    /// any more.
+    pub fn finish(mut self, near: &mut Near, dropped: &[(String, u64)]) -> io::Result<()> {
+        let fields: BTreeMap<String, String> = dropped.iter().map(|(name, n)| (name.clone(), n.to_string())).collect();
+        if let Ok(text) = postcard::to_allocvec(&fields) {
+            let mut frame = Frame::default();
+            frame.begin(u16::MAX, 0, 0).extend_from_slice(&text);
+            while !near.send(&mut frame) && near.may_fit(&frame) {
+                thread::sleep(NAP);
+            }
+        }
+        self.end()
+    }
+
+    /// Ends the file with what was sent.
+    fn end(&mut self) -> io::Result<()> {
+        let Some(thread) = self.thread.take() else { return Ok(()) };
+        self.shared.over.store(true, Ordering::Release);
+        self.shared.stir(thread.thread());
+        thread.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")))
+    }
+}
+
+impl Drop for Sink {
+    fn drop(&mut self) {
+        let _ = self.end();
+    }
+}
+
+impl Shared {
+    /// Wakes the thread that writes, if it sleeps until somebody does. It says that it sleeps and looks once more; here
+    /// one sends and asks then: whoever changes `sleeps` last has seen what the other did before.
+    fn stir(&self, far: &Thread) {
+        if self.sleeps.swap(false, Ordering::AcqRel) {
+            far.unpark();
+        }
+    }
+}
+
+impl Near {
     /// Sends a message; whether there was room for it.
     pub fn send(&mut self, frame: &mut Frame) -> bool {
-        frame.whole().is_some_and(|bytes| self.ring.push_entire_slice(bytes).is_ok())
+        let sent = frame.whole().is_some_and(|bytes| self.ring.push_entire_slice(bytes).is_ok());
+        if sent {
+            self.shared.stir(&self.far);
+        }
+        sent
     }
 
     /// Whether there will be room for a message, if one waits.
@@ -119,25 +197,16 @@ impl Sink {
         frame.0.len() <= self.room && !self.ring.is_abandoned()
     }
 
-    /// Writes what is left, and what was lost, and ends the file.
-    pub fn finish(&mut self, dropped: &[(String, u64)]) -> io::Result<()> {
-        let Some(thread) = self.thread.take() else { return Ok(()) };
-        let fields: BTreeMap<String, String> = dropped.iter().map(|(name, n)| (name.clone(), n.to_string())).collect();
-        if let Ok(text) = postcard::to_allocvec(&fields) {
-            let mut frame = Frame::default();
-            frame.begin(u16::MAX, 0, 0).extend_from_slice(&text);
-            while !self.send(&mut frame) && self.may_fit(&frame) {
-                thread::sleep(NAP);
-            }
-        }
-        self.over.store(true, Ordering::Release);
-        thread.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")))
+    /// A message of a channel was lost.
+    pub fn lose(&self, channel: usize) {
+        self.shared.dropped[channel].fetch_add(1, Ordering::Relaxed);
     }
-}
 
-impl Drop for Sink {
-    fn drop(&mut self) {
-        let _ = self.finish(&[]);
+    /// Waits until all that was sent is on its way to the file, before anything that is sent from now on by others.
+    pub fn settle(&self) {
+        while self.ring.slots() < self.room && !self.ring.is_abandoned() {
+            thread::sleep(NAP);
+        }
     }
 }
 
@@ -166,12 +235,12 @@ fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mc
     Ok(writer)
 }
 
-/// The far end of the ring.
+/// The far ends of the rings.
 struct Far {
-    ring: Consumer<u8>,
+    rings: Vec<Consumer<u8>>,
     writer: Out,
     file: File,
-    over: Arc<AtomicBool>,
+    shared: Arc<Shared>,
     frame: Vec<u8>,
     path: PathBuf,
 }
@@ -181,47 +250,78 @@ impl Far {
         let result = self.write_all().and_then(|()| self.writer.finish().map(drop).map_err(as_io));
         if let Err(error) = &result {
             eprintln!("error: cannot write `{}` any further: {error}", self.path.display());
-            // The program goes on; what it says is dropped from now on, as the ring is abandoned.
+            // The program goes on; what it says is dropped from now on, as the rings are abandoned.
         }
         result
     }
 
     fn write_all(&mut self) -> io::Result<()> {
-        let (mut flushed, mut dirty) = (Instant::now(), false);
+        let (mut flushed, mut dirty, mut idle) = (Instant::now(), false, false);
         loop {
             // Asked before looking: what was sent before the end is then seen.
-            let over = self.over.load(Ordering::Acquire);
-            while self.write_one()? {
-                dirty = true;
-                if flushed.elapsed() >= FLUSH {
-                    break;
-                }
-            }
+            let over = self.shared.over.load(Ordering::Acquire);
+            let wrote = self.write_waiting(flushed + FLUSH)?;
+            dirty |= wrote;
             if dirty && flushed.elapsed() >= FLUSH {
                 self.writer.flush().map_err(as_io)?;
                 self.file.sync_data()?;
                 (flushed, dirty) = (Instant::now(), false);
             }
-            if self.ring.is_empty() {
-                if over {
-                    return Ok(());
-                }
+            if self.rings.iter().any(|ring| !ring.is_empty()) {
+                continue;
+            }
+            if over {
+                return Ok(());
+            }
+            if wrote || !idle {
                 thread::sleep(NAP);
+                idle = !wrote;
+            } else {
+                self.sleep(dirty.then(|| FLUSH.saturating_sub(flushed.elapsed())));
+                // Nothing to flush came long ago.
+                flushed = if dirty { flushed } else { Instant::now() };
+                idle = false;
             }
         }
     }
 
-    /// Writes a frame, if one is there.
-    fn write_one(&mut self) -> io::Result<bool> {
-        let mut head = [0; HEADER];
+    /// Sleeps until something is sent, or for some time.
+    fn sleep(&self, time: Option<Duration>) {
+        self.shared.sleeps.swap(true, Ordering::AcqRel);
+        let is_quiet = self.rings.iter().all(Consumer::is_empty) && !self.shared.over.load(Ordering::Acquire);
+        match time {
+            _ if !is_quiet => {}
+            Some(time) => thread::park_timeout(time),
+            None => thread::park(),
+        }
+        self.shared.sleeps.store(false, Ordering::Release);
+    }
+
+    /// Writes what waits in the rings, one after the other, until `end`; whether there was anything.
+    fn write_waiting(&mut self, end: Instant) -> io::Result<bool> {
+        let mut any = false;
+        for ring in 0..self.rings.len() {
+            while self.write_one(ring)? {
+                any = true;
+                if Instant::now() >= end {
+                    break;
+                }
+            }
+        }
+        Ok(any)
+    }
+
+    /// Writes a frame of a ring, if one is there.
+    fn write_one(&mut self, ring: usize) -> io::Result<bool> {
+        let (ring, mut head) = (&mut self.rings[ring], [0; HEADER]);
         // Frames come in one piece: with the head the rest is there.
-        if self.ring.pop_entire_slice(&mut head).is_err() {
+        if ring.pop_entire_slice(&mut head).is_err() {
             return Ok(false);
         }
         let [c0, c1, s0, s1, s2, s3, t0, t1, t2, t3, t4, t5, t6, t7, l0, l1, l2, l3] = head;
         let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
         self.frame.resize(length, 0);
-        let _ = self.ring.pop_entire_slice(&mut self.frame);
+        let _ = ring.pop_entire_slice(&mut self.frame);
         let channel_id = u16::from_le_bytes([c0, c1]);
         if channel_id == u16::MAX {
             return self.write_dropped().map(|()| true);

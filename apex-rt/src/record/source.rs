@@ -1,8 +1,13 @@
-//! Reads an MCAP file from its beginning, one message after the other, as far as it goes: also a file that was cut off in
-//! the middle of a chunk, or has wrong bytes in it.
+//! Reads an MCAP file from its beginning, one message after the other, as far as it goes: also a file that was cut off
+//! in the middle of a chunk, or has wrong bytes in it. What the file says of itself at its end is compared with what
+//! was read: one that is read to its end without a word is what was written.
 
 use super::sink::{DROPPED, PROGRAM, THREADS};
-use mcap::{MAGIC, McapError, parse_record, records::Record};
+use crc32fast::Hasher;
+use mcap::{
+    MAGIC, McapError, parse_record,
+    records::{Record, Statistics, op},
+};
 use std::{
     collections::BTreeMap,
     fs::File,
@@ -12,8 +17,25 @@ use std::{
 
 /// No record is larger: a length that says so is damage.
 const LARGEST: u64 = 1 << 30;
-/// The kind of a record that holds others.
-const CHUNK: u8 = 6;
+/// Why a file ends where nothing is wrong before.
+pub const CUT: &str = "it was cut off";
+/// The bytes of a chunk before the records in it.
+const CHUNK_HEAD: u64 = 40;
+/// The kinds of the records that hold data, beside chunks.
+const DATA: [u8; 8] =
+    [op::HEADER, op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA, op::MESSAGE_INDEX, op::ATTACHMENT, op::DATA_END];
+/// The kinds of the records in a chunk.
+const IN_CHUNK: [u8; 3] = [op::SCHEMA, op::CHANNEL, op::MESSAGE];
+/// The kinds of the records behind the data.
+const SUMMARY: [u8; 7] = [
+    op::SCHEMA,
+    op::CHANNEL,
+    op::STATISTICS,
+    op::CHUNK_INDEX,
+    op::METADATA_INDEX,
+    op::ATTACHMENT_INDEX,
+    op::SUMMARY_OFFSET,
+];
 
 /// A channel of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +63,10 @@ pub struct FileMessage {
 
 /// A file that is read.
 pub struct Source {
-    file: BufReader<File>,
+    file: Summed,
+    /// How many chunks were read, and messages of each channel.
+    chunks: u32,
+    counts: BTreeMap<u16, u64>,
     /// The records of the chunk that is read, and how far it is.
     chunk: io::Cursor<Vec<u8>>,
     schemas: BTreeMap<u16, String>,
@@ -56,6 +81,20 @@ pub struct Source {
     /// Why it could not be read to its end.
     pub cut: Option<String>,
     over: bool,
+}
+
+/// A file with the checksum of what was read of it.
+struct Summed {
+    file: BufReader<File>,
+    sum: Hasher,
+}
+
+impl Read for Summed {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(into)?;
+        self.sum.update(&into[..count]);
+        Ok(count)
+    }
 }
 
 /// Why there is no next record.
@@ -77,7 +116,7 @@ impl Source {
         if path.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
-        let mut file = BufReader::new(File::open(path)?);
+        let mut file = Summed { file: BufReader::new(File::open(path)?), sum: Hasher::new() };
         let mut magic = vec![];
         (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
         if !MAGIC.starts_with(&magic) {
@@ -86,6 +125,8 @@ impl Source {
         }
         Ok(Self {
             file,
+            chunks: 0,
+            counts: BTreeMap::new(),
             chunk: io::Cursor::default(),
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
@@ -103,19 +144,20 @@ impl Source {
     /// It cannot be read.
     pub fn next(&mut self) -> io::Result<Option<FileMessage>> {
         while !self.over {
-            match self.next_record() {
-                Ok(Record::DataEnd(_) | Record::Footer(_)) => self.over = true,
-                Ok(record) => {
-                    if let Some(message) = self.record(record) {
-                        return Ok(Some(message));
-                    }
-                }
+            match self.next_record().and_then(|record| self.record(record)) {
+                Ok(Some(message)) => return Ok(Some(message)),
+                Ok(None) => {}
                 Err(Stop::Io(error)) => return Err(error),
-                Err(Stop::Cut) => self.stop("it was cut off"),
+                Err(Stop::Cut) => self.stop(CUT),
                 Err(Stop::Damage(what)) => self.stop(&format!("it is damaged: {what}")),
             }
         }
         Ok(None)
+    }
+
+    /// What is left of the file makes no sense.
+    pub fn damaged(&mut self, what: &str) {
+        self.stop(&format!("it is damaged: {what}"));
     }
 
     fn stop(&mut self, why: &str) {
@@ -126,14 +168,73 @@ impl Source {
     fn next_record(&mut self) -> Result<Record<'static>, Stop> {
         loop {
             if self.chunk.position() < self.chunk.get_ref().len() as u64 {
-                let (kind, body) = read_record(&mut self.chunk)?;
-                return parse(kind, &body);
+                let (kind, length) = read_head(&mut self.chunk)?;
+                belongs(kind, &IN_CHUNK)?;
+                return parse(kind, &read_body(&mut self.chunk, length)?);
             }
+            let before = self.file.sum.clone();
             let (kind, length) = read_head(&mut self.file)?;
-            if kind != CHUNK {
-                return parse(kind, &read_body(&mut self.file, length)?);
+            if kind == op::CHUNK {
+                self.begin_chunk(length)?;
+                continue;
             }
-            self.begin_chunk(length)?;
+            belongs(kind, &DATA)?;
+            let record = parse(kind, &read_body(&mut self.file, length)?)?;
+            if let Record::DataEnd(end) = &record {
+                is_sum(before, end.data_section_crc, "its data")?;
+            }
+            return Ok(record);
+        }
+    }
+
+    /// Reads what the file says of itself behind its data, and compares that with what was read.
+    fn read_summary(&mut self) -> Result<(), Stop> {
+        self.file.sum = Hasher::new();
+        let mut statistics = None;
+        loop {
+            let (kind, length) = read_head(&mut self.file)?;
+            if kind == op::FOOTER {
+                self.read_footer(length)?;
+                break;
+            }
+            belongs(kind, &SUMMARY)?;
+            if let Record::Statistics(found) = parse(kind, &read_body(&mut self.file, length)?)? {
+                statistics = Some(found);
+            }
+        }
+        self.compare(&statistics.ok_or_else(|| Stop::Damage("it does not say how much is in it".to_owned()))?)
+    }
+
+    /// Reads the last record, whose last field is the sum of all after the data, and what ends the file.
+    fn read_footer(&mut self, length: u64) -> Result<(), Stop> {
+        let (mut places, mut sum, mut magic) = ([0; 16], [0; 4], [0; MAGIC.len()]);
+        self.file.read_exact(&mut places).map_err(stop)?;
+        let summed = self.file.sum.clone();
+        self.file.read_exact(&mut sum).map_err(stop)?;
+        is_sum(summed, u32::from_le_bytes(sum), "its index")?;
+        self.file.read_exact(&mut magic).map_err(stop)?;
+        let is_end = self.file.read(&mut [0]).map_err(Stop::Io)? == 0;
+        match length as usize == places.len() + sum.len() && magic == MAGIC && is_end {
+            true => Ok(()),
+            false => Err(Stop::Damage("its end is not that of an MCAP file".to_owned())),
+        }
+    }
+
+    /// Compares what is in the file with what it says.
+    fn compare(&self, said: &Statistics) -> Result<(), Stop> {
+        let count: u64 = self.counts.values().sum();
+        // Channels without messages are not counted.
+        let mut of_channels = said.channel_message_counts.iter().filter(|(_, count)| **count > 0);
+        let is_same = count == said.message_count && said.chunk_count == self.chunks;
+        match is_same && self.counts.iter().all(|found| of_channels.next() == Some(found)) {
+            true => Ok(()),
+            false => {
+                let (chunks, messages) = (said.chunk_count, said.message_count);
+                let found = self.chunks;
+                let what =
+                    format!("it says that it has {messages} messages in {chunks} chunks, and has {count} in {found}");
+                Err(Stop::Damage(what))
+            }
         }
     }
 
@@ -149,19 +250,20 @@ impl Source {
             return Err(Stop::Damage("or it was compressed, which recordings are not".to_owned()));
         }
         let (size, records) = rest.split_first_chunk::<8>().ok_or(Stop::Cut)?;
-        if head[16..] != *size || u64::from_le_bytes(*size) < records.len() as u64 {
+        let (is_whole, size_here) = (body.len() as u64 == length, u64::from_le_bytes(*size));
+        if head[16..] != *size || size_here.checked_add(CHUNK_HEAD) != Some(length) {
             return Err(Stop::Damage("a chunk has two lengths".to_owned()));
         }
-        let is_whole = body.len() as u64 == length;
         let sum = u32::from_le_bytes(*sum);
         if is_whole && sum != 0 && crc32fast::hash(records) != sum {
             return Err(Stop::Damage("a chunk is not what was written".to_owned()));
         }
+        self.chunks += 1;
         self.chunk = io::Cursor::new(records.to_vec());
         if self.chunk.get_ref().is_empty() && !is_whole { Err(Stop::Cut) } else { Ok(()) }
     }
 
-    fn record(&mut self, record: Record<'static>) -> Option<FileMessage> {
+    fn record(&mut self, record: Record<'static>) -> Result<Option<FileMessage>, Stop> {
         match record {
             Record::Schema { header, .. } => {
                 self.schemas.insert(header.id, header.name);
@@ -179,23 +281,42 @@ impl Source {
                 let counts = metadata.metadata.into_iter();
                 self.dropped = counts.filter_map(|(name, count)| Some((name, count.parse().ok()?))).collect();
             }
+            Record::Message { header, .. } if !self.channels.contains_key(&header.channel_id) => {
+                return Err(Stop::Damage("a message is of a channel that it has not named".to_owned()));
+            }
             Record::Message { header, data } => {
-                return Some(FileMessage {
+                *self.counts.entry(header.channel_id).or_default() += 1;
+                return Ok(Some(FileMessage {
                     channel: header.channel_id,
                     time: header.log_time,
                     sequence: header.sequence,
                     data: data.into_owned(),
-                });
+                }));
+            }
+            Record::DataEnd(_) => {
+                self.read_summary()?;
+                self.over = true;
             }
             _ => {}
         }
-        None
+        Ok(None)
     }
 }
 
-fn read_record(from: &mut impl Read) -> Result<(u8, Vec<u8>), Stop> {
-    let (kind, length) = read_head(from)?;
-    Ok((kind, read_body(from, length)?))
+/// Whether a record of this kind may stand here.
+fn belongs(kind: u8, kinds: &[u8]) -> Result<(), Stop> {
+    match kinds.contains(&kind) {
+        true => Ok(()),
+        false => Err(Stop::Damage(format!("a record of kind {kind} stands where none belongs"))),
+    }
+}
+
+/// Whether `sum` is what was written; 0 says that there is none.
+fn is_sum(sum: Hasher, written: u32, of: &str) -> Result<(), Stop> {
+    match written == 0 || sum.finalize() == written {
+        true => Ok(()),
+        false => Err(Stop::Damage(format!("the checksum of {of} is another one"))),
+    }
 }
 
 /// The kind of a record and the length of its body.

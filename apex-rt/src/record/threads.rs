@@ -4,10 +4,11 @@
 //! does follows, besides from what enters it, from what these looks find: that is recorded, and in a replay a group that
 //! found something waits until it is there.
 
-use super::{Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, source::Source, waits::Waits};
+use super::{Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source, waits::Waits};
 use crate::{
-    CellSender, Observer, Program,
-    threads::{Group, Pace, Parcel, Spawn, Wake, drive_on_threads},
+    CellSender, Observer, Ports, Program,
+    ports::Ways,
+    threads::{Group, Pace, Parcel, Spawn, Wake, drive_from_threads},
 };
 use std::{
     io, mem,
@@ -17,14 +18,25 @@ use std::{
     thread::{Scope, ScopedJoinHandle, scope},
 };
 
-/// As [`drive_on_threads`], and records the run in the file `path`, or, if that is there already, in one with a number.
-/// Returns the exit code besides.
+/// As [`drive_on_threads`](crate::threads::drive_on_threads), and records the run in the file `path`, or, if that is
+/// there already, in one with a number. Returns the exit code besides.
 ///
 /// # Errors
 /// The file cannot be written, or a source sends tokens that cannot be recorded.
 pub fn record_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     pace: Pace,
+    path: &Path,
+    observer: impl Fn(usize) -> O,
+) -> io::Result<(u8, Finished)> {
+    record_from_threads(program, pace, Ports::<P>::new().0, path, observer)
+}
+
+/// The same, with ways into the program and out of it for other threads.
+pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
+    program: &mut P,
+    pace: Pace,
+    ways: Ways<P::Inputs, P::Events>,
     path: &Path,
     observer: impl Fn(usize) -> O,
 ) -> io::Result<(u8, Finished)> {
@@ -37,7 +49,7 @@ pub fn record_on_threads<P: Program, O: Observer + Send>(
     }
     let Tap::Record(recorder) = tap else { unreachable!("it was made so") };
     let tap = |group| Tap::Record(recorder.beside(several.then_some(group)));
-    let code = drive_on_threads(program, pace, |group| (observer(group), tap(group)));
+    let code = drive_from_threads(program, pace, ways, |group| (observer(group), tap(group)));
     Ok((code, recorder.finish()?))
 }
 
@@ -76,7 +88,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
         repeat.main.into_iter().chain(others).collect::<io::Result<Vec<Report>>>()
     });
     let reports = reports.map_err(|error| ReplayError::File(path.to_owned(), error))?;
-    Ok(Report::of_groups(reports, &P::channels()))
+    run::something(Report::of_groups(reports, &P::channels()), path)
 }
 
 /// Groups look for themselves whether something has come.
@@ -113,7 +125,7 @@ impl<'env, O: Observer + Send + Clone> Repeat<'_, 'env, O> {
     }
 }
 
-impl<'env, O: Observer + Send + Clone + 'env> Spawn<'env> for Repeat<'_, 'env, O> {
+impl<'env, O: Observer + Send + Clone + 'env, I, E> Spawn<'env, I, E> for Repeat<'_, 'env, O> {
     fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
         if let Some(part) = self.part(group, part) {
             self.threads.push(self.scope.spawn(move || part.repeat()));
@@ -124,7 +136,7 @@ impl<'env, O: Observer + Send + Clone + 'env> Spawn<'env> for Repeat<'_, 'env, O
         self.hung.push((group, hung));
     }
 
-    fn stay<G: Group + 'env>(&mut self, group: usize, part: G) {
+    fn stay<G: Group<Inputs = I, Events = E> + 'env>(&mut self, group: usize, part: G) {
         self.main = self.part(group, part).map(Part::repeat);
     }
 }

@@ -31,6 +31,9 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         let token = token.ok_or_else(|| format!("a token of `{channel}` in `{}` is damaged", path.display()))?;
         tokens.push((Duration::from_nanos(message.time), token));
     }
+    if let Some(cut) = source.cut {
+        return Err(format!("`{}` is not whole: {cut}", path.display()));
+    }
     if tokens.is_empty() {
         let names: Vec<String> = source.channels.values().map(|c| format!("`{}`", c.name)).collect();
         return Err(format!("`{}` has no tokens of `{channel}`; it has {}", path.display(), names.join(", ")));

@@ -4,14 +4,16 @@ use super::{
     Group, Parcel, Spawn, Wake,
     idle::{Alarm, Shared},
     settings,
-    watch::{Felt, Off, Pulse, watch},
+    watch::{Felt, Off, Pulse, Watched, watch},
 };
-use crate::{CellSender, Clock, Info, Next, Observer, Program, Time, WallClock, run::Stopwatch};
+use crate::{
+    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways, run::Stopwatch,
+};
 use std::{
     panic::resume_unwind,
     sync::{
         OnceLock,
-        atomic::{AtomicBool, AtomicU8, Ordering},
+        atomic::{AtomicU8, Ordering},
     },
     thread::{self, Scope, ScopedJoinHandle, Thread},
     time::{Duration, Instant},
@@ -22,15 +24,12 @@ use std::{
 pub struct Pace {
     /// The clock.
     pub clock: WallClock,
-    /// The program ends when this is set.
-    pub stopped: Option<&'static AtomicBool>,
+    /// The program ends when this is turned.
+    pub stopped: Option<&'static Switch>,
 }
 
 /// How long a thread stays awake after it has slept for less than this.
 const LINGER: Duration = Duration::from_micros(50);
-
-/// How long it may take until [`Pace::stopped`] is noticed.
-const NOTICED: Duration = Duration::from_millis(20);
 
 /// What all threads of a program share.
 struct Run {
@@ -73,6 +72,16 @@ impl Wake for Run {
     }
 }
 
+impl Watched for Run {
+    fn wake(&self, group: usize) {
+        self.sleep.wake(group);
+    }
+
+    fn may_sleep(&self) -> bool {
+        self.sleep.may_watch_sleep()
+    }
+}
+
 /// Runs every thread group of `program` on a thread of its own, the main group on this one, until nothing can happen any
 /// more, the pace ends, or a token comes to `exit`. Returns the exit code. `observer` makes an observer for each group.
 ///
@@ -83,7 +92,17 @@ pub fn drive_on_threads<P: Program, O: Observer + Send>(
     pace: Pace,
     observer: impl Fn(usize) -> O,
 ) -> u8 {
-    run_groups(program, Timing::Paced(pace), observer)
+    drive_from_threads(program, pace, Ports::<P>::new().0, observer)
+}
+
+/// The same, with ways into the program and out of it for other threads.
+pub(crate) fn drive_from_threads<P: Program, O: Observer + Send>(
+    program: &mut P,
+    pace: Pace,
+    ways: Ways<P::Inputs, P::Events>,
+    observer: impl Fn(usize) -> O,
+) -> u8 {
+    run_groups(program, Timing::Paced(pace), ways, observer)
 }
 
 /// One reaction of all thread groups of `program` at `now`, each on a thread of its own, until nothing is ready in any of
@@ -93,10 +112,15 @@ pub fn react_on_threads<P: Program, O: Observer + Send>(
     now: Time,
     observer: impl Fn(usize) -> O,
 ) -> u8 {
-    run_groups(program, Timing::Once(now), observer)
+    run_groups(program, Timing::Once(now), Ports::<P>::new().0, observer)
 }
 
-fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, observer: impl Fn(usize) -> O) -> u8 {
+fn run_groups<P: Program, O: Observer + Send>(
+    program: &mut P,
+    time: Timing,
+    ways: Ways<P::Inputs, P::Events>,
+    observer: impl Fn(usize) -> O,
+) -> u8 {
     let info = const { &P::INFO };
     let groups = info.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
@@ -104,7 +128,7 @@ fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, obs
     let pulses = (0..groups).map(|_| Pulse::default()).collect();
     let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: Off::default(), has_cores };
     let panicked = thread::scope(|scope| {
-        let mut spawner = Spawner { scope, run: &run, observer, hung: vec![], threads: vec![] };
+        let mut spawner = Spawner { scope, run: &run, observer, ways: Some(ways), hung: vec![], threads: vec![] };
         program.on_threads(&run, &mut spawner);
         run.off.end();
         let ends = spawner.threads.into_iter().map(ScopedJoinHandle::join);
@@ -116,16 +140,18 @@ fn run_groups<P: Program, O: Observer + Send>(program: &mut P, time: Timing, obs
     run.code.load(Ordering::Acquire)
 }
 
-struct Spawner<'scope, 'env, F> {
+struct Spawner<'scope, 'env, F, W> {
     scope: &'scope Scope<'scope, 'env>,
     run: &'env Run,
     observer: F,
+    /// The ways into the main group, until it begins.
+    ways: Option<W>,
     /// The ways to tell groups that a node hangs.
     hung: Vec<(usize, CellSender<'env, Parcel<()>>)>,
     threads: Vec<ScopedJoinHandle<'scope, ()>>,
 }
 
-impl<'env, F> Spawner<'_, 'env, F> {
+impl<'env, F, W> Spawner<'_, 'env, F, W> {
     /// Begins a thread, without which the program cannot run.
     fn thread(&mut self, name: &str, body: impl FnOnce() + Send + 'env) {
         match thread::Builder::new().name(name.to_owned()).spawn_scoped(self.scope, body) {
@@ -138,24 +164,27 @@ impl<'env, F> Spawner<'_, 'env, F> {
     }
 }
 
-impl<'env, O: Observer + Send + 'env, F: Fn(usize) -> O> Spawn<'env> for Spawner<'_, 'env, F> {
+impl<'env, O, F, I, E> Spawn<'env, I, E> for Spawner<'_, 'env, F, Ways<I, E>>
+where
+    O: Observer + Send + 'env,
+    F: Fn(usize) -> O,
+{
     fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
         let (run, observer) = (self.run, (self.observer)(group));
-        self.thread(run.info.groups[group].name, move || run.group(group, part, observer));
+        self.thread(run.info.groups[group].name, move || run.group(group, part, observer, None));
     }
 
     fn watch(&mut self, group: usize, hung: CellSender<'env, Parcel<()>>) {
         self.hung.push((group, hung));
     }
 
-    fn stay<G: Group + 'env>(&mut self, group: usize, part: G) {
+    fn stay<G: Group<Inputs = I, Events = E> + 'env>(&mut self, group: usize, part: G) {
         let run = self.run;
         if run.is_watched() {
             let (hung, observer) = (std::mem::take(&mut self.hung), (self.observer)(run.info.groups.len()));
-            let wake = |group| run.sleep.wake(group);
-            self.thread("watch", move || watch(run.info, &run.pulses, &run.off, hung, &wake, observer));
+            self.thread("watch", move || watch(run.info, &run.pulses, &run.off, hung, run, observer));
         }
-        run.group(group, part, (self.observer)(group));
+        run.group(group, part, (self.observer)(group), self.ways.take());
     }
 }
 
@@ -182,8 +211,14 @@ impl Run {
         self.off.end();
     }
 
-    /// What the thread of a group does.
-    fn group<G: Group, O: Observer>(&self, group: usize, part: G, observer: O) {
+    /// What the thread of a group does. The main group has the `ways` into the program.
+    fn group<G: Group, O: Observer>(
+        &self,
+        group: usize,
+        part: G,
+        observer: O,
+        ways: Option<Ways<G::Inputs, G::Events>>,
+    ) {
         let _guard = EndOnPanic(self);
         let _ = self.sleep.alarm(group).0.set(thread::current());
         let settings = self.info.groups.get(group);
@@ -194,25 +229,38 @@ impl Run {
         let pulse = self.pulses.get(group).filter(|_| settings.is_some_and(|group| group.hang.is_some()));
         let observer = Felt { observer, pulse, info: self.info };
         match self.time {
-            Timing::Paced(pace) => self.drive(group, part, observer, pace),
+            Timing::Paced(pace) => {
+                let _stops = pace.stopped.map(Switch::listen);
+                let bell = ways.as_ref().map(Ways::bell);
+                let _listens = bell.as_ref().map(|bell| bell.listen());
+                self.drive(Member { group, pace, ways, held: false }, part, observer);
+            }
             Timing::Once(now) => self.react(group, part, observer, now),
         }
     }
 
-    fn drive<G: Group, O: Observer>(&self, group: usize, mut part: G, mut observer: O, pace: Pace) {
-        let (mut clock, mut short) = (pace.clock, false);
-        while !self.sleep.is_stopped() {
-            self.sleep.begin(group);
+    fn drive<G: Group, O: Observer>(&self, mut member: Member<G::Inputs, G::Events>, mut part: G, mut observer: O) {
+        let (mut clock, mut short) = (member.pace.clock, false);
+        let is_watched = self.is_watched();
+        member.exchange(&mut part, &self.sleep);
+        while !self.is_over(member.pace) {
+            self.sleep.begin(member.group);
+            if is_watched && self.sleep.wakes_watch() {
+                self.off.stir();
+            }
             let now = clock.now();
             let stopwatch = Stopwatch { clock: &mut clock, start: now };
-            match part.react_with(now, &mut (&mut observer, stopwatch)) {
+            let next = part.react_with(now, &mut (&mut observer, stopwatch));
+            let came = member.exchange(&mut part, &self.sleep);
+            match next {
                 Next::Exit(code) => self.end(code),
-                Next::Now => self.look(pace),
-                Next::At(time) => self.wait_until(group, pace, time),
+                _ if came => {}
+                Next::Now => {}
+                Next::At(time) => self.wait_until(&member, time),
                 Next::Input => {
                     let since = Instant::now();
-                    if !short || !self.lingers(group, since) {
-                        self.idle(group, Some(pace));
+                    if !short || !self.lingers(&member, since) {
+                        self.idle(member.group, &|| member.rings() || self.is_over(member.pace));
                     }
                     short = since.elapsed() < LINGER;
                 }
@@ -220,11 +268,19 @@ impl Run {
         }
     }
 
-    /// Whether group `group` is woken soon. Where tokens go to and fro quickly, falling asleep and waking up would take most of
-    /// the time; who slept for long before sleeps at once.
-    fn lingers(&self, group: usize, since: Instant) -> bool {
-        while self.has_cores && since.elapsed() < LINGER && !self.sleep.is_stopped() {
-            if self.sleep.is_woken(group) {
+    /// Whether the program ends, perhaps because somebody wants it.
+    fn is_over(&self, pace: Pace) -> bool {
+        if !self.sleep.is_stopped() && pace.stopped.is_some_and(Switch::is_set) {
+            self.sleep.stop();
+        }
+        self.sleep.is_stopped()
+    }
+
+    /// Whether a group is woken soon. Where tokens go to and fro quickly, falling asleep and waking up would take most
+    /// of the time; who slept for long before sleeps at once.
+    fn lingers<I, E>(&self, member: &Member<I, E>, since: Instant) -> bool {
+        while self.has_cores && since.elapsed() < LINGER {
+            if self.sleep.is_woken(member.group) || member.rings() || self.is_over(member.pace) {
                 return true;
             }
             std::hint::spin_loop();
@@ -238,42 +294,61 @@ impl Run {
             self.sleep.begin(group);
             match part.react_part(now, begins, &mut observer) {
                 Next::Exit(code) => self.end(code),
-                _ => self.idle(group, None),
+                _ => self.idle(group, &|| false),
             }
             begins = false;
         }
     }
 
-    /// Ends the program if somebody wants it.
-    fn look(&self, pace: Pace) {
-        if pace.stopped.is_some_and(|stopped| stopped.load(Ordering::Relaxed)) {
-            self.sleep.stop();
+    fn wait_until<I, E>(&self, member: &Member<I, E>, time: Time) {
+        let mut clock = member.pace.clock;
+        let left = time.since(clock.now());
+        if !left.is_zero() && !self.is_over(member.pace) && !member.rings() && self.sleep.may_wait(member.group) {
+            thread::park_timeout(left);
         }
     }
 
-    fn wait_until(&self, group: usize, mut pace: Pace, time: Time) {
-        self.look(pace);
-        let left = time.since(pace.clock.now());
-        if !left.is_zero() && !self.sleep.is_stopped() && self.sleep.may_wait(group) {
-            thread::park_timeout(noticed(group, pace).map_or(left, |noticed| left.min(noticed)));
-        }
-    }
-
-    fn idle(&self, group: usize, pace: Option<Pace>) {
+    /// Sleeps until the group is woken, by other groups or because of what `ends` the sleep.
+    fn idle(&self, group: usize, ends: &dyn Fn() -> bool) {
         if !self.sleep.may_idle(group) {
             return;
         }
         while self.sleep.sleeps(group) {
-            match pace.and_then(|pace| noticed(group, pace)) {
-                Some(noticed) => thread::park_timeout(noticed),
-                None => thread::park(),
+            if ends() {
+                self.sleep.wake(group);
+            } else {
+                thread::park();
             }
-            pace.into_iter().for_each(|pace| self.look(pace));
         }
     }
 }
 
-/// The main group looks from time to time whether somebody wants to end the program.
-fn noticed(group: usize, pace: Pace) -> Option<Duration> {
-    (group == 0 && pace.stopped.is_some()).then_some(NOTICED)
+/// A group that runs on this thread.
+struct Member<I, E> {
+    group: usize,
+    pace: Pace,
+    /// The ways into the program, which the main group has.
+    ways: Option<Ways<I, E>>,
+    /// Somebody at the other end of one of them keeps the program from ending.
+    held: bool,
+}
+
+impl<I, E> Member<I, E> {
+    /// Moves tokens into the program and out of it; whether there were some.
+    fn exchange<G: Group<Inputs = I, Events = E>>(&mut self, part: &mut G, sleep: &Shared<Sleeping>) -> bool {
+        let Some(ways) = &mut self.ways else { return false };
+        let came = ways.pass(part.mailboxes());
+        match (self.held, ways.is_open()) {
+            (false, true) => sleep.hold(),
+            (true, false) => sleep.release(),
+            _ => {}
+        }
+        self.held = ways.is_open();
+        came
+    }
+
+    /// Whether there is something to be moved.
+    fn rings(&self) -> bool {
+        self.ways.as_ref().is_some_and(Ways::rings)
+    }
 }

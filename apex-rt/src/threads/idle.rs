@@ -18,6 +18,8 @@ pub struct Shared<T> {
     /// How many groups are not idle.
     busy: AtomicUsize,
     stopped: AtomicBool,
+    /// Who watches over the groups sleeps until one of them begins.
+    watch_sleeps: AtomicBool,
 }
 
 #[derive(Debug)]
@@ -37,7 +39,8 @@ impl<T: Alarm> Shared<T> {
     pub fn new(threads: impl IntoIterator<Item = T>) -> Self {
         let group = |thread| Sleeper { state: AtomicU8::new(RUNNING), thread };
         let groups: Box<[Sleeper<T>]> = threads.into_iter().map(group).collect();
-        Self { busy: AtomicUsize::new(groups.len()), groups, stopped: AtomicBool::new(false) }
+        let (busy, stopped) = (AtomicUsize::new(groups.len()), AtomicBool::new(false));
+        Self { groups, busy, stopped, watch_sleeps: AtomicBool::new(false) }
     }
 
     /// The alarm of a group.
@@ -108,9 +111,45 @@ impl<T: Alarm> Shared<T> {
     }
 
     /// Ends all groups, as soon as they have finished what they do.
+    ///
+    /// A thread sets its alarm, changes its state to begin, and looks then whether the program ends. Here the end is
+    /// written, the state changed, and then the alarm rung: whichever changes the state last has seen what the other
+    /// wrote before.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Release);
-        self.groups.iter().for_each(|group| group.thread.ring());
+        for Sleeper { state, thread } in &self.groups {
+            state.swap(WOKEN, Ordering::AcqRel);
+            thread.ring();
+        }
+    }
+
+    /// Somebody else than the groups can wake one of them: that counts as a group that is not idle. Only a group that
+    /// is busy may say so.
+    pub fn hold(&self) {
+        self.busy.fetch_add(1, Ordering::AcqRel);
+    }
+
+    /// It cannot any more.
+    pub fn release(&self) {
+        self.leave();
+    }
+
+    /// Whether who watches over the groups may sleep until one of them begins: all sleep.
+    ///
+    /// A group that begins changes its state, and then looks whether it has to wake the watch. Whichever of the two
+    /// changes `watch_sleeps` last has seen what the other did before.
+    pub fn may_watch_sleep(&self) -> bool {
+        self.watch_sleeps.swap(true, Ordering::AcqRel);
+        let all = self.groups.iter().all(|group| matches!(group.state.load(Ordering::Acquire), WAITING | IDLE));
+        if !all {
+            self.watch_sleeps.store(false, Ordering::Release);
+        }
+        all
+    }
+
+    /// Whether a group that began has to wake who watches over it.
+    pub fn wakes_watch(&self) -> bool {
+        self.watch_sleeps.swap(false, Ordering::AcqRel)
     }
 
     /// Whether the program ends.

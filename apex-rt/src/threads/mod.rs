@@ -16,6 +16,8 @@ use core::cell::Cell;
 pub use watch::Felt;
 
 #[cfg(feature = "std")]
+pub(crate) use drive::drive_from_threads;
+#[cfg(feature = "std")]
 pub use drive::{Pace, drive_on_threads, react_on_threads};
 
 /// A token on its way from one thread group to another, with what goes with it.
@@ -54,14 +56,21 @@ impl<W: Wake> Wake for &W {
     }
 }
 
+/// The most thread groups that a program can have: each has a bit of [`Woken`].
+pub const MAX_GROUPS: usize = u64::BITS as usize;
+
 /// Remembers which groups were woken: for groups that run one after the other on one thread.
 #[derive(Debug, Default)]
 pub struct Woken(Cell<u64>);
 
 impl Woken {
     /// All `groups` of a program are awake: it starts.
+    ///
+    /// # Panics
+    /// There are more than [`MAX_GROUPS`], which the compiler of texts refuses.
     pub const fn all(groups: usize) -> Self {
-        Self(Cell::new(if groups < 64 { (1 << groups) - 1 } else { u64::MAX }))
+        assert!(groups <= MAX_GROUPS, "a program has at most 64 thread groups");
+        Self(Cell::new(if groups < MAX_GROUPS { (1 << groups) - 1 } else { u64::MAX }))
     }
 
     /// Whether a group was woken. It sleeps then.
@@ -90,16 +99,16 @@ pub trait Group: Program {
     fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next;
 }
 
-/// Takes the thread groups of a program, to run each of them.
-pub trait Spawn<'a> {
+/// Takes the thread groups of a program with the mailboxes `I` and `E`, to run each of them.
+pub trait Spawn<'a, I, E> {
     /// Takes a group that may run on any thread.
     fn spawn<G: Group + Send + 'a>(&mut self, group: usize, part: G);
 
     /// Takes the way to tell group `group` that a node hangs: it comes before all groups.
     fn watch(&mut self, group: usize, hung: crate::CellSender<'a, Parcel<()>>);
 
-    /// Takes the main group, which stays where it is: it comes last.
-    fn stay<G: Group + 'a>(&mut self, group: usize, part: G);
+    /// Takes the main group, which has the ports of the program and stays where it is: it comes last.
+    fn stay<G: Group<Inputs = I, Events = E> + 'a>(&mut self, group: usize, part: G);
 }
 
 /// A program that is a single group.
@@ -108,9 +117,15 @@ pub struct Alone<'a, P>(pub &'a mut P);
 
 impl<P: Program> Program for Alone<'_, P> {
     const INFO: crate::Info = P::INFO;
+    type Inputs = P::Inputs;
+    type Events = P::Events;
 
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> crate::Next {
         self.0.react_with(now, observer)
+    }
+
+    fn mailboxes(&mut self) -> (&mut P::Inputs, &mut P::Events) {
+        self.0.mailboxes()
     }
 }
 
@@ -122,3 +137,23 @@ impl<P: Program> Group for Alone<'_, P> {
 
 /// Rounds between groups that may follow on one another while the time stands still.
 pub const MAX_ROUNDS: u32 = 1_000_000;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_groups_as_there_may_be_are_woken_one_by_one() {
+        let woken = Woken::all(MAX_GROUPS);
+        assert!((0..MAX_GROUPS).all(|group| woken.take(group)));
+        assert!(woken.is_none());
+        woken.wake(MAX_GROUPS - 1);
+        assert!(!woken.take(0) && woken.take(MAX_GROUPS - 1) && woken.is_none());
+    }
+
+    #[test]
+    #[should_panic(expected = "at most 64 thread groups")]
+    fn more_groups_are_refused() {
+        Woken::all(MAX_GROUPS + 1);
+    }
+}

@@ -4,7 +4,7 @@ use super::Parcel;
 use crate::{CellSender, Info, Observer};
 use std::{
     sync::{
-        Condvar, Mutex, PoisonError,
+        Condvar, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicUsize, Ordering},
     },
     time::{Duration, Instant},
@@ -49,37 +49,70 @@ struct Seen {
     told: bool,
 }
 
-/// Ends the watch.
+/// Ends the watch, or wakes it.
 #[derive(Debug, Default)]
 pub struct Off {
-    over: Mutex<bool>,
+    state: Mutex<Watch>,
     changed: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct Watch {
+    over: bool,
+    /// A thread began to work while the watch slept.
+    stirred: bool,
 }
 
 impl Off {
     /// The watch is over.
     pub fn end(&self) {
-        *self.over.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        self.state().over = true;
+        self.changed.notify_all();
+    }
+
+    /// There is something to watch again.
+    pub fn stir(&self) {
+        self.state().stirred = true;
         self.changed.notify_all();
     }
 
     /// Whether it is over within `time`.
     fn is_over_within(&self, time: Duration) -> bool {
-        let over = self.over.lock().unwrap_or_else(PoisonError::into_inner);
-        let (over, _) =
-            self.changed.wait_timeout_while(over, time, |over| !*over).unwrap_or_else(PoisonError::into_inner);
-        *over
+        let waited = self.changed.wait_timeout_while(self.state(), time, |watch| !watch.over);
+        waited.unwrap_or_else(PoisonError::into_inner).0.over
+    }
+
+    /// Sleeps until there is something to watch; whether the watch is over.
+    fn is_over_when_stirred(&self) -> bool {
+        let waited = self.changed.wait_while(self.state(), |watch| !watch.over && !watch.stirred);
+        let mut watch = waited.unwrap_or_else(PoisonError::into_inner);
+        watch.stirred = false;
+        watch.over
+    }
+
+    fn state(&self) -> MutexGuard<'_, Watch> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Looks at the threads that are to be watched until the watch is over. A node that hangs is told to `observer` once, and to the
-/// groups that want to know; where the text says so, the process ends then, because a thread that hangs cannot be ended.
+/// What the watch does with the threads: it wakes the one of a group, and asks whether it may sleep until one of them
+/// begins.
+pub trait Watched {
+    /// Something has come for a group.
+    fn wake(&self, group: usize);
+    /// Whether all threads sleep, so that none can hang before it has stirred the watch.
+    fn may_sleep(&self) -> bool;
+}
+
+/// Looks at the threads that are to be watched until the watch is over, and sleeps while all of them do. A node that
+/// hangs is told to `observer` once, and to the groups that want to know; where the text says so, the process ends
+/// then, because a thread that hangs cannot be ended.
 pub fn watch<O: Observer>(
     info: &'static Info,
     pulses: &[Pulse],
     off: &Off,
     mut hung: Vec<(usize, CellSender<'_, Parcel<()>>)>,
-    wake: &dyn Fn(usize),
+    threads: &impl Watched,
     mut observer: O,
 ) {
     let start = Instant::now();
@@ -88,7 +121,8 @@ pub fn watch<O: Observer>(
         groups.map(|(group, hang)| Seen { group, hang, beats: 0, since: start, told: false }).collect();
     let Some(shortest) = seen.iter().map(|s| s.hang).min() else { return };
     let pause = (shortest / 4).clamp(Duration::from_millis(1), Duration::from_secs(1));
-    while !off.is_over_within(pause) {
+    let is_over = || (threads.may_sleep() && off.is_over_when_stirred()) || off.is_over_within(pause);
+    while !is_over() {
         for thread in &mut seen {
             let pulse = &pulses[thread.group];
             let (node, beats) = (pulse.node.load(Ordering::Relaxed), pulse.beats.load(Ordering::Relaxed));
@@ -107,7 +141,7 @@ pub fn watch<O: Observer>(
             }
             for (group, cell) in hung.iter_mut().filter(|(group, _)| *group != thread.group) {
                 if cell.put(|parcel| parcel.token = Some(())) {
-                    wake(*group);
+                    threads.wake(*group);
                 }
             }
         }

@@ -2,27 +2,10 @@
 //!
 //! Needs a C compiler, and `node` to read the grammar; therefore it is no default member of the workspace.
 
-use std::path::{Path, PathBuf};
+mod generate;
+
+pub use generate::{generate, grammar};
 use tree_sitter::{Language, Parser, Tree};
-use tree_sitter_generate::{OptLevel, generate_parser_in_directory};
-
-/// The version of the tables that editors of the last years can read.
-const ABI: usize = 14;
-
-/// The folder of the grammar.
-pub fn grammar() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tree-sitter-afg")
-}
-
-/// Makes the parser from `grammar.js` and writes it into the folder `out`.
-///
-/// # Errors
-/// Says what is wrong with the grammar.
-pub fn generate(out: &Path) -> Result<(), String> {
-    let script = grammar().join("grammar.js");
-    generate_parser_in_directory(grammar(), Some(out), Some(script), ABI, None, None, true, OptLevel::default())
-        .map_err(|e| e.to_string())
-}
 
 /// The parser as it was compiled.
 pub fn language() -> Language {

@@ -1,7 +1,7 @@
 use super::WriteError;
 use crate::scan::{Container, Point2, Pose2, Scan, Segments};
 use plotters::{chart::ChartContext, coord::types::RangedCoordf32, drawing::DrawingAreaErrorKind, prelude::*};
-use std::{ops::Range, path::Path};
+use std::{f32::consts::PI, ops::Range, path::Path};
 
 /// A picture of a scan: points, segments, wheel boxes and poses, seen from above, in the frame of the scanner.
 #[derive(Debug, Clone, Copy)]
@@ -113,10 +113,16 @@ impl ScanFigure<'_> {
         if let Some(container) = self.container {
             let outlines = self.boxes.iter().map(|b| outline(&container.pose, b));
             chart.draw_series(outlines)?;
-            chart
-                .draw_series([arrow(&container.pose, FOUND.stroke_width(2))])?
-                .label("found container")
-                .legend(|at| line(at, FOUND));
+            let is_symmetric = is_symmetric(self.boxes);
+            let (ends, label) = match is_symmetric {
+                // Which end is the front cannot be told.
+                true => {
+                    (vec![container.pose, turned(&container.pose)], "found container (either end may be its front)")
+                }
+                false => (vec![container.pose], "found container"),
+            };
+            let arrows = ends.iter().map(|end| arrow(end, FOUND.stroke_width(2)));
+            chart.draw_series(arrows)?.label(label).legend(|at| line(at, FOUND));
         }
         Ok(())
     }
@@ -148,6 +154,21 @@ fn dot((x, y): (i32, i32), colour: RGBColor) -> Circle<(i32, i32), i32> {
 
 fn line((x, y): (i32, i32), colour: RGBColor) -> PathElement<(i32, i32)> {
     PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(3))
+}
+
+/// Whether the wheels of a container stand where they stood when it is turned by half a turn.
+fn is_symmetric(boxes: &[[f32; 4]]) -> bool {
+    let is_same = |a: &[f32; 4], b: &[f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-3);
+    !boxes.is_empty()
+        && boxes.iter().all(|[x, y, length, width]| {
+            let turned = [-x, -y, *length, *width];
+            boxes.iter().any(|other| is_same(&turned, other))
+        })
+}
+
+/// A pose that looks the other way.
+fn turned(pose: &Pose2) -> Pose2 {
+    Pose2 { theta: pose.theta + PI, ..*pose }
 }
 
 /// An arrow from the centre of a pose along its heading.

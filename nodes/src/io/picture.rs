@@ -67,7 +67,28 @@ mod tests {
     }
 
     fn node(directory: &'static str, every: u32, limit: u32) -> ScanPicture {
-        ScanPicture::construct((directory, "A title", every, limit, 6.0, &[[0.5, 0.3, 0.1, 0.1]]))
+        with_wheels(directory, every, limit, &[[0.5, 0.3, 0.1, 0.1]])
+    }
+
+    fn with_wheels(directory: &'static str, every: u32, limit: u32, boxes: &'static [[f32; 4]]) -> ScanPicture {
+        ScanPicture::construct((directory, "A title", every, limit, 6.0, boxes))
+    }
+
+    #[test]
+    fn a_container_that_looks_the_same_from_both_ends_has_no_front() {
+        const FRONT: [f32; 4] = [0.5, 0.0, 0.1, 0.2];
+        const BACK: [f32; 4] = [-0.5, 0.0, 0.1, 0.2];
+        let pose = Pose2::new(2.0, 0.0, 0.3);
+        let container = Container { pose, error: 0.0, inliers: 9, outliers: 0, wheels: 2 };
+        let wheels: [(&str, &'static [[f32; 4]]); 2] = [("both-ends", &[FRONT, BACK]), ("one-end", &[FRONT])];
+        let is_said = wheels.map(|(name, boxes)| {
+            let directory = directory(name);
+            let mut node = with_wheels(directory, 1, 1, boxes);
+            node.process(&Scan::default(), &Segments::new(), Some(&container), None).expect("a picture");
+            let text = std::fs::read_to_string(format!("{directory}/0001.svg")).expect("the picture");
+            text.contains("either end may be its front")
+        });
+        assert_eq!(is_said, [true, false]);
     }
 
     #[test]

@@ -9,6 +9,9 @@ use core::f32::consts::FRAC_PI_4;
 /// Half a side as a part of the apothem: the tangent of 22.5°.
 const HALF_SIDE: f32 = 0.414_213_57;
 
+/// The most distances of cells from octagons that a search computes, which takes about a second.
+const MOST_DISTANCES: usize = 20_000_000;
+
 /// A regular octagon in the plane: the island in the middle of an arena (thesis 4.3.4).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -77,7 +80,7 @@ pub struct OctagonSearch {
     /// Cells have to lie on so many of its sides: who comes from one direction sees three or four.
     #[param(default = 6, range = 1..=8)]
     min_sides: usize,
-    /// So many pairs are tried.
+    /// So many pairs are tried; fewer on a map with so many cells in the middle that it would take more than a second.
     #[param(default = 20_000, range = 1..=10_000_000)]
     tries: u32,
     /// The pairs follow from it.
@@ -93,10 +96,13 @@ impl OctagonSearch {
         let centroid = self.middle_cells(map)?;
         let mut random = Random::new(self.seed);
         let mut best: Option<(f32, Octagon)> = None;
+        let mut left = MOST_DISTANCES;
         for _ in 0..self.tries {
             let mut pick = || self.cells[(random.bits() % self.cells.len() as u64) as usize];
             let (a, b) = (pick(), pick());
             if (self.min_side..=self.max_side).contains(&(b - a).norm()) {
+                let Some(rest) = left.checked_sub(self.cells.len()) else { break };
+                left = rest;
                 let octagon = Octagon::over_side(a, b, centroid);
                 let score = self.score(&octagon);
                 if best.is_none_or(|(least, _)| score > least) {

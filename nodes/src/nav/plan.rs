@@ -69,7 +69,7 @@ pub struct PathPlanner {
     /// The distance between points of the path.
     #[param(unit = "m", default = 0.1, range = 0.01..=10.0)]
     spacing: f32,
-    /// How often the path is smoothed.
+    /// How often the path is smoothed; less often if it has very many points.
     #[param(default = 30, range = 0..=1000)]
     rounds: usize,
     planner: Planner,

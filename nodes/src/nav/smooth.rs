@@ -59,9 +59,13 @@ pub fn subdivide(points: &[Point2], spacing: f32, fine: &mut Vec<Point2>) {
     }
 }
 
-/// Moves each inner point `rounds` times halfway towards the middle of its neighbours, where the way stays clear.
+/// How often points of a path are moved at most, which takes less than half a second.
+const MOST_MOVES: usize = 4_000_000;
+
+/// Moves each inner point `rounds` times halfway towards the middle of its neighbours, where the way stays clear. Fewer
+/// times on a path of so many points that they would be moved more than four million times.
 pub fn smooth(terrain: &Terrain<'_>, points: &mut [Point2], rounds: usize) {
-    for _ in 0..rounds {
+    for _ in 0..rounds.min(MOST_MOVES / points.len().max(1)) {
         for i in 1..points.len().saturating_sub(1) {
             let (before, after) = (points[i - 1], points[i + 1]);
             let point = points[i].scaled(0.5) + (before + after).scaled(0.25);

@@ -67,8 +67,8 @@ pub struct ContainerSearch {
     /// Fewest points in wheel boxes (d_I).
     #[param(default = 4, range = 0..=10_000)]
     min_inliers: u16,
-    /// So many points in the footprint beside the wheels refute the hypothesis (d_O).
-    #[param(default = 3, range = 1..=10_000)]
+    /// So many points in the footprint beside the wheels refute the hypothesis (d_O). The more, the longer each takes.
+    #[param(default = 3, range = 1..=100)]
     max_outliers: u16,
     /// Fewest wheel boxes that must hold a point. Two always do, by construction.
     #[param(default = 3, range = 0..=100)]

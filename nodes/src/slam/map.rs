@@ -6,6 +6,8 @@ use crate::{
 
 /// Free space around what a map has to show, in m.
 const MARGIN: f32 = 0.5;
+/// The most cells that the rays of a map pass, which takes about half a second.
+const MOST_STEPS: f32 = 1e8;
 
 /// The scans of which a map is made when there are `count`: the last hundred, of the hundred before them each
 /// tenth, and of the eight hundred before these each hundredth. So the time for a map is bounded (thesis 4.3.5).
@@ -25,7 +27,8 @@ pub fn selected_scans(count: usize) -> impl Iterator<Item = usize> + Clone {
 
 impl Mapper {
     /// Makes a map of some of the kept scans, with cells of `resolution` m; `scanner` is where the scanner stands in
-    /// the frame of the robot. Its frame is that of [`locate`](Self::locate).
+    /// the frame of the robot. Its frame is that of [`locate`](Self::locate). Where its rays would pass too many cells,
+    /// only every second one is drawn, or every third, and so on: the time for a map is bounded, however fine it is.
     ///
     /// # Errors
     /// It would have too many cells; then nothing is written.
@@ -42,13 +45,21 @@ impl Mapper {
             .clone()
             .flat_map(|(pose, points)| points.iter().copied().chain([scanner]).map(move |p| place(pose, p)));
         builder.reset(Raster::around(points, MARGIN, resolution))?;
+        let way = known.clone().flat_map(|(_, points)| points).map(|to| (*to - scanner).norm()).sum::<f32>();
+        let every = thinned(way / resolution);
         for (pose, points) in known {
             let from = place(pose, scanner);
-            points.iter().for_each(|to| builder.add(from, place(pose, *to)));
+            points.iter().step_by(every).for_each(|to| builder.add(from, place(pose, *to)));
         }
         builder.write(map);
         Ok(())
     }
+}
+
+/// Of how many rays one is drawn, if all pass so many cells.
+fn thinned(steps: f32) -> usize {
+    // A cast of NaN gives 0.
+    (steps / MOST_STEPS).ceil().max(1.0) as usize
 }
 
 /// A point of the frame `pose`, in the frame of the map.
@@ -76,6 +87,13 @@ mod tests {
             };
             let expected: Vec<usize> = (0..n).filter(|&k| chosen(k)).map(|k| k as usize).collect();
             assert_eq!(selected(count), expected, "{count}");
+        }
+    }
+
+    #[test]
+    fn no_more_rays_are_drawn_than_there_is_time_for() {
+        for (steps, every) in [(0.0, 1), (1e8, 1), (1.01e8, 2), (2e8, 2), (1e9, 10), (f32::NAN, 1)] {
+            assert_eq!(thinned(steps), every, "{steps}");
         }
     }
 

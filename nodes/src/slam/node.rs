@@ -58,8 +58,8 @@ pub struct GraphSlam {
     /// How far a pose drifts per metre of the way: loops are searched so much farther.
     #[param(default = 0.04, range = 0.0..=1.0)]
     drift: f32,
-    /// The greatest drift that is searched for a loop.
-    #[param(unit = "m", default = 4.0, range = 0.0..=20.0)]
+    /// The greatest drift that is searched for a loop. The time for it grows with its square.
+    #[param(unit = "m", default = 4.0, range = 0.0..=10.0)]
     loop_distance: f32,
     /// A loop is closed if a scan lies on older ones to this share.
     #[param(default = 0.6, range = 0.0..=1.0)]

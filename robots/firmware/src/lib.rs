@@ -1,4 +1,5 @@
-//! The cart and its nodes. What drives it is a package of its own for each machine: `bare`, `rtic`.
+//! The cart and its nodes. What drives it is a package of its own for each machine: `bare` and `rtic` in
+//! `robots/firmware` of the repository of Apex.
 #![no_std]
 
 mod line;

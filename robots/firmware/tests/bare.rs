@@ -14,7 +14,7 @@ fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("bare");
-        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bare");
+        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
         // The versions of the workspace: those are there.
         if !package.join("Cargo.lock").exists() {
             fs::copy(package.join("../../../Cargo.lock"), package.join("Cargo.lock")).unwrap();

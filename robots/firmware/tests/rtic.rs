@@ -15,9 +15,9 @@ fn package() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("rtic")
 }
 
-/// Where cargo builds it.
+/// Where cargo builds it: beside the one for this computer, so that both share the compiler.
 fn target() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("rtic")
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware")
 }
 
 /// Cargo, for this package.

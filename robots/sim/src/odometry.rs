@@ -39,6 +39,19 @@ impl OdometryNoise {
         across: [0.0011, 0.0019],
         heading: [0.0045, 0.0021],
     };
+
+    /// The same wheels with errors that are `factor` times as large.
+    #[must_use]
+    pub fn times(&self, factor: f32) -> Self {
+        let variances = |of: [f32; 2]| of.map(|variance| variance * factor * factor);
+        Self {
+            scale: 1.0 + factor * (self.scale - 1.0),
+            veer: factor * self.veer,
+            along: variances(self.along),
+            across: variances(self.across),
+            heading: variances(self.heading),
+        }
+    }
 }
 
 impl Odometry {
@@ -104,6 +117,13 @@ mod tests {
             assert!((x_variance / 0.0019 - 1.0).abs() < 0.15, "{steps} steps: {x_variance}");
             assert!((theta_variance / 0.0045 - 1.0).abs() < 0.1, "{steps} steps: {theta_variance}");
         }
+    }
+
+    #[test]
+    fn errors_can_be_scaled() {
+        assert_eq!(OdometryNoise::PIONEER.times(0.0), OdometryNoise::NONE);
+        assert_eq!(OdometryNoise::PIONEER.times(2.0).veer, 2.0 * OdometryNoise::PIONEER.veer);
+        assert_eq!(OdometryNoise::PIONEER.times(2.0).along[0], 4.0 * OdometryNoise::PIONEER.along[0]);
     }
 
     #[test]

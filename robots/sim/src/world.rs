@@ -76,9 +76,24 @@ impl World {
         let discs = self.discs.iter().filter_map(|disc| disc.hit(origin, direction));
         walls.chain(discs).reduce(f32::min)
     }
+
+    /// The distance from `point` to the nearest thing; infinite in an empty world, 0 inside a disc.
+    pub fn clearance(&self, point: Point2) -> f32 {
+        let walls = self.walls.iter().map(|wall| wall.distance(point));
+        let discs = self.discs.iter().map(|disc| ((point - disc.centre).norm() - disc.radius).max(0.0));
+        walls.chain(discs).fold(f32::INFINITY, f32::min)
+    }
 }
 
 impl Wall {
+    fn distance(&self, point: Point2) -> f32 {
+        let (along, from) = (self.b - self.a, point - self.a);
+        let share = (from.dot(along) / along.norm_squared()).clamp(0.0, 1.0);
+        // A wall without a length is a point.
+        let share = if share.is_nan() { 0.0 } else { share };
+        (from - along.scaled(share)).norm()
+    }
+
     fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
         let (along, from) = (self.b - self.a, self.a - origin);
         let normal = along.perpendicular();
@@ -134,6 +149,18 @@ mod tests {
         world.disc(Point2::new(-3.0, 0.0), 0.5);
         world.disc(Point2::new(3.0, 0.6), 0.5);
         assert_eq!(world.cast(ORIGIN, X), None);
+    }
+
+    #[test]
+    fn clearance_is_the_distance_to_the_nearest_thing() {
+        let mut world = World::default();
+        assert_eq!(world.clearance(ORIGIN), f32::INFINITY);
+        world.wall(Point2::new(1.0, 2.0), Point2::new(4.0, 2.0));
+        assert_eq!(world.clearance(Point2::new(2.0, 0.0)), 2.0);
+        assert_eq!(world.clearance(Point2::new(7.0, -2.0)), 5.0);
+        world.wall(Point2::new(0.0, 1.0), Point2::new(0.0, 1.0));
+        world.disc(Point2::new(3.0, 0.0), 0.5);
+        assert_eq!([ORIGIN, Point2::new(2.0, 0.0), Point2::new(3.1, 0.0)].map(|p| world.clearance(p)), [1.0, 0.5, 0.0]);
     }
 
     #[test]

@@ -1,8 +1,5 @@
-use apex_rt::{UntilStopped, drive, prelude::*};
-use std::{
-    sync::atomic::{AtomicBool, Ordering},
-    time::Duration,
-};
+use apex_rt::{Switch, UntilStopped, drive, prelude::*};
+use std::time::Duration;
 
 graph! {
     use apex_nodes::flow::tick;
@@ -21,8 +18,8 @@ pub fn main() {
     let clock = SimClock::until(Time::from_secs(60)).with_step(Duration::from_millis(10));
     assert_eq!(drive(EggTimer::new(), clock), 0);
 
-    // The machine's clock, until another thread or the handler of a signal sets the switch.
-    static STOP: AtomicBool = AtomicBool::new(false);
-    STOP.store(true, Ordering::Relaxed);
+    // The machine's clock, until another thread or the handler of a signal sets the switch, which ends every wait.
+    static STOP: Switch = Switch::new();
+    STOP.set();
     run(EggTimer::new(), UntilStopped::new(WallClock::new(), &STOP));
 }

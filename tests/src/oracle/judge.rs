@@ -86,7 +86,7 @@ impl Checker {
         let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
         let mut diagnostics = Diagnostics::default();
         let mut disk = Disk::new(None);
-        let programs = passes::check(root, &mut self.catalog.borrow_mut(), &mut sources, &mut disk, &mut diagnostics);
+        let checked = passes::check(root, &mut self.catalog.borrow_mut(), &mut sources, &mut disk, &mut diagnostics);
         let errors: Vec<String> = diagnostics
             .sorted()
             .into_iter()
@@ -96,7 +96,7 @@ impl Checker {
         if !errors.is_empty() {
             return Err(errors.join("\n"));
         }
-        let graph = programs.into_iter().next().ok_or("there is no program")?.graph;
+        let graph = checked.programs.into_iter().next().ok_or("there is no program")?.graph;
         let net = petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
         Ok(Checked { graph, net })
     }

@@ -20,18 +20,26 @@ pub struct Builder<'a> {
     broken_items: bool,
     /// Operators and values of the expressions that are being built, outermost first.
     open: usize,
-    /// Places where the text was changed so that it can be read: what is wrong around them has been reported.
+    /// Places in ascending order where the text was changed so that it can be read: what is wrong around them has been
+    /// reported.
     damage: Vec<usize>,
+    /// No place lies behind this byte: what follows it was added so that the text can be read.
+    end: usize,
 }
 
 impl<'a> Builder<'a> {
     /// A builder for `file`, whose text was changed at the places `damage`.
     pub fn new(file: FileId, text: &'a str, damage: Vec<usize>, diagnostics: &'a mut Diagnostics) -> Self {
-        Self { file, text, diagnostics, broken: false, broken_items: false, open: 0, damage }
+        Self { file, text, diagnostics, broken: false, broken_items: false, open: 0, damage, end: text.len() }
+    }
+
+    /// The same builder for a text of which only the first `end` bytes were written by the user.
+    pub fn until(self, end: usize) -> Self {
+        Self { end, ..self }
     }
 
     fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        span_of(self.file, pair)
+        span_of(self.file, pair, self.end)
     }
 
     /// The whole text.
@@ -147,7 +155,8 @@ impl<'a> Builder<'a> {
         self.broken = true;
         let (start, end) = (pair.as_span().start(), pair.as_span().end());
         let blanks = self.text[..start].trim_end().len();
-        if self.damage.iter().any(|at| (blanks..=end).contains(at)) {
+        let next = self.damage.partition_point(|at| *at < blanks);
+        if self.damage.get(next).is_some_and(|at| *at <= end) {
             return;
         }
         if self.diagnostics.is_full() {

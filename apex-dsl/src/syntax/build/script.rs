@@ -4,6 +4,9 @@ use super::{Builder, expr::unescape, push_doc};
 use crate::syntax::{Rule, recover, tree::*};
 use pest::iterators::Pair;
 
+/// How an expectation compares a token with a value.
+const COMPARISONS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
+
 impl Builder<'_> {
     pub(super) fn test(&mut self, pair: Pair<'_, Rule>) -> Option<TestItem> {
         let extent = self.span(&pair);
@@ -85,7 +88,7 @@ impl Builder<'_> {
                 Rule::port_ref => of = Some(self.port_ref(part)),
                 Rule::active_kw => active = true,
                 // White space behind a sign belongs to its pair.
-                Rule::compare => operator = Some(part.as_str().trim_end().to_owned()),
+                Rule::compare => operator = COMPARISONS.into_iter().find(|c| *c == part.as_str().trim_end()),
                 Rule::expr => value = Some(self.expr(part)),
                 _ => {}
             }

@@ -10,7 +10,7 @@ pub const HELP: &str = "\
 The robot of the SICK Robot Day 2014, in simulation: it fetches cubes and takes them to the stations that they name.
 
 Usage: sick-robot-day [compete] [--seed N] [--mission afg|sdf] [--minutes M] [--fault KIND@FROM..UNTIL]...
-                      [--out FOLDER] [--record FILE [--record-images]]
+                      [--out FOLDER] [--film FILE] [--record FILE [--record-images]]
        sick-robot-day bench [--seeds N] [--mission afg|sdf] [--minutes M] [--faults] [--times]
        sick-robot-day perception [--seeds N] [--out FOLDER]
 
@@ -25,6 +25,7 @@ leaves a table of what the robot did and pictures: its map, its phases, and what
                   odometry-stopped
   --out FOLDER    a new or empty folder for the pictures (default out/sick-robot-day; if it is not empty,
                   out/sick-robot-day-2, and so on)
+  --film FILE     a moving picture of the run, as SVG, which browsers play; a file that is there is replaced
   --record FILE   records what the sensors send, and the poses, maps and speeds of the robot, as MCAP: 9 MB a minute.
                   A file that is there is not overwritten: the next one is FILE-2
   --record-images with the images of the cameras: 220 MB a minute
@@ -40,6 +41,7 @@ for pictures of what was seen with seed 1.
 
 Examples:
   sick-robot-day --seed 7 --minutes 3
+  sick-robot-day --minutes 3 --film film.svg
   sick-robot-day --mission sdf --fault camera-black@60s..70s --record dark.mcap
   sick-robot-day bench --seeds 8 --faults
 
@@ -75,7 +77,7 @@ impl Command {
 
 fn compete(parser: &mut Parser) -> Result<Command, String> {
     let mut setup = Setup { seed: 1, duration: Duration::from_secs(600), ..Setup::default() };
-    let (mut out, mut file, mut images) = (None, None, false);
+    let (mut out, mut film, mut file, mut images) = (None, None, None, false);
     while let Some(arg) = next(parser)? {
         match arg {
             Long("help") | Short('h') => return Ok(Command::Help),
@@ -84,6 +86,7 @@ fn compete(parser: &mut Parser) -> Result<Command, String> {
             Long("minutes") => setup.duration = minutes(parser)?,
             Long("fault") => setup.faults.push(text(parser)?.parse()?),
             Long("out") => out = Some(path(parser)?),
+            Long("film") => film = Some(path(parser)?),
             Long("record") => file = Some(path(parser)?),
             Long("record-images") => images = true,
             other => return Err(unknown(other)),
@@ -93,7 +96,7 @@ fn compete(parser: &mut Parser) -> Result<Command, String> {
         return Err("`--record-images` needs `--record`, which says where".to_owned());
     }
     setup.record = file.map(|path| Recording { path, images });
-    Ok(Command::Compete { setup, out })
+    Ok(Command::Compete { setup, out, film })
 }
 
 fn bench(parser: &mut Parser) -> Result<Command, String> {

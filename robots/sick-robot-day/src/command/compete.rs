@@ -5,21 +5,26 @@ use sick_robot_day::{
     contest::{Fault, Hall},
     measure::Album,
     run::{Moment, Outcome, Setup, Watch},
-    story::{Glance, LiveView},
+    story::{Film, Glance, LiveView},
 };
 use std::{
     fmt::Write as _,
+    fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
 /// Plays a competition, and tells how it went.
-pub fn compete(setup: &Setup, out: Option<PathBuf>) -> Result<ExitCode, String> {
+pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Result<ExitCode, String> {
     let folder = out.unwrap_or_else(free_folder);
     // Whether there is room for the pictures is to be known before.
     let album = Album::new(&folder)?;
-    let outcome = setup.run(&mut View::of(setup))?;
+    let mut view = View::of(setup);
+    let outcome = setup.run(&mut view)?;
     outcome.story.write(&album)?;
+    if let Some(path) = film {
+        fs::write(path, view.film.svg(&outcome.story)).map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+    }
     say(&summary(setup, &outcome, &folder))?;
     Ok(if outcome.is_fine() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
@@ -56,13 +61,14 @@ fn summary(setup: &Setup, outcome: &Outcome, folder: &Path) -> String {
 /// Shows how a run goes on.
 struct View {
     live: LiveView,
+    film: Film,
     /// The walls; they stay where they are.
     arena: Arena,
 }
 
 impl View {
     fn of(setup: &Setup) -> Self {
-        Self { live: LiveView::new(false), arena: Arena::new(setup.seed) }
+        Self { live: LiveView::new(false), film: Film::default(), arena: Arena::new(setup.seed) }
     }
 }
 
@@ -70,6 +76,7 @@ impl Observer for View {}
 
 impl Watch for View {
     fn reacted(&mut self, moment: &Moment<'_>) {
+        self.film.take(moment.now, || moment.hall.robots());
         let arena = &self.arena;
         self.live.show(moment.now, || glance(moment, moment.hall, arena));
     }

@@ -18,7 +18,7 @@ use std::{
 /// What is to be done.
 pub enum Command {
     Help,
-    Compete { setup: Setup, out: Option<PathBuf> },
+    Compete { setup: Setup, out: Option<PathBuf>, film: Option<PathBuf> },
     Bench { seeds: u64, setup: Setup, faults: bool, times: bool },
     Perception { seeds: u64, out: Option<PathBuf> },
 }
@@ -28,7 +28,7 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, String> {
         match self {
             Self::Help => say(args::HELP).map(|()| ExitCode::SUCCESS),
-            Self::Compete { setup, out } => compete::compete(&setup, out),
+            Self::Compete { setup, out, film } => compete::compete(&setup, out, film.as_deref()),
             Self::Bench { seeds, setup, faults, times } => bench::bench(seeds, &setup, faults, times),
             Self::Perception { seeds, out } => perception(seeds, out).map(|()| ExitCode::SUCCESS),
         }

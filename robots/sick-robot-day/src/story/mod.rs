@@ -2,11 +2,13 @@
 
 mod activity;
 mod canvas;
+mod film;
 mod frame;
 mod live;
 mod map;
 mod table;
 
+pub use film::Film;
 pub use frame::{Frame, Mark};
 pub use live::{Glance, LiveView};
 

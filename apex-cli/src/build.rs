@@ -1,0 +1,228 @@
+//! Cargo builds programs here: in the target folder of the workspace, so that what is there already is not built again.
+
+use crate::project::print_error;
+use apex_host::{Workspace, cargo, no_cargo};
+use serde_json::Value;
+use std::{
+    env,
+    ffi::OsString,
+    fs::{self, File, TryLockError},
+    io::{self, BufRead as _, BufReader, IsTerminal as _, Read},
+    path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+    thread,
+};
+
+/// A crate that cargo builds.
+pub struct Wanted {
+    /// What says to cargo which one it is.
+    pub select: Vec<OsString>,
+    /// The folder of its package.
+    pub package: PathBuf,
+    /// The root of the workspace that is worked in, with what its user has set up for cargo.
+    pub root: PathBuf,
+    /// Where cargo builds.
+    pub target: PathBuf,
+}
+
+/// How it is built.
+#[derive(Clone, Copy, Default)]
+pub struct How {
+    /// As `cargo build --release` does.
+    pub release: bool,
+    /// Nothing is said but what is wrong.
+    pub quiet: bool,
+}
+
+impl How {
+    /// As these say, or the user's settings for cargo.
+    pub fn new(release: bool, quiet: bool) -> Self {
+        Self { release, quiet: quiet || env::var_os("CARGO_TERM_QUIET").is_some_and(|value| value == "true") }
+    }
+}
+
+/// A program that has been built.
+pub struct Built {
+    executable: PathBuf,
+    package: PathBuf,
+    /// The folders with libraries that it may load.
+    libraries: Vec<PathBuf>,
+}
+
+impl Built {
+    /// Starts it, with what cargo would tell it.
+    pub fn command(&self) -> Command {
+        let mut command = Command::new(&self.executable);
+        let before = env::var_os(LIBRARY_PATH).unwrap_or_default();
+        let all = self.libraries.iter().cloned().chain(env::split_paths(&before).filter(|p| !p.as_os_str().is_empty()));
+        // A folder whose name cannot be in the list is left to the system.
+        if let Ok(all) = env::join_paths(all) {
+            command.env(LIBRARY_PATH, all);
+        }
+        command.env("CARGO_MANIFEST_DIR", &self.package);
+        command
+    }
+
+    /// Says why it does not start.
+    pub fn not_started(&self, reason: &io::Error) -> String {
+        format!("cannot run `{}`: {reason}", self.executable.display())
+    }
+}
+
+/// Where systems look for libraries.
+const LIBRARY_PATH: &str = if cfg!(windows) {
+    "PATH"
+} else if cfg!(target_os = "macos") {
+    "DYLD_FALLBACK_LIBRARY_PATH"
+} else {
+    "LD_LIBRARY_PATH"
+};
+
+/// The turn to make packages, to build and to start what was built. It ends when it is dropped, or when the process
+/// becomes the program: nobody can build another one in between.
+pub struct Turn(#[expect(dead_code, reason = "it is locked as long as it is open")] Option<File>);
+
+/// How cache folders are marked, so that nobody looks for texts and sources in them: <https://bford.info/cachedir/>.
+const MARK: &str = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by `apex`.\n";
+
+impl Turn {
+    /// Waits for it, and says so.
+    pub fn wait(workspace: &Workspace, how: How) -> Result<Self, String> {
+        let folder = workspace.cache_folder();
+        let failed = |e: io::Error| format!("cannot write in `{}`: {e}", folder.display());
+        fs::create_dir_all(&folder).map_err(failed)?;
+        write_if_other(&folder.join("CACHEDIR.TAG"), MARK)?;
+        let lock = File::options().create(true).append(true).open(folder.join("lock")).map_err(failed)?;
+        match lock.try_lock() {
+            Ok(()) => Ok(Self(Some(lock))),
+            Err(TryLockError::WouldBlock) => {
+                if !how.quiet {
+                    let target = workspace.target.display();
+                    print_error(&format!("waiting until another `apex` has built what it needs in `{target}`"));
+                }
+                lock.lock().map_err(failed)?;
+                Ok(Self(Some(lock)))
+            }
+            // Where files cannot be locked, cargo has no lock either.
+            Err(TryLockError::Error(_)) => Ok(Self(None)),
+        }
+    }
+}
+
+/// Writes a file, unless it has this text already: cargo looks at its time. Says whether it did.
+pub fn write_if_other(path: &Path, text: &str) -> Result<bool, String> {
+    if fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+        return Ok(false);
+    }
+    fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))
+        .and_then(|()| fs::write(path, text))
+        .map_err(|e| format!("cannot write `{}`: {e}", path.display()))?;
+    Ok(true)
+}
+
+/// Cargo, as it is called for a crate.
+fn cargo_for(wanted: &Wanted, verb: &[&str], how: How) -> Command {
+    let mut command = cargo();
+    command.args(verb).args(&wanted.select).current_dir(&wanted.root).env("CARGO_TARGET_DIR", &wanted.target);
+    command.args(how.release.then_some("--release")).args(how.quiet.then_some("--quiet"));
+    command.arg("--message-format=json-render-diagnostics").stdin(Stdio::null()).stdout(Stdio::piped());
+    command
+}
+
+/// The words by which cargo builds a program, or tests.
+pub const PROGRAM: &[&str] = &["build"];
+pub const TESTS: &[&str] = &["test", "--no-run"];
+
+/// What comes of building something.
+pub enum Outcome {
+    /// A program.
+    Built(Built),
+    /// No program: the crate has none, or no tests.
+    Nothing,
+    /// Errors, which cargo has printed.
+    Broken,
+}
+
+impl Outcome {
+    /// The program, where there has to be one; nothing if it has errors.
+    pub fn program(self) -> Result<Option<Built>, String> {
+        match self {
+            Self::Built(built) => Ok(Some(built)),
+            Self::Broken => Ok(None),
+            Self::Nothing => Err("cargo has built no program".to_owned()),
+        }
+    }
+}
+
+/// Builds a program, or its tests.
+///
+/// A person sees cargo's progress. Where nobody looks, there is a line for each crate, and none if there is nothing
+/// to do.
+pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String> {
+    let mut command = cargo_for(wanted, verb, how);
+    let sees_progress = io::stderr().is_terminal();
+    let passes_on = !how.quiet && !sees_progress;
+    command.stderr(if passes_on { Stdio::piped() } else { Stdio::inherit() });
+    let mut child = command.spawn().map_err(|e| no_cargo(&e))?;
+    let progress = child.stderr.take().map(|lines| thread::spawn(move || pass_on(lines)));
+    let messages = Messages::read(&mut child, verb == TESTS)?;
+    if let Some(progress) = progress {
+        // It only prints.
+        let _ = progress.join();
+    }
+    if !child.wait().map_err(|e| no_cargo(&e))?.success() {
+        return Ok(Outcome::Broken);
+    }
+    if sees_progress && !how.quiet && !messages.is_new {
+        // The line by which cargo says that it had nothing to do.
+        eprint!("\x1b[1A\x1b[2K");
+    }
+    let Some(executable) = messages.executable else { return Ok(Outcome::Nothing) };
+    let folder = executable.parent().unwrap_or(Path::new("."));
+    let is_ours = |path: &PathBuf| path.starts_with(&wanted.target);
+    let mut libraries: Vec<PathBuf> = messages.linked.into_iter().filter(is_ours).collect();
+    libraries.extend([folder.join("deps"), folder.to_owned()]);
+    Ok(Outcome::Built(Built { executable, package: wanted.package.clone(), libraries }))
+}
+
+/// Prints what cargo says as it goes on, but not that it is done.
+fn pass_on(lines: impl Read) {
+    for line in BufReader::new(lines).split(b'\n').map_while(Result::ok) {
+        let line = String::from_utf8_lossy(&line);
+        let is_end = ["Finished `", "Executable "].iter().any(|word| line.trim_start().starts_with(word));
+        if !is_end {
+            print_error(&line);
+        }
+    }
+}
+
+/// What cargo says to programs.
+#[derive(Default)]
+struct Messages {
+    /// Whether anything was compiled.
+    is_new: bool,
+    /// The last program.
+    executable: Option<PathBuf>,
+    /// Where build scripts have put libraries.
+    linked: Vec<PathBuf>,
+}
+
+impl Messages {
+    /// Reads all of them; what is built is a program, or `tests`.
+    fn read(child: &mut Child, tests: bool) -> Result<Self, String> {
+        let mut messages = Self::default();
+        let Some(output) = child.stdout.take() else { return Ok(messages) };
+        for line in BufReader::new(output).lines() {
+            let line = line.map_err(|e| format!("cargo cannot be understood: {e}"))?;
+            // What is not for us is no JSON.
+            let Ok(message) = serde_json::from_str::<Value>(&line) else { continue };
+            messages.is_new |= message["fresh"] == false;
+            if let Some(executable) = message["executable"].as_str().filter(|_| message["profile"]["test"] == tests) {
+                messages.executable = Some(executable.into());
+            }
+            let linked = message["linked_paths"].as_array().into_iter().flatten().filter_map(Value::as_str);
+            messages.linked.extend(linked.map(|path| path.split_once('=').map_or(path, |(_, path)| path).into()));
+        }
+        Ok(messages)
+    }
+}

@@ -1,0 +1,188 @@
+//! Packages that are made for a text whose own package has no program for it. They lie below the target folder of the
+//! workspace, and are built there as the workspace is: of the same crates, with the same profiles.
+
+use crate::build::{Wanted, write_if_other};
+use apex_host::{Workspace, cargo, name_of};
+use std::{
+    collections::BTreeSet,
+    ffi::OsString,
+    fmt::Display,
+    fs,
+    path::{Path, PathBuf},
+    process::Stdio,
+};
+use toml::{Table, Value};
+
+/// The library whose types are messages in recordings if the runtime can record.
+const NODES: &str = "apex-nodes";
+/// The runtime.
+const RUNTIME: &str = "apex-rt";
+/// The feature of programs that can be recorded.
+pub const RECORD: &str = "record";
+
+/// A package that is to be made.
+pub struct Made<'a> {
+    pub workspace: &'a Workspace,
+    /// What it does: `run`, `test`, …
+    pub what: &'a str,
+    /// The text, by its whole path.
+    pub text: &'a Path,
+    /// The program in it, if it is made for one.
+    pub program: &'a str,
+    /// The features of the runtime.
+    pub features: &'a [&'a str],
+    /// Its only file.
+    pub file: &'a str,
+    pub code: &'a str,
+}
+
+impl Made<'_> {
+    /// A name that no other package has: cargo, and the folder where it builds, tell programs apart by their names,
+    /// and do not always tell small letters from capital ones.
+    fn name(&self) -> String {
+        let stem = self.text.file_stem().unwrap_or_default();
+        let shown = format!("{} {}", stem.to_string_lossy(), self.program);
+        let what = [self.what, self.program, &self.features.join(",")].join("\n");
+        name_of(&format!("apex-{} {}", self.what, shown.trim_end()), &[what.as_ref(), self.text.as_os_str()])
+    }
+
+    /// Where it lies.
+    pub fn folder(&self) -> PathBuf {
+        self.workspace.cache_folder().join("made").join(self.name())
+    }
+
+    /// Makes it.
+    pub fn make(&self) -> Result<Wanted, String> {
+        let folder = self.folder();
+        let manifest = folder.join("Cargo.toml");
+        write_if_other(&folder.join(self.file), self.code)?;
+        let versions = self.lock(&folder)?;
+        write_if_other(&manifest, &self.manifest(versions.as_ref())?)?;
+        Ok(Wanted {
+            select: vec!["--manifest-path".into(), manifest.into()],
+            package: folder,
+            root: self.workspace.root.clone(),
+            target: self.workspace.target.clone(),
+        })
+    }
+
+    /// It depends on all that a text can name, and is a workspace of its own like the one it is made for. `crates`
+    /// are those that it needs, if that is known.
+    fn manifest(&self, crates: Option<&BTreeSet<String>>) -> Result<String, String> {
+        let mut package = Table::new();
+        for (key, value) in [("name", self.name().as_str()), ("version", "0.0.0"), ("edition", "2024")] {
+            package.insert(key.to_owned(), value.into());
+        }
+        let (own, _) = self.workspace.binary();
+        let libraries = self.workspace.libraries();
+        // The package of the text says which features it wants of the others; without a library it is not among them.
+        let has_own = libraries.iter().any(|(name, _)| *name == own);
+        let mut dependencies = Table::new();
+        for (name, path) in libraries {
+            let mut dependency = Table::from_iter([("path".to_owned(), Value::from(utf8(path)?))]);
+            let mut features: Vec<&str> = match name {
+                RUNTIME => self.features.to_vec(),
+                NODES if self.features.contains(&RECORD) => vec![RECORD],
+                _ => vec![],
+            };
+            if has_own && name != own {
+                dependency.insert("default-features".to_owned(), false.into());
+                features.extend((name == RUNTIME).then_some("std"));
+            }
+            dependency.insert("features".to_owned(), features.into());
+            dependencies.insert(name.to_owned(), dependency.into());
+        }
+        let mut manifest = Table::from_iter([
+            ("package".to_owned(), package.into()),
+            ("dependencies".to_owned(), dependencies.into()),
+            ("workspace".to_owned(), Table::new().into()),
+        ]);
+        self.inherit(&mut manifest, crates)?;
+        toml::to_string(&manifest).map_err(|e| format!("the manifest of `{}` cannot be written: {e}", self.name()))
+    }
+
+    /// Takes from the workspace what decides how its crates are built: with other profiles they would be others.
+    fn inherit(&self, manifest: &mut Table, crates: Option<&BTreeSet<String>>) -> Result<(), String> {
+        let root = self.workspace.root.join("Cargo.toml");
+        let mut theirs = read_table(&root)?;
+        if let Some(mut patch) = theirs.remove("patch") {
+            make_absolute(&mut patch, &self.workspace.root);
+            manifest.insert("patch".to_owned(), patch);
+        }
+        if let (Some(mut profiles), Some(crates)) = (theirs.remove("profile"), crates) {
+            for (_, profile) in profiles.as_table_mut().into_iter().flatten() {
+                let packages = profile.get_mut("package").and_then(Value::as_table_mut);
+                // Cargo warns of those that it does not find.
+                packages.into_iter().for_each(|packages| packages.retain(|spec, _| is_of(spec, crates)));
+            }
+            manifest.insert("profile".to_owned(), profiles);
+        }
+        if let Some(resolver) = theirs.get("workspace").and_then(|workspace| workspace.get("resolver")) {
+            manifest
+                .insert("workspace".to_owned(), Table::from_iter([("resolver".to_owned(), resolver.clone())]).into());
+        }
+        Ok(())
+    }
+
+    /// Takes the versions of all crates from the workspace, and says which crates are needed. Cargo adds the package
+    /// itself to the list; that it does so here is not worth a word.
+    fn lock(&self, folder: &Path) -> Result<Option<BTreeSet<String>>, String> {
+        let lock = folder.join("Cargo.lock");
+        let Ok(theirs) = fs::read_to_string(self.workspace.root.join("Cargo.lock")) else { return Ok(None) };
+        let is_new = write_if_other(&folder.join("Cargo.lock.workspace"), &theirs)?;
+        if is_new || !lock.exists() {
+            write_if_other(&lock, &theirs)?;
+            let manifest = folder.join("Cargo.toml");
+            write_if_other(&manifest, &self.manifest(None)?)?;
+            let mut command = cargo();
+            command
+                .args(["metadata", "--quiet", "--format-version", "1", "--offline", "--manifest-path"])
+                .arg(manifest);
+            // What goes wrong here, goes wrong and is said when it is built.
+            let _ = command.current_dir(&self.workspace.root).stdout(Stdio::null()).stderr(Stdio::null()).status();
+        }
+        let lock = read_table(&lock)?;
+        let packages = lock.get("package").and_then(Value::as_array).into_iter().flatten();
+        Ok(Some(packages.filter_map(|package| Some(package.get("name")?.as_str()?.to_owned())).collect()))
+    }
+}
+
+fn read_table(path: &Path) -> Result<Table, String> {
+    let wrong = |e: &dyn Display| format!("cannot read `{}`: {e}", path.display());
+    let text = fs::read_to_string(path).map_err(|e| wrong(&e))?;
+    text.parse().map_err(|e: toml::de::Error| wrong(&e.message()))
+}
+
+/// Whether what a profile says of `spec` (`*`, `name` or `name@version`) is of one of these crates.
+fn is_of(spec: &str, crates: &BTreeSet<String>) -> bool {
+    spec == "*" || spec.split(['@', ':']).next().is_some_and(|name| crates.contains(name))
+}
+
+/// What says to cargo that a package of the workspace is built with these features of the runtime.
+pub fn select_features(workspace: &Workspace, features: &[&str]) -> Vec<OsString> {
+    let mut select: Vec<OsString> = vec![];
+    for feature in features {
+        select.extend(["--features".into(), format!("{RUNTIME}/{feature}").into()]);
+        if *feature == RECORD && workspace.libraries().iter().any(|(name, _)| *name == NODES) {
+            select.extend(["--features".into(), format!("{NODES}/{feature}").into()]);
+        }
+    }
+    select
+}
+
+/// A path as a text of TOML and Rust.
+pub fn utf8(path: &Path) -> Result<&str, String> {
+    path.to_str()
+        .ok_or_else(|| format!("the path `{}` is not UTF-8: cargo cannot build what lies there", path.display()))
+}
+
+/// Paths in a table are meant from `root` on.
+fn make_absolute(value: &mut Value, root: &Path) {
+    let Value::Table(table) = value else { return };
+    for (key, value) in table {
+        match value {
+            Value::String(path) if key == "path" => *path = root.join(&*path).to_string_lossy().into_owned(),
+            value => make_absolute(value, root),
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! `apex nodes`: which nodes a package can use, and what each takes and sends.
+
+use crate::project::{self, Checker};
+use apex_dsl::{
+    catalog::Signature,
+    ide::{NodeType, ParamFacts, PortFacts, View},
+    report::nearest,
+    syntax::tree::PortKind,
+};
+use std::{collections::BTreeMap, fmt::Write as _, path::Path, process::ExitCode};
+
+/// The order in which ports are listed.
+const KINDS: [PortKind; 4] = [PortKind::Input, PortKind::Output, PortKind::Slot, PortKind::Event];
+
+/// Lists the nodes of the package in `folder` that have to do with all `words`; describes the one that is named so.
+pub fn run(folder: &Path, words: &[String], markdown: bool) -> Result<ExitCode, String> {
+    let text = folder.join("nodes.afg");
+    if project::package_of(&text).is_none() {
+        return Err(format!(
+            "`{}` is in no cargo package, so that there are no nodes to list; go to one, or name its folder with \
+             `--package`",
+            folder.display()
+        ));
+    }
+    let mut checker = Checker::new(&text)?;
+    let (sources, _, checked) = checker.check(&text, "".into());
+    checker.save();
+    let package =
+        checker.workspace.as_ref().map_or_else(String::new, |workspace| workspace.binary().0.replace('-', "_"));
+    let view = View { texts: &checked.texts, links: &checked.links, sources: &sources, catalog: &checker.catalog };
+    let index = Index::new(view, &package);
+    let text = index.answer(words, markdown)?;
+    project::print(text.trim_end())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A node of the index.
+struct Entry<'a> {
+    signature: &'a Signature,
+    /// Its crate and modules.
+    module: String,
+    ports: Vec<PortFacts>,
+    params: Vec<ParamFacts>,
+}
+
+/// The nodes of a package, sorted by module and name.
+struct Index<'a> {
+    entries: Vec<Entry<'a>>,
+}
+
+impl<'a> Index<'a> {
+    fn new(view: View<'a>, package: &str) -> Self {
+        let reachable =
+            view.catalog.rust_nodes().iter().enumerate().filter(|(_, signature)| !signature.path.is_empty());
+        let entry = |(id, signature): (usize, &'a Signature)| {
+            let written = view.catalog.written(&signature.path);
+            let path: Vec<&str> = written.iter().map(String::as_str).collect();
+            let module: Vec<&str> = match path.split_last() {
+                Some((_, ["crate", inner @ ..])) => [package].into_iter().chain(inner.iter().copied()).collect(),
+                Some((_, module)) => module.to_vec(),
+                None => vec![],
+            };
+            let (node, module) = (NodeType::Rust(id), module.join("::"));
+            Entry { signature, module, ports: view.ports(node), params: view.params(node) }
+        };
+        let mut entries: Vec<Entry<'a>> = reachable.map(entry).collect();
+        entries.sort_by_cached_key(|entry| (entry.module.clone(), entry.signature.name.to_lowercase()));
+        Self { entries }
+    }
+
+    /// What is asked for; an error if there is nothing of the kind.
+    fn answer(&self, words: &[String], markdown: bool) -> Result<String, String> {
+        let found: Vec<&Entry<'a>> = self.entries.iter().filter(|entry| entry.matches(words)).collect();
+        if found.is_empty() {
+            return Err(self.nothing(words));
+        }
+        if markdown {
+            return Ok(page(&found));
+        }
+        let named: Vec<&Entry<'a>> = match words {
+            [word] => found.iter().copied().filter(|entry| entry.is_named(word)).collect(),
+            _ => vec![],
+        };
+        match (&named[..], &found[..]) {
+            ([], [only]) => Ok(only.text()),
+            ([], _) => Ok(list(&found)),
+            _ => Ok(named.iter().map(|entry| entry.text()).collect::<Vec<_>>().join("\n")),
+        }
+    }
+
+    fn nothing(&self, words: &[String]) -> String {
+        let names = self.entries.iter().map(|entry| entry.signature.name.as_str());
+        match words {
+            [] => "the package has no nodes, and depends on no crate that has some".to_owned(),
+            [word] => match nearest(word, names) {
+                Some(near) => format!("no node has to do with `{word}`; did you mean `{near}`?"),
+                None => format!("no node has to do with `{word}`; `apex nodes` lists them all"),
+            },
+            several => format!("no node has to do with all of `{}`; take fewer words", several.join("`, `")),
+        }
+    }
+}
+
+impl Entry<'_> {
+    /// Whether each word stands in its path, its documentation, a port, a parameter or a type.
+    fn matches(&self, words: &[String]) -> bool {
+        let mut all = format!("{}::{} {}", self.module, self.signature.name, self.signature.docs);
+        for port in &self.ports {
+            let _ = write!(all, " {} {}", port.name, port.ty);
+        }
+        for param in &self.params {
+            let _ = write!(all, " {} {}", param.name, param.ty);
+        }
+        let all = all.to_lowercase();
+        words.iter().all(|word| all.contains(&word.to_lowercase()))
+    }
+
+    /// Whether it is called so, with or without the modules before its name.
+    fn is_named(&self, word: &str) -> bool {
+        let path = format!("::{}::{}", self.module, self.signature.name).to_lowercase();
+        path.ends_with(&format!("::{}", word.to_lowercase()))
+    }
+
+    /// All about it, for a terminal.
+    fn text(&self) -> String {
+        let mut text = format!("{}::{}\n", self.module, self.signature.name);
+        for line in self.signature.docs.trim().lines() {
+            text += format!("  {}", plain(line)).trim_end();
+            text.push('\n');
+        }
+        let rows = self.rows();
+        let widths = [0, 1, 2].map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+        for [kind, name, ty, docs] in &rows {
+            let (a, b, c) = (widths[0], widths[1], widths[2]);
+            let line = format!("  {kind:a$}  {name:b$}  {ty:c$}  {docs}");
+            text += line.trim_end();
+            text.push('\n');
+        }
+        text
+    }
+
+    /// Its ports and parameters: kind, name, type with unit, default and range, documentation.
+    fn rows(&self) -> Vec<[String; 4]> {
+        let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
+        let port = |port: &PortFacts| {
+            let ty = match port.rate {
+                _ if port.ty.is_unit() => String::new(),
+                1 => port.ty.to_string(),
+                rate => format!("[{}; {rate}]", port.ty),
+            };
+            let open = if port.optional { " (may stay open)" } else { "" };
+            [port.kind.word().to_owned(), port.name.clone(), ty + open, plain(&sentence(&port.docs))]
+        };
+        let param = |param: &ParamFacts| {
+            let unit = param.unit.as_ref().map(|unit| format!("[{unit}]")).unwrap_or_default();
+            let default = match param.default.as_deref() {
+                None => String::new(),
+                Some(long) if long.contains('\n') => " = …".to_owned(),
+                Some(default) => format!(" = {default}"),
+            };
+            let range = param.range.as_ref().map(|range| format!(" in {range}")).unwrap_or_default();
+            let ty = format!("{}{unit}{default}{range}", param.ty);
+            ["param".to_owned(), param.name.clone(), ty, plain(&sentence(&param.docs))]
+        };
+        ports.map(port).chain(self.params.iter().map(param)).collect()
+    }
+}
+
+/// Names with their first sentences, by module.
+fn list(found: &[&Entry<'_>]) -> String {
+    let width = found.iter().map(|entry| entry.signature.name.chars().count()).max().unwrap_or(0);
+    let mut text = String::new();
+    for group in found.chunk_by(|a, b| a.module == b.module) {
+        let _ = writeln!(text, "{}{}", if text.is_empty() { "" } else { "\n" }, group[0].module);
+        for entry in group {
+            let line = format!("  {:width$}  {}", entry.signature.name, plain(&sentence(&entry.signature.docs)));
+            text += line.trim_end();
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// All about all of them, as Markdown: a table of each module, then a section for each node.
+fn page(found: &[&Entry<'_>]) -> String {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    let mut text = String::new();
+    for group in found.chunk_by(|a, b| a.module == b.module) {
+        let _ = writeln!(text, "## {}\n\n| node | |\n|---|---|", group[0].module);
+        let anchors: Vec<String> = group.iter().map(|entry| anchor(&entry.signature.name, &mut counts)).collect();
+        for (entry, anchor) in group.iter().zip(&anchors) {
+            let docs = cell(&sentence(&entry.signature.docs));
+            let _ = writeln!(text, "| [`{}`](#{anchor}) | {docs} |", entry.signature.name);
+        }
+        text.push('\n');
+        group.iter().for_each(|entry| text += &section(entry));
+    }
+    text
+}
+
+fn section(entry: &Entry<'_>) -> String {
+    let (module, name) = (&entry.module, &entry.signature.name);
+    let mut text = format!("### {name}\n\n`{module}::{name}`: {}\n\n", linkless(&sentence(&entry.signature.docs)));
+    let rows = entry.rows();
+    if !rows.is_empty() {
+        text += "| | name | type | |\n|---|---|---|---|\n";
+    }
+    for [kind, name, ty, docs] in rows {
+        let ty = if ty.is_empty() { String::new() } else { format!("`{}`", ty.replace('|', "\\|")) };
+        let _ = writeln!(text, "| {kind} | `{name}` | {ty} | {} |", cell(&docs));
+    }
+    text + "\n"
+}
+
+/// The anchor of a heading; the second of one name has a number.
+fn anchor(name: &str, counts: &mut BTreeMap<String, usize>) -> String {
+    let name = name.to_lowercase();
+    let count = counts.entry(name.clone()).or_default();
+    *count += 1;
+    if *count == 1 { name } else { format!("{name}-{}", *count - 1) }
+}
+
+/// The first sentence of a documentation, in one line. What goes on with a small letter or a number (`fig. 4.10`) has
+/// not ended.
+fn sentence(docs: &str) -> String {
+    let paragraph: Vec<&str> = docs.trim().lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let paragraph = paragraph.join(" ");
+    let begins = |rest: &str| rest.chars().next().is_some_and(|c| !c.is_lowercase() && !c.is_numeric());
+    let end = paragraph.match_indices(". ").find(|(at, _)| begins(&paragraph[at + 2..])).map(|(at, _)| at + 1);
+    paragraph[..end.unwrap_or(paragraph.len())].to_owned()
+}
+
+/// Without links to Rust's documentation: [`Scan`](path) is `Scan`.
+fn linkless(text: &str) -> String {
+    let mut rest = text;
+    let mut out = String::new();
+    while let Some((before, code)) = rest.split_once("[`") {
+        out += before;
+        let Some((code, after)) = code.split_once("`]") else {
+            return out + "[`" + code;
+        };
+        let _ = write!(out, "`{}`", code.rsplit("::").next().unwrap_or(code));
+        rest = match after.strip_prefix('(').and_then(|target| target.split_once(')')) {
+            Some((_, after)) => after,
+            None => after,
+        };
+    }
+    out + rest
+}
+
+/// Without links and back quotes, for a terminal.
+fn plain(text: &str) -> String {
+    linkless(text).replace('`', "")
+}
+
+/// For a table of Markdown.
+fn cell(text: &str) -> String {
+    linkless(text).replace('|', "\\|")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_sentence_has_no_links() {
+        for (docs, expected) in [
+            (
+                "Sends a [`Scan`](crate::Scan) to\n[`flow::Hold`] (thesis fig. 4.10). More.\n\nMuch more.",
+                "Sends a `Scan` to `Hold` (thesis fig. 4.10).",
+            ),
+            ("No end", "No end"),
+            ("", ""),
+            ("Open [`end", "Open [`end"),
+        ] {
+            assert_eq!(linkless(&sentence(docs)), expected);
+        }
+        assert_eq!(plain("`a` | [`B`]"), "a | B");
+        assert_eq!(cell("`a` | b"), "`a` \\| b");
+    }
+
+    #[test]
+    fn headings_of_one_name_have_anchors_of_their_own() {
+        let mut counts = BTreeMap::new();
+        assert_eq!(["Note", "Other", "Note"].map(|name| anchor(name, &mut counts)), ["note", "other", "note-1"]);
+    }
+}

@@ -1,0 +1,137 @@
+//! Constants of Rust that a text names by their path.
+
+use super::{Catalog, DefId, ItemKind, PRIMITIVES, Type, library, tree::Def};
+
+/// What a path to a constant leads to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Constant {
+    /// A constant, as generated code spells it, and its type.
+    Known(Vec<String>, Type),
+    /// It is there, but generated code cannot name it; where it stands.
+    Hidden(String),
+    /// Only rustc can say, for example because it is in a crate that is not scanned: the path as generated code spells it.
+    Unknown(Vec<String>),
+    /// There is none; the names that are there.
+    Missing(Vec<String>),
+}
+
+/// A constant that Rust gives a type of its own: `f64::MAX`.
+pub fn of_primitive(of: &str, name: &str) -> Constant {
+    let known: &[&str] = match of {
+        "f32" | "f64" => &["EPSILON", "INFINITY", "MAX", "MIN", "MIN_POSITIVE", "NAN", "NEG_INFINITY"],
+        "bool" | "str" => &[],
+        "char" => &["MAX"],
+        _ => &["MAX", "MIN"],
+    };
+    if !known.contains(&name) {
+        return Constant::Missing(known.iter().map(|name| (*name).to_owned()).collect());
+    }
+    let path = ["", "core", "primitive", of, name].map(str::to_owned);
+    Constant::Known(path.into(), Type::Primitive(of.to_owned()))
+}
+
+/// Whether the words of Rust that are no names stand only where a path begins.
+pub fn is_path(path: &[String]) -> bool {
+    !path.iter().skip(1).any(|word| ["self", "Self", "super", "crate"].contains(&word.as_str()))
+}
+
+/// A path to what is not known, as it stands in a text.
+fn spelled(path: &[String]) -> Vec<String> {
+    let relative = path.first().is_some_and(|first| first == "crate");
+    (!relative).then(String::new).into_iter().chain(path.iter().cloned()).collect()
+}
+
+impl Catalog {
+    /// What `path` leads to.
+    pub fn constant(&self, path: &[String]) -> Constant {
+        let unknown = || Constant::Unknown(spelled(path));
+        let Some((last, parent)) = path.split_last().filter(|_| is_path(path)) else {
+            return Constant::Missing(vec![]);
+        };
+        if library::is_listed(path) {
+            return library::constant(path);
+        }
+        if let [of] = parent
+            && PRIMITIVES.contains(&of.as_str())
+        {
+            return of_primitive(of, last);
+        }
+        let mut found = self.defs(path).into_iter().filter_map(|def| Some((def, self.type_of_constant(def)?)));
+        if let Some((def, ty)) = found.next() {
+            return self.spelled(def, None, ty);
+        }
+        let types = if parent.is_empty() { vec![] } else { self.types(parent) };
+        for &def in &types {
+            if let Some(ty) = self.type_of_associated(def, last) {
+                return self.spelled(def, Some(last), ty);
+            }
+        }
+        if !types.is_empty() {
+            let known: Vec<String> = types.iter().flat_map(|def| self.associated_names(*def)).collect();
+            // A trait or a macro may give a type more than the scan sees.
+            return if known.is_empty() { unknown() } else { Constant::Missing(known) };
+        }
+        if types.is_empty() && !self.defs(parent).is_empty() {
+            return Constant::Missing(vec![]);
+        }
+        match path.first() {
+            Some(first) if self.is_crate(first) && !self.may_hide(parent) => {
+                Constant::Missing(self.names_in(parent).into_iter().map(str::to_owned).collect())
+            }
+            Some(first) if self.is_crate(first) || self.is_extern(first) => unknown(),
+            _ => Constant::Missing(vec![]),
+        }
+    }
+
+    fn spelled(&self, def: DefId, name: Option<&String>, ty: Type) -> Constant {
+        match self.path(def) {
+            Some(path) => Constant::Known(path.iter().chain(name).cloned().collect(), ty),
+            None => {
+                let (file, line) = self.place(def);
+                Constant::Hidden(format!("{}:{line}", file.display()))
+            }
+        }
+    }
+
+    /// The type of a constant, or of a struct without fields.
+    fn type_of_constant(&self, def: DefId) -> Option<Type> {
+        let Def { module, kind, name, .. } = &self.tree.defs[def];
+        match kind {
+            ItemKind::Constant(ty) => Some(self.type_of(ty, *module, &[])),
+            ItemKind::Type(ty) if ty.values.iter().any(String::is_empty) => Some(Type::Def(def, name.clone(), vec![])),
+            _ => None,
+        }
+    }
+
+    /// The type of a variant, or of a constant in an `impl`.
+    fn type_of_associated(&self, def: DefId, name: &str) -> Option<Type> {
+        let Def { module, kind, name: of, .. } = &self.tree.defs[def];
+        let this = || Type::Def(def, of.clone(), vec![]);
+        if let ItemKind::Type(ty) = kind
+            && ty.values.iter().any(|value| value == name)
+        {
+            return Some(if ty.arguments.1 == 0 { this() } else { Type::Unknown(of.clone()) });
+        }
+        let mut constants = self.constants_of(def).filter(|(constant, _)| constant == name);
+        let (_, ty) = constants.next()?;
+        Some(if ty.is_parameter("Self") { this() } else { self.type_of(ty, *module, &[]) })
+    }
+
+    fn associated_names(&self, def: DefId) -> Vec<String> {
+        let variants = match &self.tree.defs[def].kind {
+            ItemKind::Type(ty) => ty.values.clone(),
+            _ => vec![],
+        };
+        variants.into_iter().chain(self.constants_of(def).map(|(name, _)| name.clone())).collect()
+    }
+
+    /// The constants in all `impl` of a type that stand in its module.
+    fn constants_of(&self, def: DefId) -> impl Iterator<Item = &(String, super::Ty)> {
+        let Def { module, name, .. } = &self.tree.defs[def];
+        let all = self.tree.named("").iter().map(|def| &self.tree.defs[*def]);
+        all.filter(move |other| other.module == *module).flat_map(move |other| match &other.kind {
+            ItemKind::Constants(of, constants) if of == name => constants.as_slice(),
+            _ => &[],
+        })
+    }
+}

@@ -1,0 +1,114 @@
+//! Types and constants of crates that are not scanned, as far as texts may name them by their path: the standard library, and
+//! the runtime. All others get a name in Rust first.
+
+use super::{Constant, DURATION, Type, constants::of_primitive};
+
+/// The names of the standard library.
+const STANDARD: [&str; 3] = ["std", "core", "alloc"];
+/// The crate of the runtime.
+const RUNTIME: &str = "apex_rt";
+
+/// Types of the standard library behind the name of its crate, with the fewest and the most type arguments.
+const TYPES: [(&str, usize, usize); 44] = [
+    ("borrow::Cow", 1, 1),
+    ("boxed::Box", 1, 1),
+    ("cell::Cell", 1, 1),
+    ("cell::RefCell", 1, 1),
+    ("collections::BTreeMap", 2, 2),
+    ("collections::BTreeSet", 1, 1),
+    ("collections::BinaryHeap", 1, 1),
+    ("collections::HashMap", 2, 3),
+    ("collections::HashSet", 1, 2),
+    ("collections::LinkedList", 1, 1),
+    ("collections::VecDeque", 1, 1),
+    ("ffi::CString", 0, 0),
+    ("ffi::OsString", 0, 0),
+    ("marker::PhantomData", 1, 1),
+    ("net::IpAddr", 0, 0),
+    ("net::Ipv4Addr", 0, 0),
+    ("net::Ipv6Addr", 0, 0),
+    ("net::SocketAddr", 0, 0),
+    ("num::NonZeroI16", 0, 0),
+    ("num::NonZeroI32", 0, 0),
+    ("num::NonZeroI64", 0, 0),
+    ("num::NonZeroI8", 0, 0),
+    ("num::NonZeroU16", 0, 0),
+    ("num::NonZeroU32", 0, 0),
+    ("num::NonZeroU64", 0, 0),
+    ("num::NonZeroU8", 0, 0),
+    ("num::NonZeroUsize", 0, 0),
+    ("num::Wrapping", 1, 1),
+    ("ops::ControlFlow", 1, 2),
+    ("ops::Range", 1, 1),
+    ("ops::RangeInclusive", 1, 1),
+    ("option::Option", 1, 1),
+    ("path::PathBuf", 0, 0),
+    ("rc::Rc", 1, 1),
+    ("result::Result", 2, 2),
+    ("string::String", 0, 0),
+    ("sync::Arc", 1, 1),
+    ("sync::Mutex", 1, 1),
+    ("sync::RwLock", 1, 1),
+    ("task::Poll", 1, 1),
+    ("time::Duration", 0, 0),
+    ("time::Instant", 0, 0),
+    ("time::SystemTime", 0, 0),
+    ("vec::Vec", 1, 1),
+];
+/// Types of the runtime that can be tokens.
+const RUNTIME_TYPES: [&str; 2] = ["Failure", "Time"];
+/// Constants of `core::f32::consts` and `core::f64::consts`.
+#[rustfmt::skip]
+const OF_FLOATS: [&str; 19] = [
+    "E", "FRAC_1_PI", "FRAC_1_SQRT_2", "FRAC_2_PI", "FRAC_2_SQRT_PI", "FRAC_PI_2", "FRAC_PI_3", "FRAC_PI_4", "FRAC_PI_6",
+    "FRAC_PI_8", "LN_10", "LN_2", "LOG10_2", "LOG10_E", "LOG2_10", "LOG2_E", "PI", "SQRT_2", "TAU",
+];
+const OF_DURATION: [&str; 2] = ["MAX", "ZERO"];
+
+/// Whether a path begins in a crate of which only the names here are known.
+pub fn is_listed(path: &[String]) -> bool {
+    path.first().is_some_and(|name| STANDARD.contains(&name.as_str()) || name == RUNTIME)
+}
+
+/// Whether the name of a type that is not scanned is one of the standard library: it is no other name of a number or a list.
+pub fn is_standard(name: &str) -> bool {
+    super::STD.contains(&name) || STANDARD.contains(&name.split("::").next().unwrap_or_default())
+}
+
+/// The name without a path of a type that needs no import.
+pub fn short(path: &[String]) -> Option<&'static str> {
+    let [krate, _, name] = path else { return None };
+    let is_standard = STANDARD.contains(&krate.as_str()) && type_arguments(path).is_some();
+    super::STD.into_iter().find(|short| is_standard && short == name)
+}
+
+/// The fewest and the most type arguments of the type that a path names in one of these crates, if it is listed.
+pub fn type_arguments(path: &[String]) -> Option<(usize, usize)> {
+    let (krate, rest) = path.split_first()?;
+    let rest = rest.join("::");
+    if krate == RUNTIME {
+        return RUNTIME_TYPES.contains(&rest.as_str()).then_some((0, 0));
+    }
+    TYPES.iter().find(|(name, ..)| *name == rest).map(|(_, fewest, most)| (*fewest, *most))
+}
+
+/// The constant that a path names in one of these crates.
+pub fn constant(path: &[String]) -> Constant {
+    let words: Vec<&str> = path.iter().map(String::as_str).collect();
+    let known = |names: &[&str]| Constant::Missing(names.iter().map(|name| (*name).to_owned()).collect());
+    let spelled = || [String::new()].into_iter().chain(path.iter().cloned()).collect();
+    match words.as_slice() {
+        [krate, of @ ("f32" | "f64"), "consts", name] if *krate != RUNTIME => match OF_FLOATS.contains(name) {
+            true => Constant::Known(spelled(), Type::Primitive((*of).to_owned())),
+            false => known(&OF_FLOATS),
+        },
+        [krate, "time", DURATION, name] if *krate != RUNTIME => match OF_DURATION.contains(name) {
+            true => Constant::Known(spelled(), Type::Named("core::time::Duration".to_owned(), vec![])),
+            false => known(&OF_DURATION),
+        },
+        [krate, of, name] | [krate, "primitive", of, name] if *krate != RUNTIME && super::PRIMITIVES.contains(of) => {
+            of_primitive(of, name)
+        }
+        _ => Constant::Missing(vec![]),
+    }
+}

@@ -1,0 +1,92 @@
+//! The Rust module of a text: each state machine, program and test has a module of its own in it, so that names of the text
+//! meet neither each other nor those of the Rust around the call of `graph!`.
+
+use super::{machine, program, types::ident};
+use crate::{
+    catalog::Catalog,
+    graph::{Graph, Library, NodeKind},
+    machine::{Machine, Machines},
+    program::Program,
+    source::{FileId, Sources, Span},
+};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::path::Path;
+use syn::Ident;
+
+/// A name by which Rust reaches something of a text.
+struct Export {
+    /// The module.
+    module: Ident,
+    /// The name in it.
+    name: String,
+}
+
+/// Rust for the text that was read first: its machines, programs and tests, and their names.
+pub fn text(
+    programs: &[Program],
+    machines: &Machines,
+    catalog: &Catalog,
+    sources: &Sources,
+    place: &dyn Fn(Span) -> proc_macro2::Span,
+    recordable: bool,
+) -> TokenStream {
+    let machines: Vec<&Machine> = machines.values().collect();
+    let modules = machines.iter().map(|m| module(&ident(&m.module), machine::item(m, catalog)));
+    let programs_of = programs.iter().map(|p| {
+        let code = program(p, catalog, sources, place, recordable);
+        match &p.script {
+            None => module(&graph_module(&p.graph.name), code),
+            Some(_) => code,
+        }
+    });
+    let graphs = programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let own = machines.iter().filter(|m| m.is_own);
+    let names = graphs.flat_map(exports).chain(own.flat_map(|m| machine_exports(&m.module, &m.name)));
+    let source = sources.get(FileId(0));
+    let around = ident(&module_name(&source.path, source.origin.0 + 1));
+    let uses = names.map(|Export { module, name }| {
+        let name = ident(&name);
+        quote! { #[allow(unused_imports)] pub use #around::#module::#name; }
+    });
+    quote! {
+        #[doc(hidden)]
+        #[allow(unused, deprecated, clippy::all, missing_docs, private_interfaces, non_snake_case, non_camel_case_types, unreachable_pub, unnameable_types)]
+        pub mod #around { use ::core::prelude::rust_2024::*; #(#modules)* #(#programs_of)* }
+        #(#uses)*
+    }
+}
+
+/// A module that sees what every module sees, also where the crate around it does not.
+pub fn module(name: &Ident, items: TokenStream) -> TokenStream {
+    quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::Observer as _; #items } }
+}
+
+/// The names that a program has in Rust.
+fn exports(graph: &Graph) -> Vec<Export> {
+    let is_handed_in = |kind: &NodeKind| matches!(kind, NodeKind::Library(Library { handed_in: true, .. }));
+    let parts = graph.nodes.iter().any(|n| is_handed_in(&n.kind)).then(|| format!("{}Parts", graph.name));
+    let export = |name| Export { module: graph_module(&graph.name), name };
+    [Some(graph.name.clone()), parts].into_iter().flatten().map(export).collect()
+}
+
+/// The names that a state machine has in Rust.
+fn machine_exports(module: &str, name: &str) -> Vec<Export> {
+    [name.to_owned(), format!("{name}State")].map(|name| Export { module: ident(module), name }).into()
+}
+
+fn graph_module(name: &str) -> Ident {
+    format_ident!("graph_{name}")
+}
+
+/// The module of a text in Rust: `mission_afg` for `mission.afg`; a text inside a call of `graph!` has the line of the call.
+pub fn module_name(path: &Path, line: usize) -> String {
+    let is_file = path.extension().is_some_and(|e| e == "afg");
+    let name = match path.file_stem() {
+        Some(stem) if is_file => stem.to_string_lossy().into_owned(),
+        _ => format!("graph_in_line_{line}"),
+    };
+    let name: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    let digit = if name.starts_with(|c: char| c.is_ascii_digit()) { "_" } else { "" };
+    if is_file { format!("{digit}{name}_afg") } else { name }
+}

@@ -1,0 +1,11 @@
+//! Names that are made from others.
+
+/// `fetch_cube` → `FetchCube`
+pub fn camel(word: &str) -> String {
+    word.split('_')
+        .map(|part| {
+            let mut chars = part.chars();
+            chars.next().map(|c| c.to_uppercase().collect::<String>() + chars.as_str()).unwrap_or_default()
+        })
+        .collect()
+}

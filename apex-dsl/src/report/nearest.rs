@@ -1,0 +1,48 @@
+//! Names that are like others.
+
+/// Longer names are not compared: nobody mistypes them, and comparing takes time.
+const MAX_NAME: usize = 64;
+/// Most names that are looked at for one that is like another.
+const MAX_CANDIDATES: usize = 4000;
+
+/// The name of `candidates` that is most like `name`, if one is near enough to be meant.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    nearest_within(name, candidates, 3)
+}
+
+/// The name of `candidates` that is most like `name`, if no more than one letter in `part` of them differs.
+pub fn nearest_within<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>, part: usize) -> Option<&'a str> {
+    let limit = (name.chars().count() / part).max(1);
+    if name.len() > MAX_NAME {
+        return None;
+    }
+    candidates
+        .into_iter()
+        .take(MAX_CANDIDATES)
+        .filter(|c| c.len().abs_diff(name.len()) <= limit)
+        .map(|c| (distance(name, c), c))
+        // Of a word with one letter everything is as far away as everything else.
+        .filter(|(d, _)| *d <= limit && *d < name.len())
+        .min()
+        .map(|(_, c)| c)
+}
+
+/// Edit distance in which a swap of two neighbours counts one, regardless of case.
+fn distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.to_lowercase().chars().collect();
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut rows = vec![(0..=b.len()).collect::<Vec<_>>()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let replace = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut best = replace.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                best = best.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(best);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}

@@ -1,0 +1,202 @@
+//! Conditions on a token: what they say about its type, and whether their constants fit it.
+
+use super::value::{Evaluated, Scope, Wanted, describe, evaluate, limits};
+use crate::{
+    catalog::Type,
+    graph::{Condition, Number, Value, is_arithmetic},
+    report::Diagnostic,
+    source::Span,
+    syntax::tree::{Expr, ExprKind, Ident},
+};
+
+/// What a part of a condition is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Number,
+    Truth,
+    /// Only rustc knows how it compares.
+    Other,
+}
+
+/// Reads conditions on a token.
+pub struct Conditions<'a> {
+    /// What the token is called in messages.
+    pub name: &'a str,
+    /// The name that stands for it in the condition, if one does.
+    pub token: &'a str,
+    /// Its type.
+    pub ty: &'a Type,
+    /// What other names mean.
+    pub scope: &'a Scope<'a>,
+}
+
+impl Conditions<'_> {
+    /// A condition in which the token is called by its name.
+    pub fn read(&self, expr: &Expr) -> Evaluated<Condition> {
+        match self.part(expr)? {
+            (condition, Kind::Truth | Kind::Other) => Ok(condition),
+            (_, Kind::Number) => {
+                let message = "a condition is true or false, but this is a number";
+                let error = Diagnostic::error("wrong-value", expr.span, message);
+                Err(Box::new(error.note("compare it: `== != < <= > >=`")))
+            }
+        }
+    }
+
+    /// The token compared with a constant.
+    pub fn comparison(&self, operator: &'static str, value: &Expr) -> Evaluated<Condition> {
+        let (constant, kind) = self.part(value)?;
+        let token = (Condition::Token, self.kind_of_token());
+        let (condition, _) = self.binary(operator, (token, value), ((constant, kind), value), value.span)?;
+        Ok(condition)
+    }
+
+    /// A name in a condition that means nothing may be meant for the token.
+    fn unknown_token(&self, error: Box<Diagnostic>, expr: &Expr) -> Box<Diagnostic> {
+        let names = names_in(expr);
+        let unknown = names.into_iter().find(|name| name.span == error.primary.span);
+        let Some(name) = unknown.filter(|_| error.code == "unknown-name" && !self.token.is_empty()) else {
+            return error;
+        };
+        let message = format!("there is no `{}` here: the token is called as its slot, `{}`", name.text, self.token);
+        let error = Diagnostic::error("unknown-name", name.span, message);
+        let error = error.note("a guard compares the token with literals and with constants of Rust, by their path");
+        Box::new(error.guess(format!("did you mean `{}`?", self.token), name.span, self.token))
+    }
+
+    fn kind_of_token(&self) -> Kind {
+        match self.ty {
+            Type::Primitive(name) if name == "bool" => Kind::Truth,
+            _ if is_number(self.ty) => Kind::Number,
+            _ => Kind::Other,
+        }
+    }
+
+    fn part(&self, expr: &Expr) -> Evaluated<(Condition, Kind)> {
+        if !mentions(expr, self.token) {
+            let value = evaluate(expr, self.scope).map_err(|error| self.unknown_token(error, expr))?;
+            let kind = match &value {
+                Value::Number(_) => Kind::Number,
+                Value::Bool(_) => Kind::Truth,
+                _ => Kind::Other,
+            };
+            return Ok((Condition::Constant(value), kind));
+        }
+        match &expr.kind {
+            ExprKind::Path(_) => Ok((Condition::Token, self.kind_of_token())),
+            ExprKind::Unary(operator, inner) => {
+                let (condition, kind) = self.part(inner)?;
+                let wanted = if *operator == "!" { Kind::Truth } else { Kind::Number };
+                if kind != wanted {
+                    return self.cannot(operator, &[(&condition, kind)], expr.span);
+                }
+                Ok((Condition::Unary(operator, Box::new(condition)), kind))
+            }
+            ExprKind::Binary(operator, a, b) => {
+                let (left, right) = (self.part(a)?, self.part(b)?);
+                self.binary(operator, (left, a), (right, b), expr.span)
+            }
+            _ => {
+                let message = "a condition compares the token with constants";
+                Err(Box::new(Diagnostic::error("wrong-value", expr.span, message)))
+            }
+        }
+    }
+
+    fn binary(
+        &self,
+        operator: &'static str,
+        ((left, a), left_expr): ((Condition, Kind), &Expr),
+        ((right, b), right_expr): ((Condition, Kind), &Expr),
+        span: Span,
+    ) -> Evaluated<(Condition, Kind)> {
+        let result = match operator {
+            "&&" | "||" if (a, b) == (Kind::Truth, Kind::Truth) => Kind::Truth,
+            _ if is_arithmetic(operator) && (a, b) == (Kind::Number, Kind::Number) => Kind::Number,
+            "==" | "!=" if a == b || a == Kind::Other || b == Kind::Other => Kind::Truth,
+            "<" | "<=" | ">" | ">="
+                if (a == b && a != Kind::Truth) || (a != b && a != Kind::Truth && b != Kind::Truth) =>
+            {
+                Kind::Truth
+            }
+            _ => return self.cannot(operator, &[(&left, a), (&right, b)], span),
+        };
+        if matches!(operator, "/" | "%") && matches!(&right, Condition::Constant(Value::Number(n)) if n.value == 0.0) {
+            return Err(Box::new(Diagnostic::error("bad-number", span, "division by zero")));
+        }
+        let computes = is_arithmetic(operator) || left.computes() || right.computes();
+        let (left, right) = (self.fit(left, left_expr, computes)?, self.fit(right, right_expr, computes)?);
+        Ok((Condition::Binary(Box::new(left), operator, Box::new(right)), result))
+    }
+
+    fn cannot<T>(&self, operator: &str, parts: &[(&Condition, Kind)], span: Span) -> Evaluated<T> {
+        let words: Vec<String> = parts
+            .iter()
+            .map(|(condition, kind)| match (condition, kind) {
+                (Condition::Constant(value), _) => describe(value),
+                (Condition::Token, _) => format!("a token `{}`", self.ty),
+                (_, Kind::Number) => "a number".to_owned(),
+                _ => "a truth value".to_owned(),
+            })
+            .collect();
+        let message = format!("`{operator}` cannot be applied to {}", words.join(" and "));
+        Err(Box::new(Diagnostic::error("wrong-value", span, message)))
+    }
+
+    /// A constant as it is compared with the token. Where something is computed, it is not the token's type that bounds it.
+    fn fit(&self, condition: Condition, expr: &Expr, computes: bool) -> Evaluated<Condition> {
+        let Condition::Constant(value) = condition else { return Ok(condition) };
+        if computes && let Value::Number(n) = value {
+            return self.number(n, expr).map(Condition::Constant);
+        }
+        let is_closed = !matches!(self.ty, Type::Unknown(_) | Type::Param(_) | Type::Named(..) | Type::Alias(..));
+        if is_closed && matches!(self.ty, Type::Def(..)) && !matches!(value, Value::Path(..) | Value::RustDefault) {
+            let message = format!("the token is a `{}`, but this is {}", self.ty, describe(&value));
+            let error = Diagnostic::error("wrong-value", expr.span, message);
+            return Err(Box::new(error.note("compare it with a constant of Rust of this type, by its path")));
+        }
+        let declared = format!("a token of `{}` is a `{}`", self.name, self.ty);
+        let wanted = Wanted { name: self.name, ty: self.ty, unit: None, range: None, declared };
+        wanted.fit(value, expr).map(Condition::Constant)
+    }
+
+    fn number(&self, n: Number, expr: &Expr) -> Evaluated<Value> {
+        if !n.dimension.is_none() {
+            let message = "a token that is computed with has no unit, but this has one";
+            return Err(Box::new(Diagnostic::error("wrong-unit", expr.span, message)));
+        }
+        match (limits(self.ty.name()), n.integer) {
+            (None, _) => Ok(Value::Number(Number { integer: None, ..n })),
+            (Some(_), Some(integer)) if i64::try_from(integer).is_ok() => Ok(Value::Number(n)),
+            (Some(_), Some(_)) => {
+                Err(Box::new(Diagnostic::error("bad-number", expr.span, "this number is too large to compute with")))
+            }
+            (Some(_), None) => {
+                let message = format!("the token is a whole number (`{}`), but this is not", self.ty);
+                Err(Box::new(Diagnostic::error("wrong-value", expr.span, message)))
+            }
+        }
+    }
+}
+
+fn is_number(ty: &Type) -> bool {
+    matches!(ty, Type::Primitive(name) if matches!(name.as_str(), "f32" | "f64") || limits(name).is_some())
+}
+
+fn mentions(expr: &Expr, name: &str) -> bool {
+    names_in(expr).iter().any(|found| found.text == name)
+}
+
+/// The names in an expression that are no paths.
+pub fn names_in(expr: &Expr) -> Vec<&Ident> {
+    match &expr.kind {
+        ExprKind::Path(path) => match path.segments.as_slice() {
+            [name] => vec![name],
+            _ => vec![],
+        },
+        ExprKind::Unary(_, inner) => names_in(inner),
+        ExprKind::Binary(_, a, b) => [names_in(a), names_in(b)].concat(),
+        ExprKind::List(items) => items.iter().flat_map(names_in).collect(),
+        ExprKind::Number(..) | ExprKind::Text(_) | ExprKind::Bool(_) => vec![],
+    }
+}

@@ -1,0 +1,62 @@
+//! Which input of an `each` is the list.
+
+use crate::{
+    catalog::{Match, Type},
+    graph::{End, Graph, NodeKind},
+    report::{Diagnostic, Diagnostics},
+    syntax::tree::PortKind,
+};
+
+/// Decides it from the types where the text does not say it.
+pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
+    for id in 0..graph.nodes.len() {
+        let NodeKind::Each(each) = &mut graph.nodes[id].kind else { continue };
+        resolve(&mut each.body, diagnostics);
+        if each.list != usize::MAX {
+            continue;
+        }
+        let inputs: Vec<usize> =
+            (0..graph.nodes[id].ports.len()).filter(|p| graph.nodes[id].ports[*p].kind == PortKind::Input).collect();
+        let lists: Vec<usize> =
+            inputs.iter().copied().filter(|port| is_list(graph, End { node: id, port: *port })).collect();
+        if let [only] = lists.as_slice() {
+            let only = *only;
+            if let NodeKind::Each(each) = &mut graph.nodes[id].kind {
+                each.list = only;
+            }
+            graph.nodes[id].require_list();
+            continue;
+        }
+        let node = &graph.nodes[id];
+        let message = format!("which input of `{}` is the list to iterate over?", node.name);
+        let names: Vec<String> = inputs.iter().map(|p| format!("`each({})`", node.ports[*p].name)).collect();
+        diagnostics
+            .push(Diagnostic::error("each-port", node.span, message).note(format!("name it: {}", names.join(" or "))));
+        if let NodeKind::Each(each) = &mut graph.nodes[id].kind {
+            each.list = inputs.first().copied().unwrap_or(0);
+        }
+        graph.nodes[id].require_list();
+    }
+}
+
+fn is_list(graph: &Graph, input: End) -> bool {
+    let Some(connection) = graph.incoming(input) else { return false };
+    let arriving = token_type(graph, connection.from);
+    arriving.list_item().is_some_and(|item| item.compare(&graph.port(input).ty) != Match::Different)
+        && arriving.compare(&graph.port(input).ty) != Match::Same
+}
+
+/// The type of the tokens that leave a port; those of an `each` are lists.
+pub fn token_type(graph: &Graph, from: End) -> Type {
+    let ty = &graph.port(from).ty;
+    match &graph.nodes[from.node].kind {
+        NodeKind::Each(each) => {
+            let list = graph.incoming(End { node: from.node, port: each.list });
+            match list.map(|c| token_type(graph, c.from)) {
+                Some(Type::Named(name, args)) if args.len() == 1 => Type::Named(name, vec![ty.clone()]),
+                _ => Type::Unknown(format!("list of {ty}")),
+            }
+        }
+        _ => ty.clone(),
+    }
+}

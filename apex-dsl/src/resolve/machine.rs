@@ -1,0 +1,319 @@
+//! An `fsm` item as written → a table. Nested states are opened; every transition of an outer state counts for all
+//! states inside that have no transition of their own for the token.
+
+use super::{
+    Known,
+    condition::Conditions,
+    everywhere, suggest, unknown,
+    value::{Evaluated, Scope, Wanted, evaluate},
+};
+use crate::{
+    catalog::Type,
+    machine::{Arm, Machine, Sending, Slot, Token},
+    report::{Diagnostic, Diagnostics},
+    source::Span,
+    syntax::tree::{Action, FsmItem, Ident, PortItem, PortKind, StateItem, Transition},
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// More innermost states than a machine has that somebody can understand.
+const MAX_STATES: usize = 1_000;
+
+/// Resolves `item`; `ty` finds the types that its ports name, `rust_path` the constants of Rust.
+pub fn resolve(
+    item: &FsmItem,
+    ty: &dyn Fn(&PortItem) -> Type,
+    scope: &Scope<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Machine> {
+    let mut opener = Opener { item, ports: BTreeMap::new(), states: vec![], scope, diagnostics };
+    opener.add_ports(ty);
+    for state in &item.states {
+        opener.open(state, None);
+    }
+    if opener.states.is_empty() {
+        let error = Diagnostic::error("no-state", item.name.span, format!("`{}` has no state", item.name.text));
+        opener.diagnostics.push(error.note("a smallest one is `state name { }`"));
+        return None;
+    }
+    if opener.states.len() > MAX_STATES {
+        let message = format!("a state machine has at most {MAX_STATES} states");
+        opener.diagnostics.push(Diagnostic::error("too-large", item.name.span, message));
+        return None;
+    }
+    opener.machine()
+}
+
+/// A state with the states around it.
+struct Open<'a> {
+    item: &'a StateItem,
+    parent: Option<usize>,
+}
+
+struct Opener<'a> {
+    item: &'a FsmItem,
+    ports: BTreeMap<&'a str, (&'a PortItem, Type)>,
+    /// All states, outer ones before those inside.
+    states: Vec<Open<'a>>,
+    scope: &'a Scope<'a>,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl<'a> Opener<'a> {
+    fn add_ports(&mut self, ty: &dyn Fn(&PortItem) -> Type) {
+        for port in &self.item.ports {
+            if port.kind.is_synchronous() {
+                let message = format!(
+                    "a state machine has slots and events, but `{}` is {} {}",
+                    port.name.text,
+                    port.kind.article(),
+                    port.kind.word()
+                );
+                self.diagnostics.push(
+                    Diagnostic::error("fsm-port", port.name.span, message)
+                        .note("outputs go to its slots, and its events go to inputs, without a node between them"),
+                );
+            }
+            if let Some((first, _)) = self.ports.get(port.name.text.as_str()) {
+                let message = format!("`{}` is already defined here", port.name.text);
+                let error = Diagnostic::error("duplicate-name", port.name.span, message);
+                self.diagnostics.push(error.also(first.name.span, "first defined here"));
+                continue;
+            }
+            self.ports.insert(&port.name.text, (port, ty(port)));
+        }
+    }
+
+    fn open(&mut self, item: &'a StateItem, parent: Option<usize>) {
+        if let Some(first) = self.states.iter().find(|s| s.item.name.text == item.name.text) {
+            let message = format!("`{}` is already a state of this machine", item.name.text);
+            let error = Diagnostic::error("duplicate-name", item.name.span, message);
+            self.diagnostics.push(error.also(first.item.name.span, "first defined here"));
+        }
+        self.states.push(Open { item, parent });
+        let index = self.states.len() - 1;
+        for inner in &item.states {
+            self.open(inner, Some(index));
+        }
+    }
+
+    /// A state and those around it, from the inside out.
+    fn around(&self, state: usize) -> Vec<usize> {
+        std::iter::successors(Some(state), |s| self.states[*s].parent).collect()
+    }
+
+    /// The state that is entered with `state`: the first inside, and so on.
+    fn innermost(&self, mut state: usize) -> usize {
+        while !self.states[state].item.states.is_empty() {
+            // States stand in the order of the text: the first one inside comes next.
+            state += 1;
+        }
+        state
+    }
+
+    fn path(&self, state: usize) -> String {
+        let mut names: Vec<&str> =
+            self.around(state).into_iter().map(|s| self.states[s].item.name.text.as_str()).collect();
+        names.reverse();
+        names.join(".")
+    }
+
+    fn machine(mut self) -> Option<Machine> {
+        let leaves: Vec<usize> = (0..self.states.len()).filter(|s| self.states[*s].item.states.is_empty()).collect();
+        let events: Vec<(String, Type)> = self.names(PortKind::Event);
+        let slots = self.names(PortKind::Slot);
+        let before = self.diagnostics.has_errors();
+        let entered: Vec<usize> = self.around(leaves[0]).into_iter().rev().collect();
+        let entry: Vec<&Action> = entered.iter().flat_map(|s| &self.states[*s].item.entry).collect();
+        let begin = self.sendings(&entry, None);
+        let mut machine = Machine {
+            name: self.item.name.text.clone(),
+            module: String::new(),
+            is_own: false,
+            docs: self.item.docs.clone(),
+            states: leaves.iter().map(|s| self.path(*s)).collect(),
+            begin,
+            slots: slots.into_iter().map(|(name, ty)| Slot { name, ty, arms: vec![] }).collect(),
+            events,
+        };
+        self.check_names();
+        let mut reached = BTreeSet::from([0]);
+        for (number, &leaf) in leaves.iter().enumerate() {
+            for around in self.around(leaf) {
+                for transition in &self.states[around].item.transitions {
+                    let Some(slot) = machine.slots.iter().position(|s| s.name == transition.slot.text) else {
+                        continue;
+                    };
+                    let arm = self.arm(number, leaf, transition, &leaves);
+                    reached.extend(arm.target);
+                    machine.slots[slot].arms.push(arm);
+                }
+            }
+        }
+        for (number, &leaf) in leaves.iter().enumerate().filter(|(n, _)| !reached.contains(n)) {
+            let message = format!("no transition leads to the state `{}`", machine.states[number]);
+            self.diagnostics.push(Diagnostic::warning("never-entered", self.states[leaf].item.name.span, message));
+        }
+        (before || !self.diagnostics.has_errors()).then_some(machine)
+    }
+
+    fn names(&self, kind: PortKind) -> Vec<(String, Type)> {
+        let ports = self.item.ports.iter().filter(|p| p.kind == kind);
+        ports.map(|p| (p.name.text.clone(), self.ports[p.name.text.as_str()].1.clone())).collect()
+    }
+
+    /// Slots and targets that do not exist, and transitions that can never be taken.
+    fn check_names(&mut self) {
+        let states: Vec<&str> = self.states.iter().map(|s| s.item.name.text.as_str()).collect();
+        let mut errors = vec![];
+        for state in &self.states {
+            let mut taken: BTreeMap<&str, Span> = BTreeMap::new();
+            for transition in &state.item.transitions {
+                let slot = &transition.slot;
+                match self.ports.get(slot.text.as_str()) {
+                    Some((port, _)) if port.kind == PortKind::Slot => {}
+                    _ => errors.push(self.unknown(slot, PortKind::Slot)),
+                }
+                if let Some(target) = &transition.target
+                    && !states.contains(&target.text.as_str())
+                {
+                    errors.push(self.unknown_state(target));
+                }
+                if let Some(first) = taken.get(slot.text.as_str()) {
+                    let message = format!("this is never taken: another transition takes every `{}` before", slot.text);
+                    errors.push(Diagnostic::warning("never-taken", slot.span, message).also(*first, "this one"));
+                } else if transition.guard.is_none() {
+                    taken.insert(&slot.text, slot.span);
+                }
+            }
+        }
+        errors.into_iter().for_each(|e| self.diagnostics.push(e));
+    }
+
+    fn unknown_state(&self, target: &Ident) -> Diagnostic {
+        let transitions = || self.states.iter().flat_map(|state| &state.item.transitions);
+        let targets: Vec<&Ident> = transitions().filter_map(|transition| transition.target.as_ref()).collect();
+        let uses: Vec<Span> = targets.iter().filter(|t| t.text == target.text).map(|t| t.span).collect();
+        let known: Vec<Known<'_>> = self
+            .states
+            .iter()
+            .map(|state| {
+                let name = &state.item.name;
+                Known { name: &name.text, declared: Some(name.span), used: targets.iter().any(|t| t.text == name.text) }
+            })
+            .collect();
+        let message = format!("there is no state `{}`", target.text);
+        unknown("unknown-state", message.clone(), target, &uses, &known)
+            .unwrap_or_else(|| everywhere("unknown-state", message, target.span, &uses))
+    }
+
+    fn unknown(&self, name: &Ident, kind: PortKind) -> Diagnostic {
+        let known: Vec<&str> =
+            self.item.ports.iter().filter(|p| p.kind == kind).map(|p| p.name.text.as_str()).collect();
+        let message = format!("`{}` has no {} `{}`", self.item.name.text, kind.word(), name.text);
+        let error = Diagnostic::error("unknown-port", name.span, message);
+        if kind == PortKind::Event && self.states.iter().any(|state| state.item.name.text == name.text) {
+            return error.note(format!("`{0}` is a state: what leads to it is `=> {0}`", name.text));
+        }
+        suggest(error, name, known.iter().copied())
+    }
+
+    fn arm(&mut self, number: usize, leaf: usize, transition: &'a Transition, leaves: &[usize]) -> Arm {
+        let ty = self.ports.get(transition.slot.text.as_str()).map(|(_, ty)| ty.clone());
+        let guard = transition.guard.as_ref().and_then(|guard| {
+            let unit = Type::unit();
+            let ty = ty.as_ref().unwrap_or(&unit);
+            match (Conditions { name: &transition.slot.text, token: &transition.slot.text, ty, scope: self.scope })
+                .read(guard)
+            {
+                Ok(condition) => Some(condition),
+                Err(error) => {
+                    self.diagnostics.push_once(*error);
+                    None
+                }
+            }
+        });
+        let target = transition.target.as_ref().and_then(|name| {
+            let state = self.states.iter().position(|s| s.item.name.text == name.text)?;
+            Some((state, self.innermost(state)))
+        });
+        let mut actions: Vec<&Action> = vec![];
+        let around = self.around(leaf);
+        match target {
+            Some((named, inner)) => {
+                let entered = self.around(inner);
+                // What both have around them stays; but who goes to the state he is in leaves and enters it.
+                let stays = |s: &usize| around.contains(s) && entered.contains(s) && *s != named && *s != leaf;
+                let kept: BTreeSet<usize> =
+                    around.iter().copied().filter(stays).filter(|s| !self.is_inside(*s, named)).collect();
+                for state in around.iter().filter(|s| !kept.contains(s)) {
+                    actions.extend(&self.states[*state].item.exit);
+                }
+                actions.extend(&transition.actions);
+                for state in entered.iter().rev().filter(|s| !kept.contains(s)) {
+                    actions.extend(&self.states[*state].item.entry);
+                }
+            }
+            None => actions.extend(&transition.actions),
+        }
+        let sends = self.sendings(&actions, Some(transition));
+        let target = target.and_then(|(_, inner)| leaves.iter().position(|l| *l == inner));
+        Arm { state: number, guard, target, sends }
+    }
+
+    /// Whether `state` lies inside `outer`.
+    fn is_inside(&self, state: usize, outer: usize) -> bool {
+        state != outer && self.around(state).contains(&outer)
+    }
+
+    fn sendings(&mut self, actions: &[&'a Action], cause: Option<&'a Transition>) -> Vec<Sending> {
+        let events = self.names(PortKind::Event);
+        let mut sends: Vec<(Sending, Span)> = vec![];
+        for action in actions {
+            let Some(event) = events.iter().position(|(name, _)| *name == action.event.text) else {
+                let error = self.unknown(&action.event, PortKind::Event);
+                self.diagnostics.push_once(error);
+                continue;
+            };
+            if let Some((_, first)) = sends.iter().find(|(s, _)| s.event == event) {
+                let message = format!("one transition would trigger `{}` twice", action.event.text);
+                let error = Diagnostic::error("twice", action.event.span, message).also(*first, "the first time");
+                self.diagnostics.push_once(error.note("an event can be triggered once at a time"));
+                continue;
+            }
+            match self.token(action, &events[event].1, cause) {
+                Ok(token) => sends.push((Sending { event, token }, action.event.span)),
+                Err(error) => self.diagnostics.push_once(*error),
+            }
+        }
+        sends.into_iter().map(|(sending, _)| sending).collect()
+    }
+
+    fn token(&self, action: &Action, ty: &Type, cause: Option<&Transition>) -> Evaluated<Token> {
+        match &action.value {
+            Some(value) => {
+                let name = &action.event.text;
+                let declared = format!("`{name}` carries `{ty}`");
+                let wanted = Wanted { name, ty, unit: None, range: None, declared };
+                evaluate(value, self.scope).and_then(|token| wanted.fit(token, value)).map(Token::Value)
+            }
+            None if ty.is_unit() => Ok(Token::Unit),
+            None => {
+                let came = cause.and_then(|t| self.ports.get(t.slot.text.as_str())).map(|(_, ty)| ty);
+                match came {
+                    Some(came) if came.compare(ty) != crate::catalog::Match::Different && !came.is_unit() => {
+                        Ok(Token::Same)
+                    }
+                    _ => {
+                        let name = &action.event.text;
+                        let message = format!("`{name}` carries `{ty}`, and there is no such token here");
+                        Err(Box::new(
+                            Diagnostic::error("missing-argument", action.event.span, message)
+                                .note(format!("give it a value: `{name}(…)`")),
+                        ))
+                    }
+                }
+            }
+        }
+    }
+}

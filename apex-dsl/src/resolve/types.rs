@@ -1,0 +1,215 @@
+//! Types that a text names: each is looked at once, however often the graph around it is used.
+
+use super::names::{Texts, suggest};
+use crate::{
+    catalog::{Catalog, DURATION, PRIMITIVES, STD, is_path, library},
+    report::{Diagnostic, Diagnostics},
+    source::Span,
+    syntax::tree::{Endpoint, GraphItem, Instance, NodeBody, PathExpr, TypeExpr, TypeKind},
+};
+use std::collections::BTreeSet;
+
+/// Reports types of all texts that are not there, that generated code cannot name, or that have too many or too few arguments.
+pub fn check(texts: &Texts, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    for file in 0..texts.files.len() {
+        let tree = &texts.files[file].1;
+        let mut missing = BTreeSet::new();
+        for graph in &tree.graphs {
+            let generics: Vec<&str> = graph.generics.iter().map(|g| g.text.as_str()).collect();
+            let mut checker = Checker { texts, catalog, file, generics, missing: &mut missing, diagnostics };
+            checker.graph(graph);
+        }
+        let mut checker = Checker { texts, catalog, file, generics: vec![], missing: &mut missing, diagnostics };
+        let ports = tree.machines.iter().flat_map(|machine| &machine.ports);
+        ports.filter_map(|port| port.ty.as_ref()).for_each(|ty| checker.ty(ty));
+        let replaced = tree.tests.iter().flat_map(|test| &test.replaced);
+        replaced.for_each(|(_, instance)| checker.instance(instance));
+    }
+}
+
+/// Another number of type arguments is given than what `path` names takes.
+pub fn wrong_count(path: &PathExpr, takes: usize, given: usize, span: Span) -> Diagnostic {
+    let takes = match takes {
+        0 => "no type arguments".to_owned(),
+        1 => "one type argument".to_owned(),
+        _ => format!("{takes} type arguments"),
+    };
+    Diagnostic::error("type-arguments", span, format!("`{}` takes {takes}, not {given}", path.text()))
+}
+
+struct Checker<'a> {
+    texts: &'a Texts,
+    catalog: &'a Catalog,
+    file: usize,
+    generics: Vec<&'a str>,
+    /// The types that are missing, which have been reported.
+    missing: &'a mut BTreeSet<String>,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Checker<'_> {
+    fn graph(&mut self, graph: &GraphItem) {
+        for (number, param) in graph.params.iter().enumerate() {
+            if let Some(first) = graph.params[..number].iter().find(|other| other.name.text == param.name.text) {
+                let message = format!("`{}` is already a parameter of this graph", param.name.text);
+                let error = Diagnostic::error("duplicate-name", param.name.span, message);
+                self.diagnostics.push(error.also(first.name.span, "first defined here"));
+            }
+        }
+        graph.ports.iter().filter_map(|port| port.ty.as_ref()).for_each(|ty| self.ty(ty));
+        graph.params.iter().for_each(|param| self.ty(&param.ty));
+        for node in &graph.nodes {
+            match &node.body {
+                NodeBody::Instance(instance) => self.instance(instance),
+                // Its head is a node.
+                NodeBody::HandedIn(TypeExpr { kind: TypeKind::Path(_, args), .. }, _) => {
+                    args.iter().for_each(|ty| self.argument(ty));
+                }
+                NodeBody::HandedIn(..) => {}
+            }
+        }
+        graph.chains.iter().flat_map(|chain| &chain.ends).for_each(|end| self.end(end));
+    }
+
+    fn end(&mut self, end: &Endpoint) {
+        match end {
+            Endpoint::Instance(instance) => self.instance(instance),
+            Endpoint::List(ends, _) => ends.iter().for_each(|end| self.end(end)),
+            Endpoint::Port(_) => {}
+        }
+    }
+
+    fn instance(&mut self, instance: &Instance) {
+        instance.types.iter().for_each(|ty| self.argument(ty));
+    }
+
+    fn argument(&mut self, ty: &TypeExpr) {
+        if !matches!(ty.kind, TypeKind::Const(_)) {
+            self.ty(ty);
+        }
+    }
+
+    fn ty(&mut self, ty: &TypeExpr) {
+        match &ty.kind {
+            TypeKind::Array(element, _) => self.ty(element),
+            TypeKind::Tuple(parts) => parts.iter().for_each(|part| self.ty(part)),
+            TypeKind::Const(number) => {
+                let message = format!("`{number}` is a number, but a type is wanted here");
+                self.diagnostics.push(Diagnostic::error("unknown-type", ty.span, message));
+            }
+            TypeKind::Path(path, args) => {
+                args.iter().for_each(|arg| self.argument(arg));
+                self.path(path, args.len());
+            }
+        }
+    }
+
+    fn path(&mut self, path: &PathExpr, given: usize) {
+        if self.texts.is_unclear(self.file, path) {
+            return;
+        }
+        let full = self.texts.full_path(self.file, path);
+        let is_generic = |name: &String| self.generics.contains(&name.as_str());
+        if !is_path(&full) {
+            return self.unknown(path, &full);
+        }
+        if let [name] = full.as_slice() {
+            let found = self.catalog.types(&full);
+            match found.first() {
+                Some(def) => return self.definition(*def, path, given),
+                None if is_generic(name) || name == DURATION || PRIMITIVES.contains(&name.as_str()) => {
+                    return self.count(path, given, (0, 0));
+                }
+                None if STD.contains(&name.as_str()) => {
+                    let count = usize::from(name != "String");
+                    return self.count(path, given, (count, count));
+                }
+                None => return self.unknown(path, &full),
+            }
+        }
+        let Some(first) = full.first() else { return };
+        match self.catalog.types(&full).first() {
+            Some(def) => self.definition(*def, path, given),
+            None if library::is_listed(&full) => match library::type_arguments(&full) {
+                Some(count) => self.count(path, given, count),
+                None => self.unlisted(path),
+            },
+            // What stands in a crate that is not scanned, or comes from a macro, is rustc's to say.
+            None if self.catalog.is_extern(first) => {}
+            None if self.catalog.is_crate(first) && self.catalog.may_hide(&full[..full.len() - 1]) => {}
+            None => self.unknown(path, &full),
+        }
+    }
+
+    fn definition(&mut self, def: crate::catalog::DefId, path: &PathExpr, given: usize) {
+        self.count(path, given, self.catalog.arguments(def));
+        if self.catalog.path(def).is_none() {
+            let (file, line) = self.catalog.place(def);
+            let message = format!("the program cannot name the type `{}`", path.text());
+            let error = Diagnostic::error("unknown-type", path.span, message);
+            let note = format!(
+                "declared at {}:{line}; it needs `pub` and a `pub use`, or a place beside the call of `graph!`",
+                file.display()
+            );
+            self.diagnostics.push(error.note(note));
+        }
+    }
+
+    fn count(&mut self, path: &PathExpr, given: usize, (least, most): (usize, usize)) {
+        if (least..=most).contains(&given) {
+            return;
+        }
+        self.diagnostics.push(wrong_count(path, most, given, path.span));
+    }
+
+    /// A type of the standard library or of the runtime that is not one of those that are known here.
+    fn unlisted(&mut self, path: &PathExpr) {
+        let Some(last) = path.segments.last() else { return };
+        let message = format!("`{}` is no type that texts can name by its path", path.text());
+        let note = format!("give it a name in Rust, `pub type {} = …;`, and use that", last.text);
+        self.diagnostics.push(Diagnostic::error("unknown-type", path.span, message).note(note));
+    }
+
+    fn unknown(&mut self, path: &PathExpr, full: &[String]) {
+        let Some(last) = path.segments.last() else { return };
+        let tree = &self.texts.files[self.file].1;
+        let message = format!("there is no type `{}`", path.text());
+        let error = Diagnostic::error("unknown-type", path.span, message);
+        let elsewhere = self.catalog.find(&last.text).into_iter().filter(|def| self.catalog.is_type(*def));
+        let elsewhere: Vec<String> = elsewhere
+            .filter_map(|def| self.catalog.path(def))
+            .map(|path| self.catalog.written(path).join("::"))
+            .collect();
+        let at = Span::new(self.texts.file_id(self.file), 0, 0);
+        let at = tree.imports_at.map_or(at, |start| Span::new(at.file, start, start));
+        let error = match elsewhere.as_slice() {
+            [] => suggest(error, last, self.known(full).iter().map(String::as_str)),
+            [only] => error.fix(format!("import `{only}`"), at, format!("use {only};\n")),
+            several => several
+                .iter()
+                .take(4)
+                .fold(error, |error, import| error.guess(format!("import `{import}`"), at, format!("use {import};\n"))),
+        };
+        // A type that is misspelt is so at one place; one that is not there at all is missing once.
+        let is_misspelt = elsewhere.is_empty() && !error.fixes.is_empty();
+        if !is_misspelt && !self.missing.insert(path.text()) {
+            return;
+        }
+        let note = "a type is one of Rust's own, imported (`use crate::Name;`), or named by its path";
+        self.diagnostics.push(self.catalog.broken().fold(error.note(note), Diagnostic::note));
+    }
+
+    /// The names that may have been meant.
+    fn known(&self, full: &[String]) -> Vec<String> {
+        match full.split_last() {
+            Some((_, parent)) if !parent.is_empty() => {
+                self.catalog.names_in(parent).into_iter().map(str::to_owned).collect()
+            }
+            _ => {
+                let imported = self.texts.names(self.file).keys().cloned();
+                let own = self.catalog.own_types().map(str::to_owned);
+                imported.chain(own).chain(PRIMITIVES.iter().chain(&STD).map(|name| (*name).to_owned())).collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Readers of files of the library.
+
+use crate::{
+    mutate::{Dice, bytes, words},
+    worker::Target,
+};
+use apex_nodes::{
+    io::{CsvReader, LogGeometry, ScanLogReader},
+    learn::{Mlp, Model},
+    math::Random,
+    scan::Scan,
+    slam::PoseGraph,
+};
+use apex_rt::{params, prelude::*};
+use std::{env, fmt::Write as _, fs, path::PathBuf, process};
+
+graph! {
+    use apex_nodes::{flow::Throttle, math::LowPass, scan::{JumpDistance, MedianFilter, Scan, SegmentFilter, Segments}};
+
+    /// Parameters of several types.
+    graph Tuned {
+        in  scan: Scan;
+        in  x: f64;
+        out segments: Segments;
+        out y: f64;
+        node smooth = MedianFilter(reach = 2);
+        node split  = JumpDistance(gap = 10cm);
+        node small  = SegmentFilter(max_size = 20cm);
+        node slow   = Throttle(n = 3);
+        node low    = LowPass(weight = 0.5);
+        scan -> smooth -> split -> small -> segments;
+        x -> slow -> low.x;
+        low -> y;
+    }
+}
+
+/// Text that is changed by words, and a reader of it.
+struct Reader {
+    texts: Vec<Vec<u8>>,
+    words: &'static [&'static str],
+    read: fn(&[u8]),
+}
+
+impl Target for Reader {
+    fn make(&mut self, dice: &mut Dice) -> Vec<u8> {
+        let whole = dice.of(&self.texts).clone();
+        match std::str::from_utf8(&whole) {
+            Ok(text) if dice.below(3) > 0 => words(text, self.words, dice).into_bytes(),
+            _ => bytes(&whole, dice),
+        }
+    }
+
+    fn run(&mut self, input: &[u8]) {
+        (self.read)(input);
+    }
+}
+
+/// A file with this content, for readers that want one.
+fn file(ending: &str, input: &[u8]) -> PathBuf {
+    let file = env::temp_dir().join(format!("apex-fuzz-{}.{ending}", process::id()));
+    fs::write(&file, input).expect("room for the file");
+    file
+}
+
+fn reader(texts: Vec<Vec<u8>>, words: &'static [&'static str], read: fn(&[u8])) -> Box<dyn Target> {
+    Box::new(Reader { texts, words, read })
+}
+
+/// The target of pose graphs.
+pub fn g2o() -> Box<dyn Target> {
+    let mut text = "# a square\nFIX 0\n".to_owned();
+    for i in 0..8 {
+        let _ = writeln!(text, "VERTEX_SE2 {i} {i}.5 -{i}e-1 0.{i}");
+    }
+    for i in 0..8 {
+        let _ = writeln!(text, "EDGE_SE2 {i} {} 1 0 1.57 100 0 0 100 0 500", (i + 1) % 8);
+    }
+    reader(vec![text.into_bytes()], &["VERTEX_SE2", "EDGE_SE2", "FIX", "0", "1", "1e300", "-1e-300"], |input| {
+        let file = file("g2o", input);
+        if let Ok(mut graph) = PoseGraph::read_g2o(&file) {
+            // Whatever could be read can be worked with.
+            let _ = graph.optimize(3);
+        }
+        let _ = fs::remove_file(file);
+    })
+}
+
+/// The target of tables of numbers.
+pub fn csv() -> Box<dyn Target> {
+    let text = "a,b,c\n1,2.5,-3e3\n,,\n 4 , NaN ,inf\n";
+    reader(vec![text.as_bytes().to_vec(), vec![b','; 3000]], &["1e309", ",", "\n", ",,", "nan"], |input| {
+        for ending in ["csv", "csv.gz"] {
+            let file = file(ending, input);
+            if let Ok(mut reader) = CsvReader::open(&file, input.len() % 2 == 0) {
+                let mut row = vec![];
+                while reader.read(&mut row).unwrap_or(true) && row.len() < 100_000 && !row.is_empty() {}
+            }
+            let _ = fs::remove_file(file);
+        }
+    })
+}
+
+/// The target of logs of laser scans.
+pub fn scans() -> Box<dyn Target> {
+    let table = "7,1,0.5,1.25,3,20,0\n8,1,0.5,NaN,,inf,-1\n".as_bytes().to_vec();
+    let log = "PARAM x 1\nFLASER 5 1.0 2.0 3.0 81.91 0.5 1 2 0.5 1 2 0.5 976052857.9 host 0.25\nODOM 1 2\n"
+        .as_bytes()
+        .to_vec();
+    reader(vec![table, log], &["FLASER", "0", "99999999", "-1", ",", "\n", "1e39"], |input| {
+        let geometry = LogGeometry { angle_min: -1.57, angle_increment: 0.01, range_min: 0.1, range_max: 30.0 };
+        for ending in ["csv", "log"] {
+            let file = file(ending, input);
+            if let Ok(mut reader) = ScanLogReader::open(&file, geometry) {
+                let mut scan = Scan::default();
+                for _ in 0..1000 {
+                    if matches!(reader.read(&mut scan), Ok(None)) {
+                        break;
+                    }
+                }
+            }
+            let _ = fs::remove_file(file);
+        }
+    })
+}
+
+/// The target of models.
+pub fn models() -> Box<dyn Target> {
+    let model = |sizes: &[usize]| {
+        let network = Mlp::new(sizes, &mut Random::new(1));
+        Model { provenance: "a test".into(), seed: 1, network }.to_bytes()
+    };
+    reader(vec![model(&[4, 3, 2]), model(&[1, 1]), model(&[20, 10, 10, 5])], &[], |input| {
+        if let Ok(model) = Model::from_bytes(input) {
+            assert_eq!(Model::from_bytes(&model.to_bytes()).ok().map(|m| m.to_bytes()), Some(model.to_bytes()));
+        }
+    })
+}
+
+/// The target of parameters.
+pub fn params() -> Box<dyn Target> {
+    let text = params::save(&mut Tuned::new());
+    let more = format!("{text}\n[nope]\nx = [1, [2]]\ny = 1979-05-27\n\"smooth\".reach = 0x10\n");
+    reader(
+        vec![text.into_bytes(), more.into_bytes()],
+        &["[smooth]", "reach", "=", "1e400", "-1", "[[", "inline = {", "true"],
+        |input| {
+            let mut program = Tuned::new();
+            let text = String::from_utf8_lossy(input);
+            match params::load(&mut program, &text) {
+                Ok(()) => {
+                    let saved = params::save(&mut program);
+                    assert!(params::load(&mut program, &saved).is_ok(), "what was saved cannot be loaded:\n{saved}");
+                }
+                Err(error) => drop(error.to_string()),
+            }
+        },
+    )
+}

@@ -1,0 +1,130 @@
+//! One target in a process: makes inputs, runs them, and watches time and memory.
+
+use crate::{TARGETS, args::Args, mutate::Dice};
+use std::{
+    env, fs,
+    fs::File,
+    os::unix::fs::FileExt,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::PathBuf,
+    process::{self, ExitCode},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering::Relaxed},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+/// Far more than any input takes: a guard against hanging, not a measurement.
+const LIMIT: Duration = Duration::from_secs(20);
+/// Most memory of the process.
+const MEMORY: u64 = 2 << 30;
+/// Most panics that are kept.
+const SHOWN: usize = 20;
+
+/// What reads inputs.
+pub trait Target {
+    /// An input.
+    fn make(&mut self, dice: &mut Dice) -> Vec<u8>;
+
+    /// Reads it.
+    fn run(&mut self, input: &[u8]);
+}
+
+fn target(name: &str) -> Box<dyn Target> {
+    let (_, make) = TARGETS.iter().find(|(n, _)| *n == name).expect("the command line knows the targets");
+    make()
+}
+
+fn dice(name: &str, seed: u64, number: u64) -> Dice {
+    let hash = name.bytes().fold(seed, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+    Dice::new(hash.wrapping_add(number.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+}
+
+/// The input with this number.
+pub fn made(name: &str, seed: u64, number: u64) -> Vec<u8> {
+    target(name).make(&mut dice(name, seed, number))
+}
+
+/// The file in which a worker writes the number of its input.
+pub fn progress(name: &str) -> PathBuf {
+    env::temp_dir().join(format!("apex-fuzz-{name}"))
+}
+
+/// The input at which a worker ended.
+pub fn last(name: &str) -> Option<u64> {
+    let bytes = fs::read(progress(name)).ok()?;
+    Some(u64::from_le_bytes(bytes.try_into().ok()?))
+}
+
+/// Runs a target until the time is over.
+pub fn run(name: &str, args: &Args) -> ExitCode {
+    let current = Arc::new(AtomicU64::new(u64::MAX));
+    watch(name.to_owned(), current.clone());
+    let file = File::create(progress(name)).expect("a folder for temporary files");
+    let mut target = target(name);
+    let start = Instant::now();
+    let end = start + Duration::from_secs(args.seconds);
+    let (mut number, mut failed) = (args.from, 0);
+    while Instant::now() < end && args.count.is_none_or(|count| number < args.from + count) {
+        let input = target.make(&mut dice(name, args.seed, number));
+        file.write_all_at(&number.to_le_bytes(), 0).expect("room for eight bytes");
+        current.store(number, Relaxed);
+        let ran = catch_unwind(AssertUnwindSafe(|| target.run(&input)));
+        current.store(u64::MAX, Relaxed);
+        if ran.is_err() {
+            failed += 1;
+            keep(args, name, number, &input);
+            // What it was doing may be half done.
+            target = self::target(name);
+        }
+        number += 1;
+        if failed == SHOWN {
+            break;
+        }
+    }
+    drop(file);
+    let _ = fs::remove_file(progress(name));
+    let seconds = start.elapsed().as_secs_f64();
+    let count = number - args.from;
+    println!("{name}: {count} inputs in {seconds:.1} s ({:.0} per second), {failed} failed", count as f64 / seconds);
+    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn keep(args: &Args, name: &str, number: u64, input: &[u8]) {
+    let path = args.out.join(format!("{name}-{}-{number}", args.seed));
+    let kept = fs::create_dir_all(&args.out).and_then(|()| fs::write(&path, input));
+    kept.unwrap_or_else(|e| eprintln!("cannot write `{}`: {e}", path.display()));
+    eprintln!("{name}: input {number} panics; again: --target {name} --seed {} --from {number} --count 1", args.seed);
+}
+
+/// Ends the process where an input takes too long, or too much memory.
+fn watch(name: String, current: Arc<AtomicU64>) {
+    thread::spawn(move || {
+        let (mut input, mut since) = (u64::MAX, Instant::now());
+        loop {
+            thread::sleep(Duration::from_millis(50));
+            let now = current.load(Relaxed);
+            if now != input || now == u64::MAX {
+                (input, since) = (now, Instant::now());
+            }
+            if since.elapsed() > LIMIT {
+                eprintln!("{name}: input {input} takes more than {LIMIT:?}");
+                process::exit(1);
+            }
+            let memory = memory();
+            if memory > MEMORY {
+                eprintln!("{name}: input {input} takes {memory} bytes");
+                process::exit(1);
+            }
+        }
+    });
+}
+
+/// Memory of the process, in bytes, where Linux says it.
+fn memory() -> u64 {
+    let text = fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let pages: Option<u64> = text.split_whitespace().nth(1).and_then(|pages| pages.parse().ok());
+    pages.unwrap_or(0) * 4096
+}

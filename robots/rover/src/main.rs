@@ -1,0 +1,13 @@
+//! Drives the robot of `robot.afg`: by the machine's clock, or with `--fast` as fast as the machine can.
+
+use apex_rt::prelude::*;
+
+graph!("robot.afg");
+
+fn main() {
+    if std::env::args().any(|argument| argument == "--fast") {
+        run(Robot::new(), SimClock::until(Time::from_secs(3600)));
+    } else {
+        run(Robot::new(), WallClock::new());
+    }
+}

@@ -1,0 +1,3 @@
+//! The robot of the text, for hours of simulated time.
+
+apex_rt::graph!("hours.afg");

@@ -1,0 +1,254 @@
+//! A picture of a drawn world with its robot, while it moves.
+
+mod svg;
+mod terminal;
+
+use crate::{FloorPlan, PlanError};
+use apex_nodes::scan::{Point2, Pose2, Scan};
+use apex_rt::{Ctx, Time, node};
+use core::{fmt, time::Duration};
+use std::{
+    fs, io,
+    io::{IsTerminal as _, Write as _},
+    path::Path,
+};
+
+/// How far places of the trail are apart, in m.
+const TRAIL_STEP: f32 = 0.08;
+/// The most places of the trail. Beyond, every second one is left out.
+const TRAIL_LENGTH: usize = 2000;
+/// How often the file is written.
+const FILE_PERIOD: Duration = Duration::from_secs(1);
+
+/// What there is to see.
+#[derive(Debug, Clone)]
+struct Picture {
+    plan: FloorPlan,
+    /// Where the robot is.
+    pose: Pose2,
+    /// What its scanner has hit last, in the world.
+    hits: Vec<Point2>,
+    /// Where the robot has been.
+    trail: Vec<Point2>,
+    /// The time of all this.
+    now: Time,
+    /// The last note.
+    note: String,
+}
+
+/// Shows a drawn world ([`FloorPlan`](crate::FloorPlan)) with a robot in it, where it has been, and what its scanner
+/// sees.
+///
+/// On a terminal the picture is drawn there again and again, with the last note below; where the output goes elsewhere,
+/// each note is a line with its time, and nothing is drawn. The picture is also written into a file, once a second and
+/// with each note.
+#[node]
+#[derive(Debug, Clone)]
+pub struct LiveView {
+    /// The drawing of the world.
+    #[param]
+    world: &'static str,
+    /// Time from one picture on the terminal to the next.
+    #[param(unit = "s", default = 0.1, range = 0.01..=60.0)]
+    period: f32,
+    /// The file that is written (SVG); empty if none is.
+    #[param(default = "")]
+    file: &'static str,
+    picture: Option<Picture>,
+    shown: Option<Time>,
+    written: Option<Time>,
+    lines: usize,
+    failed: bool,
+}
+
+/// Why there is no picture.
+#[derive(Debug)]
+pub enum ViewError {
+    /// The drawing is not a world.
+    Plan(PlanError),
+    /// The picture cannot be written: the file, and why.
+    File(&'static str, io::Error),
+    /// Nothing can be written to the terminal.
+    Terminal(io::Error),
+}
+
+impl fmt::Display for ViewError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Plan(error) => error.fmt(f),
+            Self::File(file, error) => write!(f, "cannot write the picture `{file}`: {error}"),
+            Self::Terminal(error) => write!(f, "cannot draw on the terminal: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for ViewError {}
+
+#[node]
+impl LiveView {
+    /// Takes where the robot really is, and what it sees from there.
+    fn process(&mut self, ctx: &Ctx, pose: &Pose2, scan: Option<&Scan>) -> Result<(), ViewError> {
+        if self.failed {
+            return Ok(());
+        }
+        self.look(ctx, pose, scan).and_then(|()| self.show(false)).inspect_err(|_| self.failed = true)
+    }
+
+    /// What the picture is to say from now on.
+    #[slot]
+    fn note(&mut self, text: &String, ctx: &Ctx) -> Result<(), ViewError> {
+        let now = ctx.now();
+        if !io::stdout().is_terminal() {
+            println!("{:7.2} s  {text}", now.as_secs_f64());
+        }
+        let Some(picture) = &mut self.picture else { return Ok(()) };
+        picture.note.clone_from(text);
+        picture.now = now;
+        if self.failed { Ok(()) } else { self.show(true).inspect_err(|_| self.failed = true) }
+    }
+
+    fn look(&mut self, ctx: &Ctx, pose: &Pose2, scan: Option<&Scan>) -> Result<(), ViewError> {
+        let picture = match &mut self.picture {
+            Some(picture) => picture,
+            none => none.insert(Picture::new(FloorPlan::parse(self.world).map_err(ViewError::Plan)?)),
+        };
+        picture.now = ctx.now();
+        picture.come_to(pose);
+        if let Some(scan) = scan {
+            picture.hits.clear();
+            picture.hits.extend(scan.points().map(|(_, point)| pose.to_outer(point)));
+        }
+        Ok(())
+    }
+
+    /// Draws what is due, or everything.
+    fn show(&mut self, everything: bool) -> Result<(), ViewError> {
+        let Some(picture) = &self.picture else { return Ok(()) };
+        let due = |last: Option<Time>, period: Duration| {
+            everything || last.is_none_or(|last| picture.now.since(last) >= period)
+        };
+        if !self.file.is_empty() && due(self.written, FILE_PERIOD) {
+            write_whole(Path::new(self.file), &svg::draw(picture)).map_err(|e| ViewError::File(self.file, e))?;
+            self.written = Some(picture.now);
+        }
+        let period = Duration::try_from_secs_f32(self.period).unwrap_or(FILE_PERIOD);
+        if io::stdout().is_terminal() && due(self.shown, period) {
+            self.lines = draw_on_terminal(picture, self.lines).map_err(ViewError::Terminal)?;
+            self.shown = Some(picture.now);
+        }
+        Ok(())
+    }
+}
+
+impl Picture {
+    fn new(plan: FloorPlan) -> Self {
+        let pose = plan.start;
+        Self { plan, pose, hits: vec![], trail: vec![], now: Time::ZERO, note: String::new() }
+    }
+
+    fn come_to(&mut self, pose: &Pose2) {
+        self.pose = *pose;
+        let far = |last: &Point2| (*last - pose.position()).norm() >= TRAIL_STEP;
+        if self.trail.last().is_none_or(far) {
+            if self.trail.len() >= TRAIL_LENGTH {
+                let mut keep = false;
+                self.trail.retain(|_| {
+                    keep = !keep;
+                    keep
+                });
+            }
+            self.trail.push(pose.position());
+        }
+    }
+}
+
+/// Draws over the last picture, which has so many lines; returns how many the new one has.
+fn draw_on_terminal(picture: &Picture, lines: usize) -> io::Result<usize> {
+    let (columns, rows) = picture.plan.size();
+    let room = terminal_size::terminal_size().map_or((80, 24), |(w, h)| (usize::from(w.0), usize::from(h.0)));
+    let (text, count) = if columns <= room.0 && rows + 2 <= room.1 {
+        (terminal::draw(picture), rows + 1)
+    } else {
+        let size = format!("{columns} columns and {} lines", rows + 2);
+        (format!("(a terminal of {size} shows the map) {}\x1b[K\n", terminal::caption(picture)), 1)
+    };
+    let mut output = io::stdout().lock();
+    // Up to where the last picture begins; what is left of it below is removed.
+    let up = if lines > 0 { format!("\x1b[{lines}A\r") } else { String::new() };
+    output.write_all(format!("{up}{text}\x1b[J").as_bytes())?;
+    output.flush()?;
+    Ok(count)
+}
+
+/// Replaces a file, so that nobody ever sees half of it.
+fn write_whole(path: &Path, text: &str) -> io::Result<()> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder)?;
+    }
+    let part = path.with_extension("part");
+    fs::write(&part, text)?;
+    fs::rename(&part, path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+
+    pub(super) const ROOM: &str = "\
+##########
+#        #
+# >    o #
+##########";
+
+    /// The room with a robot that has driven half a metre and sees the wall ahead.
+    pub(super) fn picture() -> Picture {
+        let mut picture = Picture::new(FloorPlan::parse(ROOM).expect("a room"));
+        for step in 0..=5 {
+            picture.come_to(&Pose2::new(0.625 + 0.1 * step as f32, 0.75, 0.0));
+        }
+        picture.hits = vec![Point2::new(2.25, 1.0), Point2::new(1.8, 0.75)];
+        picture.now = Time::from_millis(1250);
+        picture.note = "drives <on>".to_owned();
+        picture
+    }
+
+    #[test]
+    fn the_trail_stays_short() {
+        let mut picture = picture();
+        for step in 0..20_000 {
+            picture.come_to(&Pose2::new(0.1 * step as f32, 0.0, 0.0));
+        }
+        assert!((TRAIL_LENGTH / 2..=TRAIL_LENGTH).contains(&picture.trail.len()), "{}", picture.trail.len());
+        assert!((picture.trail.last().expect("a place").x - 1999.9).abs() < 0.1);
+    }
+
+    #[test]
+    fn the_file_is_written_once_a_second_and_with_each_note() {
+        let file = std::env::temp_dir().join(format!("apex-sim-{}/view.svg", std::process::id()));
+        let name: &'static str = file.to_str().expect("a readable path").to_owned().leak();
+        let mut node = LiveView::construct((ROOM, 0.1, name));
+        let at = |ms| Ctx::new(Time::from_millis(ms));
+        let text = || fs::read_to_string(&file).expect("the picture");
+        let pose = Pose2::new(0.7, 0.75, 0.0);
+        node.process(&at(0), &pose, None).expect("it can be written");
+        let first = text();
+        node.process(&at(900), &pose, None).expect("it can be written");
+        assert_eq!(text(), first);
+        node.process(&at(1000), &pose, None).expect("it can be written");
+        assert_ne!(text(), first);
+        node.note(&"turns".to_owned(), &at(1100)).expect("it can be written");
+        assert!(text().contains("turns"));
+        let folder = file.parent().expect("a folder");
+        assert_eq!(fs::read_dir(folder).expect("the folder").count(), 1, "nothing else is left there");
+        fs::remove_dir_all(folder).expect("the folder can be removed");
+    }
+
+    #[test]
+    fn what_cannot_be_shown_is_reported_once() {
+        let mut node = LiveView::construct(("", 0.1, ""));
+        let mut look = || node.process(&Ctx::new(Time::ZERO), &Pose2::default(), None);
+        assert!(matches!(look(), Err(ViewError::Plan(PlanError::NoStart))));
+        assert!(look().is_ok());
+    }
+}

@@ -1,0 +1,148 @@
+//! Compiles texts into one program and runs it.
+
+use apex_tests::Libraries;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::LazyLock,
+    thread,
+};
+
+/// A text with the name of its program.
+pub struct Program {
+    /// The name.
+    pub name: String,
+    /// The text.
+    pub text: String,
+}
+
+/// Fewest programs that are worth a crate of their own, which takes its time to link.
+const LEAST: usize = 20;
+
+const MAIN: &str = r#"use apex_rt::prelude::*;
+use apex_tests::oracle::{note, take_notes};
+
+GRAPHS
+
+struct Recorder;
+
+impl Observer for Recorder {
+    fn fired(&mut self, node: usize) {
+        note(format_args!("F {node}"));
+    }
+    fn handled(&mut self, connection: usize) {
+        note(format_args!("H {connection}"));
+    }
+    fn activity(&mut self, node: usize, active: bool) {
+        note(format_args!("A {node} {}", u8::from(active)));
+    }
+    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
+        note(format_args!("endless: {nodes:?} {counts:?}"));
+    }
+}
+
+#[allow(dead_code, reason = "a part may have no graph")]
+fn record<P: Program>(mut program: P, threads: bool) {
+    for reaction in 0..10 {
+        let now = Time::from_nanos(reaction * 1_000_000);
+        note(format_args!("R {}", now.as_nanos()));
+        if threads {
+            apex_rt::threads::react_on_threads(&mut program, now, |_| Recorder);
+        } else {
+            program.react_with(now, &mut Recorder);
+        }
+        note(format_args!("E"));
+    }
+    println!("{}# end", take_notes());
+}
+
+fn main() {
+    let threads = std::env::args().nth(1).is_some();
+    RUNS
+}
+"#;
+
+/// How a program with several thread groups runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum How {
+    /// One group after the other, on one thread.
+    InTurn,
+    /// Each on a thread of its own.
+    OnThreads,
+}
+
+/// Programs that were made and compiled together.
+struct Part<'a> {
+    programs: &'a [Program],
+    file: PathBuf,
+}
+
+/// For each way to run them, the record of each program.
+///
+/// # Errors
+/// If they cannot be compiled, or if one of them does not come to its end.
+pub fn run(folder: &str, programs: &[Program], ways: &[How]) -> Result<Vec<Vec<String>>, String> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
+    // Others wait while one compiles for all.
+    static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
+    fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
+    let parts = thread::available_parallelism().map_or(1, usize::from);
+    let size = programs.len().div_ceil(parts).max(LEAST);
+    let run = |(number, programs): (usize, &[Program])| {
+        let part = Part { programs, file: folder.join(format!("part{number}")) };
+        part.compile(&LIBRARIES)?;
+        ways.iter().map(|how| part.run(*how)).collect::<Result<Vec<_>, String>>()
+    };
+    let ran: Vec<Result<_, String>> = thread::scope(|scope| {
+        let running: Vec<_> = programs.chunks(size).enumerate().map(|part| scope.spawn(move || run(part))).collect();
+        running.into_iter().map(|part| part.join().expect("no part panics")).collect()
+    });
+    let mut records = vec![vec![]; ways.len()];
+    for part in ran {
+        records.iter_mut().zip(part?).for_each(|(all, of_part)| all.extend(of_part));
+    }
+    Ok(records)
+}
+
+impl Part<'_> {
+    fn compile(&self, libraries: &Libraries) -> Result<(), String> {
+        let (mut graphs, mut runs) = (String::new(), String::new());
+        for Program { name, text } in self.programs {
+            let file = self.file.with_file_name(name).with_extension("afg");
+            write(&file, text)?;
+            let module = name.to_lowercase();
+            graphs.push_str(&format!("mod {module} {{\n    use apex_rt::prelude::*;\n    graph!({file:?});\n}}\n"));
+            runs.push_str(&format!("record({module}::{name}::new(), threads);\n    "));
+        }
+        let source = self.file.with_extension("rs");
+        write(&source, &MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs))?;
+        // The graphs see what this test sees.
+        let mut rustc = libraries.rustc(Path::new(env!("CARGO_MANIFEST_DIR")), "oracle");
+        rustc.args(["-C", "codegen-units=1", "--cap-lints", "allow", "-o"]).args([&self.file, &source]);
+        let built = rustc.output().map_err(|e| format!("cannot run rustc: {e}"))?;
+        match built.status.success() {
+            true => Ok(()),
+            false => Err(format!("it does not compile:\n{}", String::from_utf8_lossy(&built.stderr))),
+        }
+    }
+
+    /// The record of each program.
+    fn run(&self, how: How) -> Result<Vec<String>, String> {
+        let mut command = Command::new(&self.file);
+        command.args((how == How::OnThreads).then_some("threads"));
+        let ran = command.output().map_err(|e| format!("cannot run the program: {e}"))?;
+        let text = String::from_utf8_lossy(&ran.stdout);
+        let records: Vec<String> = text.split_inclusive("# end\n").map(|t| t.replace("# end\n", "")).collect();
+        if ran.status.success() && records.len() == self.programs.len() {
+            return Ok(records);
+        }
+        let at = text.matches("# end\n").count().min(self.programs.len() - 1);
+        let (name, said) = (&self.programs[at].name, String::from_utf8_lossy(&ran.stderr));
+        Err(format!("it does not run to its end ({name}.afg, {how:?}): {said}"))
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|e| format!("cannot write `{}`: {e}", path.display()))
+}

@@ -1,0 +1,139 @@
+//! Files in which something is wrong: each change is found, wherever it is. A replay repeats the whole run, or it says
+//! that the file is not whole and where it ended; it never passes for the run that it is not.
+
+use crate::{
+    Folder,
+    cut::{Small, run},
+};
+use apex_rt::record::{Report, replay};
+use std::{fs, ops::Range, path::PathBuf};
+
+/// The kind of a chunk.
+const CHUNK: u8 = 6;
+/// Bytes of a record before its body: kind and length.
+const HEAD: usize = 9;
+/// The bytes before the first record.
+const MAGIC: usize = 8;
+
+/// Milliseconds of the run, and its reactions.
+const TIME: i64 = 12;
+
+/// A recording, and a place for others that were made of it.
+struct Files {
+    folder: Folder,
+    bytes: Vec<u8>,
+}
+
+impl Files {
+    fn new() -> Self {
+        let folder = Folder::new();
+        run(&folder.file("whole.mcap"), TIME);
+        let bytes = fs::read(folder.file("whole.mcap")).expect("it was written");
+        Self { folder, bytes }
+    }
+
+    fn other(&self) -> PathBuf {
+        self.folder.file("other.mcap")
+    }
+
+    /// What a replay of other bytes says; `None` if it refuses them.
+    fn replayed(&self, bytes: &[u8]) -> Option<Report> {
+        fs::write(self.other(), bytes).expect("room for it");
+        replay(Small::new(), &self.other(), ()).ok()
+    }
+
+    /// Whether other bytes pass for the whole run.
+    fn pass(&self, bytes: &[u8], what: &str) -> bool {
+        let Some(report) = self.replayed(bytes) else { return false };
+        assert!(report.reactions > 0, "{what}: nothing is no replay");
+        assert!(report.reactions <= TIME as u64, "{what}: {report}");
+        if report.is_whole() {
+            assert!(report.is_same() && report.reactions == TIME as u64, "{what}: it misses something: {report}");
+            assert_eq!(report.compared[0].equal, TIME as u64, "{what}: {report}");
+            return true;
+        }
+        let text = report.to_string();
+        assert!(text.contains("not whole") || text.contains("missing"), "{what}: it says nothing of it: {text}");
+        false
+    }
+
+    /// Where the records stand.
+    fn records(&self) -> Vec<Range<usize>> {
+        let mut records = vec![];
+        let mut at = MAGIC;
+        while let Some(length) = self.bytes.get(at + 1..at + HEAD) {
+            let length = u64::from_le_bytes(length.try_into().expect("eight bytes")) as usize;
+            records.push(at..at + HEAD + length);
+            at += HEAD + length;
+        }
+        records
+    }
+}
+
+#[test]
+fn every_bit_counts() {
+    let files = Files::new();
+    assert!(files.pass(&files.bytes, "the file as it is"));
+    for at in 0..files.bytes.len() {
+        // One bit of each byte: each of the eight has its turn.
+        let mut bytes = files.bytes.clone();
+        bytes[at] ^= 1 << (at % 8);
+        assert!(!files.pass(&bytes, &format!("bit {} of byte {at}", at % 8)), "byte {at} does not count");
+    }
+}
+
+#[test]
+fn every_bit_of_the_kind_and_the_length_of_a_record_counts() {
+    let files = Files::new();
+    for record in files.records() {
+        for bit in 0..8 * HEAD {
+            let mut bytes = files.bytes.clone();
+            bytes[record.start + bit / 8] ^= 1 << (bit % 8);
+            let what = format!("bit {bit} of the record at {}", record.start);
+            assert!(!files.pass(&bytes, &what), "{what} does not count");
+        }
+    }
+}
+
+#[test]
+fn a_file_that_ends_anywhere_else_is_not_whole() {
+    let files = Files::new();
+    for length in 0..files.bytes.len() {
+        assert!(!files.pass(&files.bytes[..length], &format!("{length} bytes")), "{length} bytes are enough");
+    }
+    let mut longer = files.bytes.clone();
+    longer.push(0);
+    assert!(!files.pass(&longer, "a byte more"));
+}
+
+#[test]
+fn every_record_has_its_place() {
+    let files = Files::new();
+    let records = files.records();
+    let chunks = records.iter().filter(|r| files.bytes[r.start] == CHUNK).count();
+    assert!(chunks >= 2, "{chunks} chunks");
+    for (number, record) in records.iter().enumerate() {
+        let without = [&files.bytes[..record.start], &files.bytes[record.end..]].concat();
+        assert!(!files.pass(&without, &format!("without record {number}")), "nobody misses record {number}");
+        let twice = [&files.bytes[..record.end], &files.bytes[record.start..]].concat();
+        assert!(!files.pass(&twice, &format!("record {number} twice")), "record {number} may come twice");
+        for other in &records[number + 1..] {
+            let (a, b) = (&files.bytes[record.clone()], &files.bytes[other.clone()]);
+            let between = &files.bytes[record.end..other.start];
+            let swapped = [&files.bytes[..record.start], b, between, a, &files.bytes[other.end..]].concat();
+            let what = format!("record {number} in place of the one at {}", other.start);
+            assert!(a == b || !files.pass(&swapped, &what), "{what}: nobody minds");
+        }
+    }
+}
+
+#[test]
+fn what_is_said_of_a_file_of_which_nothing_is_left_names_the_reason() {
+    let files = Files::new();
+    let first = files.records().into_iter().find(|r| files.bytes[r.start] == CHUNK).expect("there is a chunk");
+    let mut bytes = files.bytes.clone();
+    bytes[first.start] ^= 1;
+    fs::write(files.other(), &bytes).expect("room for it");
+    let error = replay(Small::new(), &files.other(), ()).expect_err("nothing is left").to_string();
+    assert!(error.contains("damaged"), "{error}");
+}

@@ -1,0 +1,339 @@
+//! Makes random texts.
+
+use super::{
+    case::{Call, Case, Item, Shape, Text},
+    graph::Interface,
+    kinds::{KINDS, Kind},
+    machine, names,
+    nodes::Node,
+    script,
+    types::{ODD, PLAIN, Type, WRONG},
+    values::{self, Param},
+};
+use crate::Dice;
+
+/// What is being made.
+pub struct Maker {
+    /// Decides everything.
+    pub dice: Dice,
+    /// The hostile features of this text.
+    pub kinds: Vec<Kind>,
+    /// Types of its tokens.
+    pub types: Vec<&'static Type>,
+    /// Items of Rust that stand beside the text.
+    pub rust: Vec<String>,
+    /// Nodes that were declared.
+    pub nodes: Vec<Node>,
+    /// Items of the text.
+    pub items: Vec<Item>,
+    /// Graphs that are whole, to be used and tested.
+    pub graphs: Vec<Interface>,
+    /// State machines.
+    pub machines: Vec<Node>,
+    /// Names of items of Rust.
+    pub taken: Vec<String>,
+    /// Thread groups, if the text uses them.
+    pub groups: Vec<&'static str>,
+    /// Mistakes that it has so far.
+    pub mistakes: usize,
+    counter: usize,
+}
+
+/// The text that comes out of `seed`.
+pub fn generate(seed: u64) -> Case {
+    let mut maker = Maker::new(seed);
+    if maker.has(Kind::RustNames) {
+        maker.colliding_items();
+    }
+    if maker.has(Kind::Constants) {
+        maker.rust(values::CONSTANTS);
+    }
+    let graphs = 1 + maker.dice.below(3);
+    if maker.has(Kind::Machines) || maker.dice.one_in(6) {
+        (0..1 + maker.dice.below(2)).for_each(|_| machine::add(&mut maker));
+    }
+    for _ in 0..graphs {
+        let whole = maker.graph();
+        maker.graphs.push(whole);
+    }
+    if maker.has(Kind::Tests) || maker.has(Kind::Threads) || maker.dice.one_in(3) {
+        script::add(&mut maker);
+    }
+    maker.case(seed)
+}
+
+impl Maker {
+    fn new(seed: u64) -> Self {
+        let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+        (0..4).for_each(|_| {
+            dice.below(2);
+        });
+        let mut kinds = vec![*dice.of(&KINDS)];
+        if dice.one_in(3) {
+            kinds.push(*dice.of(&KINDS));
+        }
+        let mut types: Vec<&'static Type> = (0..1 + dice.below(3)).map(|_| dice.of(PLAIN)).collect();
+        if kinds.contains(&Kind::OddTypes) {
+            types.insert(0, dice.of(ODD));
+        }
+        let threads = kinds.contains(&Kind::Threads) || dice.one_in(10);
+        let hard = kinds.contains(&Kind::Threads);
+        let groups: &[&str] = match () {
+            () if !threads => &[],
+            () if hard && dice.one_in(3) => &["a_b", "aB"],
+            () if hard && dice.one_in(3) => &["Main", "main"],
+            () if hard && dice.one_in(3) => &["self", "Self"],
+            () if hard && dice.one_in(3) => &["match", "crate", "State", "Nodes"],
+            () if hard && dice.one_in(3) => &["links", "_", "__", "x_"],
+            () => &["vision", "planning"],
+        };
+        let groups = groups.to_vec();
+        Self {
+            dice,
+            kinds,
+            types,
+            rust: vec![],
+            nodes: vec![],
+            items: vec![],
+            graphs: vec![],
+            machines: vec![],
+            taken: vec![],
+            groups,
+            mistakes: 0,
+            counter: 0,
+        }
+    }
+
+    /// Whether this text has a feature.
+    pub fn has(&self, kind: Kind) -> bool {
+        self.kinds.contains(&kind)
+    }
+
+    /// Whether a feature shows here.
+    pub fn strikes(&mut self, kind: Kind, one_in: usize) -> bool {
+        let strikes = self.has(kind) && self.dice.one_in(one_in);
+        if !strikes || !kind.is_mostly_wrong() {
+            return strikes;
+        }
+        // One mistake in a text: of several only the first would be seen.
+        self.mistakes += 1;
+        self.mistakes == 1
+    }
+
+    /// One of some words.
+    pub fn word(&mut self, words: &[&'static str]) -> &'static str {
+        words[self.dice.below(words.len())]
+    }
+
+    /// A type of this text.
+    pub fn ty(&mut self) -> &'static Type {
+        self.types[self.dice.below(self.types.len())]
+    }
+
+    /// Adds an item of Rust, once.
+    pub fn rust(&mut self, item: &str) {
+        if !item.is_empty() && !self.rust.iter().any(|known| known.contains(item) || shares_a_name(known, item)) {
+            self.rust.push(item.to_owned());
+        }
+    }
+
+    /// A number that was not used yet.
+    pub fn number(&mut self) -> usize {
+        self.counter += 1;
+        self.counter
+    }
+
+    /// A type as the text writes it at a port.
+    pub fn written(&mut self, ty: &Type) -> String {
+        if self.strikes(Kind::WrongTypes, 4) {
+            return (*self.dice.of(WRONG)).to_owned();
+        }
+        let own = !ty.item.is_empty() && !ty.name.contains("::") && !ty.name.contains("Vec");
+        if own && self.dice.one_in(5) { format!("crate::{}", ty.name) } else { ty.name.to_owned() }
+    }
+
+    /// A name of a node that is not in `used`.
+    pub fn node_name(&mut self, used: &mut Vec<String>) -> String {
+        let hard = self.strikes(Kind::NodeNames, 3);
+        let list = if hard { names::HARD } else { names::PLAIN_NODES };
+        let items = self.taken.clone();
+        if self.has(Kind::RustNames) && !items.is_empty() && self.dice.one_in(2) {
+            let name = self.dice.of(&items).clone();
+            if !used.contains(&name) {
+                used.push(name.clone());
+                return name;
+            }
+        }
+        self.free(list, used)
+    }
+
+    /// A name of a port or parameter that is not in `used`.
+    pub fn port_name(&mut self, used: &mut Vec<String>) -> String {
+        let list = if self.strikes(Kind::PortNames, 4) { names::HARD } else { names::PLAIN_PORTS };
+        self.free(list, used)
+    }
+
+    /// One of `list` that is not in `used`; with a number behind it if there is none.
+    pub fn free(&mut self, list: &[&str], used: &mut Vec<String>) -> String {
+        let twice = self.strikes(Kind::Twice, 12);
+        for _ in 0..6 {
+            let name = (*self.dice.of(list)).to_owned();
+            if twice || !used.contains(&name) {
+                used.push(name.clone());
+                return name;
+            }
+        }
+        let name = format!("{}_{}", self.dice.of(list), self.number());
+        used.push(name.clone());
+        name
+    }
+
+    /// A value for a parameter of this type.
+    pub fn value(&mut self, param: &Param) -> Option<String> {
+        if self.strikes(Kind::Values, 2) {
+            return Some((*self.dice.of(param.bad)).to_owned());
+        }
+        if self.strikes(Kind::Constants, 2) {
+            return Some((*self.dice.of(values::PATHS)).to_owned());
+        }
+        (!param.good.is_empty()).then(|| (*self.dice.of(param.good)).to_owned())
+    }
+
+    /// A value of a token, if a text can say one.
+    pub fn token(&mut self, ty: &Type) -> Option<String> {
+        if self.strikes(Kind::Values, 2) {
+            let odd =
+                ["300", "-1", "1e40", "1.5", "\"s\"", "true", "[1]", "5m", "9223372036854775808", "1 / 0", "1 % 0"];
+            return Some((*self.dice.of(&odd)).to_owned());
+        }
+        if self.strikes(Kind::Constants, 2) {
+            return Some((*self.dice.of(values::PATHS)).to_owned());
+        }
+        (!ty.values.is_empty()).then(|| (*self.dice.of(ty.values)).to_owned())
+    }
+
+    /// Constants, tuple structs and types whose names are used elsewhere.
+    fn colliding_items(&mut self) {
+        for _ in 0..2 + self.dice.below(4) {
+            let name = *self.dice.of(names::ITEMS);
+            if self.taken.iter().any(|taken| taken.as_str() == name) {
+                continue;
+            }
+            let item = match self.dice.below(7) {
+                0 => format!("pub const {name}: u8 = 1;"),
+                1 => format!("#[derive(Debug, Clone, Copy, Default, PartialEq)]\npub struct {name};"),
+                2 => format!("#[derive(Debug, Clone, Copy, Default, PartialEq)]\npub struct {name}(pub u8);"),
+                3 => format!("pub static {name}: u8 = 1;"),
+                4 => format!("pub fn {name}() {{}}"),
+                5 => format!("pub mod {name} {{}}"),
+                _ => format!(
+                    "#[derive(Debug, Clone, Copy, Default, PartialEq)]\npub enum {name} {{\n    #[default]\n    A,\n}}"
+                ),
+            };
+            self.taken.push(name.to_owned());
+            self.rust.push(item);
+        }
+    }
+
+    fn attributes(&mut self) -> Vec<String> {
+        if !self.strikes(Kind::Attributes, 2) {
+            return vec![];
+        }
+        let all = [
+            "#![no_implicit_prelude]",
+            "#![forbid(unsafe_code)]",
+            "#![deny(clippy::all)]",
+            "#![deny(unused_must_use, unreachable_code)]",
+            "#![deny(unused_mut, unused_parens)]",
+            "#![deny(unreachable_pub)]",
+            "#![deny(private_interfaces, private_bounds)]",
+            "#![deny(trivial_casts, unused_qualifications)]",
+            "#![deny(warnings)]",
+            "#![recursion_limit = \"64\"]",
+        ];
+        vec![(*self.dice.of(&all)).to_owned()]
+    }
+
+    fn case(mut self, seed: u64) -> Case {
+        let shape = if self.dice.one_in(4) { Shape::Both } else { Shape::Library };
+        let attributes = self.attributes();
+        let prelude = if attributes.iter().any(|a| a.contains("implicit")) {
+            "use ::apex_rt::prelude::*;\nuse ::std::prelude::rust_2024::*;\nuse ::std;"
+        } else {
+            "use apex_rt::prelude::*;"
+        };
+        let mut library = vec![prelude.to_owned()];
+        library.extend(std::mem::take(&mut self.rust));
+        let mut binary = vec![];
+        if shape == Shape::Both {
+            binary.push(prelude.to_owned());
+            // Some of the nodes belong to the binary.
+            if self.dice.one_in(3) && library.len() > 2 {
+                let node = library.pop();
+                binary.extend(node.filter(|n| n.contains("#[node]") && !names_a_type(n)));
+            }
+        }
+        let mut texts = vec![Text { name: "robot".to_owned(), items: std::mem::take(&mut self.items) }];
+        let mut calls = vec![self.call("robot")];
+        self.files(&mut texts, &mut calls);
+        Case { seed, kinds: self.kinds, shape, attributes, library, binary, texts, calls }
+    }
+
+    fn call(&mut self, text: &str) -> Call {
+        let module = match self.dice.below(3) {
+            0 => Some("made".to_owned()),
+            _ => None,
+        };
+        Call { text: text.to_owned(), module, inline: self.dice.one_in(10) }
+    }
+
+    /// Divides the text into several, some of which are compiled by themselves, too.
+    fn files(&mut self, texts: &mut Vec<Text>, calls: &mut Vec<Call>) {
+        if !(self.has(Kind::Files) || self.dice.one_in(12)) || texts[0].items.len() < 2 {
+            return;
+        }
+        let name = if self.strikes(Kind::Files, 3) {
+            *self.dice.of(&["self", "crate", "match", "core", "std", "apex_nodes", "Robot"])
+        } else {
+            "parts"
+        };
+        let moved: Vec<Item> = texts[0].items.drain(..1).collect();
+        let declared: Vec<String> =
+            moved.iter().filter_map(|i| i.head.split([' ', '(', '<', ':']).nth(1)).map(str::to_owned).collect();
+        for graph in declared {
+            let line = match self.dice.below(6) {
+                0 => format!("use {name}::{{{graph}}};"),
+                1 => format!("use {name}::{graph} as {graph};"),
+                2 if self.has(Kind::Files) => continue,
+                _ => format!("use {name}::{graph};"),
+            };
+            texts[0].items.insert(0, Item::line(line));
+        }
+        // In a macro a text has no folder of its own.
+        calls.iter_mut().for_each(|call| call.inline = false);
+        if self.dice.one_in(2) {
+            let module = if self.has(Kind::Files) && self.dice.one_in(2) { None } else { Some("other".to_owned()) };
+            calls.push(Call { text: name.to_owned(), module, inline: false });
+        }
+        texts.push(Text { name: name.to_owned(), items: moved });
+    }
+}
+
+/// Whether an item of Rust names a type that is declared beside it.
+fn names_a_type(item: &str) -> bool {
+    let own = |ty: &Type| {
+        !ty.item.is_empty() && ty.name.split(['<', ':', '>']).any(|w| !w.is_empty() && w != "Vec" && item.contains(w))
+    };
+    PLAIN.iter().chain(ODD).any(own)
+}
+
+/// Whether two items of Rust declare the same name first.
+fn shares_a_name(a: &str, b: &str) -> bool {
+    let name = |item: &str| {
+        let words = item.split(|c: char| !c.is_alphanumeric() && c != '_').collect::<Vec<_>>();
+        let at =
+            words.iter().position(|w| matches!(*w, "struct" | "enum" | "type" | "const" | "fn" | "mod" | "static"))?;
+        words.get(at + 1).map(|w| (*w).to_owned())
+    };
+    name(a).is_some() && name(a) == name(b)
+}

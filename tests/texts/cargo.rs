@@ -1,0 +1,205 @@
+//! A workspace with a package for each text of a batch.
+
+use apex_host::Workspace;
+use apex_tests::{
+    Libraries, root,
+    texts::{Case, Shape},
+};
+use serde_json::Value;
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::LazyLock,
+    thread,
+};
+
+/// An error of rustc.
+#[derive(Debug, Clone)]
+pub struct Message {
+    /// `E0425`
+    pub code: String,
+    /// What is wrong.
+    pub text: String,
+    /// All of it.
+    pub rendered: String,
+    /// It is about what `graph!` made.
+    pub in_graph: bool,
+    /// It points into the text of the call.
+    pub in_text: bool,
+}
+
+/// The packages, which are written again for each batch.
+pub struct Packages {
+    known: BTreeMap<(usize, bool), Workspace>,
+}
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("texts")
+}
+
+/// The package of a text, by the crates that it has.
+fn package(slot: usize, shape: Shape) -> String {
+    match shape {
+        Shape::Library => format!("text{slot}"),
+        Shape::Both => format!("both{slot}"),
+    }
+}
+
+/// The crate in which `graph!` is called.
+pub fn call_of(slot: usize, shape: Shape) -> String {
+    match shape {
+        Shape::Library => format!("text{slot}"),
+        Shape::Both => format!("main{slot}"),
+    }
+}
+
+fn write(path: &Path, text: &str) {
+    match fs::read_to_string(path) {
+        Ok(old) if old == text => {}
+        _ => {
+            fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).expect("the folder of the texts can be made");
+            fs::write(path, text).unwrap_or_else(|e| panic!("cannot write `{}`: {e}", path.display()));
+        }
+    }
+}
+
+fn manifest(slot: usize, shape: Shape) -> String {
+    let (name, root) = (package(slot, shape), root().display());
+    let binary = match shape {
+        Shape::Library => String::new(),
+        Shape::Both => format!("[[bin]]\nname = \"main{slot}\"\npath = \"src/main.rs\"\n\n"),
+    };
+    format!(
+        "[package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n{binary}[features]\nfast = []\n\n[dependencies]\n\
+         apex-rt = {{ path = {:?}, features = [\"record\"] }}\napex-nodes = {{ path = {:?} }}\n",
+        format!("{root}/apex-rt"),
+        format!("{root}/nodes"),
+    )
+}
+
+const WORKSPACE: &str = "[workspace]
+resolver = \"3\"
+members = [\"*\"]
+exclude = [\"target\"]
+";
+
+impl Packages {
+    /// Makes so many packages of each shape.
+    pub fn new(count: usize) -> Self {
+        let folder = folder();
+        let _ = fs::remove_dir_all(&folder);
+        write(&folder.join("Cargo.toml"), WORKSPACE);
+        for slot in 0..count {
+            for shape in [Shape::Library, Shape::Both] {
+                let package = folder.join(package(slot, shape));
+                write(&package.join("Cargo.toml"), &manifest(slot, shape));
+                write(&package.join("src/lib.rs"), "");
+                if shape == Shape::Both {
+                    write(&package.join("src/main.rs"), "fn main() {}");
+                    write(&package.join("src/bin/other.rs"), "fn main() {}");
+                }
+            }
+        }
+        fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("there is a lock file");
+        let made = cargo().args(["metadata", "--offline", "--format-version", "1"]).output().expect("cargo runs");
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        Self { known: BTreeMap::new() }
+    }
+
+    /// Writes a text and its Rust, and returns the folder of its package.
+    pub fn write(&self, slot: usize, case: &Case) -> PathBuf {
+        let package = folder().join(package(slot, case.shape));
+        let _ = fs::remove_dir_all(package.join("src"));
+        for (name, text) in case.files() {
+            write(&package.join("src").join(name), &text);
+        }
+        package
+    }
+
+    /// What cargo knows of a package.
+    pub fn workspace(&mut self, slot: usize, shape: Shape) -> &Workspace {
+        let package = folder().join(package(slot, shape));
+        self.known
+            .entry((slot, shape == Shape::Both))
+            .or_insert_with(|| Workspace::load(&package).expect("cargo knows the packages of the texts"))
+    }
+}
+
+fn cargo() -> Command {
+    let mut command = apex_host::cargo();
+    command.current_dir(folder());
+    command
+}
+
+/// The errors of rustc in packages, with their tests.
+pub fn check_all(packages: &[(usize, Shape)]) -> Vec<Vec<Message>> {
+    static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let share = packages.len().div_ceil(threads).max(1);
+    thread::scope(|scope| {
+        let parts = packages.chunks(share);
+        let errors =
+            |part: &[(usize, Shape)]| part.iter().map(|(slot, shape)| check(&LIBRARIES, *slot, *shape)).collect();
+        let workers: Vec<_> = parts.map(|part| scope.spawn(move || -> Vec<_> { errors(part) })).collect();
+        workers.into_iter().flat_map(|worker| worker.join().expect("rustc runs")).collect()
+    })
+}
+
+/// The errors in one package.
+fn check(libraries: &Libraries, slot: usize, shape: Shape) -> Vec<Message> {
+    let (folder, name) = (folder().join(package(slot, shape)), package(slot, shape));
+    let library = folder.join("lib.rmeta");
+    match shape {
+        Shape::Library => rustc(libraries, &folder, &name, "lib.rs", &["--test"]),
+        Shape::Both => {
+            let mut messages = rustc(libraries, &folder, &name, "lib.rs", &["--crate-type", "lib"]);
+            if messages.is_empty() {
+                let library = format!("{name}={}", library.display());
+                let args = ["--test", "--extern", &library];
+                messages = rustc(libraries, &folder, &format!("main{slot}"), "main.rs", &args);
+            }
+            messages
+        }
+    }
+}
+
+fn rustc(libraries: &Libraries, folder: &Path, name: &str, root: &str, args: &[&str]) -> Vec<Message> {
+    let source = folder.join("src").join(root);
+    let mut command = libraries.rustc(folder, name);
+    if root == "main.rs" {
+        command.env("CARGO_BIN_NAME", name);
+    }
+    let out = folder.join(root).with_extension("rmeta");
+    command.current_dir(folder).args(["--emit=metadata", "--error-format=json", "-o"]).arg(out).args(args);
+    let output = command.arg(&source).output().expect("rustc runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let lines = said.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    let messages: Vec<Message> = lines.filter_map(|value| message(&value, &source)).collect();
+    assert!(output.status.success() || !messages.is_empty(), "rustc says nothing of an error:\n{said}");
+    messages
+}
+
+/// An error among what rustc prints about a crate with this root.
+fn message(message: &Value, source: &Path) -> Option<Message> {
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    if message["level"] != "error" || text(&message["message"]).starts_with("aborting due to") {
+        return None;
+    }
+    let lines = fs::read_to_string(source).unwrap_or_default();
+    let call = lines.lines().position(|l| l.contains("::apex_rt::graph!")).map_or(usize::MAX, |l| l + 1);
+    let children = message["children"].as_array().into_iter().flatten().flat_map(|c| c["spans"].as_array());
+    let spans: Vec<&Value> = message["spans"].as_array().into_iter().chain(children).flatten().collect();
+    let start = |span: &Value| span["line_start"].as_u64().unwrap_or(0) as usize;
+    let here = |span: &&Value| source.ends_with(text(&span["file_name"])) && start(span) >= call;
+    let in_text =
+        |span: &&Value| span["is_primary"] == true && span["line_start"] == span["line_end"] && start(span) > call;
+    Some(Message {
+        code: text(&message["code"]["code"]),
+        text: text(&message["message"]),
+        rendered: text(&message["rendered"]),
+        in_graph: spans.iter().any(here),
+        in_text: spans.iter().any(in_text),
+    })
+}

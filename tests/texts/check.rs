@@ -1,0 +1,154 @@
+//! The compiler as a library, on a package with a random text.
+
+use crate::{
+    cargo::{Packages, call_of},
+    judge::Failure,
+};
+use apex_dsl::{
+    catalog::{Catalog, Crates},
+    graph::{Graph, NodeKind},
+    passes,
+    program::Program,
+    report::{Diagnostic, Diagnostics, Severity, json, render},
+    source::{Sources, World},
+};
+use apex_host::{Disk, Seen};
+use apex_tests::texts::{Call, Case, Shape};
+use std::{
+    any::Any,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    sync::mpsc,
+    thread,
+    time::Duration,
+};
+
+/// Far more than a text takes, also on a busy machine: a guard against hanging, not a measurement.
+const GUARD: Duration = Duration::from_secs(60);
+
+/// What the compiler says about a text.
+pub enum Checked {
+    /// It has no error; the names of its nodes and graphs, which rustc has to mention where it is left to judge.
+    Accepted(Vec<String>),
+    /// It has an error, with this code.
+    Refused(String),
+    /// It is wrong about it.
+    Failed(Failure),
+}
+
+/// Checks texts.
+pub struct Checker {
+    packages: Packages,
+}
+
+impl Checker {
+    /// A checker of so many texts at a time.
+    pub fn new(count: usize) -> Self {
+        Self { packages: Packages::new(count) }
+    }
+
+    /// Writes `case` into the package of this number and checks all of its calls of `graph!`.
+    pub fn check(&mut self, slot: usize, case: &Case) -> Checked {
+        let folder = self.packages.write(slot, case);
+        let workspace = self.packages.workspace(slot, case.shape);
+        let target = call_of(slot, case.shape);
+        let seen = Seen::Crate(&target, case.shape == Shape::Both);
+        let root = folder.join("src").join(if case.shape == Shape::Both { "main.rs" } else { "lib.rs" });
+        let lines = std::fs::read_to_string(&root).unwrap_or_default();
+        let calls = lines.lines().enumerate().filter(|(_, line)| line.contains("::apex_rt::graph!"));
+        let mut names = vec![];
+        for (call, (line, _)) in case.calls.iter().zip(calls) {
+            let site = (root.clone(), line + 1);
+            let path = folder.join("src").join(format!("{}.afg", call.text));
+            let crates = workspace.crates_for(&seen, &path);
+            match check(call, &path, crates, site) {
+                Checked::Accepted(more) => names.extend(more),
+                other => return other,
+            }
+        }
+        Checked::Accepted(names)
+    }
+}
+
+/// Checks the text of a call on a thread of its own.
+fn check(call: &Call, path: &Path, crates: Crates, site: (PathBuf, usize)) -> Checked {
+    let (sender, receiver) = mpsc::channel();
+    let (name, path) = (call.text.clone(), path.to_owned());
+    let worker = thread::spawn(move || {
+        let checked = catch_unwind(AssertUnwindSafe(|| compile(&path, crates, &site)));
+        let checked = checked.unwrap_or_else(|panic| Checked::Failed(Failure::Panic(words(panic.as_ref()))));
+        let _ = sender.send(checked);
+    });
+    let checked = receiver.recv_timeout(GUARD);
+    match checked {
+        Ok(checked) => {
+            let _ = worker.join();
+            checked
+        }
+        Err(_) => Checked::Failed(Failure::Hang(name)),
+    }
+}
+
+fn words(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
+fn compile(path: &Path, crates: Crates, (file, line): &(PathBuf, usize)) -> Checked {
+    let mut disk = Disk::new(None);
+    let mut catalog = Catalog::load(crates, &mut disk);
+    catalog.stand_at(file, *line);
+    let mut sources = Sources::default();
+    let Ok(text) = disk.read(path) else { return Checked::Refused("file".to_owned()) };
+    let root = sources.add(path, text);
+    let mut diagnostics = Diagnostics::default();
+    let checked = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
+    let place = |_| proc_macro2::Span::call_site();
+    let passes::Checked { programs, texts, .. } = checked;
+    passes::generate(&programs, &texts.machines, &catalog, &sources, &place, true, &mut diagnostics);
+    for diagnostic in diagnostics.sorted() {
+        render(diagnostic, &sources, false);
+        json(diagnostic, &sources);
+    }
+    let first = diagnostics.sorted().into_iter().find(|d| d.severity == Severity::Error);
+    match first {
+        Some(error) => refused(error, &sources),
+        None => programs
+            .iter()
+            .find_map(|p| unspelled(p, &catalog))
+            .unwrap_or_else(|| Checked::Accepted(programs.iter().flat_map(|p| node_names(&p.graph)).collect())),
+    }
+}
+
+/// The first error of a text that is refused has to stand in it.
+fn refused(error: &Diagnostic, sources: &Sources) -> Checked {
+    let span = error.primary.span;
+    let source = sources.get(span.file);
+    let (start, end) = (span.start as usize, span.end as usize);
+    let is_text = source.path.extension().is_some_and(|e| e == "afg");
+    let inside = start <= end && source.text.get(start..end).is_some();
+    // An empty text is the only one in which nothing can be pointed at.
+    let points = source.text.trim().is_empty() || end > start || start > 0;
+    match is_text && inside && points && !error.message.is_empty() {
+        true => {
+            if std::env::var_os("APEX_TEXTS_WHY").is_some() {
+                println!("{}", render(error, sources, false));
+            }
+            Checked::Refused(error.code.to_owned())
+        }
+        false => Checked::Failed(Failure::Outside(format!("{}: {}", error.code, error.message))),
+    }
+}
+
+/// A node that no path leads to would be left out of the program.
+fn unspelled(program: &Program, catalog: &Catalog) -> Option<Checked> {
+    let lost = program.graph.nodes.iter().find(|node| match &node.kind {
+        NodeKind::Library(library) => catalog.signatures[library.signature].path.is_empty(),
+        _ => false,
+    })?;
+    Some(Checked::Failed(Failure::Unspelled(lost.name.clone())))
+}
+
+fn node_names(graph: &Graph) -> Vec<String> {
+    graph.nodes.iter().map(|n| n.name.clone()).chain([graph.name.clone()]).filter(|n| !n.is_empty()).collect()
+}

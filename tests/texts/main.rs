@@ -1,0 +1,161 @@
+//! Random texts with the Rust that they use: what the compiler accepts, rustc accepts; what it refuses has its first error in
+//! the text.
+//!
+//! `APEX_TEXTS` says how many (300), `APEX_TEXTS_SEED` where to begin; with `APEX_TEXTS_RAW` what fails is shown as it is, not
+//! made small first, and `APEX_TEXTS_OUT` names a folder for all that fails.
+
+mod cargo;
+mod check;
+mod judge;
+
+use apex_tests::texts::{Case, Kind, generate};
+use check::{Checked, Checker};
+use judge::{Failure, judge};
+use std::{collections::BTreeMap, env, fs, path::PathBuf};
+
+/// Texts that are compiled together.
+const BATCH: usize = 40;
+/// Failures that are made small and shown.
+const SHOWN: usize = 5;
+/// Times that one is made smaller: each compiles many texts.
+const ROUNDS: usize = 12;
+
+fn number(name: &str) -> Option<u64> {
+    env::var(name).ok().and_then(|text| text.parse().ok())
+}
+
+/// What was found out about many texts.
+#[derive(Default)]
+struct Found {
+    accepted: usize,
+    left_to_rustc: usize,
+    refused: BTreeMap<String, usize>,
+    by_kind: BTreeMap<Kind, (usize, usize)>,
+    failures: Vec<(Case, Failure)>,
+}
+
+impl Found {
+    /// Checks texts, and compiles those that are accepted.
+    fn look_at(&mut self, checker: &mut Checker, seeds: std::ops::Range<u64>) {
+        let cases: Vec<Case> = seeds.map(generate).collect();
+        let mut accepted = vec![];
+        for (slot, case) in cases.iter().enumerate() {
+            let checked = checker.check(slot, case);
+            for kind in &case.kinds {
+                let counts = self.by_kind.entry(*kind).or_default();
+                counts.0 += 1;
+                counts.1 += usize::from(matches!(checked, Checked::Accepted(_)));
+            }
+            match checked {
+                Checked::Accepted(names) => accepted.push((slot, case, names)),
+                Checked::Refused(code) => *self.refused.entry(code).or_default() += 1,
+                Checked::Failed(failure) => self.failures.push((case.clone(), failure)),
+            }
+        }
+        self.accepted += accepted.len();
+        let judged = judge(&accepted.iter().map(|(slot, case, names)| (*slot, *case, &**names)).collect::<Vec<_>>());
+        for ((_, case, _), failure) in accepted.iter().zip(judged) {
+            match failure {
+                Some(Failure::Named(_)) => self.left_to_rustc += 1,
+                Some(failure) => self.failures.push(((*case).clone(), failure)),
+                None => {}
+            }
+        }
+    }
+
+    /// The failures by class.
+    fn classes(&self) -> BTreeMap<String, Vec<&(Case, Failure)>> {
+        let mut classes: BTreeMap<String, Vec<&(Case, Failure)>> = BTreeMap::new();
+        for failure in &self.failures {
+            classes.entry(failure.1.class()).or_default().push(failure);
+        }
+        classes
+    }
+}
+
+/// A small text that fails in the same way.
+fn smallest(checker: &mut Checker, case: &Case, failure: &Failure) -> (Case, Failure) {
+    let (mut case, mut failure) = (case.clone(), failure.clone());
+    for _ in 0..ROUNDS {
+        let mut smaller = case.smaller();
+        smaller.sort_by_key(Case::size);
+        let mut found = None;
+        for batch in smaller.chunks(BATCH) {
+            let mut same = vec![];
+            let mut accepted = vec![];
+            for (slot, case) in batch.iter().enumerate() {
+                match checker.check(slot, case) {
+                    Checked::Accepted(names) => accepted.push((slot, case, names)),
+                    Checked::Failed(other) => same.push((case, other)),
+                    Checked::Refused(_) => {}
+                }
+            }
+            let judged =
+                judge(&accepted.iter().map(|(slot, case, names)| (*slot, *case, &**names)).collect::<Vec<_>>());
+            same.extend(accepted.iter().zip(judged).filter_map(|((_, case, _), f)| Some((*case, f?))));
+            same.retain(|(_, f)| f.class() == failure.class());
+            found = same.into_iter().min_by_key(|(case, _)| case.size());
+            if found.is_some() {
+                break;
+            }
+        }
+        match found {
+            Some((smaller, why)) => (case, failure) = (smaller.clone(), why),
+            None => break,
+        }
+    }
+    (case, failure)
+}
+
+fn keep(case: &Case, failure: &Failure) {
+    let Some(folder) = env::var_os("APEX_TEXTS_OUT").map(PathBuf::from) else { return };
+    let path = folder.join(format!("{}.txt", case.seed));
+    let text = format!("{}\n\n{}\n\n{}", failure.class(), failure, case.shown());
+    fs::create_dir_all(&folder)
+        .and_then(|()| fs::write(&path, text))
+        .expect("the folder of the failures can be written");
+}
+
+#[test]
+fn what_is_accepted_compiles() {
+    let count = number("APEX_TEXTS").unwrap_or(300);
+    let first = number("APEX_TEXTS_SEED").unwrap_or(1);
+    println!("{count} texts, APEX_TEXTS_SEED={first}");
+    let mut checker = Checker::new(BATCH);
+    let mut found = Found::default();
+    let mut seed = first;
+    while seed < first + count {
+        let end = (seed + BATCH as u64).min(first + count);
+        let before = found.failures.len();
+        found.look_at(&mut checker, seed..end);
+        found.failures[before..].iter().for_each(|(case, failure)| keep(case, failure));
+        seed = end;
+        if (seed - first) % 1000 < BATCH as u64 {
+            println!("{}: {} accepted, {} wrong", seed - first, found.accepted, found.failures.len());
+        }
+    }
+    println!(
+        "{} accepted, {} of them left to rustc, {} wrong",
+        found.accepted,
+        found.left_to_rustc,
+        found.failures.len()
+    );
+    println!("refused: {:?}", found.refused);
+    println!("texts and accepted ones by feature: {:?}", found.by_kind);
+    let classes = found.classes();
+    for (class, failures) in &classes {
+        let seeds: Vec<u64> = failures.iter().map(|(case, _)| case.seed).take(12).collect();
+        println!("{:4} {class} {seeds:?}", failures.len());
+    }
+    let shown = number("APEX_TEXTS_SHOWN").map_or(SHOWN, |n| n as usize);
+    for failures in classes.values().take(shown) {
+        let Some((case, failure)) = failures.iter().min_by_key(|(case, _)| case.size()) else { continue };
+        let raw = env::var_os("APEX_TEXTS_RAW").is_some();
+        let (case, failure) = if raw { (case.clone(), failure.clone()) } else { smallest(&mut checker, case, failure) };
+        println!("\n=== {}\n{failure}\n{}", failure.class(), case.shown());
+    }
+    // Where the Rust beside a text is wrong, the text is neither right nor wrong.
+    let (own, failures): (Vec<_>, Vec<_>) = found.failures.iter().partition(|(_, f)| matches!(f, Failure::Rust(_)));
+    assert!(failures.is_empty(), "{} of {count} texts fail", failures.len());
+    assert!(own.len() <= 1 + found.accepted / 50, "the generator writes wrong Rust in {} texts", own.len());
+}
