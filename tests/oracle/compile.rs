@@ -21,7 +21,7 @@ pub struct Program {
 const LEAST: usize = 20;
 
 const MAIN: &str = r#"use apex_rt::prelude::*;
-use apex_tests::oracle::{note, take_notes};
+use apex_tests::oracle::{note, run_unevenly, take_notes};
 
 GRAPHS
 
@@ -59,6 +59,9 @@ fn record<P: Program>(mut program: P, threads: bool) {
 
 fn main() {
     let threads = std::env::args().nth(1).is_some();
+    if threads {
+        run_unevenly();
+    }
     RUNS
 }
 "#;

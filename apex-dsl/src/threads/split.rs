@@ -91,6 +91,10 @@ impl Draft {
     }
 }
 
+/// Connections with the same way share a cell: their port, the group of their receivers, and whether these are notified of ⊥.
+/// A slot beside an input has a cell of its own, so that the sender is analysed as one that sends to a slot.
+type Way = (End, usize, bool);
+
 struct Splitter<'a> {
     whole: &'a Graph,
     analysis: &'a Analysis,
@@ -101,19 +105,23 @@ struct Splitter<'a> {
     /// The number of each node in its part.
     placed: Vec<NodeId>,
     cells: Vec<Cell>,
-    /// The connections from each port to each group.
-    shared: BTreeMap<(End, usize), Vec<usize>>,
-    /// The far end of each cell, by the port that it takes tokens from and the group that they go to.
-    ends: BTreeMap<(End, usize), NodeId>,
+    /// The connections that share a cell.
+    shared: BTreeMap<Way, Vec<usize>>,
+    /// The far end of each cell.
+    ends: BTreeMap<Way, NodeId>,
 }
 
 impl Splitter<'_> {
     fn gather(&mut self) {
         for (index, c) in self.whole.connections.iter().enumerate() {
             if let Some(receiver) = self.group_of[c.to.node] {
-                self.shared.entry((c.from, receiver)).or_default().push(index);
+                self.shared.entry(self.way(c, receiver)).or_default().push(index);
             }
         }
+    }
+
+    fn way(&self, c: &Connection, receiver: usize) -> Way {
+        (c.from, receiver, self.whole.is_synchronous(c))
     }
 
     fn place_nodes(&mut self) {
@@ -146,7 +154,7 @@ impl Splitter<'_> {
         let enters =
             c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
         let (leaving, entering) = c.crossings.split_at(enters);
-        let node = match self.ends.get(&(c.from, receiver)) {
+        let node = match self.ends.get(&self.way(c, receiver)) {
             Some(node) => *node,
             None => self.add_cell(index, receiver, leaving.to_vec()),
         };
@@ -164,7 +172,8 @@ impl Splitter<'_> {
     fn add_cell(&mut self, index: usize, receiver: usize, leaving: Vec<Crossing>) -> NodeId {
         let first = self.whole.connections[index].clone();
         let sender = self.group_of[first.from.node];
-        let shared = &self.shared[&(first.from, receiver)];
+        let way = self.way(&first, receiver);
+        let (shared, keeps_missing) = (&self.shared[&way], way.2);
         let cell = self.cells.len();
         self.cells.push(Cell { from: first.from, sender, receiver });
         let far = Far {
@@ -173,8 +182,6 @@ impl Splitter<'_> {
             stamped: shared.iter().any(|c| self.is_stamped(*c)),
         };
         let token = self.whole.port(first.from);
-        let is_synchronous = |c: &usize| self.whole.is_synchronous(&self.whole.connections[*c]);
-        let keeps_missing = shared.iter().any(is_synchronous);
         let active = shared.iter().any(|c| self.whole.connections[*c].active);
         let name = format!("{} to {}", self.whole.end_name(first.from), self.whole.group(first.to.node));
         let port = |kind, optional| Port { optional, ..Port::new("token", kind, token.ty.clone()) };
@@ -182,7 +189,7 @@ impl Splitter<'_> {
         let end = |kind, port| node(&self.whole.nodes[first.from.node], &name, kind, vec![port]);
         let (from, to) = (end(NodeKind::Sender(far), input), end(NodeKind::Receiver(far), output));
         let giver = self.drafts[receiver].add(to, Origin::Token(first.from));
-        self.ends.insert((first.from, receiver), giver);
+        self.ends.insert(way, giver);
         let Some(sender) = sender else { return giver };
         let from_end = self.place(first.from);
         let draft = &mut self.drafts[sender];

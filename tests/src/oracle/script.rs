@@ -2,42 +2,70 @@
 
 use apex_rt::Event;
 use std::{
-    sync::{Mutex, PoisonError},
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
     thread::{self, ThreadId},
+    time::{Duration, SystemTime, UNIX_EPOCH},
 };
 
 /// What happened, by thread: lines in the order in which they were noted.
 static NOTES: Mutex<Vec<(ThreadId, String)>> = Mutex::new(vec![]);
 
+/// Whether threads pause where they note something, so that they run in orders that a quiet machine does not show.
+static UNEVEN: AtomicBool = AtomicBool::new(false);
+
+/// Lets threads pause where they note something.
+pub fn run_unevenly() {
+    UNEVEN.store(true, Ordering::Relaxed);
+}
+
 /// Adds a line to what happened.
 pub fn note(line: std::fmt::Arguments<'_>) {
     let (thread, line) = (thread::current().id(), line.to_string());
+    if UNEVEN.load(Ordering::Relaxed) {
+        // The last digits of the clock, spread over 0 to 40 µs.
+        let digits = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |now| now.subsec_nanos() / 7 % 40);
+        thread::sleep(Duration::from_micros(digits.into()));
+    }
     NOTES.lock().unwrap_or_else(PoisonError::into_inner).push((thread, line));
 }
 
-/// What happened since it was asked last. What a call found stands behind it, and the activity that its tokens bring before
-/// it, whatever other threads did meanwhile.
+/// What happened since it was asked last, line by line.
 pub fn take_notes() -> String {
-    let mut notes = std::mem::take(&mut *NOTES.lock().unwrap_or_else(PoisonError::into_inner));
+    let notes = std::mem::take(&mut *NOTES.lock().unwrap_or_else(PoisonError::into_inner));
+    in_order(notes).into_iter().map(|(_, line)| line + "\n").collect()
+}
+
+/// Puts together what belongs to one call, whatever other threads did meanwhile: before it the activity that its tokens
+/// bring, behind it the activity of its slot and what it found.
+fn in_order<T: Copy + PartialEq>(mut notes: Vec<(T, String)>) -> Vec<(T, String)> {
     let is_call = |line: &str| line.starts_with('F') || line.starts_with('H');
     let mut at = 0;
     while at < notes.len() {
-        let own = |(thread, _): &(ThreadId, String)| *thread == notes[at].0;
+        let thread = notes[at].0;
+        let own: Vec<usize> = (0..at).filter(|i| notes[*i].0 == thread).collect();
+        let last_call = own.iter().rposition(|i| is_call(&notes[*i].1));
         if notes[at].1.starts_with('T') {
-            let call = notes[..at].iter().rposition(own).map_or(at, |call| call + 1);
-            let found = notes.remove(at);
-            notes.insert(call, found);
+            let Some(call) = last_call else {
+                at += 1;
+                continue;
+            };
+            for (place, from) in own[call + 1..].iter().chain([&at]).enumerate() {
+                let line = notes.remove(*from);
+                notes.insert(own[call] + 1 + place, line);
+            }
         } else if is_call(&notes[at].1) {
-            let before = (0..at).rev().filter(|i| own(&notes[*i])).take_while(|i| notes[*i].1.starts_with('A'));
-            let before: Vec<usize> = before.collect();
-            for (moved, from) in before.into_iter().enumerate() {
-                let activity = notes.remove(from);
-                notes.insert(at - 1 - moved, activity);
+            let activity: Vec<usize> = own.iter().copied().rev().take_while(|i| notes[*i].1.starts_with('A')).collect();
+            for (moved, from) in activity.into_iter().enumerate() {
+                let line = notes.remove(from);
+                notes.insert(at - 1 - moved, line);
             }
         }
         at += 1;
     }
-    notes.into_iter().map(|(_, line)| line + "\n").collect()
+    notes
 }
 
 /// The parameters of a scripted node: `[seed, mode, limit]`.
@@ -106,6 +134,29 @@ impl Now {
     pub fn event(&self, port: &str, event: Event<'_, i64>) {
         if let Some(value) = self.value(port) {
             event.emit(value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_order;
+
+    /// Two threads between each other, each as `thread line`.
+    #[test]
+    fn what_belongs_to_a_call_stands_with_it() {
+        let orders = [
+            // What the call of thread 1 found, and the activity that it brought, come after a call of thread 2.
+            ("1 H5|2 H6|2 T6|1 A9|1 T5", "1 H5|1 A9|1 T5|2 H6|2 T6"),
+            ("1 F5|2 F6|1 T5|2 T6", "1 F5|1 T5|2 F6|2 T6"),
+            ("1 A9|1 A8|2 F6|2 T6|1 F5|1 T5", "2 F6|2 T6|1 A9|1 A8|1 F5|1 T5"),
+            ("1 H5|1 A9|2 A7|2 H6|1 A8|2 T6|1 T5", "1 H5|1 A9|1 A8|1 T5|2 A7|2 H6|2 T6"),
+        ];
+        for (noted, expected) in orders {
+            let notes =
+                noted.split('|').filter_map(|n| n.split_once(' ')).map(|(t, line)| (t, line.to_owned())).collect();
+            let ordered: Vec<String> = in_order(notes).into_iter().map(|(t, line)| format!("{t} {line}")).collect();
+            assert_eq!(ordered.join("|"), expected, "{noted}");
         }
     }
 }
