@@ -20,14 +20,15 @@ pub struct Program {
 /// Fewest programs that are worth a crate of their own, which takes its time to link.
 const LEAST: usize = 20;
 
-const MAIN: &str = r#"use apex_rt::prelude::*;
+const MAIN: &str = r##"use apex_rt::{prelude::*, record::{Recorder, Tap, WhenFull, replay}};
 use apex_tests::oracle::{note, run_unevenly, take_notes};
 
 GRAPHS
 
-struct Recorder;
+#[derive(Clone)]
+struct Notes;
 
-impl Observer for Recorder {
+impl Observer for Notes {
     fn fired(&mut self, node: usize) {
         note(format_args!("F {node}"));
     }
@@ -42,29 +43,71 @@ impl Observer for Recorder {
     }
 }
 
+const REACTIONS: i64 = 10;
+
+fn time(reaction: i64) -> Time {
+    Time::from_nanos(reaction * 1_000_000)
+}
+
 #[allow(dead_code, reason = "a part may have no graph")]
-fn record<P: Program>(mut program: P, threads: bool) {
-    for reaction in 0..10 {
-        let now = Time::from_nanos(reaction * 1_000_000);
+fn observe<P: Program>(new: fn() -> P, how: &str) {
+    match how {
+        "again" => repeat(new),
+        _ => observe_once(new(), how == "threads"),
+    }
+}
+
+#[allow(dead_code, reason = "a part may have no graph")]
+fn observe_once<P: Program>(mut program: P, threads: bool) {
+    for reaction in 0..REACTIONS {
+        let now = time(reaction);
         note(format_args!("R {}", now.as_nanos()));
         if threads {
-            apex_rt::threads::react_on_threads(&mut program, now, |_| Recorder);
+            apex_rt::threads::react_on_threads(&mut program, now, |_| Notes);
         } else {
-            program.react_with(now, &mut Recorder);
+            program.react_with(now, &mut Notes);
         }
         note(format_args!("E"));
     }
     println!("{}# end", take_notes());
 }
 
+/// Records a run and replays it: the same nodes fire, the same slots are served.
+#[allow(dead_code, reason = "a part may have no graph")]
+fn repeat<P: Program>(new: fn() -> P) {
+    let steps = || take_notes().lines().filter(|line| !line.starts_with('T')).map(str::to_owned).collect::<Vec<_>>();
+    let path = std::env::temp_dir().join(format!("apex-oracle-{}-{}.mcap", std::process::id(), P::INFO.name));
+    let mut tap = Tap::Record(Recorder::to_file::<P>(&path, WhenFull::Wait).expect("a new file"));
+    let mut program = new();
+    for reaction in 0..REACTIONS {
+        program.react_with(time(reaction), &mut (Notes, &mut tap));
+    }
+    let Tap::Record(recorder) = tap else { unreachable!("it records") };
+    recorder.finish().expect("room for the file");
+    let first = steps();
+    let report = replay(new(), &path, Notes);
+    let second = steps();
+    let _ = std::fs::remove_file(&path);
+    match report {
+        Ok(report) if !report.is_same() || !report.is_whole() => println!("the replay differs: {report}"),
+        Ok(_) => {}
+        Err(error) => println!("it cannot be replayed: {error}"),
+    }
+    if first != second {
+        let same = first.iter().zip(&second).take_while(|(a, b)| a == b).count();
+        println!("step {same} of {}: {:?} was {:?}", first.len(), second.get(same), first.get(same));
+    }
+    println!("# end");
+}
+
 fn main() {
-    let threads = std::env::args().nth(1).is_some();
-    if threads {
+    let how = std::env::args().nth(1).unwrap_or_default();
+    if how == "threads" {
         run_unevenly();
     }
     RUNS
 }
-"#;
+"##;
 
 /// How a program with several thread groups runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +116,8 @@ pub enum How {
     InTurn,
     /// Each on a thread of its own.
     OnThreads,
+    /// One group after the other, recorded and replayed: the record is the difference.
+    Again,
 }
 
 /// Programs that were made and compiled together.
@@ -116,7 +161,7 @@ impl Part<'_> {
             write(&file, text)?;
             let module = name.to_lowercase();
             graphs.push_str(&format!("mod {module} {{\n    use apex_rt::prelude::*;\n    graph!({file:?});\n}}\n"));
-            runs.push_str(&format!("record({module}::{name}::new(), threads);\n    "));
+            runs.push_str(&format!("observe({module}::{name}::new, &how);\n    "));
         }
         let source = self.file.with_extension("rs");
         write(&source, &MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs))?;
@@ -133,7 +178,11 @@ impl Part<'_> {
     /// The record of each program.
     fn run(&self, how: How) -> Result<Vec<String>, String> {
         let mut command = Command::new(&self.file);
-        command.args((how == How::OnThreads).then_some("threads"));
+        command.args(match how {
+            How::InTurn => None,
+            How::OnThreads => Some("threads"),
+            How::Again => Some("again"),
+        });
         let ran = command.output().map_err(|e| format!("cannot run the program: {e}"))?;
         let text = String::from_utf8_lossy(&ran.stdout);
         let records: Vec<String> = text.split_inclusive("# end\n").map(|t| t.replace("# end\n", "")).collect();

@@ -52,7 +52,13 @@ fn kind(why: &str) -> &str {
 /// What is wrong with program `at` in the first way in which something is.
 fn wrong(checker: &Checker, program: &Program, ways: &[How], records: &[Vec<String>], at: usize) -> Option<String> {
     let mut all = ways.iter().zip(records);
-    all.find_map(|(how, of_all)| wrong_record(checker, program, &of_all[at]).map(|why| format!("{why}\n  ({how:?})")))
+    all.find_map(|(how, records)| {
+        let why = match how {
+            How::Again => Some(records[at].clone()).filter(|difference| !difference.is_empty()),
+            How::InTurn | How::OnThreads => wrong_record(checker, program, &records[at]),
+        };
+        why.map(|why| format!("{why}\n  ({how:?})"))
+    })
 }
 
 fn wrong_record(checker: &Checker, program: &Program, trace: &str) -> Option<String> {
@@ -148,4 +154,13 @@ fn compiled_programs_run_as_their_nets_may() {
 #[test]
 fn thread_groups_run_as_their_nets_may() {
     try_all("oracle-threads", &[How::InTurn, How::OnThreads], 4, |seed| on_threads(generate(seed, true)));
+}
+
+/// Of those with several groups, too: they run in turn here.
+#[test]
+fn recorded_programs_run_the_same_again() {
+    try_all("oracle-again", &[How::Again], 20, |seed| match seed % 2 {
+        0 => generate(seed, true),
+        _ => on_threads(generate(seed, true)),
+    });
 }
