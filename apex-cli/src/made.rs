@@ -135,9 +135,7 @@ impl Made<'_> {
             let manifest = folder.join("Cargo.toml");
             write_if_other(&manifest, &self.manifest(None)?)?;
             let mut command = cargo();
-            command
-                .args(["update", "--workspace", "--quiet", "--offline", "--manifest-path"])
-                .arg(manifest);
+            command.args(["update", "--workspace", "--quiet", "--offline", "--manifest-path"]).arg(manifest);
             // What goes wrong here, goes wrong and is said when it is built.
             let _ = command.current_dir(&self.workspace.root).stdout(Stdio::null()).stderr(Stdio::null()).status();
         }

@@ -26,11 +26,8 @@ impl<T> Probe<T> {
     }
 
     /// A token came.
-    pub fn saw(&mut self, token: &T)
-    where
-        T: Clone,
-    {
-        self.tokens.push(token.clone());
+    pub fn saw(&mut self, token: T) {
+        self.tokens.push(token);
     }
 
     /// Whether a token came for which `test` holds.

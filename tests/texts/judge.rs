@@ -89,7 +89,8 @@ fn verdict(names: &[String], messages: Vec<Message>) -> Option<Failure> {
 /// Whether a message names a node (or what is connected with it) and a line of the text.
 fn is_named(message: &Message, names: &[String]) -> bool {
     let lines = message.rendered.split(".afg:").skip(1).any(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
-    let inline = message.in_text;
+    // A text in a Rust file has its place in a label.
+    let inline = message.in_text || message.rendered.contains("^ --> ");
     let quoted = message.rendered.split('`').skip(1).step_by(2);
     // A node of a nested graph is named by its path: `split.filter`.
     let is_node = |word: &str| names.iter().any(|n| n == word);

@@ -239,10 +239,8 @@ impl<'a> Emitter<'a> {
                 self.bind(End { node, port: 1 }, token.unwrap_or_else(|| quote!(None)), true)
             }
             NodeKind::Probe => {
-                let probe = self.generator.probe(node);
-                let token = self.incoming(End { node, port: 0 }).map(|from| self.option(from, block));
-                token
-                    .map(|token| quote! { if let Some(token) = #token { outputs.#probe.saw(token); } })
+                let from = self.incoming(End { node, port: 0 });
+                from.map(|from| self.generator.see(self.graph, node, from, &self.option(from, block)))
                     .unwrap_or_default()
             }
             _ => quote!(),

@@ -82,8 +82,10 @@ impl Generator<'_> {
                 quote! { for i in 0..#count { #store } }
             }
             NodeKind::Probe => {
-                let (probe, from) = (self.probe(node), source(0));
-                quote! { for i in 0..#count { if let Some(token) = #from[i].as_ref() { outputs.#probe.saw(token); } } }
+                let Some(end) = from(0) else { return quote!() };
+                let name = source(0);
+                let see = self.see(graph, node, end, &quote!(#name[i].as_ref()));
+                quote! { for i in 0..#count { #see } }
             }
             _ => quote!(),
         }

@@ -187,8 +187,8 @@ impl Generator<'_> {
             }
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
             (NodeKind::Probe, _) => {
-                let (probe, token) = (self.probe(node), self.token(whole, connection));
-                quote! { if let Some(token) = #token { outputs.#probe.saw(token); } }
+                let from = whole.graph.connections[connection].from;
+                self.see(whole.graph, node, from, &self.token(whole, connection))
             }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },

@@ -21,6 +21,12 @@ impl Generator<'_> {
         format_ident!("probe_{}", self.index(node))
     }
 
+    /// Keeps a copy of a token, which is an `Option<&T>`, for the test.
+    pub fn see(&self, graph: &Graph, probe: NodeId, from: End, token: &TokenStream) -> TokenStream {
+        let (probe, copy) = (self.probe(probe), self.clone(graph, from, &quote!(token)));
+        quote! { if let Some(token) = #token { outputs.#probe.saw(#copy); } }
+    }
+
     /// Where the ports of the program are at which a node stands: with the thread group that the node runs in.
     fn ports_of(&self, graph: &Graph, node: NodeId) -> TokenStream {
         match self.parts.iter().find(|part| part.group == graph.group(node)).map(part_name) {

@@ -63,13 +63,9 @@ impl Generator<'_> {
 
     /// The trait that copies tokens of a port, unless their type certainly has `Clone`.
     fn copying(&self, graph: &Graph, end: End) -> Option<Ident> {
-        let mut end = end;
-        while matches!(graph.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay) {
-            end = graph.incoming(End { node: end.node, port: 0 })?.from;
-        }
+        let end = graph.origin(end);
         let (number, End { node, port }) = (self.names.number, end);
-        let is_library = matches!(graph.nodes[node].kind, NodeKind::Library(_));
-        (is_library && !self.catalog.has_trait(&graph.port(end).ty, Trait::Clone))
+        (!self.catalog.has_trait(&graph.port(end).ty, Trait::Clone))
             .then(|| format_ident!("Copy{node}Port{port}Of{number}"))
     }
 
@@ -131,6 +127,7 @@ impl Generator<'_> {
         }
         let mut asked = quote!();
         for (node, n) in graph.nodes.iter().enumerate() {
+            items.extend(self.copy_items(graph, node));
             match &n.kind {
                 NodeKind::Library(library) => {
                     items.extend(self.library_items(graph, node, library));
@@ -178,19 +175,18 @@ impl Generator<'_> {
         }
     }
 
-    /// The traits through which the tokens and the parameters of a node go, and the one by which it is made.
-    fn library_items(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
-        let (n, signature) = (&graph.nodes[node], &self.catalog.signatures[library.signature]);
+    /// The traits that copy the tokens of a node.
+    fn copy_items(&self, graph: &Graph, node: NodeId) -> TokenStream {
         let silent = self.silent();
-        let ports = (0..n.ports.len()).map(|port| End { node, port });
+        let ports = (0..graph.nodes[node].ports.len()).map(|port| End { node, port });
         let copies = ports.filter_map(|end| {
-            let name = self.copying(graph, end)?;
             let connection = graph.connections.iter().find(|c| c.from == end)?;
+            let name = self.copying(graph, end)?;
             let message = self.message(&Message {
                 text: format!("the tokens of `{}` are copied, and `{{Self}}` is not `Clone`", graph.end_name(end)),
                 place: connection.span,
                 note: Some(
-                    "a token is copied where it is kept: for a `delay`, an event, a slot, an output of the graph or another thread"
+                    "a token is copied where it is kept: for a `delay`, an event, a slot, an output of the graph, a test or another thread"
                         .to_owned(),
                 ),
             });
@@ -207,6 +203,13 @@ impl Generator<'_> {
                 }
             })
         });
+        quote! { #(#copies)* }
+    }
+
+    /// The traits through which the parameters of a node go, and the one by which it is made.
+    fn library_items(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
+        let (n, signature) = (&graph.nodes[node], &self.catalog.signatures[library.signature]);
+        let silent = self.silent();
         let make = self.making(node, library).map(|name| {
             let message = self.message(&Message {
                 text: format!(
@@ -238,7 +241,7 @@ impl Generator<'_> {
                 impl<T> #name<T> for T { #[inline(always)] fn fitting(self) -> T { self } }
             })
         });
-        quote! { #(#copies)* #make #(#arguments)* }
+        quote! { #make #(#arguments)* }
     }
 
     /// Bounds of a generic node, and what goes with a node or its tokens to another thread.

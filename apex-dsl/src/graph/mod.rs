@@ -277,6 +277,20 @@ impl Graph {
         self.connections.iter().find(|c| c.to == end)
     }
 
+    /// The port whose tokens a port sends: delays and relays only pass them on.
+    pub fn origin(&self, end: End) -> End {
+        let mut end = end;
+        // A loop of nothing but delays has no origin.
+        for _ in 0..self.nodes.len() {
+            let passes_on = matches!(self.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay);
+            match self.incoming(End { node: end.node, port: 0 }).filter(|_| passes_on && self.port(end).kind.sends()) {
+                Some(connection) => end = connection.from,
+                None => break,
+            }
+        }
+        end
+    }
+
     /// How tokens travel on a connection.
     pub fn flow(&self, connection: &Connection) -> Flow {
         match (self.port(connection.from).kind, self.port(connection.to).kind) {

@@ -122,7 +122,7 @@ fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[u
 /// What the connection between `mine`, whose type mentions `name`, and `other` says about `name`.
 fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<TypeArg> {
     let pattern = &graph.port(mine).ty;
-    let other = origin(graph, other);
+    let other = graph.origin(other);
     let known = match &graph.nodes[other.node].kind {
         NodeKind::Each(_) => Type::Unknown(String::new()),
         _ => graph.port(other).ty.clone(),
@@ -140,17 +140,6 @@ fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<Typ
             _ => None,
         },
     }
-}
-
-/// The port that the tokens of a port come from: what only holds them back has no types of its own.
-fn origin(graph: &Graph, mut end: End) -> End {
-    while matches!(graph.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay) && graph.port(end).kind.sends() {
-        match graph.incoming(End { node: end.node, port: 0 }) {
-            Some(connection) => end = connection.from,
-            None => break,
-        }
-    }
-    end
 }
 
 fn substitute(graph: &mut Graph, catalog: &Catalog) {

@@ -202,10 +202,11 @@ pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mu
     for (node, expr) in delays {
         let from = graph.incoming(End { node: *node, port: 0 }).map(|c| c.from);
         let (Some(from), NodeKind::Delay(initial)) = (from, &graph.nodes[*node].kind) else { continue };
-        let ty = match token_type(graph, from) {
+        let origin = graph.origin(from);
+        let ty = match token_type(graph, origin) {
             // Some kind of list, which has no literals.
-            Type::Unknown(_) if matches!(graph.nodes[from.node].kind, NodeKind::Each(_)) => {
-                Type::Named("Vec".to_owned(), vec![graph.port(from).ty.clone()])
+            Type::Unknown(_) if matches!(graph.nodes[origin.node].kind, NodeKind::Each(_)) => {
+                Type::Named("Vec".to_owned(), vec![graph.port(origin).ty.clone()])
             }
             ty => ty,
         };
