@@ -179,7 +179,7 @@ impl Generator<'_> {
     fn copy_items(&self, graph: &Graph, node: NodeId) -> TokenStream {
         let silent = self.silent();
         let ports = (0..graph.nodes[node].ports.len()).map(|port| End { node, port });
-        let copies = ports.filter_map(|end| {
+        let copies = ports.filter(|end| graph.origin(*end) == *end).filter_map(|end| {
             let connection = graph.connections.iter().find(|c| c.from == end)?;
             let name = self.copying(graph, end)?;
             let message = self.message(&Message {
