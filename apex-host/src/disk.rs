@@ -15,7 +15,7 @@ use std::{
 };
 
 /// Changes when the cached items do.
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {

@@ -3,12 +3,12 @@
 use crate::{Observer, ParamField};
 use core::fmt::{Debug, Display};
 
-/// The `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
+/// Copies of the `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
 #[inline(always)]
-pub fn gather<T: Clone, const N: usize>(tokens: &[Option<T>], firing: usize) -> Option<[T; N]> {
+pub fn gather<T, const N: usize>(tokens: &[Option<T>], firing: usize, copy: impl Fn(&T) -> T) -> Option<[T; N]> {
     let mut gathered: [Option<T>; N] = [const { None }; N];
     for (to, from) in gathered.iter_mut().zip(&tokens[firing * N..]) {
-        *to = Some(from.clone()?);
+        *to = Some(copy(from.as_ref()?));
     }
     // Never `None` here: every place was filled above.
     gathered.iter().all(Option::is_some).then(|| gathered.map(|token| token.unwrap_or_else(|| unreachable!())))

@@ -85,6 +85,8 @@ pub struct TypeItem {
     pub outputs: Option<Vec<OutputField>>,
     /// How many type arguments it takes at least and at most.
     pub arguments: (usize, usize),
+    /// Which of them are numbers.
+    pub numbers: Vec<usize>,
     /// The variants without fields of an enum; a struct without fields stands for itself.
     pub values: Vec<String>,
     /// The last words of the traits that it derives.
@@ -314,11 +316,21 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
                 let variants = e.variants.iter().filter(|v| v.fields.is_empty() && v.attrs.iter().all(|a| !is_cfg(a)));
                 let values = variants.map(|v| v.ident.to_string()).collect();
                 let (arguments, derives) = (arguments_of(&e.generics), derives(&e.attrs));
-                let kind = ItemKind::Type(TypeItem { outputs: None, arguments, values, derives });
+                let kind = ItemKind::Type(TypeItem {
+                    outputs: None,
+                    arguments,
+                    numbers: numbers_of(&e.generics),
+                    values,
+                    derives,
+                });
                 list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), kind))
             }
             Syn::Union(u) => {
-                let kind = ItemKind::Type(TypeItem { arguments: arguments_of(&u.generics), ..TypeItem::default() });
+                let kind = ItemKind::Type(TypeItem {
+                    arguments: arguments_of(&u.generics),
+                    numbers: numbers_of(&u.generics),
+                    ..TypeItem::default()
+                });
                 list.push(entry(u.ident.to_string(), &u.vis, &u.attrs, u.ident.span(), kind))
             }
             Syn::Const(c) => {
@@ -388,6 +400,13 @@ fn arguments_of(generics: &syn::Generics) -> (usize, usize) {
     };
     let all = types.clone().count();
     (all - types.filter(has_default).count(), all)
+}
+
+/// Which arguments of a generic type are numbers.
+fn numbers_of(generics: &syn::Generics) -> Vec<usize> {
+    let params = generics.params.iter().filter(|p| !matches!(p, syn::GenericParam::Lifetime(_)));
+    let numbers = params.enumerate().filter(|(_, p)| matches!(p, syn::GenericParam::Const(_)));
+    numbers.map(|(position, _)| position).collect()
 }
 
 /// `impl`: the methods of a node, or constants.
@@ -462,7 +481,8 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
     let derives = derives(&item.attrs);
     let outputs = derives.iter().any(|name| name == "Outputs").then(|| item.fields.iter().map(output_field).collect());
     let values = if matches!(item.fields, syn::Fields::Unit) { vec![String::new()] } else { vec![] };
-    let ty = TypeItem { outputs, arguments: arguments_of(&item.generics), values, derives };
+    let (arguments, numbers) = (arguments_of(&item.generics), numbers_of(&item.generics));
+    let ty = TypeItem { outputs, arguments, numbers, values, derives };
     list.push(entry(name.clone(), &item.vis, &item.attrs, span, ItemKind::Type(ty)));
     if !signature::is_node(&item.attrs) {
         return;

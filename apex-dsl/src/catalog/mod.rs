@@ -508,6 +508,15 @@ impl Catalog {
         }
     }
 
+    /// Whether an argument of a type may be a number.
+    pub fn takes_number(&self, def: DefId, argument: usize) -> bool {
+        match &self.tree.defs[def].kind {
+            ItemKind::Type(ty) => ty.numbers.contains(&argument),
+            // A generic alias is not looked into.
+            _ => true,
+        }
+    }
+
     /// The names of the types in the package's own crates.
     pub fn own_types(&self) -> impl Iterator<Item = &str> {
         let is_own = |def: &&Def| self.crates.own.contains(&self.tree.modules[def.module].krate);

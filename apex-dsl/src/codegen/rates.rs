@@ -118,7 +118,8 @@ impl Generator<'_> {
                             let (name, rate) = (format_ident!("token_{}", p.name), p.rate);
                             let batched = signature.is_batched(port);
                             tokens.push(if batched {
-                                quote!(&::apex_rt::gather::<_, #rate>(&#from, i))
+                                let copy = self.copier(graph, End { node, port });
+                                quote!(&::apex_rt::gather::<_, #rate>(&#from, i, #copy))
                             } else {
                                 quote!(#from[i].as_ref())
                             });

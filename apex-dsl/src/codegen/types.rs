@@ -7,13 +7,19 @@ use crate::{
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::Ident;
 
 /// A path from its segments; an empty first one stands for a leading `::`.
 pub fn path(segments: &[String]) -> TokenStream {
-    let text = segments.join("::");
-    text.parse().unwrap_or_default()
+    let segments = segments.iter().map(|segment| match segment.as_str() {
+        "" => quote!(),
+        "crate" => quote!(crate),
+        "self" => quote!(self),
+        "super" => quote!(super),
+        name => ident(name).into_token_stream(),
+    });
+    quote!(#(#segments)::*)
 }
 
 /// An identifier, also where the word is a keyword of Rust. The few that cannot be raw are no names of the language
@@ -87,7 +93,8 @@ impl Generator<'_> {
             NodeKind::Each(_) => self.each_type(graph, end),
             NodeKind::Delay(_) | NodeKind::Relay => match graph.incoming(End { node: end.node, port: 0 }) {
                 Some(connection) => self.token_type(graph, connection.from),
-                None => quote!(()),
+                // Nothing ever comes: the text says what would.
+                None => spell(&port.ty, self.catalog).unwrap_or_else(|| quote!(())),
             },
             NodeKind::Probe => match graph.connections.iter().find(|c| c.to.node == end.node) {
                 Some(connection) => self.token_type(graph, connection.from),

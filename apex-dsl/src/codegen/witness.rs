@@ -53,6 +53,14 @@ impl Generator<'_> {
         }
     }
 
+    /// The function that makes a `T` of a `&T` for the tokens that come to an input.
+    pub fn copier(&self, graph: &Graph, to: End) -> TokenStream {
+        match graph.incoming(to).and_then(|c| self.copying(graph, c.from)) {
+            Some(name) => quote!(#name::copied),
+            None => quote!(::core::clone::Clone::clone),
+        }
+    }
+
     /// Keeps a copy of a token, which is an `Option<&T>`, in a place that is an `Option<T>`.
     pub fn store(&self, graph: &Graph, end: End, place: &TokenStream, token: &TokenStream) -> TokenStream {
         match self.copying(graph, end) {

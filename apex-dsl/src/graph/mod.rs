@@ -6,7 +6,7 @@ mod names;
 mod node;
 mod value;
 
-use crate::{source::Span, syntax::tree::PortKind};
+use crate::{catalog::Type, source::Span, syntax::tree::PortKind};
 use std::{collections::BTreeSet, time::Duration};
 
 pub use condition::{Condition, is_arithmetic};
@@ -99,6 +99,8 @@ pub struct Pin {
     pub name: String,
     /// Its kind, seen from outside.
     pub kind: PortKind,
+    /// The type of its tokens.
+    pub ty: Type,
     /// The scope of the nested graph.
     pub scope: ScopeId,
     /// Where it is declared.

@@ -2,7 +2,7 @@
 
 use super::value::{Evaluated, Scope, Wanted, describe, evaluate, limits};
 use crate::{
-    catalog::Type,
+    catalog::{STD, Type},
     graph::{Condition, Number, Value, is_arithmetic},
     report::Diagnostic,
     source::Span,
@@ -33,14 +33,21 @@ pub struct Conditions<'a> {
 impl Conditions<'_> {
     /// A condition in which the token is called by its name.
     pub fn read(&self, expr: &Expr) -> Evaluated<Condition> {
-        match self.part(expr)? {
-            (condition, Kind::Truth | Kind::Other) => Ok(condition),
-            (_, Kind::Number) => {
-                let message = "a condition is true or false, but this is a number";
-                let error = Diagnostic::error("wrong-value", expr.span, message);
-                Err(Box::new(error.note("compare it: `== != < <= > >=`")))
-            }
-        }
+        let (condition, kind) = self.part(expr)?;
+        let what = match (kind, &condition) {
+            (Kind::Number, _) => "a number".to_owned(),
+            (Kind::Other, Condition::Token) if self.is_known() => format!("a `{}`", self.ty),
+            _ => return Ok(condition),
+        };
+        let message = format!("a condition is true or false, but this is {what}");
+        let error = Diagnostic::error("wrong-value", expr.span, message);
+        Err(Box::new(error.note("compare it: `== != < <= > >=`")))
+    }
+
+    /// Whether the type of the token is certainly no other name for `bool`.
+    fn is_known(&self) -> bool {
+        !matches!(self.ty, Type::Unknown(_) | Type::Param(_) | Type::Alias(..))
+            && !matches!(self.ty, Type::Named(name, _) if !STD.contains(&name.as_str()))
     }
 
     /// The token compared with a constant.

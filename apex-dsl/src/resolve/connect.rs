@@ -308,7 +308,8 @@ impl Builder<'_> {
             return Place::Pin(pin);
         }
         let docs = String::new();
-        self.pins.push(Pin { name: name.to_owned(), kind, scope, span, docs, standard: true });
+        let ty = Type::Unknown(String::new());
+        self.pins.push(Pin { name: name.to_owned(), kind, ty, scope, span, docs, standard: true });
         let place = Place::Pin(self.pins.len() - 1);
         let nodes: Vec<NodeId> = (0..self.nodes.len()).filter(|n| self.nodes[*n].scope == scope).collect();
         let nested: Vec<ScopeId> = (1..self.scopes.len()).filter(|s| self.scopes[*s].parent == scope).collect();

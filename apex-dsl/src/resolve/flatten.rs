@@ -2,7 +2,6 @@
 
 use super::{MAX_NODES, instance::Builder};
 use crate::{
-    catalog::Type,
     graph::{Connection, Crossing, End, NodeId, NodeKind, Pin, Place, Port, ScopeId, Wire},
     report::Diagnostic,
     syntax::tree::{Ident, PortKind},
@@ -137,11 +136,11 @@ fn asynchronous(
 
 /// A node that passes on the tokens of a pin: the one that sends to it, or the one `behind` it.
 fn add_relay(builder: &mut Builder<'_>, pin: usize, behind: bool) -> Option<NodeId> {
-    let Pin { kind, scope, span, ref name, .. } = builder.pins[pin];
+    let Pin { kind, scope, span, ref name, ref ty, .. } = builder.pins[pin];
     let name = Ident { text: format!("{name}_{}", if behind { "relay" } else { "entry" }), span };
     let inside = (kind == PortKind::Input) == behind;
     let at = if inside { scope } else { builder.scopes[scope].parent };
-    let port = |name, kind| Port::new(name, kind, Type::Unknown(String::new()));
+    let port = |name, kind| Port::new(name, kind, ty.clone());
     let ports = vec![port("in", PortKind::Input), port("out", PortKind::Output)];
     builder.node(&name, at, NodeKind::Relay, ports, "")
 }

@@ -529,7 +529,8 @@ impl<'a> Builder<'a> {
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             let (name, docs) = (port.name.text.clone(), port.docs.clone());
-            self.pins.push(Pin { name, kind: port.kind, scope, span: port.name.span, docs, standard: false });
+            let (kind, span) = (port.kind, port.name.span);
+            self.pins.push(Pin { name, kind, ty: ty.clone(), scope, span, docs, standard: false });
             let place = Place::Pin(self.pins.len() - 1);
             // What takes tokens outside sends them inside.
             let inner = port.kind.seen_from_inside();

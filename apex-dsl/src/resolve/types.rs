@@ -99,12 +99,13 @@ impl Checker<'_> {
             }
             TypeKind::Path(path, args) => {
                 args.iter().for_each(|arg| self.argument(arg));
-                self.path(path, args.len());
+                self.path(path, args);
             }
         }
     }
 
-    fn path(&mut self, path: &PathExpr, given: usize) {
+    fn path(&mut self, path: &PathExpr, args: &[TypeExpr]) {
+        let given = args.len();
         if self.texts.is_unclear(self.file, path) {
             return;
         }
@@ -116,22 +117,26 @@ impl Checker<'_> {
         if let [name] = full.as_slice() {
             let found = self.catalog.types(&full);
             match found.first() {
-                Some(def) => return self.definition(*def, path, given),
+                Some(def) => return self.definition(*def, path, args),
                 None if is_generic(name) || name == DURATION || PRIMITIVES.contains(&name.as_str()) => {
                     return self.count(path, given, (0, 0));
                 }
                 None if STD.contains(&name.as_str()) => {
                     let count = usize::from(name != "String");
-                    return self.count(path, given, (count, count));
+                    self.count(path, given, (count, count));
+                    return self.no_numbers(args);
                 }
                 None => return self.unknown(path, &full),
             }
         }
         let Some(first) = full.first() else { return };
         match self.catalog.types(&full).first() {
-            Some(def) => self.definition(*def, path, given),
+            Some(def) => self.definition(*def, path, args),
             None if library::is_listed(&full) => match library::type_arguments(&full) {
-                Some(count) => self.count(path, given, count),
+                Some(count) => {
+                    self.count(path, given, count);
+                    self.no_numbers(args);
+                }
                 None => self.unlisted(path),
             },
             // What stands in a crate that is not scanned, or comes from a macro, is rustc's to say.
@@ -141,8 +146,13 @@ impl Checker<'_> {
         }
     }
 
-    fn definition(&mut self, def: crate::catalog::DefId, path: &PathExpr, given: usize) {
-        self.count(path, given, self.catalog.arguments(def));
+    fn definition(&mut self, def: crate::catalog::DefId, path: &PathExpr, args: &[TypeExpr]) {
+        self.count(path, args.len(), self.catalog.arguments(def));
+        let is_number = |ty: &TypeExpr| matches!(ty.kind, TypeKind::Const(_));
+        for (_, arg) in args.iter().enumerate().filter(|(i, arg)| is_number(arg) && !self.catalog.takes_number(def, *i))
+        {
+            self.ty(arg);
+        }
         if self.catalog.path(def).is_none() {
             let (file, line) = self.catalog.place(def);
             let message = format!("the program cannot name the type `{}`", path.text());
@@ -153,6 +163,11 @@ impl Checker<'_> {
             );
             self.diagnostics.push(error.note(note));
         }
+    }
+
+    /// Reports numbers among arguments that are types.
+    fn no_numbers(&mut self, args: &[TypeExpr]) {
+        args.iter().filter(|arg| matches!(arg.kind, TypeKind::Const(_))).for_each(|arg| self.ty(arg));
     }
 
     fn count(&mut self, path: &PathExpr, given: usize, (least, most): (usize, usize)) {

@@ -1,11 +1,11 @@
 //! What has to run on one thread.
 
 use crate::{
-    analyse::{Analysis, circles},
+    analyse::{Analysis, circles, has_rates},
     graph::{Connection, Crossing, Graph, NodeId, NodeKind, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most thread groups of a program: the runtime has a bit for each (`apex_rt::threads::MAX_GROUPS`).
 const MAX_GROUPS: usize = 64;
@@ -82,16 +82,15 @@ fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
     }
 }
 
+/// The code of a region with several rates neither waits for cells nor fills them.
 fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
-    let single = |node: NodeId| analysis.repetitions[node] == 1;
-    for c in synchronous(graph) {
-        let plain = graph.port(c.from).rate == 1 && graph.port(c.to).rate == 1;
-        if !plain || !single(c.from.node) || !single(c.to.node) {
-            let message = "nodes that fire several times in an iteration run on one thread with all that they send to";
-            let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
-            diagnostics
-                .push(error.note("gather the tokens into a list first: one token per iteration may change threads"));
-        }
+    let part = |node: NodeId| (analysis.regions[node], graph.group(node));
+    let parts: BTreeSet<_> = (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(part).collect();
+    let is_within = |node: NodeId| parts.contains(&part(node));
+    for c in synchronous(graph).filter(|c| is_within(c.from.node) || is_within(c.to.node)) {
+        let message = "a region with several rates runs on one thread with all that it is connected to";
+        let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
+        diagnostics.push(error.note("lead the token through a slot, as a `Hold` has one, if it is to change threads"));
     }
 }
 
