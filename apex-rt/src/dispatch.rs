@@ -79,18 +79,34 @@ pub struct Cluster<const W: usize> {
 #[derive(Debug, Clone)]
 pub struct Dispatcher<const W: usize> {
     holds: Bits<W>,
+    /// A condition holds that did not when the clusters were looked at last.
+    news: bool,
 }
 
 impl<const W: usize> Dispatcher<W> {
     /// The dispatcher of a program that has not fired: `initial` holds.
     pub const fn new(initial: Bits<W>) -> Self {
-        Self { holds: initial }
+        Self { holds: initial, news: true }
     }
 
     /// Makes a condition hold: a guard, or a connection that is free again.
     #[inline(always)]
     pub fn raise(&mut self, bit: usize) {
-        self.holds.insert(&Bits::of(&[bit]));
+        let (word, mask) = (&mut self.holds.0[bit / 64], 1 << (bit % 64));
+        self.news |= *word & mask == 0;
+        *word |= mask;
+    }
+
+    /// Whether a cluster may have become ready since this was asked last.
+    #[inline(always)]
+    pub fn take_news(&mut self) -> bool {
+        core::mem::take(&mut self.news)
+    }
+
+    /// A cluster that is ready was not fired.
+    #[inline(always)]
+    pub fn look_again(&mut self) {
+        self.news = true;
     }
 
     /// Ends a condition: a connection is occupied.
@@ -129,6 +145,7 @@ impl<const W: usize> Dispatcher<W> {
         let cluster = &clusters[index];
         self.holds.insert(&cluster.sends);
         self.holds.remove(&cluster.occupies);
+        self.news = true;
         self.settle(clusters, index);
     }
 
@@ -141,6 +158,7 @@ impl<const W: usize> Dispatcher<W> {
             return;
         }
         self.holds.insert(&cluster.notifies);
+        self.news = true;
         for above in cluster.above.iter().map(|&above| &clusters[above]) {
             // It has fired, and everything downstream of it has finished.
             if !self.holds.contains(&above.enabled) && self.holds.contains(&above.notified_by) {

@@ -73,7 +73,7 @@ pub use stop::UntilStopped;
 #[cfg(feature = "std")]
 pub use switch::Switch;
 pub use time::Time;
-pub use timer::{Timeout, Timer};
+pub use timer::{Agenda, Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
 /// Everything that a user of Apex needs, macros included.

@@ -36,6 +36,49 @@ impl Timer {
     }
 }
 
+/// The earliest time at which one of many timers and timeouts is due, so that a reaction that concerns none of them looks at
+/// none of them.
+#[derive(Debug, Clone)]
+pub struct Agenda {
+    /// `Time::MAX` if none is running.
+    next: Time,
+    /// A timer has changed since `next` was found, or one that is due is held back.
+    open: bool,
+}
+
+impl Agenda {
+    /// One that has not looked at any timer.
+    #[allow(clippy::new_without_default, reason = "made by generated code alone, in constants")]
+    pub const fn new() -> Self {
+        Self { next: Time::MAX, open: true }
+    }
+
+    /// A timer was set, stopped or advanced.
+    #[inline(always)]
+    pub fn open(&mut self) {
+        self.open = true;
+    }
+
+    /// Whether a timer may be due at `now`, so that all are looked at, and then [`Agenda::close`] is called.
+    #[inline(always)]
+    pub fn is_due(&self, now: Time) -> bool {
+        self.open || now >= self.next
+    }
+
+    /// All timers together wish `wish`; with `held_back` one that is due has to be looked at in every reaction.
+    #[inline]
+    pub fn close(&mut self, wish: Next, held_back: bool) {
+        self.next = if let Next::At(time) = wish { time } else { Time::MAX };
+        self.open = held_back;
+    }
+
+    /// When the first of them wants to be looked at.
+    #[inline(always)]
+    pub fn wish(&self) -> Next {
+        if self.next == Time::MAX { Next::Input } else { Next::At(self.next) }
+    }
+}
+
 /// The clock of a node with `timeout`: runs while the node is active.
 #[derive(Debug, Clone, Default)]
 pub struct Timeout {

@@ -23,6 +23,7 @@ impl Catalog {
                 "String" | "Duration" => true,
                 "Vec" | "Option" if name.len() < 7 => wanted == Trait::Default || all(args),
                 "Box" => all(args),
+                "PhantomData" => wanted != Trait::Send || all(args),
                 _ => false,
             },
             Type::Def(def, _, args) => {

@@ -7,7 +7,7 @@ use super::{
     types::{duration, ident},
 };
 use crate::{
-    analyse::{Analysis, Links, is_source, takes_activity},
+    analyse::{Analysis, Guard, Links, is_source, takes_activity},
     graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
 };
 use proc_macro2::TokenStream;
@@ -136,10 +136,23 @@ impl Generator<'_> {
         match self.watches_silence(whole, node) {
             Some(timeout) => {
                 let (name, timeout) = (self.flag(Flag::Timeout, node), duration(timeout));
-                quote! { state.#name.start(ctx.now(), #timeout); }
+                let open = self.open_agenda(whole);
+                quote! { state.#name.start(ctx.now(), #timeout); #open }
             }
             None => quote!(),
         }
+    }
+
+    /// Whether the timers of a program have an agenda: few of them are as fast looked at themselves.
+    pub fn has_agenda(&self, whole: Whole<'_>) -> bool {
+        const FEWEST: usize = 3;
+        let timers = whole.analysis.guards.iter().filter(|guard| matches!(guard, Guard::Timer(_))).count();
+        timers + (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).count() >= FEWEST
+    }
+
+    /// A timer changes.
+    pub fn open_agenda(&self, whole: Whole<'_>) -> Option<TokenStream> {
+        self.has_agenda(whole).then(|| quote! { state.agenda.open(); })
     }
 
     /// A node becomes active, unless it is already.
@@ -147,7 +160,8 @@ impl Generator<'_> {
         let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, true));
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|timeout| {
             let (name, timeout) = (self.flag(Flag::Timeout, node), duration(timeout));
-            quote! { state.#name.start(ctx.now(), #timeout); }
+            let open = self.open_agenda(whole);
+            quote! { state.#name.start(ctx.now(), #timeout); #open }
         });
         let event = self.trigger(whole.graph, node, Standard::Activated);
         let hook = self.hook(whole.graph, node, |s| s.on_activate.as_deref());
@@ -164,8 +178,8 @@ impl Generator<'_> {
     pub fn deactivate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, false));
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|_| {
-            let name = self.flag(Flag::Timeout, node);
-            quote! { state.#name.stop(); }
+            let (name, open) = (self.flag(Flag::Timeout, node), self.open_agenda(whole));
+            quote! { state.#name.stop(); #open }
         });
         let event = self.trigger(whole.graph, node, Standard::Deactivated);
         let hook = self.hook(whole.graph, node, |s| s.on_deactivate.as_deref());

@@ -44,6 +44,9 @@ impl Generator<'_> {
         if self.has_start(whole) {
             field("started", quote!(bool), quote!(false));
         }
+        if self.has_agenda(whole) {
+            field("agenda", quote!(::apex_rt::Agenda), quote!(::apex_rt::Agenda::new()));
+        }
         for (cell, _) in receivers(whole.graph) {
             let name = Self::holding(cell).to_string();
             field(&name, quote!(bool), quote!(false));
@@ -119,7 +122,7 @@ impl Generator<'_> {
         let queued = analysis.asynchronous.delivery == Delivery::Queued;
         let serves = !analysis.asynchronous.slots.is_empty() && queued;
         let endless = analysis.asynchronous.endless;
-        let (raises, wishes) = self.raises(whole, bits);
+        let (raises, wishes) = (self.raises(whole, bits), self.wishes(whole, bits));
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
             let bit = bits.guard(i)?;
             Some(quote! { self.state.dispatcher.raise(#bit); })
@@ -160,6 +163,9 @@ impl Generator<'_> {
                 Guard::Timer(node) => Some(self.timer(node)),
                 _ => None,
             });
+            let has_agenda = self.has_agenda(whole);
+            let open = has_agenda.then(|| quote! { self.state.agenda.open(); });
+            let advances = timers.map(|timer| quote! { self.state.#timer.advance(); #open });
             let kind = analysis.asynchronous.slots.len() + row;
             let (budget, step) = match endless {
                 true => (quote!(!self.state.steps.is_used_up() &&), quote! { self.state.steps.take(#kind); }),
@@ -168,7 +174,7 @@ impl Generator<'_> {
             quote! {
                 if #budget self.state.dispatcher.start(&Self::CLUSTERS[#row]) {
                     #step
-                    #(self.state.#timers.advance();)*
+                    #(#advances)*
                     self.#name(ctx, observer);
                     self.state.dispatcher.finish(&Self::CLUSTERS, #row);
                     #served
@@ -180,7 +186,14 @@ impl Generator<'_> {
         let fires: BTreeMap<usize, TokenStream> = firing.iter().copied().zip(fires).collect();
         let (inside, before): (Vec<usize>, Vec<usize>) =
             firing.into_iter().partition(|c| loops && (is_dispatched(c) || ordered));
+        let in_turn = inside.iter().any(|c| !is_dispatched(c));
         let (before, inside) = (before.iter().map(|c| &fires[c]), inside.iter().map(|c| &fires[c]));
+        // In a reaction that makes no cluster ready none is looked at.
+        let inside = match (bits.dispatched().is_empty(), in_turn) {
+            (true, _) => quote! { #(#inside)* },
+            (false, true) => quote! { if self.state.dispatcher.take_news() || first { #(#inside)* } },
+            (false, false) => quote! { if self.state.dispatcher.take_news() { #(#inside)* } },
+        };
         let start = self.has_start(whole).then(|| {
             let serve = if queued { serve(false) } else { self.deliver(whole, &at_start(graph, analysis)) };
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
@@ -188,7 +201,8 @@ impl Generator<'_> {
         let begin_steps = endless.then(|| {
             // What the reaction before left when its steps were used up.
             let serve = self.deliver(whole, &analysis.asynchronous.slots);
-            quote! { self.state.steps.begin(); #serve }
+            let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.state.dispatcher.look_again(); });
+            quote! { self.state.steps.begin(); #ready #serve }
         });
         let used_up = endless.then(|| self.used_up(whole, bits));
         let leave = if has_exit {
@@ -210,7 +224,7 @@ impl Generator<'_> {
                     let mut quiet = true;
                     #raises
                     #serve_first
-                    #(#inside)*
+                    #inside
                     first = false;
                     #stop
                     #leave
@@ -316,46 +330,66 @@ impl Generator<'_> {
         }
     }
 
-    /// What is looked at again and again while a program reacts: timers, mailboxes, timeouts; and when it wants to be
-    /// called because of them.
-    fn raises(&self, whole: Whole<'_>, bits: &Bits) -> (TokenStream, TokenStream) {
+    /// What is looked at again and again while a program reacts: timers, mailboxes, timeouts.
+    fn raises(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
-        let (mut raises, mut wishes) = (quote!(), quote!());
+        let mut raises = Raises { has_agenda: self.has_agenda(whole), code: quote!(), timed: quote!() };
         for (node, bit) in bits.room() {
             let port = ident(&graph.nodes[*node].name);
-            raises.extend(quote! { if !self.events.#port.is_full() { self.state.dispatcher.raise(#bit); } });
+            raises.always(quote! { if !self.events.#port.is_full() { self.state.dispatcher.raise(#bit); } });
         }
         for (index, guard) in analysis.guards.iter().enumerate() {
             let Some(bit) = bits.guard(index) else { continue };
             match guard {
                 Guard::Input(node) => {
                     let port = ident(&graph.nodes[*node].name);
-                    raises.extend(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
+                    raises.always(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
                 }
                 Guard::Timer(node) => {
                     let timer = self.timer(*node);
-                    raises.extend(quote! { if self.state.#timer.is_due(now) { self.state.dispatcher.raise(#bit); } });
-                    wishes.extend(quote! { next = next.or(self.state.#timer.wish(now)); });
+                    raises.timed(quote! { if self.state.#timer.is_due(now) { self.state.dispatcher.raise(#bit); } });
                 }
                 Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
         }
         for (id, node) in graph.nodes.iter().enumerate() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
-                raises.extend(self.enter(whole, bits, id));
+                raises.always(self.enter(whole, bits, id));
             }
             match node.kind {
-                NodeKind::Sender(far) => raises.extend(self.send_far(whole, bits, id, far)),
-                NodeKind::Receiver(far) => raises.extend(self.receive_far(whole, bits, id, far)),
+                NodeKind::Sender(far) => raises.always(self.send_far(whole, bits, id, far)),
+                NodeKind::Receiver(far) => raises.always(self.receive_far(whole, bits, id, far)),
                 _ => {}
             }
             if self.has_timeout(whole, id) {
-                raises.extend(self.expire(whole, bits, id));
-                let timeout = self.flag(Flag::Timeout, id);
-                wishes.extend(quote! { next = next.or(self.state.#timeout.wish(now)); });
+                raises.timed(self.expire(whole, bits, id));
             }
         }
-        (raises, wishes)
+        raises.finish()
+    }
+
+    /// When a program wants to be called because of its timers.
+    fn wishes(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let guards = whole.analysis.guards.iter().enumerate().filter(|(index, _)| bits.guard(*index).is_some());
+        let timers = guards.filter_map(|(_, guard)| match guard {
+            Guard::Timer(node) => Some(self.timer(*node)),
+            _ => None,
+        });
+        let timeouts = (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n));
+        let timeouts: Vec<Ident> = timeouts.map(|node| self.flag(Flag::Timeout, node)).collect();
+        let all: Vec<Ident> = timers.chain(timeouts.iter().cloned()).collect();
+        if !self.has_agenda(whole) {
+            return quote! { #(next = next.or(self.state.#all.wish(now));)* };
+        }
+        quote! {
+            if self.state.agenda.is_due(now) {
+                let mut wish = ::apex_rt::Next::Input;
+                #(wish = wish.or(self.state.#all.wish(now));)*
+                let held_back = false #(|| self.state.#timeouts.is_due(now))*;
+                self.state.agenda.close(wish, held_back);
+            }
+            next = next.or(self.state.agenda.wish());
+        }
     }
 
     /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
@@ -378,7 +412,7 @@ impl Generator<'_> {
             let enabled = self.flag(Flag::Enabled, node);
             test.extend(quote!(&& self.state.#enabled));
         }
-        let clear = self.clear_events(whole, node);
+        let (clear, open) = (self.clear_events(whole, node), self.open_agenda(whole));
         let trigger = self.trigger(graph, node, Standard::Timeout);
         let pass = self.pass_activity(whole, node, &|end| {
             let standard = graph.port(end).standard;
@@ -391,9 +425,42 @@ impl Generator<'_> {
             if self.state.#timeout.is_due(now) #test {
                 let Self { nodes, state, .. } = self;
                 state.#timeout.stop();
+                #open
                 #clear #trigger #pass #emit #serve
                 quiet = false;
             }
         }
+    }
+}
+
+/// Code that looks at what may have happened, in the order of the program: at timers only if one of them may be due.
+struct Raises {
+    has_agenda: bool,
+    code: TokenStream,
+    /// What looks at timers, one after the other.
+    timed: TokenStream,
+}
+
+impl Raises {
+    fn always(&mut self, code: TokenStream) {
+        self.flush();
+        self.code.extend(code);
+    }
+
+    fn timed(&mut self, code: TokenStream) {
+        self.timed.extend(code);
+    }
+
+    fn flush(&mut self) {
+        let timed = std::mem::take(&mut self.timed);
+        self.code.extend(match self.has_agenda && !timed.is_empty() {
+            true => quote! { if self.state.agenda.is_due(now) { #timed } },
+            false => timed,
+        });
+    }
+
+    fn finish(mut self) -> TokenStream {
+        self.flush();
+        self.code
     }
 }
