@@ -112,7 +112,13 @@ impl<const W: usize> Dispatcher<W> {
     /// Ends a condition: a connection is occupied.
     #[inline(always)]
     pub fn clear(&mut self, bit: usize) {
-        self.holds.remove(&Bits::of(&[bit]));
+        self.holds.0[bit / 64] &= !(1 << (bit % 64));
+    }
+
+    /// Whether one condition holds.
+    #[inline(always)]
+    pub fn has(&self, bit: usize) -> bool {
+        self.holds.0[bit / 64] & 1 << (bit % 64) != 0
     }
 
     /// Whether all of `bits` hold.
@@ -124,7 +130,7 @@ impl<const W: usize> Dispatcher<W> {
     /// Whether others of a cluster's tokens are there, and this one is not.
     pub fn misses(&self, missing: &Missing<W>) -> bool {
         let others = self.holds.0.iter().zip(&missing.others.0).any(|(a, b)| a & b != 0);
-        others && !self.holds.contains(&Bits::of(&[missing.token]))
+        others && !self.has(missing.token)
     }
 
     /// If `cluster` is ready, takes its tokens and guards and returns `true`: it is to be fired now.

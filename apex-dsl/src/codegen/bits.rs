@@ -115,7 +115,7 @@ impl Bits {
 
     /// The row of a cluster in the table.
     pub fn row(&self, cluster: usize) -> Option<usize> {
-        self.dispatched.iter().position(|c| *c == cluster)
+        self.dispatched.binary_search(&cluster).ok()
     }
 
     /// The constant with the number of the condition that a graph-level event has room.

@@ -77,8 +77,8 @@ impl Generator<'_> {
         let store = self.store(graph, c.from, &quote!(parcel.token), &value);
         let is_free = self.look(quote!(ends.#cell.is_free()));
         quote! {
-            if !self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#free])) && #is_free {
-                if self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#token])) {
+            if !self.state.dispatcher.has(#free) && #is_free {
+                if self.state.dispatcher.has(#token) {
                     let state = &mut self.state;
                     state.dispatcher.clear(#token);
                     ends.#cell.put(|parcel| {
@@ -106,10 +106,7 @@ impl Generator<'_> {
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
         let told = sender.map(|sender| quote! { wake.wake(#sender); });
         let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
-        let all_free = match free.is_empty() {
-            true => quote!(true),
-            false => quote!(self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*]))),
-        };
+        let all_free = quote!(true #(&& self.state.dispatcher.has(#free))*);
         let test = self.allows(whole, &[]);
         let carries = (analysis.active.contains(&node) && !far.takes_activity).then(|| {
             let flag = self.flag(Flag::Active, node);

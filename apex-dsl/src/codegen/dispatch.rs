@@ -15,7 +15,6 @@ use crate::{
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use std::collections::BTreeMap;
 use syn::Ident;
 
 impl Generator<'_> {
@@ -89,6 +88,9 @@ impl Generator<'_> {
                 code.extend(self.serve(whole, bits));
             }
         }
+        let timeouts: Vec<NodeId> = (0..graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).collect();
+        let inline = inlined(timeouts.len());
+        code.extend(timeouts.iter().map(|node| self.expire(whole, bits, *node, &inline)).collect::<TokenStream>());
         if self.has_start(whole) {
             let begin = self.first(whole, bits);
             code.extend(quote! {
@@ -140,59 +142,37 @@ impl Generator<'_> {
         let has_exit = self.has_exit(graph);
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let firing: Vec<usize> = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).collect();
-        let fires = firing.iter().map(|&cluster| {
-            let name = format_ident!("cluster_{cluster}");
+        let has_agenda = self.has_agenda(whole);
+        let firing = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).map(|cluster| {
             let c = &analysis.clusters[cluster];
+            let timers = c.own_guards.iter().filter_map(|g| match analysis.guards[*g] {
+                Guard::Timer(node) => Some(self.timer(node)),
+                _ => None,
+            });
+            let open = has_agenda.then(|| quote! { self.state.agenda.open(); });
+            let advances = timers.map(|timer| quote! { self.state.#timer.advance(); #open });
+            let name = format_ident!("cluster_{cluster}");
             let served = match queued {
                 false => self.deliver(whole, &c.sends),
                 true if c.sends.is_empty() && !any_stays => quote!(),
                 true => serve(false),
             };
-            let served = quote! { #served #exit };
-            let Some(row) = bits.row(cluster) else {
-                let fire = quote! { self.#name(ctx, observer); #served };
-                return match (loops && ordered, endless) {
-                    (true, true) => quote! { if first && !self.state.steps.is_used_up() { #fire } },
-                    (true, false) => quote! { if first { #fire } },
-                    (false, true) => quote! { if !self.state.steps.is_used_up() { #fire } },
-                    (false, false) => fire,
-                };
-            };
-            let timers = c.own_guards.iter().filter_map(|g| match analysis.guards[*g] {
-                Guard::Timer(node) => Some(self.timer(node)),
-                _ => None,
-            });
-            let has_agenda = self.has_agenda(whole);
-            let open = has_agenda.then(|| quote! { self.state.agenda.open(); });
-            let advances = timers.map(|timer| quote! { self.state.#timer.advance(); #open });
-            let kind = analysis.asynchronous.slots.len() + row;
-            let (budget, step) = match endless {
-                true => (quote!(!self.state.steps.is_used_up() &&), quote! { self.state.steps.take(#kind); }),
-                false => (quote!(), quote!()),
-            };
-            quote! {
-                if #budget self.state.dispatcher.start(&Self::CLUSTERS[#row]) {
-                    #step
-                    #(#advances)*
-                    self.#name(ctx, observer);
-                    self.state.dispatcher.finish(&Self::CLUSTERS, #row);
-                    #served
-                    quiet = false;
-                }
-            }
+            Firing { row: bits.row(cluster), fire: quote! { #(#advances)* self.#name(ctx, observer); }, served }
         });
-        let is_dispatched = |c: &usize| bits.row(*c).is_some();
-        let fires: BTreeMap<usize, TokenStream> = firing.iter().copied().zip(fires).collect();
-        let (inside, before): (Vec<usize>, Vec<usize>) =
-            firing.into_iter().partition(|c| loops && (is_dispatched(c) || ordered));
-        let in_turn = inside.iter().any(|c| !is_dispatched(c));
-        let (before, inside) = (before.iter().map(|c| &fires[c]), inside.iter().map(|c| &fires[c]));
+        let (inside, before): (Vec<Firing>, Vec<Firing>) =
+            firing.partition(|firing| loops && (firing.row.is_some() || ordered));
+        let steps = endless.then_some(analysis.asynchronous.slots.len());
+        let before: TokenStream = before.iter().map(|firing| firing.straight(steps, false, exit.as_ref())).collect();
+        let in_turn = inside.iter().any(|firing| firing.row.is_none());
+        let clusters = match inside.len() > MANY && !bits.dispatched().is_empty() {
+            true => table(&inside, steps, exit.as_ref()),
+            false => inside.iter().map(|firing| firing.straight(steps, true, exit.as_ref())).collect(),
+        };
         // In a reaction that makes no cluster ready none is looked at.
         let inside = match (bits.dispatched().is_empty(), in_turn) {
-            (true, _) => quote! { #(#inside)* },
-            (false, true) => quote! { if self.state.dispatcher.take_news() || first { #(#inside)* } },
-            (false, false) => quote! { if self.state.dispatcher.take_news() { #(#inside)* } },
+            (true, _) => clusters,
+            (false, true) => quote! { if self.state.dispatcher.take_news() || first { #clusters } },
+            (false, false) => quote! { if self.state.dispatcher.take_news() { #clusters } },
         };
         let start = self.has_start(whole).then(|| {
             let serve = if queued { serve(false) } else { self.deliver(whole, &at_start(graph, analysis)) };
@@ -233,8 +213,8 @@ impl Generator<'_> {
         });
         let signature = self.signature(graph);
         let begin = match self.part {
-            Some(_) => quote! { if begins { #(#once)* #(#before)* } },
-            None => quote! { #(#once)* #(#before)* },
+            Some(_) => quote! { if begins { #(#once)* #before } },
+            None => quote! { #(#once)* #before },
         };
         quote! {
             #signature {
@@ -294,7 +274,7 @@ impl Generator<'_> {
             return if plain.next().is_some() { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
         }
         let fired = plain.map(|guard| match bits.guard(*guard) {
-            Some(bit) => quote!(!self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#bit]))),
+            Some(bit) => quote!(!self.state.dispatcher.has(#bit)),
             None => quote!(true),
         });
         quote!(if false #(|| #fired)* { ::apex_rt::Next::Now } else { ::apex_rt::Next::Input })
@@ -338,6 +318,7 @@ impl Generator<'_> {
             let port = ident(&graph.nodes[*node].name);
             raises.always(quote! { if !self.events.#port.is_full() { self.state.dispatcher.raise(#bit); } });
         }
+        let mut timers = vec![];
         for (index, guard) in analysis.guards.iter().enumerate() {
             let Some(bit) = bits.guard(index) else { continue };
             match guard {
@@ -347,10 +328,17 @@ impl Generator<'_> {
                 }
                 Guard::Timer(node) => {
                     let timer = self.timer(*node);
-                    raises.timed(quote! { if self.state.#timer.is_due(now) { self.state.dispatcher.raise(#bit); } });
+                    timers.push(quote! { (&self.state.#timer, #bit) });
                 }
                 Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
+        }
+        if !timers.is_empty() {
+            raises.timed(quote! {
+                for (timer, bit) in [#(#timers),*] {
+                    if timer.is_due(now) { self.state.dispatcher.raise(bit); }
+                }
+            });
         }
         for (id, node) in graph.nodes.iter().enumerate() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
@@ -362,7 +350,7 @@ impl Generator<'_> {
                 _ => {}
             }
             if self.has_timeout(whole, id) {
-                raises.timed(self.expire(whole, bits, id));
+                raises.timed(self.expires(whole, bits, id));
             }
         }
         raises.finish()
@@ -375,17 +363,31 @@ impl Generator<'_> {
             Guard::Timer(node) => Some(self.timer(*node)),
             _ => None,
         });
+        let timers: Vec<Ident> = timers.collect();
         let timeouts = (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n));
         let timeouts: Vec<Ident> = timeouts.map(|node| self.flag(Flag::Timeout, node)).collect();
-        let all: Vec<Ident> = timers.chain(timeouts.iter().cloned()).collect();
         if !self.has_agenda(whole) {
-            return quote! { #(next = next.or(self.state.#all.wish(now));)* };
+            return quote! {
+                #(next = next.or(self.state.#timers.wish(now));)*
+                #(next = next.or(self.state.#timeouts.wish(now));)*
+            };
         }
+        let of_timers = (!timers.is_empty()).then(|| {
+            quote! { for timer in [#(&self.state.#timers),*] { wish = wish.or(timer.wish(now)); } }
+        });
+        let of_timeouts = (!timeouts.is_empty()).then(|| {
+            quote! {
+                for timeout in [#(&self.state.#timeouts),*] {
+                    wish = wish.or(timeout.wish(now));
+                    held_back |= timeout.is_due(now);
+                }
+            }
+        });
         quote! {
             if self.state.agenda.is_due(now) {
-                let mut wish = ::apex_rt::Next::Input;
-                #(wish = wish.or(self.state.#all.wish(now));)*
-                let held_back = false #(|| self.state.#timeouts.is_due(now))*;
+                let (mut wish, mut held_back) = (::apex_rt::Next::Input, false);
+                #of_timers
+                #of_timeouts
                 self.state.agenda.close(wish, held_back);
             }
             next = next.or(self.state.agenda.wish());
@@ -394,17 +396,16 @@ impl Generator<'_> {
 
     /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
     pub fn allows(&self, whole: Whole<'_>, free: &[usize]) -> TokenStream {
-        let free =
-            (!free.is_empty()).then(|| quote!(&& self.state.dispatcher.holds(&::apex_rt::Bits::of(&[#(#free),*]))));
+        let free = free.iter().map(|bit| quote!(&& self.state.dispatcher.has(#bit)));
         let budget = whole.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
-        quote!(#free #budget)
+        quote!(#(#free)* #budget)
     }
 
-    /// A node was active for as long as its `timeout` says: it triggers the event, with its activity. A node that is
-    /// disabled sends nothing; it does so when it is enabled, if it is still active.
-    fn expire(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
+    /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it does so
+    /// when it is enabled, if it is still active.
+    fn expires(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
         let graph = whole.graph;
-        let timeout = self.flag(Flag::Timeout, node);
+        let (timeout, expire) = (self.flag(Flag::Timeout, node), format_ident!("expire_{node}"));
         let free: Vec<usize> =
             whole.analysis.asynchronous.holding_back(graph, whole.links, node).filter_map(|c| bits.free(c)).collect();
         let mut test = self.allows(whole, &free);
@@ -412,6 +413,13 @@ impl Generator<'_> {
             let enabled = self.flag(Flag::Enabled, node);
             test.extend(quote!(&& self.state.#enabled));
         }
+        quote! { if self.state.#timeout.is_due(now) #test { self.#expire(ctx, observer); quiet = false; } }
+    }
+
+    /// The function that triggers the event `timeout` of a node, with its activity.
+    fn expire(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, inline: &TokenStream) -> TokenStream {
+        let graph = whole.graph;
+        let (timeout, expire) = (self.flag(Flag::Timeout, node), format_ident!("expire_{node}"));
         let (clear, open) = (self.clear_events(whole, node), self.open_agenda(whole));
         let trigger = self.trigger(graph, node, Standard::Timeout);
         let pass = self.pass_activity(whole, node, &|end| {
@@ -422,13 +430,92 @@ impl Generator<'_> {
         let emit = self.emit(whole, bits, node, false);
         let serve = self.deliver(whole, &whole.links.sends[node]);
         quote! {
-            if self.state.#timeout.is_due(now) #test {
+            #inline
+            fn #expire<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                 let Self { nodes, state, .. } = self;
                 state.#timeout.stop();
-                #open
-                #clear #trigger #pass #emit #serve
+                #open #clear #trigger #pass #emit #serve
+            }
+        }
+    }
+}
+
+/// From so many clusters, slots or timeouts on code is called by number: rustc takes a time that grows with the square of what
+/// stands in one function.
+const MANY: usize = 32;
+
+/// Whether functions of which there are `count` go into the one that calls them.
+pub fn inlined(count: usize) -> TokenStream {
+    if count > MANY { quote!(#[inline(never)]) } else { quote!(#[inline]) }
+}
+
+/// A cluster in the code of a reaction.
+struct Firing {
+    /// Its row in the table of the dispatcher; without one it fires once in a reaction.
+    row: Option<usize>,
+    fire: TokenStream,
+    /// Slots that are served when it has fired.
+    served: TokenStream,
+}
+
+impl Firing {
+    /// Code of its own. `slots` is how many there are where steps are counted.
+    fn straight(&self, slots: Option<usize>, in_loop: bool, exit: Option<&TokenStream>) -> TokenStream {
+        let Self { row, fire, served } = self;
+        let budget = slots.map(|_| quote!(!self.state.steps.is_used_up()));
+        let Some(row) = row else {
+            let fire = quote! { #fire #served #exit };
+            return match (in_loop, budget) {
+                (true, Some(budget)) => quote! { if first && #budget { #fire } },
+                (true, None) => quote! { if first { #fire } },
+                (false, Some(budget)) => quote! { if #budget { #fire } },
+                (false, None) => fire,
+            };
+        };
+        let budget = budget.map(|budget| quote!(#budget &&));
+        let step = slots.map(|slots| slots + row).map(|kind| quote! { self.state.steps.take(#kind); });
+        quote! {
+            if #budget self.state.dispatcher.start(&Self::CLUSTERS[#row]) {
+                #step
+                #fire
+                self.state.dispatcher.finish(&Self::CLUSTERS, #row);
+                #served #exit
                 quiet = false;
             }
+        }
+    }
+}
+
+/// Code for many clusters: all of them by number, in their order.
+fn table(firing: &[Firing], slots: Option<usize>, exit: Option<&TokenStream>) -> TokenStream {
+    let count = firing.len();
+    let rows = firing.iter().map(|firing| match firing.row {
+        Some(row) => quote!(Some(#row)),
+        None => quote!(None),
+    });
+    let budget = slots.map(|_| quote! { if self.state.steps.is_used_up() { break; } });
+    let step = slots.map(|slots| quote! { self.state.steps.take(#slots + row); });
+    let arms = firing.iter().enumerate().map(|(place, Firing { fire, .. })| quote! { #place => { #fire } });
+    let served = firing.iter().enumerate().filter(|(_, firing)| !firing.served.is_empty());
+    let served = served.map(|(place, Firing { served, .. })| quote! { #place => { #served } });
+    quote! {
+        const ROWS: [::core::option::Option<usize>; #count] = [#(#rows),*];
+        let clusters: &'static [_] = &Self::CLUSTERS;
+        for (place, row) in ROWS.into_iter().enumerate() {
+            #budget
+            let ready = match row {
+                Some(row) => self.state.dispatcher.start(&clusters[row]),
+                None => first,
+            };
+            if !ready { continue; }
+            if let Some(row) = row { #step }
+            match place { #(#arms)* _ => {} }
+            if let Some(row) = row {
+                self.state.dispatcher.finish(clusters, row);
+                quiet = false;
+            }
+            match place { #(#served)* _ => {} }
+            #exit
         }
     }
 }

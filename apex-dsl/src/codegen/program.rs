@@ -4,6 +4,7 @@ use super::{
     Flag, Generator,
     activity::Whole,
     bits::Bits,
+    dispatch::inlined,
     fire::Emitter,
     state,
     threads::{end_if_hung, group_info},
@@ -277,8 +278,10 @@ impl Generator<'_> {
     }
 
     fn clusters(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let firing = (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires);
-        let functions = firing.map(|cluster| {
+        let firing: Vec<usize> =
+            (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires).collect();
+        let inline = inlined(firing.len());
+        let functions = firing.into_iter().map(|cluster| {
             let name = format_ident!("cluster_{cluster}");
             let code = if is_multirate(whole.graph, whole.analysis, cluster) {
                 let stamp = self.stamp_of_firing(whole, cluster);
@@ -288,7 +291,7 @@ impl Generator<'_> {
                 Emitter::new(self, whole, cluster).program_cluster(bits)
             };
             quote! {
-                #[inline]
+                #inline
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, inputs, outputs, .. } = self;
                     #code

@@ -5,6 +5,7 @@ use super::{
     activity::{Carries, Whole, carries},
     bits::Bits,
     cells::carries_missing,
+    dispatch::inlined,
     plan::is_buffer,
     types::ident,
 };
@@ -113,10 +114,11 @@ impl Generator<'_> {
 
     /// One function for each connection to a slot.
     pub fn slot_functions(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+        let inline = inlined(whole.analysis.asynchronous.slots.len());
         let functions = whole.analysis.asynchronous.slots.iter().enumerate().map(|(slot, &connection)| {
             let (name, code) = (format_ident!("slot_{slot}"), self.slot(whole, bits, slot, connection));
             quote! {
-                #[inline]
+                #inline
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, inputs, outputs, events } = self;
                     #code
