@@ -78,35 +78,42 @@ pub struct Cluster<const W: usize> {
 /// Which conditions hold, and how firing changes them.
 #[derive(Debug, Clone)]
 pub struct Dispatcher<const W: usize> {
+    /// The highest bit is no condition: it says that one holds that did not when the clusters were looked at last.
     holds: Bits<W>,
-    /// A condition holds that did not when the clusters were looked at last.
-    news: bool,
 }
+
+/// The bit for news, in the last word.
+const NEWS: u64 = 1 << 63;
 
 impl<const W: usize> Dispatcher<W> {
     /// The dispatcher of a program that has not fired: `initial` holds.
     pub const fn new(initial: Bits<W>) -> Self {
-        Self { holds: initial, news: true }
+        let mut holds = initial;
+        holds.0[W - 1] |= NEWS;
+        Self { holds }
     }
 
     /// Makes a condition hold: a guard, or a connection that is free again.
     #[inline(always)]
     pub fn raise(&mut self, bit: usize) {
-        let (word, mask) = (&mut self.holds.0[bit / 64], 1 << (bit % 64));
-        self.news |= *word & mask == 0;
-        *word |= mask;
+        if !self.has(bit) {
+            self.holds.0[bit / 64] |= 1 << (bit % 64);
+            self.look_again();
+        }
     }
 
     /// Whether a cluster may have become ready since this was asked last.
     #[inline(always)]
     pub fn take_news(&mut self) -> bool {
-        core::mem::take(&mut self.news)
+        let news = self.holds.0[W - 1] & NEWS != 0;
+        self.holds.0[W - 1] &= !NEWS;
+        news
     }
 
     /// A cluster that is ready was not fired.
     #[inline(always)]
     pub fn look_again(&mut self) {
-        self.news = true;
+        self.holds.0[W - 1] |= NEWS;
     }
 
     /// Ends a condition: a connection is occupied.
@@ -151,7 +158,7 @@ impl<const W: usize> Dispatcher<W> {
         let cluster = &clusters[index];
         self.holds.insert(&cluster.sends);
         self.holds.remove(&cluster.occupies);
-        self.news = true;
+        self.look_again();
         self.settle(clusters, index);
     }
 
@@ -164,7 +171,7 @@ impl<const W: usize> Dispatcher<W> {
             return;
         }
         self.holds.insert(&cluster.notifies);
-        self.news = true;
+        self.look_again();
         for above in cluster.above.iter().map(|&above| &clusters[above]) {
             // It has fired, and everything downstream of it has finished.
             if !self.holds.contains(&above.enabled) && self.holds.contains(&above.notified_by) {

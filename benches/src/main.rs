@@ -39,7 +39,7 @@ struct Arguments {
 enum Command {
     /// Count instructions per tick (with valgrind): the same on every run.
     Instructions,
-    /// Measure what it costs to compile: `apex check`, generated lines, a rebuild after an edit.
+    /// Measure what it costs to compile: `apex check`, a rebuild after an edit, large graphs of one kind.
     Compile,
     /// Measure other frameworks, too, which are built from `benches/peers`.
     Peers(peers::Arguments),

@@ -249,6 +249,20 @@ impl Pong {
     }
 }
 
+/// Passes a token without a value on.
+#[node]
+#[derive(Default)]
+pub struct Pass;
+
+#[node]
+impl Pass {
+    /// Passes it on.
+    #[slot]
+    pub fn put(&mut self, _token: &(), passed: Event<()>) {
+        passed.emit(());
+    }
+}
+
 /// Producer number `p`: an event for each number.
 #[node]
 pub fn produce(i: &u64, #[param] p: u64, e: Event<u64>) {

@@ -80,7 +80,8 @@ impl Bits {
 
     /// How many words of 64 conditions there are.
     pub fn words(&self) -> usize {
-        self.count.div_ceil(64)
+        // The dispatcher has a bit of its own.
+        if self.count == 0 { 0 } else { (self.count + 1).div_ceil(64) }
     }
 
     /// The clusters that are dispatched, in the order of their rows.

@@ -236,7 +236,13 @@ impl<'a> Emitter<'a> {
             }
             NodeKind::Relay => {
                 let token = self.incoming(End { node, port: 0 }).map(|from| self.cloned(from, block));
-                self.bind(End { node, port: 1 }, token.unwrap_or_else(|| quote!(None)), true)
+                let out = End { node, port: 1 };
+                // Nothing may ever come, which then says nothing of the type.
+                let token = token.unwrap_or_else(|| {
+                    let ty = self.generator.token_type(self.graph, out);
+                    quote!(::core::option::Option::<#ty>::None)
+                });
+                self.bind(out, token, true)
             }
             NodeKind::Probe => {
                 let from = self.incoming(End { node, port: 0 });
