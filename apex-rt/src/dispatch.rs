@@ -75,9 +75,10 @@ pub struct Cluster<const W: usize> {
     pub above: &'static [usize],
 }
 
-/// Which conditions hold, and how firing changes them.
+/// Which conditions hold, and how firing changes them. With `TRACKS` it knows whether a cluster may have become ready since the
+/// clusters were looked at last, which is worth its code where there are several.
 #[derive(Debug, Clone)]
-pub struct Dispatcher<const W: usize> {
+pub struct Dispatcher<const W: usize, const TRACKS: bool> {
     /// The highest bit is no condition: it says that one holds that did not when the clusters were looked at last.
     holds: Bits<W>,
 }
@@ -85,26 +86,31 @@ pub struct Dispatcher<const W: usize> {
 /// The bit for news, in the last word.
 const NEWS: u64 = 1 << 63;
 
-impl<const W: usize> Dispatcher<W> {
+impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
     /// The dispatcher of a program that has not fired: `initial` holds.
     pub const fn new(initial: Bits<W>) -> Self {
         let mut holds = initial;
-        holds.0[W - 1] |= NEWS;
+        if TRACKS {
+            holds.0[W - 1] |= NEWS;
+        }
         Self { holds }
     }
 
     /// Makes a condition hold: a guard, or a connection that is free again.
     #[inline(always)]
     pub fn raise(&mut self, bit: usize) {
-        if !self.has(bit) {
-            self.holds.0[bit / 64] |= 1 << (bit % 64);
+        if TRACKS && !self.has(bit) {
             self.look_again();
         }
+        self.holds.0[bit / 64] |= 1 << (bit % 64);
     }
 
     /// Whether a cluster may have become ready since this was asked last.
     #[inline(always)]
     pub fn take_news(&mut self) -> bool {
+        if !TRACKS {
+            return true;
+        }
         let news = self.holds.0[W - 1] & NEWS != 0;
         self.holds.0[W - 1] &= !NEWS;
         news
@@ -113,7 +119,9 @@ impl<const W: usize> Dispatcher<W> {
     /// A cluster that is ready was not fired.
     #[inline(always)]
     pub fn look_again(&mut self) {
-        self.holds.0[W - 1] |= NEWS;
+        if TRACKS {
+            self.holds.0[W - 1] |= NEWS;
+        }
     }
 
     /// Ends a condition: a connection is occupied.

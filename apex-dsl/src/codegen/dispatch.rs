@@ -28,7 +28,9 @@ impl Generator<'_> {
         if words > 0 {
             let initial = bits.initial();
             let make = quote!(::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])));
-            field("dispatcher", quote!(::apex_rt::Dispatcher<#words>), make);
+            // Fewer clusters are as fast tested as passed over.
+            let tracks = bits.dispatched().len() >= 3;
+            field("dispatcher", quote!(::apex_rt::Dispatcher<#words, #tracks>), make);
         }
         if slots > 0 && whole.analysis.asynchronous.delivery == Delivery::Queued {
             field("queue", quote!(::apex_rt::Queue<#slots>), quote!(::apex_rt::Queue::new()));
@@ -326,20 +328,19 @@ impl Generator<'_> {
                     let port = ident(&graph.nodes[*node].name);
                     raises.always(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
                 }
-                Guard::Timer(node) => {
-                    let timer = self.timer(*node);
-                    timers.push(quote! { (&self.state.#timer, #bit) });
-                }
+                Guard::Timer(node) => timers.push((self.timer(*node), bit)),
                 Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
         }
-        if !timers.is_empty() {
-            raises.timed(quote! {
-                for (timer, bit) in [#(#timers),*] {
+        let (timers, numbers): (Vec<Ident>, Vec<usize>) = timers.into_iter().unzip();
+        raises.timed(match raises.has_agenda && !timers.is_empty() {
+            true => quote! {
+                for (timer, bit) in [#((&self.state.#timers, #numbers)),*] {
                     if timer.is_due(now) { self.state.dispatcher.raise(bit); }
                 }
-            });
-        }
+            },
+            false => quote! { #(if self.state.#timers.is_due(now) { self.state.dispatcher.raise(#numbers); })* },
+        });
         for (id, node) in graph.nodes.iter().enumerate() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
                 raises.always(self.enter(whole, bits, id));
