@@ -253,30 +253,6 @@ impl Catalog {
         self.signatures[id] = signature;
     }
 
-    /// Refuses nodes with arguments of types that only have the names of those of Apex: `#[node]` knows them by their names.
-    fn refuse_other_types(&mut self) {
-        let refused: Vec<(DefId, String)> = self
-            .tree
-            .defs
-            .iter()
-            .enumerate()
-            .filter_map(|(id, def)| {
-                let name = arguments(&self.tree, def).find_map(|kind| match kind {
-                    ArgKind::Ctx => self.own_type(def.module, "Ctx"),
-                    ArgKind::Event(_) => self.own_type(def.module, "Event"),
-                    ArgKind::Out(..) => self.own_type(def.module, "Out"),
-                    ArgKind::Input(..) | ArgKind::Optional(_) | ArgKind::Param(_) => None,
-                })?;
-                let reason =
-                    format!("its `{name}` is another type than that of Apex: one of the two needs another name");
-                Some((id, reason))
-            })
-            .collect();
-        for (id, reason) in refused {
-            self.tree.defs[id].kind = ItemKind::Refused(reason);
-        }
-    }
-
     /// `name`, if it is a type of a crate other than the runtime in a module.
     fn own_type<'n>(&self, module: ModuleId, name: &'n str) -> Option<&'n str> {
         let found = self.tree.resolve(module, &[name.to_owned()]);
@@ -288,28 +264,50 @@ impl Catalog {
     }
 
     fn collect(&mut self) {
-        self.refuse_other_types();
         let mut methods: BTreeMap<(ModuleId, &str), Vec<&NodeMethods>> = BTreeMap::new();
         for def in &self.tree.defs {
             if let ItemKind::Methods(m) = &def.kind {
                 methods.entry((def.module, &m.node)).or_default().push(m);
             }
         }
-        let mut found = vec![];
+        let (mut found, mut refused) = (vec![], vec![]);
         for (id, def) in self.tree.defs.iter().enumerate() {
-            match &def.kind {
-                ItemKind::Function(node) => found.push((id, self.signature(id, node, &[]))),
+            let (node, methods) = match &def.kind {
+                ItemKind::Function(node) => (node, &[][..]),
                 ItemKind::Struct(node) => {
-                    let methods = methods.get(&(def.module, def.name.as_str())).map_or(&[][..], Vec::as_slice);
-                    found.push((id, self.signature(id, node, methods)));
+                    (node, methods.get(&(def.module, def.name.as_str())).map_or(&[][..], Vec::as_slice))
                 }
-                _ => {}
+                _ => continue,
+            };
+            match self.other_type(def, methods) {
+                Some(name) => refused.push((id, name)),
+                None => found.push((id, self.signature(id, node, methods))),
             }
+        }
+        for (id, name) in refused {
+            let reason = format!("its `{name}` is another type than that of Apex: one of the two needs another name");
+            self.tree.defs[id].kind = ItemKind::Refused(reason);
         }
         for (def, signature) in found {
             self.by_def.insert(def, self.signatures.len());
             self.signatures.push(signature);
         }
+    }
+
+    /// The type of an argument that only has the name of one of Apex: `#[node]` knows these by their names.
+    fn other_type(&self, def: &Def, methods: &[&NodeMethods]) -> Option<&'static str> {
+        let process = match &def.kind {
+            ItemKind::Function(node) => node.process.as_ref(),
+            _ => None,
+        };
+        let slots = methods.iter().flat_map(|m| &m.slots).flat_map(|slot| &slot.args);
+        let processes = process.into_iter().chain(methods.iter().filter_map(|m| m.process.as_ref()));
+        processes.flat_map(|process| &process.args).chain(slots).find_map(|arg| match arg.kind {
+            ArgKind::Ctx => self.own_type(def.module, "Ctx"),
+            ArgKind::Event(_) => self.own_type(def.module, "Event"),
+            ArgKind::Out(..) => self.own_type(def.module, "Out"),
+            ArgKind::Input(..) | ArgKind::Optional(_) | ArgKind::Param(_) => None,
+        })
     }
 
     fn signature(&self, id: DefId, node: &NodeItem, methods: &[&NodeMethods]) -> Signature {
@@ -553,25 +551,6 @@ impl Catalog {
 }
 
 /// Collects the ports of one signature.
-/// The arguments of a node's functions, with those of its methods.
-fn arguments<'t>(tree: &'t Tree, def: &'t Def) -> impl Iterator<Item = &'t ArgKind> {
-    let process = match &def.kind {
-        ItemKind::Function(node) => node.process.as_ref(),
-        _ => None,
-    };
-    let is_struct = matches!(def.kind, ItemKind::Struct(_));
-    let methods =
-        tree.named("").iter().map(|id| &tree.defs[*id]).filter(move |other| is_struct && other.module == def.module);
-    let of_methods = methods.filter_map(move |other| match &other.kind {
-        ItemKind::Methods(methods) if methods.node == def.name => Some(methods),
-        _ => None,
-    });
-    let of_methods = of_methods.flat_map(|methods| {
-        methods.process.iter().flat_map(|process| &process.args).chain(methods.slots.iter().flat_map(|slot| &slot.args))
-    });
-    process.into_iter().flat_map(|process| &process.args).chain(of_methods).map(|arg| &arg.kind)
-}
-
 struct SignatureBuilder<'a> {
     catalog: &'a Catalog,
     module: ModuleId,
