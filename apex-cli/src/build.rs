@@ -15,22 +15,22 @@ use std::{
 
 /// A crate that cargo builds.
 pub struct Wanted {
-    /// What says to cargo which one it is.
+    /// Arguments of cargo that select the crate.
     pub select: Vec<OsString>,
     /// The folder of its package.
     pub package: PathBuf,
     /// The root of the workspace that is worked in, with what its user has set up for cargo.
     pub root: PathBuf,
-    /// Where cargo builds.
+    /// The target folder.
     pub target: PathBuf,
 }
 
-/// How it is built.
+/// The settings of a build.
 #[derive(Clone, Copy, Default)]
 pub struct How {
     /// As `cargo build --release` does.
     pub release: bool,
-    /// Nothing is said but what is wrong.
+    /// Prints errors only.
     pub quiet: bool,
 }
 
@@ -69,7 +69,7 @@ impl Built {
     }
 }
 
-/// Where systems look for libraries.
+/// The variable with the folders in which the system looks for shared libraries.
 const LIBRARY_PATH: &str = if cfg!(windows) {
     "PATH"
 } else if cfg!(target_os = "macos") {
@@ -78,15 +78,15 @@ const LIBRARY_PATH: &str = if cfg!(windows) {
     "LD_LIBRARY_PATH"
 };
 
-/// The turn to make packages, to build and to start what was built. It ends when it is dropped, or when the process
-/// becomes the program: nobody can build another one in between.
+/// A lock on making packages, building them and starting the program. It is released when it is dropped, or when the
+/// process becomes the program, so that no other command replaces the program in between.
 pub struct Turn(#[expect(dead_code, reason = "it is locked as long as it is open")] Option<File>);
 
-/// How cache folders are marked, so that nobody looks for texts and sources in them: <https://bford.info/cachedir/>.
+/// The mark of a cache folder, which backups and searches leave out: <https://bford.info/cachedir/>.
 const MARK: &str = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by `apex`.\n";
 
 impl Turn {
-    /// Waits for it, and says so.
+    /// Waits for the lock, and says so.
     pub fn wait(workspace: &Workspace, how: How) -> Result<Self, String> {
         let folder = workspace.cache_folder();
         let failed = |e: io::Error| format!("cannot write in `{}`: {e}", folder.display());
@@ -109,7 +109,7 @@ impl Turn {
     }
 }
 
-/// Writes a file, unless it has this text already: cargo looks at its time. Says whether it did.
+/// Writes a file, unless it has this text already: cargo compares times of files. Returns whether it wrote.
 pub fn write_if_other(path: &Path, text: &str) -> Result<bool, String> {
     if fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
         return Ok(false);
@@ -129,11 +129,11 @@ fn cargo_for(wanted: &Wanted, verb: &[&str], how: How) -> Command {
     command
 }
 
-/// The words by which cargo builds a program, or tests.
+/// Arguments with which cargo builds a program, or tests.
 pub const PROGRAM: &[&str] = &["build"];
 pub const TESTS: &[&str] = &["test", "--no-run"];
 
-/// What comes of building something.
+/// The result of a build.
 pub enum Outcome {
     /// A program.
     Built(Built),
@@ -156,8 +156,7 @@ impl Outcome {
 
 /// Builds a program, or its tests.
 ///
-/// A person sees cargo's progress. Where nobody looks, there is a line for each crate, and none if there is nothing
-/// to do.
+/// A terminal shows cargo's progress. Otherwise there is a line for each crate that is compiled.
 pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String> {
     let mut command = cargo_for(wanted, verb, how);
     let sees_progress = io::stderr().is_terminal();
@@ -196,14 +195,14 @@ fn pass_on(lines: impl Read) {
     }
 }
 
-/// What cargo says to programs.
+/// Cargo's messages for programs.
 #[derive(Default)]
 struct Messages {
     /// Whether anything was compiled.
     is_new: bool,
     /// The last program.
     executable: Option<PathBuf>,
-    /// Where build scripts have put libraries.
+    /// Folders into which build scripts have put libraries.
     linked: Vec<PathBuf>,
 }
 
@@ -214,7 +213,7 @@ impl Messages {
         let Some(output) = child.stdout.take() else { return Ok(messages) };
         for line in BufReader::new(output).lines() {
             let line = line.map_err(|e| format!("cargo cannot be understood: {e}"))?;
-            // What is not for us is no JSON.
+            // Lines of other programs are not JSON.
             let Ok(message) = serde_json::from_str::<Value>(&line) else { continue };
             messages.is_new |= message["fresh"] == false;
             if let Some(executable) = message["executable"].as_str().filter(|_| message["profile"]["test"] == tests) {

@@ -8,7 +8,7 @@ use apex_dsl::{
     passes,
     program::Program,
     report::{Diagnostics, Severity, render},
-    resolve::{Meaning, Texts},
+    resolve::Texts,
     source::{Sources, World as _},
 };
 use apex_host::{Disk, Seen, Workspace};
@@ -96,11 +96,7 @@ impl Checked {
     /// The state machines of the first text, in its order.
     pub fn machines(&self) -> Vec<&Machine> {
         let Some((_, tree)) = self.texts.files.first() else { return vec![] };
-        let machine = |name: &str| match self.texts.names(0).get(name) {
-            Some(Meaning::Machine(signature)) => self.texts.machines.get(signature),
-            _ => None,
-        };
-        tree.machines.iter().filter_map(|item| machine(&item.name.text)).collect()
+        tree.machines.iter().filter_map(|item| self.texts.machine_named(0, &item.name.text)).collect()
     }
 
     /// Prints all messages to standard error.

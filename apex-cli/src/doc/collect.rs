@@ -7,7 +7,7 @@ use apex_dsl::{
     graph::Graph,
     ide::{Definition, MachineId, NodeType, Origin, View, declaration},
     program::Program,
-    resolve::{GraphId, Meaning},
+    resolve::GraphId,
     source::Span,
     syntax::tree::{Arg, Endpoint, GraphItem, Instance, Modifier, NodeBody, PathExpr, StateItem, TypeKind},
 };
@@ -122,14 +122,11 @@ impl Checked<'_> {
 
     fn machine(&self, id: MachineId) -> Item {
         let item = self.view.machine(id);
-        let signature = match self.view.texts.names(id.file).get(&item.name.text) {
-            Some(Meaning::Machine(signature)) => self.view.texts.machines.get(signature),
-            _ => None,
-        };
+        let known = self.view.texts.machine_named(id.file, &item.name.text);
         let mut states = vec![];
         item.states.iter().for_each(|state| add_state(state, "", &mut states));
         Item {
-            pictures: signature.map(|known| picture("Diagram", &chart(known))).into_iter().collect(),
+            pictures: known.map(|known| picture("Diagram", &chart(known))).into_iter().collect(),
             states,
             code: Some(self.source(item.extent)),
             ..self.item(NodeType::Machine(id), "fsm")

@@ -46,6 +46,13 @@ pub struct Connection {
     pub active: bool,
 }
 
+impl Connection {
+    /// Whether a `Signal` stands between its ends: there any token is a signal, here `enable` and its like take `()`.
+    pub fn needs_signal(&self) -> bool {
+        !self.from.sends_signals() && self.to.takes_signals()
+    }
+}
+
 /// The value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Param {

@@ -17,8 +17,7 @@ pub fn write(top: &Graph, module: &str) -> String {
     visit(top, &mut |graph| {
         has_ports |= !graph.ports.is_empty();
         library.extend(graph.nodes.iter().filter_map(|node| known::find(&node.ty)).map(|known| known.ours));
-        let mut ends = graph.connections.iter().map(|connection| (&connection.from, &connection.to));
-        if ends.any(|(from, to)| !from.sends_signals() && to.takes_signals()) {
+        if graph.connections.iter().any(Connection::needs_signal) {
             library.insert(("flow", "Signal"));
         }
     });
@@ -55,14 +54,14 @@ fn write_graph(graph: &Graph, text: &mut String) {
     text.push_str("}\n");
 }
 
-fn write_connection(graph: &Graph, Connection { from, to, active }: &Connection, text: &mut String) {
+fn write_connection(graph: &Graph, connection: &Connection, text: &mut String) {
+    let Connection { from, to, active } = connection;
     // What the language has no port for stays in the text for whoever knows better.
     for whole in [from, to].into_iter().filter_map(End::without_counterpart) {
         let _ = write!(text, "// `{whole}` of CS::APEX itself has nothing like it here: ");
     }
     let arrow = if *active { "=>" } else { "->" };
-    // There any token is a signal; here `enable` and its like take `()`.
-    let signal = if !from.sends_signals() && to.takes_signals() { format!("Signal() {arrow} ") } else { String::new() };
+    let signal = if connection.needs_signal() { format!("Signal() {arrow} ") } else { String::new() };
     let _ = writeln!(text, "{} {arrow} {signal}{};", end(graph, from), end(graph, to));
 }
 

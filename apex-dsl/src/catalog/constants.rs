@@ -71,7 +71,7 @@ impl Catalog {
             // A trait or a macro may give a type more than the scan sees.
             return if known.is_empty() { unknown() } else { Constant::Missing(known) };
         }
-        if types.is_empty() && !self.defs(parent).is_empty() {
+        if !self.defs(parent).is_empty() {
             return Constant::Missing(vec![]);
         }
         match path.first() {

@@ -72,7 +72,7 @@ pub fn is_listed(path: &[String]) -> bool {
 
 /// Whether the name of a type that is not scanned is one of the standard library: it is no other name of a number or a list.
 pub fn is_standard(name: &str) -> bool {
-    super::STD.contains(&name) || STANDARD.contains(&name.split("::").next().unwrap_or_default())
+    super::STD.contains(&name) || name.split("::").next().is_some_and(|krate| STANDARD.contains(&krate))
 }
 
 /// The name without a path of a type that needs no import.

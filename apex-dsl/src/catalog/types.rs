@@ -155,6 +155,15 @@ impl Type {
         }
     }
 
+    /// Whether it may be another name of any type, so that only rustc can say what its values are.
+    pub fn may_be_another(&self) -> bool {
+        match self {
+            Self::Unknown(_) | Self::Alias(..) | Self::Param(_) => true,
+            Self::Named(name, _) => !library::is_standard(name),
+            _ => false,
+        }
+    }
+
     /// Whether it has a part that the scan cannot see through, or an open type parameter.
     pub fn is_open(&self) -> bool {
         match self {

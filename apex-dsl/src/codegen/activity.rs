@@ -146,8 +146,9 @@ impl Generator<'_> {
     /// Whether the timers of a program have an agenda: few of them are as fast looked at themselves.
     pub fn has_agenda(&self, whole: Whole<'_>) -> bool {
         const FEWEST: usize = 3;
-        let timers = whole.analysis.guards.iter().filter(|guard| matches!(guard, Guard::Timer(_))).count();
-        timers + (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).count() >= FEWEST
+        let timers = whole.analysis.guards.iter().filter(|guard| matches!(guard, Guard::Timer(_))).map(|_| ());
+        let timeouts = (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).map(|_| ());
+        timers.chain(timeouts).take(FEWEST).count() == FEWEST
     }
 
     /// A timer changes.

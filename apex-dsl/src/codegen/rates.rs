@@ -61,11 +61,10 @@ impl Generator<'_> {
         let from = |port: usize| {
             links.into[node].iter().map(|c| &graph.connections[*c]).find(|c| c.to.port == port).map(|c| c.from)
         };
-        let source = |port: usize| from(port).map(|end| self.name(end));
         match &graph.nodes[node].kind {
             NodeKind::Library(library) => {
                 let signature = &self.catalog.signatures[library.signature];
-                let code = self.call_at_rate(graph, links, node, library, signature, &source);
+                let code = self.call_at_rate(graph, links, node, library, signature, &from);
                 let late = self.check_late(Whole { graph, analysis, links }, node);
                 quote! { for i in 0..#count { #code } #late }
             }
@@ -83,7 +82,7 @@ impl Generator<'_> {
             }
             NodeKind::Probe => {
                 let Some(end) = from(0) else { return quote!() };
-                let name = source(0);
+                let name = self.name(end);
                 let see = self.see(graph, node, end, &quote!(#name[i].as_ref()));
                 quote! { for i in 0..#count { #see } }
             }
@@ -99,7 +98,7 @@ impl Generator<'_> {
         node: NodeId,
         library: &Library,
         signature: &Signature,
-        source: &dyn Fn(usize) -> Option<syn::Ident>,
+        from: &dyn Fn(usize) -> Option<End>,
     ) -> TokenStream {
         let Some(args) = &signature.process else { return quote!() };
         let index = self.index(node);
@@ -111,14 +110,18 @@ impl Generator<'_> {
                 ArgSig::Param(param) => self.param_value(graph, library, param),
                 ArgSig::Port(port) => {
                     let p = &signature.ports[port];
-                    match (p.kind, source(port)) {
-                        (PortKind::Input, Some(from)) if p.optional => quote!(#from[i].as_ref()),
+                    match (p.kind, from(port)) {
+                        (PortKind::Input, Some(end)) if p.optional => {
+                            let from = self.name(end);
+                            quote!(#from[i].as_ref())
+                        }
                         (PortKind::Input, None) => quote!(None),
-                        (PortKind::Input, Some(from)) => {
+                        (PortKind::Input, Some(end)) => {
+                            let from = self.name(end);
                             let (name, rate) = (format_ident!("token_{}", p.name), p.rate);
                             let batched = signature.is_batched(port);
                             tokens.push(if batched {
-                                let copy = self.copier(graph, End { node, port });
+                                let copy = self.copier(graph, end);
                                 quote!(&::apex_rt::gather::<_, #rate>(&#from, i, #copy))
                             } else {
                                 quote!(#from[i].as_ref())

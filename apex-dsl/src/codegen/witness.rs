@@ -47,15 +47,13 @@ impl Generator<'_> {
 
     /// A token as `&T` becomes `T`.
     pub fn clone(&self, graph: &Graph, end: End, token: &TokenStream) -> TokenStream {
-        match self.copying(graph, end) {
-            Some(name) => quote!(#name::copied(#token)),
-            None => quote!(::core::clone::Clone::clone(#token)),
-        }
+        let copy = self.copier(graph, end);
+        quote!(#copy(#token))
     }
 
-    /// The function that makes a `T` of a `&T` for the tokens that come to an input.
-    pub fn copier(&self, graph: &Graph, to: End) -> TokenStream {
-        match graph.incoming(to).and_then(|c| self.copying(graph, c.from)) {
+    /// The function that makes a `T` of a `&T` for the tokens of a port.
+    pub fn copier(&self, graph: &Graph, end: End) -> TokenStream {
+        match self.copying(graph, end) {
             Some(name) => quote!(#name::copied),
             None => quote!(::core::clone::Clone::clone),
         }

@@ -2,7 +2,7 @@
 
 use super::value::{Evaluated, Scope, Wanted, describe, evaluate, limits};
 use crate::{
-    catalog::{STD, Type},
+    catalog::Type,
     graph::{Condition, Number, Value, is_arithmetic},
     report::Diagnostic,
     source::Span,
@@ -36,18 +36,12 @@ impl Conditions<'_> {
         let (condition, kind) = self.part(expr)?;
         let what = match (kind, &condition) {
             (Kind::Number, _) => "a number".to_owned(),
-            (Kind::Other, Condition::Token) if self.is_known() => format!("a `{}`", self.ty),
+            (Kind::Other, Condition::Token) if !self.ty.may_be_another() => format!("a `{}`", self.ty),
             _ => return Ok(condition),
         };
         let message = format!("a condition is true or false, but this is {what}");
         let error = Diagnostic::error("wrong-value", expr.span, message);
         Err(Box::new(error.note("compare it: `== != < <= > >=`")))
-    }
-
-    /// Whether the type of the token is certainly no other name for `bool`.
-    fn is_known(&self) -> bool {
-        !matches!(self.ty, Type::Unknown(_) | Type::Param(_) | Type::Alias(..))
-            && !matches!(self.ty, Type::Named(name, _) if !STD.contains(&name.as_str()))
     }
 
     /// The token compared with a constant.
@@ -156,8 +150,7 @@ impl Conditions<'_> {
         if computes && let Value::Number(n) = value {
             return self.number(n, expr).map(Condition::Constant);
         }
-        let is_closed = !matches!(self.ty, Type::Unknown(_) | Type::Param(_) | Type::Named(..) | Type::Alias(..));
-        if is_closed && matches!(self.ty, Type::Def(..)) && !matches!(value, Value::Path(..) | Value::RustDefault) {
+        if matches!(self.ty, Type::Def(..)) && !matches!(value, Value::Path(..) | Value::RustDefault) {
             let message = format!("the token is a `{}`, but this is {}", self.ty, describe(&value));
             let error = Diagnostic::error("wrong-value", expr.span, message);
             return Err(Box::new(error.note("compare it with a constant of Rust of this type, by its path")));

@@ -285,6 +285,14 @@ impl Texts {
         &self.names[file]
     }
 
+    /// The state machine that text `file` calls `name`.
+    pub fn machine_named(&self, file: usize, name: &str) -> Option<&Machine> {
+        match self.names(file).get(name)? {
+            Meaning::Machine(signature) => self.machines.get(signature),
+            _ => None,
+        }
+    }
+
     /// The text and the number in it of a state machine.
     pub fn machine(&self, signature: SignatureId) -> Option<(usize, usize)> {
         // Those of one text have been numbered one after the other.

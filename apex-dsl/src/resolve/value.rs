@@ -1,7 +1,7 @@
 //! Constant expressions, and whether a value fits the parameter it is given to.
 
 use crate::{
-    catalog::{Constant, Match, Type, library},
+    catalog::{Constant, Match, Type},
     graph::{Number, Value},
     report::Diagnostic,
     source::Span,
@@ -278,8 +278,7 @@ impl Wanted<'_> {
                     .map(Value::List)
             }
             // What a type that cannot be seen through takes is rustc's to say: it may be another name of a number.
-            (Type::Unknown(_) | Type::Alias(..) | Type::Param(_), _) if !matches!(value, Value::List(_)) => Ok(value),
-            (Type::Named(name, _), _) if !library::is_standard(name) && !matches!(value, Value::List(_)) => Ok(value),
+            _ if ty.may_be_another() && !matches!(value, Value::List(_)) => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
     }
