@@ -284,8 +284,7 @@ impl<'a> Replay<'a> {
             self.bring_all(transition, &mut BTreeSet::new());
         }
         if !self.state.is_enabled(transition) {
-            self.hurry();
-            self.bring_all(transition, &mut BTreeSet::new());
+            self.hurry_for(transition);
         }
         if self.state.is_enabled(transition) {
             return Ok(());
@@ -346,16 +345,40 @@ impl<'a> Replay<'a> {
             .collect()
     }
 
-    /// Lets them do so, those first whose activity stays as it is, and all delays on loops send.
+    /// Runs everything that was deferred: all delays on loops send, and all nodes with ⊥ take it.
     fn hurry(&mut self) {
-        (0..self.net.transitions.len()).for_each(|transition| self.release(transition));
-        loop {
-            let lazy = self.lazy();
-            let keeps = lazy.iter().find(|(n, p)| p.active == self.state.is_active(*n)).or(lazy.first());
-            let Some((node, _)) = keeps else { return };
-            self.run(self.by_meaning[&Meaning::Take(*node)]);
-            self.settle();
+        self.release_all();
+        while self.take_deferred(None) {}
+    }
+
+    /// Runs what was deferred until `transition` is enabled. Its own node comes last, because what it defers may need what
+    /// `transition` occupies.
+    fn hurry_for(&mut self, transition: TransitionId) {
+        let own = match self.net.transitions[transition].meaning {
+            Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
+            _ => None,
+        };
+        self.release_all();
+        self.bring_all(transition, &mut BTreeSet::new());
+        while !self.state.is_enabled(transition) && self.take_deferred(own) {
+            self.bring_all(transition, &mut BTreeSet::new());
         }
+    }
+
+    fn release_all(&mut self) {
+        (0..self.net.transitions.len()).for_each(|transition| self.release(transition));
+    }
+
+    /// One deferred node takes its tokens: not `last` while there are others, and nodes whose activity stays as it is first.
+    /// Returns `false` if nothing is deferred.
+    fn take_deferred(&mut self, last: Option<NodeId>) -> bool {
+        let deferred = self.lazy();
+        let rank =
+            |(node, preview): &&(NodeId, Preview)| (Some(*node) == last, preview.active != self.state.is_active(*node));
+        let Some((node, _)) = deferred.iter().min_by_key(rank) else { return false };
+        self.run(self.by_meaning[&Meaning::Take(*node)]);
+        self.settle();
+        true
     }
 
     /// Lets a transition occur, with what belongs to the same call.
