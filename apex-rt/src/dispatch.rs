@@ -20,6 +20,27 @@ impl<const W: usize> Bits<W> {
         Self(words)
     }
 
+    /// Whether a condition holds.
+    #[inline(always)]
+    pub const fn has(&self, bit: usize) -> bool {
+        self.0[bit / 64] & 1 << (bit % 64) != 0
+    }
+
+    /// Makes a condition hold, or ends it.
+    #[inline(always)]
+    pub const fn set(&mut self, bit: usize, holds: bool) {
+        let (word, mask) = (&mut self.0[bit / 64], 1 << (bit % 64));
+        if holds { *word |= mask } else { *word &= !mask }
+    }
+
+    /// Ends a condition. Returns `true` if it held.
+    #[inline(always)]
+    pub const fn take(&mut self, bit: usize) -> bool {
+        let held = self.has(bit);
+        self.set(bit, false);
+        held
+    }
+
     /// Whether all conditions of `other` hold.
     #[inline(always)]
     pub fn contains(&self, other: &Self) -> bool {
@@ -39,11 +60,56 @@ impl<const W: usize> Bits<W> {
     }
 }
 
+/// Conditions that are known at compile time: a set of bits where a program has few conditions, a list of their numbers where it
+/// has many, so that neither data nor time grow with those that are not meant.
+pub trait Conditions<const W: usize> {
+    /// Returns `true` if all of them are in `holds`.
+    fn hold_in(&self, holds: &Bits<W>) -> bool;
+    /// Returns `true` if one of them is in `holds`.
+    fn meet(&self, holds: &Bits<W>) -> bool;
+    /// Sets or clears all of them in `holds`.
+    fn put_into(&self, holds: &mut Bits<W>, value: bool);
+}
+
+impl<const W: usize> Conditions<W> for Bits<W> {
+    #[inline(always)]
+    fn hold_in(&self, holds: &Bits<W>) -> bool {
+        holds.contains(self)
+    }
+
+    #[inline(always)]
+    fn meet(&self, holds: &Bits<W>) -> bool {
+        holds.0.iter().zip(&self.0).any(|(a, b)| a & b != 0)
+    }
+
+    #[inline(always)]
+    fn put_into(&self, holds: &mut Bits<W>, value: bool) {
+        if value { holds.insert(self) } else { holds.remove(self) }
+    }
+}
+
+impl<const W: usize> Conditions<W> for &[u32] {
+    #[inline]
+    fn hold_in(&self, holds: &Bits<W>) -> bool {
+        self.iter().all(|bit| holds.has(*bit as usize))
+    }
+
+    #[inline]
+    fn meet(&self, holds: &Bits<W>) -> bool {
+        self.iter().any(|bit| holds.has(*bit as usize))
+    }
+
+    #[inline]
+    fn put_into(&self, holds: &mut Bits<W>, value: bool) {
+        self.iter().for_each(|bit| holds.set(*bit as usize, value));
+    }
+}
+
 /// A token from an event that a cluster needs besides others (static data).
 #[derive(Debug)]
-pub struct Missing<const W: usize> {
+pub struct Missing<S> {
     /// The bits of the cluster's other tokens.
-    pub others: Bits<W>,
+    pub others: S,
     /// The bit of the token.
     pub token: usize,
     /// The connection that it comes on.
@@ -56,23 +122,40 @@ pub struct Missing<const W: usize> {
 /// asynchronous one that may stay occupied, has one for "free" and, if it leads to an input, one for "holds a
 /// token"; each cluster has one for "enabled".
 #[derive(Debug)]
-pub struct Cluster<const W: usize> {
-    /// What must hold for it to fire: its guards, tokens on all incoming connections, its events and itself enabled.
-    pub waits_for: Bits<W>,
-    /// What is used up by that: all of it but the enabled events.
-    pub takes: Bits<W>,
+pub struct Cluster<S> {
+    /// Its events are free: what must hold for it to fire besides `takes`.
+    waits_for: S,
+    /// Its guards, the tokens on all incoming connections, and itself enabled: they must hold, and firing uses them up.
+    takes: S,
     /// Set when it fires: tokens on its outgoing synchronous connections.
-    pub sends: Bits<W>,
+    sends: S,
     /// Cleared when it fires: its outgoing synchronous connections are free.
-    pub occupies: Bits<W>,
+    occupies: S,
     /// When all of these hold after it fired, everything downstream has finished, and it is enabled again.
-    pub notified_by: Bits<W>,
+    notified_by: S,
     /// Set when it is enabled again: itself enabled, its incoming connections free (R4).
-    pub notifies: Bits<W>,
+    notifies: S,
     /// The bit "enabled".
-    pub enabled: Bits<W>,
+    enabled: usize,
     /// All clusters from which tokens come to it, also by way of others: those that send to others of them last.
-    pub above: &'static [usize],
+    above: &'static [u32],
+}
+
+impl<S> Cluster<S> {
+    /// A row of the table, in the order of the fields.
+    #[allow(clippy::too_many_arguments, reason = "a row of a table that is generated")]
+    pub const fn new(
+        enabled: usize,
+        waits_for: S,
+        takes: S,
+        sends: S,
+        occupies: S,
+        notified_by: S,
+        notifies: S,
+        above: &'static [u32],
+    ) -> Self {
+        Self { waits_for, takes, sends, occupies, notified_by, notifies, enabled, above }
+    }
 }
 
 /// Which conditions hold, and how firing changes them. With `TRACKS` it knows whether a cluster may have become ready since the
@@ -102,7 +185,7 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         if TRACKS && !self.has(bit) {
             self.look_again();
         }
-        self.holds.0[bit / 64] |= 1 << (bit % 64);
+        self.holds.set(bit, true);
     }
 
     /// Whether a cluster may have become ready since this was asked last.
@@ -127,33 +210,32 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
     /// Ends a condition: a connection is occupied.
     #[inline(always)]
     pub fn clear(&mut self, bit: usize) {
-        self.holds.0[bit / 64] &= !(1 << (bit % 64));
+        self.holds.set(bit, false);
     }
 
     /// Whether one condition holds.
     #[inline(always)]
     pub fn has(&self, bit: usize) -> bool {
-        self.holds.0[bit / 64] & 1 << (bit % 64) != 0
+        self.holds.has(bit)
     }
 
-    /// Whether all of `bits` hold.
+    /// Whether all of `conditions` hold.
     #[inline(always)]
-    pub fn holds(&self, bits: &Bits<W>) -> bool {
-        self.holds.contains(bits)
+    pub fn holds(&self, conditions: &impl Conditions<W>) -> bool {
+        conditions.hold_in(&self.holds)
     }
 
     /// Whether others of a cluster's tokens are there, and this one is not.
-    pub fn misses(&self, missing: &Missing<W>) -> bool {
-        let others = self.holds.0.iter().zip(&missing.others.0).any(|(a, b)| a & b != 0);
-        others && !self.has(missing.token)
+    pub fn misses(&self, missing: &Missing<impl Conditions<W>>) -> bool {
+        missing.others.meet(&self.holds) && !self.has(missing.token)
     }
 
     /// If `cluster` is ready, takes its tokens and guards and returns `true`: it is to be fired now.
     #[inline(always)]
-    pub fn start(&mut self, cluster: &Cluster<W>) -> bool {
-        let ready = self.holds.contains(&cluster.waits_for);
+    pub fn start(&mut self, cluster: &Cluster<impl Conditions<W>>) -> bool {
+        let ready = cluster.takes.hold_in(&self.holds) && cluster.waits_for.hold_in(&self.holds);
         if ready {
-            self.holds.remove(&cluster.takes);
+            cluster.takes.put_into(&mut self.holds, false);
         }
         ready
     }
@@ -162,10 +244,10 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
     ///
     /// Always inlined: the table and the index are constants, so that mostly a few bit operations are left.
     #[inline(always)]
-    pub fn finish(&mut self, clusters: &[Cluster<W>], index: usize) {
+    pub fn finish(&mut self, clusters: &[Cluster<impl Conditions<W>>], index: usize) {
         let cluster = &clusters[index];
-        self.holds.insert(&cluster.sends);
-        self.holds.remove(&cluster.occupies);
+        cluster.sends.put_into(&mut self.holds, true);
+        cluster.occupies.put_into(&mut self.holds, false);
         self.look_again();
         self.settle(clusters, index);
     }
@@ -173,17 +255,17 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
     /// If everything downstream of `clusters[index]` has finished, notifies it, and those above for which that was
     /// the last.
     #[inline(always)]
-    pub fn settle(&mut self, clusters: &[Cluster<W>], index: usize) {
+    pub fn settle(&mut self, clusters: &[Cluster<impl Conditions<W>>], index: usize) {
         let cluster = &clusters[index];
-        if self.holds.contains(&cluster.enabled) || !self.holds.contains(&cluster.notified_by) {
+        if self.has(cluster.enabled) || !cluster.notified_by.hold_in(&self.holds) {
             return;
         }
-        self.holds.insert(&cluster.notifies);
+        cluster.notifies.put_into(&mut self.holds, true);
         self.look_again();
-        for above in cluster.above.iter().map(|&above| &clusters[above]) {
+        for above in cluster.above.iter().map(|&above| &clusters[above as usize]) {
             // It has fired, and everything downstream of it has finished.
-            if !self.holds.contains(&above.enabled) && self.holds.contains(&above.notified_by) {
-                self.holds.insert(&above.notifies);
+            if !self.has(above.enabled) && above.notified_by.hold_in(&self.holds) {
+                above.notifies.put_into(&mut self.holds, true);
             }
         }
     }

@@ -49,7 +49,7 @@ pub use cell::{CellReceiver, CellSender, TokenCell};
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
-pub use dispatch::{Bits, Cluster, Dispatcher, Missing};
+pub use dispatch::{Bits, Cluster, Conditions, Dispatcher, Missing};
 pub use event::Event;
 pub use failure::{Failure, contain, contain_fallible};
 pub use info::{ConnectionInfo, GroupInfo, Info, NodeInfo};

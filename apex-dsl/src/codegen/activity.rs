@@ -2,24 +2,35 @@
 //! All others are never active, and nothing is generated for them.
 
 use super::{
-    Flag, Generator,
+    Generator,
     state::{Kept, Kind},
     types::{duration, ident},
+    wiring::{Flag, Wiring},
 };
 use crate::{
     analyse::{Analysis, Guard, Links, is_source, takes_activity},
-    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{End, Graph, NodeId, NodeKind, Standard},
 };
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
 use std::time::Duration;
+use syn::Ident;
 
-/// What the code of a program is generated from.
+/// What the code of a program, or of a part of one, is generated from.
 #[derive(Clone, Copy)]
 pub struct Whole<'a> {
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
     pub links: &'a Links,
+    /// The asynchronous half; empty in the body of an `each`.
+    pub wiring: &'a Wiring,
+}
+
+impl<'a> Whole<'a> {
+    /// The view of a graph, its analysis and its wiring.
+    pub fn new(graph: &'a Graph, analysis: &'a Analysis, wiring: &'a Wiring) -> Self {
+        Self { graph, analysis, links: &analysis.links, wiring }
+    }
 }
 
 /// How a token changes the activity of the node that takes it.
@@ -37,75 +48,110 @@ pub enum Carries {
 
 impl Generator<'_> {
     /// What the tokens on `connection` may carry.
-    pub fn carries(&self, whole: Whole<'_>, connection: usize) -> Carries {
-        let c = &whole.graph.connections[connection];
+    pub fn carries(&self, graph: &Graph, analysis: &Analysis, connection: usize) -> Carries {
+        let c = &graph.connections[connection];
         let checked = self.checks_claims();
         // Claims have to know of activity on its way to the end of the program.
-        let ends = checked && matches!(whole.graph.nodes[c.to.node].kind, NodeKind::Exit(_));
-        if !c.active || !(ends || whole.analysis.active.contains(&c.to.node)) {
+        let ends = checked && matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
+        if !c.active || !(ends || analysis.active.contains(&c.to.node)) {
             return Carries::Nothing;
         }
-        match &whole.graph.nodes[c.from.node].kind {
+        match &graph.nodes[c.from.node].kind {
             NodeKind::Start if checked => Carries::Sometimes,
             NodeKind::Start => Carries::Always,
-            _ if takes_activity(whole.graph, self.catalog, c.from.node) => Carries::Away,
-            _ if whole.analysis.active.contains(&c.from.node) => Carries::Sometimes,
+            _ if takes_activity(graph, self.catalog, c.from.node) => Carries::Away,
+            _ if analysis.active.contains(&c.from.node) => Carries::Sometimes,
             _ => Carries::Nothing,
         }
     }
 
     /// The connections into the inputs of a node whose tokens may carry one of `what`.
     fn inputs_carry(&self, whole: Whole<'_>, node: NodeId, what: &[Carries]) -> bool {
-        whole.links.inputs[node].iter().any(|c| what.contains(&self.carries(whole, *c)))
+        whole.links.inputs[node].iter().any(|c| what.contains(&self.carries(whole.graph, whole.analysis, *c)))
     }
 
-    /// The flags of a program, with what they start as.
-    pub fn flags(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let mut flags = vec![];
-        let of = |node| whole.graph.path(node);
-        let mut bit =
-            |of, name, value: bool| flags.push(Kept::new(Kind::Activity, of, name, quote!(bool), quote!(#value)));
-        for &node in &whole.analysis.active {
-            if !whole.graph.nodes[node].is_delay() {
-                bit(of(node), self.flag(Flag::Active, node), false);
+    /// Activity in the state of a program: sets of flags, and what delays and timeouts keep.
+    pub fn activity_state(&self, whole: Whole<'_>) -> Vec<Kept> {
+        let Whole { graph, analysis, .. } = whole;
+        let active = || analysis.active.iter().copied();
+        let mut kept = vec![];
+        let mut set = |name, of: &str, count: usize, flags: Vec<usize>, initial: bool| {
+            if flags.is_empty() {
+                return;
             }
-            if self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]) {
-                bit(of(node), self.flag(Flag::Gains, node), false);
-            }
-            if self.inputs_carry(whole, node, &[Carries::Away]) {
-                bit(of(node), self.flag(Flag::Loses, node), false);
-            }
-        }
-        for (slot, &connection) in whole.analysis.asynchronous.slots.iter().enumerate() {
-            if self.carries(whole, connection) == Carries::Sometimes {
-                bit(whole.graph.connection_text(connection), carries(slot), false);
-            }
-        }
-        for (node, n) in whole.graph.nodes.iter().enumerate() {
-            if n.can_be_disabled() {
-                bit(of(node), self.flag(Flag::Enabled, node), true);
-            }
-        }
-        for &node in &whole.analysis.active {
-            if let NodeKind::Delay(initial) = &whole.graph.nodes[node].kind {
-                let (name, count) = (self.flag(Flag::Active, node), initial.len());
+            let words = count.div_ceil(64);
+            let flags = flags.into_iter().filter(|_| initial).map(Literal::usize_unsuffixed);
+            let (ty, make) = (quote!(::apex_rt::Bits<#words>), quote!(::apex_rt::Bits::of(&[#(#flags),*])));
+            kept.push(Kept::new(Kind::Activity, of.to_owned(), format_ident!("{name}"), ty, make));
+        };
+        let count = self.names.numbers.iter().map(|number| number + 1).max().unwrap_or(0);
+        let numbers = |meant: &dyn Fn(NodeId) -> bool, nodes: &mut dyn Iterator<Item = NodeId>| -> Vec<usize> {
+            nodes.filter(|node| meant(*node)).map(|node| self.index(node)).collect()
+        };
+        let is_plain = |node: NodeId| !graph.nodes[node].is_delay();
+        let gains = |node: NodeId| self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
+        let loses = |node: NodeId| self.inputs_carry(whole, node, &[Carries::Away]);
+        let can_be_disabled = |node: NodeId| graph.nodes[node].can_be_disabled();
+        set("active", "active nodes", count, numbers(&is_plain, &mut active()), false);
+        set("gains", "nodes that become active", count, numbers(&gains, &mut active()), false);
+        set("loses", "nodes that become inactive", count, numbers(&loses, &mut active()), false);
+        set("enabled", "enabled nodes", count, numbers(&can_be_disabled, &mut (0..graph.nodes.len())), true);
+        let slots = &whole.wiring.slots;
+        let carry = (0..slots.len()).filter(|slot| slots[*slot].carries == Carries::Sometimes).collect();
+        set("carries", "slot tokens with activity", slots.len(), carry, false);
+        for node in active() {
+            if let NodeKind::Delay(initial) = &graph.nodes[node].kind {
+                let (name, count) = (self.held_activity(node), initial.len());
                 let make = quote!(::apex_rt::Delay::new([None; #count]));
-                flags.push(Kept::new(Kind::Activity, of(node), name, quote!(::apex_rt::Delay<(), #count>), make));
+                let of = graph.path(node);
+                kept.push(Kept::new(Kind::Activity, of, name, quote!(::apex_rt::Delay<(), #count>), make));
             }
         }
-        for node in (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)) {
-            let (name, ty) = (self.flag(Flag::Timeout, node), quote!(::apex_rt::Timeout));
-            flags.push(Kept::new(Kind::Timer, of(node), name, ty, quote!(::apex_rt::Timeout::new())));
+        for node in (0..graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)) {
+            let (name, ty) = (self.timeout(node), quote!(::apex_rt::Timeout));
+            kept.push(Kept::new(Kind::Timer, graph.path(node), name, ty, quote!(::apex_rt::Timeout::new())));
         }
-        flags
+        kept
+    }
+
+    /// Whether a flag is set.
+    pub fn is_set(&self, flag: Flag) -> TokenStream {
+        let (set, bit) = self.flag(flag);
+        quote!(state.#set.has(#bit))
+    }
+
+    /// Sets a flag, or clears it.
+    pub fn set(&self, flag: Flag, value: bool) -> TokenStream {
+        let (set, bit) = self.flag(flag);
+        quote! { state.#set.set(#bit, #value); }
+    }
+
+    /// Clears a flag. The expression is `true` if it was set.
+    pub fn take(&self, flag: Flag) -> TokenStream {
+        let (set, bit) = self.flag(flag);
+        quote!(state.#set.take(#bit))
+    }
+
+    /// The set of a flag, and its number there.
+    fn flag(&self, flag: Flag) -> (Ident, Literal) {
+        let (set, bit) = match flag {
+            Flag::Active(node) => ("active", self.index(node)),
+            Flag::Gains(node) => ("gains", self.index(node)),
+            Flag::Loses(node) => ("loses", self.index(node)),
+            Flag::Enabled(node) => ("enabled", self.index(node)),
+            Flag::Carries(slot) => ("carries", slot),
+        };
+        (format_ident!("{set}"), Literal::usize_unsuffixed(bit))
     }
 
     /// Whether there is activity in a node.
     pub fn is_active_now(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let flag = self.flag(Flag::Active, node);
         match whole.graph.nodes[node].is_delay() {
-            true => quote!(state.#flag.holds_any()),
-            false => quote!(state.#flag),
+            true => {
+                let held = self.held_activity(node);
+                quote!(state.#held.holds_any())
+            }
+            false => self.is_set(Flag::Active(node)),
         }
     }
 
@@ -114,8 +160,8 @@ impl Generator<'_> {
         if !whole.analysis.active.contains(&node) {
             return quote!();
         }
-        let (held, gains) = (self.flag(Flag::Active, node), self.flag(Flag::Gains, node));
-        quote! { state.#held.put(::core::mem::take(&mut state.#gains).then_some(())); }
+        let (held, gains) = (self.held_activity(node), self.take(Flag::Gains(node)));
+        quote! { state.#held.put(#gains.then_some(())); }
     }
 
     /// Whether the `timeout` of a node can come.
@@ -135,7 +181,7 @@ impl Generator<'_> {
     pub fn watch_silence(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         match self.watches_silence(whole, node) {
             Some(timeout) => {
-                let (name, timeout) = (self.flag(Flag::Timeout, node), duration(timeout));
+                let (name, timeout) = (self.timeout(node), duration(timeout));
                 let open = self.open_agenda(whole);
                 quote! { state.#name.start(ctx.now(), #timeout); #open }
             }
@@ -158,39 +204,35 @@ impl Generator<'_> {
 
     /// A node becomes active, unless it is already.
     pub fn activate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, true));
+        let (is_active, set) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), true));
+        let observed = self.observed(whole, node, true);
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|timeout| {
-            let (name, timeout) = (self.flag(Flag::Timeout, node), duration(timeout));
+            let (name, timeout) = (self.timeout(node), duration(timeout));
             let open = self.open_agenda(whole);
             quote! { state.#name.start(ctx.now(), #timeout); #open }
         });
         let event = self.trigger(whole.graph, node, Standard::Activated);
         let hook = self.hook(whole.graph, node, |s| s.on_activate.as_deref());
-        quote! {
-            if !state.#flag {
-                state.#flag = true;
-                #observed
-                #timeout #event #hook
-            }
-        }
+        quote! { if !#is_active { #set #observed #timeout #event #hook } }
     }
 
     /// A node is no longer active.
     pub fn deactivate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let (flag, observed) = (self.flag(Flag::Active, node), self.observed(whole, node, false));
+        let left = self.left(whole, node);
+        let take = self.take(Flag::Active(node));
+        quote! { if #take { #left } }
+    }
+
+    /// What follows when a node is no longer active.
+    fn left(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        let observed = self.observed(whole, node, false);
         let timeout = whole.graph.nodes[node].modifiers.timeout.map(|_| {
-            let (name, open) = (self.flag(Flag::Timeout, node), self.open_agenda(whole));
+            let (name, open) = (self.timeout(node), self.open_agenda(whole));
             quote! { state.#name.stop(); #open }
         });
         let event = self.trigger(whole.graph, node, Standard::Deactivated);
         let hook = self.hook(whole.graph, node, |s| s.on_deactivate.as_deref());
-        quote! {
-            if state.#flag {
-                state.#flag = false;
-                #observed
-                #timeout #event #hook
-            }
-        }
+        quote! { #observed #timeout #event #hook }
     }
 
     /// Tells the observer; not of a node that only passes tokens on.
@@ -236,16 +278,16 @@ impl Generator<'_> {
         }
         let gains = self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
         let loses = self.inputs_carry(whole, node, &[Carries::Away]);
-        let (gains_flag, loses_flag) = (self.flag(Flag::Gains, node), self.flag(Flag::Loses, node));
+        let (take_gains, take_loses) = (self.take(Flag::Gains(node)), self.take(Flag::Loses(node)));
         let check = self.check_claims();
         let (activate, deactivate) = (self.activate(whole, node), self.deactivate(whole, node));
         let (activate, deactivate) = (quote!(#activate #check), quote!(#deactivate #check));
         match (gains, loses) {
             (false, false) => quote!(),
-            (true, false) => quote! { if ::core::mem::take(&mut state.#gains_flag) { #activate } },
-            (false, true) => quote! { if ::core::mem::take(&mut state.#loses_flag) { #deactivate } },
+            (true, false) => quote! { if #take_gains { #activate } },
+            (false, true) => quote! { if #take_loses { #deactivate } },
             (true, true) => quote! {
-                match (::core::mem::take(&mut state.#gains_flag), ::core::mem::take(&mut state.#loses_flag)) {
+                match (#take_gains, #take_loses) {
                     (true, _) => { #activate }
                     (false, true) => { #deactivate }
                     _ => {}
@@ -263,50 +305,23 @@ impl Generator<'_> {
         present: &dyn Fn(End) -> Option<TokenStream>,
     ) -> TokenStream {
         let mut code = quote!();
-        let mut active: Vec<usize> = whole.links.from(node).filter(|c| whole.graph.connections[*c].active).collect();
-        active.sort_unstable();
-        for port in 0..whole.graph.nodes[node].ports.len() {
-            let end = End { node, port };
-            let (mut carry, mut away, mut any) = (quote!(), quote!(), false);
-            for index in active.iter().copied().filter(|c| whole.graph.connections[*c].from == end) {
-                let c = &whole.graph.connections[index];
-                let to_slot = whole.graph.flow(c) == Flow::ToSlot;
-                any = true;
-                match self.carries(whole, index) {
-                    Carries::Sometimes if to_slot => {
-                        let flag = carries(whole.analysis.asynchronous.slot(index));
-                        carry.extend(quote! { state.#flag = true; });
-                    }
-                    Carries::Sometimes => {
-                        let flag = self.flag(Flag::Gains, c.to.node);
-                        carry.extend(quote! { state.#flag = true; });
-                    }
-                    Carries::Away if !to_slot => {
-                        let flag = self.flag(Flag::Loses, c.to.node);
-                        away.extend(quote! { state.#flag = true; });
-                    }
-                    _ => {}
-                }
+        for port in whole.wiring.of(node).iter().filter(|port| port.is_active) {
+            let Some(present) = present(port.end) else { continue };
+            if !port.takes_away.is_empty() {
+                let away = port.takes_away.iter().map(|flag| self.set(*flag, true));
+                code.extend(quote! { if #present { #(#away)* } });
             }
-            let Some(present) = present(end).filter(|_| any) else { continue };
-            if !away.is_empty() {
-                code.extend(quote! { if #present { #away } });
-            }
-            let deactivates = takes_activity(whole.graph, self.catalog, node);
+            let Some(along) = &port.passes else { continue };
+            let along: TokenStream = along.iter().map(|flag| self.set(*flag, true)).collect();
             if whole.graph.nodes[node].is_delay() {
-                let held = self.flag(Flag::Active, node);
-                code.extend(quote! { if state.#held.take().is_some() { #carry } });
-            } else if whole.analysis.active.contains(&node) && !deactivates {
-                let (active, deactivate) = (self.flag(Flag::Active, node), self.deactivate(whole, node));
-                let check = self.check_claims();
-                code.extend(quote! { if state.#active && #present { #deactivate #carry #check } });
+                let held = self.held_activity(node);
+                code.extend(quote! { if state.#held.take().is_some() { #along } });
+            } else {
+                let (is_active, leave) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), false));
+                let (left, check) = (self.left(whole, node), self.check_claims());
+                code.extend(quote! { if #is_active && #present { #leave #left #along #check } });
             }
         }
         code
     }
-}
-
-/// The flag of the token for a slot: whether it carries activity.
-pub fn carries(slot: usize) -> syn::Ident {
-    quote::format_ident!("carries_{slot}")
 }

@@ -5,7 +5,7 @@ use crate::{
     graph::{Flow, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
@@ -13,6 +13,7 @@ use syn::Ident;
 /// The conditions of the dispatcher, by number: for each dispatched cluster its guards, "enabled", and for each
 /// connection to another cluster "holds a token" and "free"; for each asynchronous connection that may stay occupied
 /// "free" and, if it leads to an input, "holds a token"; for each event of the program "has room".
+#[derive(Debug)]
 pub struct Bits {
     dispatched: Vec<usize>,
     guards: BTreeMap<usize, usize>,
@@ -132,13 +133,12 @@ impl Bits {
 
     /// The table of clusters.
     pub fn rows(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<TokenStream> {
-        let bit_set = |bits: &[usize]| quote!(::apex_rt::Bits::of(&[#(#bits),*]));
         let rows = self.dispatched.iter().map(|&index| {
             let c = &analysis.clusters[index];
             let mut takes: Vec<usize> = c.own_guards.iter().filter_map(|g| self.guards.get(g).copied()).collect();
             takes.push(self.enabled[&index]);
             takes.extend(c.upstream.iter().map(|up| self.edges[&(*up, index)]));
-            let mut waits_for = vec![];
+            let mut waits_for: Vec<usize> = vec![];
             let mut notifies = vec![self.enabled[&index]];
             notifies.extend(c.upstream.iter().map(|up| self.edges[&(*up, index)] + 1));
             for &guard in &c.own_guards {
@@ -154,7 +154,6 @@ impl Bits {
                     _ => {}
                 }
             }
-            waits_for.extend(&takes);
             let sends: Vec<usize> = c.downstream.iter().map(|down| self.edges[&(index, *down)]).collect();
             let occupies: Vec<usize> = sends.iter().map(|bit| bit + 1).collect();
             let mut notified_by = vec![];
@@ -168,25 +167,32 @@ impl Bits {
                 let pipelined = graph.nodes[from.node].modifiers.pipelined;
                 if pipelined { &mut waits_for } else { &mut notified_by }.extend(self.free(connection));
             }
-            let above: Vec<usize> = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c)).collect();
-            let (waits_for, takes, sends, occupies) =
-                (bit_set(&waits_for), bit_set(&takes), bit_set(&sends), bit_set(&occupies));
-            let (notified_by, notifies, enabled) =
-                (bit_set(&notified_by), bit_set(&notifies), bit_set(&[self.enabled[&index]]));
-            quote! {
-                ::apex_rt::Cluster {
-                    waits_for: #waits_for,
-                    takes: #takes,
-                    sends: #sends,
-                    occupies: #occupies,
-                    notified_by: #notified_by,
-                    notifies: #notifies,
-                    enabled: #enabled,
-                    above: &[#(#above),*],
-                }
-            }
+            let above = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c));
+            let above = above.map(Literal::usize_unsuffixed);
+            let sets = [waits_for, takes, sends, occupies, notified_by, notifies];
+            let (sets, enabled) =
+                (sets.iter().map(|bits| self.set(bits)), Literal::usize_unsuffixed(self.enabled[&index]));
+            quote!(::apex_rt::Cluster::new(#enabled, #(#sets,)* &[#(#above),*]))
         });
         rows.collect()
+    }
+
+    /// The type of a constant set of conditions.
+    pub fn set_type(&self) -> TokenStream {
+        let words = self.words();
+        if self.is_sparse() { quote!(&[u32]) } else { quote!(::apex_rt::Bits<#words>) }
+    }
+
+    /// A constant set of conditions.
+    pub fn set(&self, bits: &[usize]) -> TokenStream {
+        let bits = bits.iter().copied().map(Literal::usize_unsuffixed);
+        if self.is_sparse() { quote!(&[#(#bits),*]) } else { quote!(::apex_rt::Bits::of(&[#(#bits),*])) }
+    }
+
+    /// Whether constant sets are lists: they are larger than a list of what is in them where there are many conditions.
+    fn is_sparse(&self) -> bool {
+        const MOST_DENSE: usize = 4;
+        self.words() > MOST_DENSE
     }
 
     /// For each token from an event that a cluster needs: the other tokens that it needs.
@@ -205,9 +211,10 @@ impl Bits {
                 let others: Vec<usize> = others.chain(edges.iter().copied()).collect();
                 let token = self.tokens[&connection];
                 if let (false, Some(connection)) = (others.is_empty(), number(connection)) {
+                    let others = self.set(&others);
                     missing.push(quote! {
                         ::apex_rt::Missing {
-                            others: ::apex_rt::Bits::of(&[#(#others),*]),
+                            others: #others,
                             token: #token,
                             connection: #connection,
                         }

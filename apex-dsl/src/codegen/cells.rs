@@ -1,6 +1,6 @@
 //! Cells between thread groups: what a part does at its ends of them.
 
-use super::{Flag, Generator, activity::Whole, bits::Bits, plan::is_buffer};
+use super::{Generator, activity::Whole, plan::is_buffer, wiring::Flag};
 use crate::{
     graph::{End, Far, Flow, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
@@ -44,8 +44,9 @@ impl Generator<'_> {
     }
 
     /// A token goes into its cell, or the other side is done with it.
-    pub fn send_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
-        let Whole { graph, analysis, links } = whole;
+    pub fn send_far(&self, whole: Whole<'_>, node: NodeId, far: Far) -> TokenStream {
+        let Whole { graph, analysis, links, wiring } = whole;
+        let bits = &wiring.bits;
         let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else {
             return quote!();
         };
@@ -57,14 +58,11 @@ impl Generator<'_> {
         };
         let active = analysis.active.contains(&node);
         let carries = active.then(|| {
-            let (gains, here) = (self.flag(Flag::Gains, node), self.flag(Flag::Active, node));
-            quote! { parcel.active = ::core::mem::take(&mut state.#gains); state.#here = parcel.active; }
+            let (gains, set) = (self.take(Flag::Gains(node)), self.set(Flag::Active(node), true));
+            quote! { parcel.active = #gains; if parcel.active { #set } }
         });
         let carries = carries.filter(|_| !far.takes_activity);
-        let left = carries.is_some().then(|| {
-            let here = self.flag(Flag::Active, node);
-            quote! { state.#here = false; }
-        });
+        let left = carries.is_some().then(|| self.set(Flag::Active(node), false));
         let stamp = analysis.stamps.connections.contains(&index).then(|| {
             let stamp = super::stamps::of_connection(index);
             quote! { parcel.stamp = state.#stamp; }
@@ -99,8 +97,9 @@ impl Generator<'_> {
     }
 
     /// A token comes out of its cell, or all that it caused has finished.
-    pub fn receive_far(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, far: Far) -> TokenStream {
-        let Whole { graph, analysis, links } = whole;
+    pub fn receive_far(&self, whole: Whole<'_>, node: NodeId, far: Far) -> TokenStream {
+        let Whole { graph, analysis, links, wiring } = whole;
+        let bits = &wiring.bits;
         let end = End { node, port: 0 };
         let (cell, holding, name, sender) =
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
@@ -109,13 +108,13 @@ impl Generator<'_> {
         let all_free = quote!(true #(&& self.state.dispatcher.has(#free))*);
         let test = self.allows(whole, &[]);
         let carries = (analysis.active.contains(&node) && !far.takes_activity).then(|| {
-            let flag = self.flag(Flag::Active, node);
-            quote! { state.#flag = ::core::mem::take(&mut parcel.active); }
+            let set = self.set(Flag::Active(node), true);
+            quote! { if ::core::mem::take(&mut parcel.active) { #set } }
         });
         let stamped = links.sends[node].iter().any(|c| analysis.stamps.connections.contains(c));
         let since = stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
         let pass = self.pass_activity(whole, node, &|end| Some(self.waits(graph, end)));
-        let emit = self.emit(whole, bits, node, false);
+        let emit = self.emit(whole, node, false);
         let serve = self.deliver(whole, &links.sends[node]);
         let is_full = self.look(quote!(ends.#cell.is_full()));
         quote! {

@@ -2,9 +2,10 @@
 //! has moved; where all are decided, nothing is generated for them.
 
 use super::{
-    Flag, Generator,
-    activity::{Carries, Whole, carries},
+    Generator,
+    activity::{Carries, Whole},
     state::{Kept, Kind},
+    wiring::Flag,
 };
 use crate::{
     claims::{Checks, Decided, FROM, Model, NEARER, Place, PlaceId, scopes_of},
@@ -112,14 +113,14 @@ impl Generator<'_> {
                 Place::Node(node) => self.is_active_now(whole, node),
                 // Nothing is kept for connections that never carry a token.
                 Place::Connection(c) if !whole.analysis.asynchronous.live[c] => continue,
-                Place::Connection(c) if self.carries(whole, c) != Carries::Sometimes => continue,
+                Place::Connection(c) if self.carries(whole.graph, whole.analysis, c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
                     let connection = &whole.graph.connections[c];
                     let flag = match whole.graph.flow(connection) {
-                        Flow::ToSlot => carries(whole.analysis.asynchronous.slot(c)),
-                        Flow::Synchronous | Flow::ToInput => self.flag(Flag::Gains, connection.to.node),
+                        Flow::ToSlot => Flag::Carries(whole.analysis.asynchronous.slot(c)),
+                        Flow::Synchronous | Flow::ToInput => Flag::Gains(connection.to.node),
                     };
-                    quote!(state.#flag)
+                    self.is_set(flag)
                 }
             };
             flags.entry(flag.to_string()).or_default().insert(place);

@@ -1,6 +1,6 @@
 //! How slot tokens come to their slots: from a queue, or in an order that is known.
 
-use super::{Generator, activity::Whole, bits::Bits};
+use super::{Generator, activity::Whole};
 use crate::{
     analyse::{Delivery, ordered},
     graph::NodeKind,
@@ -10,21 +10,23 @@ use quote::{format_ident, quote};
 
 impl Generator<'_> {
     /// Serves slots until none is ready; says whether there was one.
-    pub fn serve(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let Whole { graph, analysis, links } = whole;
-        let (words, needs) = (bits.words(), bits.needs(graph, analysis, links));
+    pub fn serve(&self, whole: Whole<'_>) -> TokenStream {
+        let Whole { graph, analysis, wiring, .. } = whole;
+        let needs: Vec<&[usize]> = wiring.slots.iter().map(|slot| slot.needs.as_slice()).collect();
         let count = needs.len();
         let arms = (0..count).map(|slot| {
             let (number, name) = (slot as u16, format_ident!("slot_{slot}"));
             quote! { #number => self.#name(ctx, observer), }
         });
-        let ready = if needs.iter().all(Vec::is_empty) {
+        let ready = if needs.iter().all(|needs| needs.is_empty()) {
             quote!(|_| true)
         } else {
             quote!(|slot| self.state.dispatcher.holds(&Self::NEEDS[slot as usize]))
         };
         let needs_table = needs.iter().any(|n| !n.is_empty()).then(|| {
-            quote! { const NEEDS: [::apex_rt::Bits<#words>; #count] = [#(::apex_rt::Bits::of(&[#(#needs),*])),*]; }
+            let ty = wiring.bits.set_type();
+            let needs = needs.iter().map(|needs| wiring.bits.set(needs));
+            quote! { const NEEDS: [#ty; #count] = [#(#needs),*]; }
         });
         let (budget, step) = match analysis.asynchronous.endless {
             true => (

@@ -1,12 +1,13 @@
 //! `react`: which cluster fires and which slot is served, and when.
 
 use super::{
-    Flag, Generator,
+    Generator,
     activity::Whole,
     bits::Bits,
     cells::{ends_name, receivers},
     state::{Kept, Kind},
     types::ident,
+    wiring::Flag,
 };
 use crate::{
     analyse::{Delivery, Guard, at_start},
@@ -19,7 +20,8 @@ use syn::Ident;
 
 impl Generator<'_> {
     /// Fields of the program's state that the dispatcher needs, with what they start as.
-    pub fn dispatcher_state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<Kept> {
+    pub fn dispatcher_state(&self, whole: Whole<'_>) -> Vec<Kept> {
+        let bits = &whole.wiring.bits;
         let mut fields = vec![];
         let mut field = |name: &str, ty, make| {
             fields.push(Kept::new(Kind::Dispatcher, name.to_owned(), ident(name), ty, make));
@@ -67,34 +69,35 @@ impl Generator<'_> {
     }
 
     /// The tables of the dispatcher, and the functions that serve slots.
-    pub fn dispatcher(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let Whole { graph, analysis, links } = whole;
-        let (words, rows) = (bits.words(), bits.rows(graph, analysis, links));
+    pub fn dispatcher(&self, whole: Whole<'_>) -> TokenStream {
+        let Whole { graph, analysis, links, wiring } = whole;
+        let bits = &wiring.bits;
+        let (set, rows) = (bits.set_type(), bits.rows(graph, analysis, links));
         let mut code = quote!();
-        if words > 0 {
+        if bits.words() > 0 {
             let count = rows.len();
-            code.extend(quote! { const CLUSTERS: [::apex_rt::Cluster<#words>; #count] = [#(#rows),*]; });
+            code.extend(quote! { const CLUSTERS: [::apex_rt::Cluster<#set>; #count] = [#(#rows),*]; });
         }
         let missing = bits.missing(analysis, &|c| self.connection(c));
         if !missing.is_empty() {
             let count = missing.len();
-            code.extend(quote! { const MISSING: [::apex_rt::Missing<#words>; #count] = [#(#missing),*]; });
+            code.extend(quote! { const MISSING: [::apex_rt::Missing<#set>; #count] = [#(#missing),*]; });
         }
         for (node, bit) in bits.room() {
             let name = Bits::room_name(*node);
             code.extend(quote! { const #name: usize = #bit; });
         }
         if !analysis.asynchronous.slots.is_empty() {
-            code.extend(self.slot_functions(whole, bits));
+            code.extend(self.slot_functions(whole));
             if analysis.asynchronous.delivery == Delivery::Queued {
-                code.extend(self.serve(whole, bits));
+                code.extend(self.serve(whole));
             }
         }
         let timeouts: Vec<NodeId> = (0..graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).collect();
         let inline = inlined(timeouts.len());
-        code.extend(timeouts.iter().map(|node| self.expire(whole, bits, *node, &inline)).collect::<TokenStream>());
+        code.extend(timeouts.iter().map(|node| self.expire(whole, *node, &inline)).collect::<TokenStream>());
         if self.has_start(whole) {
-            let begin = self.first(whole, bits);
+            let begin = self.first(whole);
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, .. } = self;
@@ -103,7 +106,7 @@ impl Generator<'_> {
             });
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
-            let (name, reset) = (&graph.name, self.reset(whole, bits));
+            let (name, reset) = (&graph.name, self.reset(whole));
             let (nodes, state) = (format_ident!("{name}Nodes"), format_ident!("{name}State"));
             code.extend(quote! {
                 fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
@@ -121,17 +124,18 @@ impl Generator<'_> {
     }
 
     /// `react_with`; where it is recorded, what is inside of that.
-    pub fn react(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    pub fn react(&self, whole: Whole<'_>) -> TokenStream {
+        let bits = &whole.wiring.bits;
         let Whole { graph, analysis, .. } = whole;
         let queued = analysis.asynchronous.delivery == Delivery::Queued;
         let serves = !analysis.asynchronous.slots.is_empty() && queued;
         let endless = analysis.asynchronous.endless;
-        let (raises, wishes) = (self.raises(whole, bits), self.wishes(whole, bits));
+        let (raises, wishes) = (self.raises(whole), self.wishes(whole));
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
             let bit = bits.guard(i)?;
             Some(quote! { self.state.dispatcher.raise(#bit); })
         });
-        let next = self.next(whole, bits);
+        let next = self.next(whole);
         let serve = |quiet: bool| match (serves, quiet) {
             (false, _) => quote!(),
             (true, true) => quote! { if !self.state.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } },
@@ -186,7 +190,7 @@ impl Generator<'_> {
             let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.state.dispatcher.look_again(); });
             quote! { self.state.steps.begin(); #ready #serve }
         });
-        let used_up = endless.then(|| self.used_up(whole, bits));
+        let used_up = endless.then(|| self.used_up(whole));
         let leave = if has_exit {
             quote!(if quiet || self.state.exit.is_some() {
                 break;
@@ -268,7 +272,8 @@ impl Generator<'_> {
     }
 
     /// When a program wants to be called because of sources without a pace. If it waits for other thread groups, they wake it.
-    fn next(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    fn next(&self, whole: Whole<'_>) -> TokenStream {
+        let bits = &whole.wiring.bits;
         let guards = &whole.analysis.guards;
         let mut plain =
             whole.analysis.clusters.iter().flat_map(|c| &c.own_guards).filter(|g| guards[**g] == Guard::React);
@@ -283,7 +288,8 @@ impl Generator<'_> {
     }
 
     /// What clusters wait for, to tell a deadlock.
-    pub fn waiting(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    pub fn waiting(&self, whole: Whole<'_>) -> TokenStream {
+        let bits = &whole.wiring.bits;
         if bits.missing(whole.analysis, &|c| self.connection(c)).is_empty() {
             return quote!();
         }
@@ -297,7 +303,8 @@ impl Generator<'_> {
     }
 
     /// A reaction that took all its steps says so, and goes on in the next one.
-    fn used_up(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    fn used_up(&self, whole: Whole<'_>) -> TokenStream {
+        let bits = &whole.wiring.bits;
         let graph = whole.graph;
         let slots = whole.analysis.asynchronous.slots.iter().map(|c| graph.connections[*c].to.node);
         let clusters =
@@ -313,7 +320,8 @@ impl Generator<'_> {
     }
 
     /// What is looked at again and again while a program reacts: timers, mailboxes, timeouts.
-    fn raises(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    fn raises(&self, whole: Whole<'_>) -> TokenStream {
+        let bits = &whole.wiring.bits;
         let Whole { graph, analysis, .. } = whole;
         let mut raises = Raises { has_agenda: self.has_agenda(whole), code: quote!(), timed: quote!() };
         for (node, bit) in bits.room() {
@@ -343,22 +351,23 @@ impl Generator<'_> {
         });
         for (id, node) in graph.nodes.iter().enumerate() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
-                raises.always(self.enter(whole, bits, id));
+                raises.always(self.enter(whole, id));
             }
             match node.kind {
-                NodeKind::Sender(far) => raises.always(self.send_far(whole, bits, id, far)),
-                NodeKind::Receiver(far) => raises.always(self.receive_far(whole, bits, id, far)),
+                NodeKind::Sender(far) => raises.always(self.send_far(whole, id, far)),
+                NodeKind::Receiver(far) => raises.always(self.receive_far(whole, id, far)),
                 _ => {}
             }
             if self.has_timeout(whole, id) {
-                raises.timed(self.expires(whole, bits, id));
+                raises.timed(self.expires(whole, id));
             }
         }
         raises.finish()
     }
 
     /// When a program wants to be called because of its timers.
-    fn wishes(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    fn wishes(&self, whole: Whole<'_>) -> TokenStream {
+        let bits = &whole.wiring.bits;
         let guards = whole.analysis.guards.iter().enumerate().filter(|(index, _)| bits.guard(*index).is_some());
         let timers = guards.filter_map(|(_, guard)| match guard {
             Guard::Timer(node) => Some(self.timer(*node)),
@@ -366,7 +375,7 @@ impl Generator<'_> {
         });
         let timers: Vec<Ident> = timers.collect();
         let timeouts = (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n));
-        let timeouts: Vec<Ident> = timeouts.map(|node| self.flag(Flag::Timeout, node)).collect();
+        let timeouts: Vec<Ident> = timeouts.map(|node| self.timeout(node)).collect();
         if !self.has_agenda(whole) {
             return quote! {
                 #(next = next.or(self.state.#timers.wish(now));)*
@@ -404,23 +413,24 @@ impl Generator<'_> {
 
     /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it does so
     /// when it is enabled, if it is still active.
-    fn expires(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
+    fn expires(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        let bits = &whole.wiring.bits;
         let graph = whole.graph;
-        let (timeout, expire) = (self.flag(Flag::Timeout, node), format_ident!("expire_{node}"));
+        let (timeout, expire) = (self.timeout(node), format_ident!("expire_{node}"));
         let free: Vec<usize> =
             whole.analysis.asynchronous.holding_back(graph, whole.links, node).filter_map(|c| bits.free(c)).collect();
         let mut test = self.allows(whole, &free);
         if graph.nodes[node].can_be_disabled() {
-            let enabled = self.flag(Flag::Enabled, node);
-            test.extend(quote!(&& self.state.#enabled));
+            let is_enabled = self.is_set(Flag::Enabled(node));
+            test.extend(quote!(&& self.#is_enabled));
         }
         quote! { if self.state.#timeout.is_due(now) #test { self.#expire(ctx, observer); quiet = false; } }
     }
 
     /// The function that triggers the event `timeout` of a node, with its activity.
-    fn expire(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, inline: &TokenStream) -> TokenStream {
+    fn expire(&self, whole: Whole<'_>, node: NodeId, inline: &TokenStream) -> TokenStream {
         let graph = whole.graph;
-        let (timeout, expire) = (self.flag(Flag::Timeout, node), format_ident!("expire_{node}"));
+        let (timeout, expire) = (self.timeout(node), format_ident!("expire_{node}"));
         let (clear, open) = (self.clear_events(whole, node), self.open_agenda(whole));
         let trigger = self.trigger(graph, node, Standard::Timeout);
         let pass = self.pass_activity(whole, node, &|end| {
@@ -428,7 +438,7 @@ impl Generator<'_> {
             let sent = matches!(standard, Some(Standard::Timeout | Standard::Deactivated));
             self.sent_event(whole, end).filter(|_| sent)
         });
-        let emit = self.emit(whole, bits, node, false);
+        let emit = self.emit(whole, node, false);
         let serve = self.deliver(whole, &whole.links.sends[node]);
         quote! {
             #inline

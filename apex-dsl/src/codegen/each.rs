@@ -5,6 +5,7 @@ use super::{
     fire::Emitter,
     parallel::Local,
     plan::{BlockId, Storage},
+    wiring::Wiring,
 };
 use crate::{
     graph::{Each, End, Graph, NodeId, NodeKind},
@@ -20,8 +21,9 @@ impl Emitter<'_> {
         let generator = self.generator.inside(self.graph, node);
         let body = &*each.body;
         let Some(analysis) = self.analysis.bodies.get(&node) else { return quote!() };
+        let wiring = Wiring::new(&generator, body, analysis);
         let clusters: Vec<Emitter<'_>> = (0..analysis.clusters.len())
-            .map(|cluster| Emitter::new(&generator, Whole { graph: body, analysis, links: &analysis.links }, cluster))
+            .map(|cluster| Emitter::new(&generator, Whole::new(body, analysis, &wiring), cluster))
             .collect();
         let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());

@@ -1,11 +1,11 @@
 //! One cluster as straight-line code: blocks, firings, and how tokens get from one to the next.
 
 use super::{
-    Flag, Generator,
+    Generator,
     activity::Whole,
-    bits::Bits,
     plan::{BlockId, Plan, Storage},
     types::{ident, path, spell},
+    wiring::Flag,
 };
 use crate::{
     analyse::{Analysis, Block, Links, Step, is_told},
@@ -30,20 +30,20 @@ pub struct Emitter<'a> {
 impl<'a> Emitter<'a> {
     /// An emitter for `cluster`.
     pub fn new(generator: &'a Generator<'a>, whole: Whole<'a>, cluster: usize) -> Self {
-        let Whole { graph, analysis, links } = whole;
+        let Whole { graph, analysis, links, .. } = whole;
         let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
         Self { generator, whole, graph, analysis, links, plan, cluster }
     }
 
     /// The cluster of a program: around what it does, events are emptied before and emitted when all is done.
-    pub fn program_cluster(&self, bits: &Bits) -> TokenStream {
+    pub fn program_cluster(&self) -> TokenStream {
         let cluster = &self.analysis.clusters[self.cluster];
         let clear = cluster.nodes.iter().map(|node| self.generator.clear_events(self.whole, *node));
         let code = self.cluster();
         let order = cluster.schedule();
         // A node that was skipped because of ⊥ took its tokens all the same (A1).
         let take = order.iter().map(|node| self.generator.take_activity(self.whole, *node));
-        let emit = order.iter().map(|node| self.generator.emit(self.whole, bits, *node, true));
+        let emit = order.iter().map(|node| self.generator.emit(self.whole, *node, true));
         let stamp = self.generator.stamp_of_firing(self.whole, self.cluster);
         quote! { #stamp #(#clear)* #code #(#take)* #(#emit)* }
     }
@@ -215,7 +215,7 @@ impl<'a> Emitter<'a> {
         match &self.graph.nodes[node].kind {
             NodeKind::Library(library) => self.fire_library(node, library, block),
             NodeKind::Each(each) => {
-                let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.whole, node));
+                let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.graph, node));
                 quote! { #fire #late }
             }
             NodeKind::Delay(_) => {
@@ -285,12 +285,12 @@ impl<'a> Emitter<'a> {
         let results = self.results(node, library, signature, call, told);
         let results = self.recorded(node, block, results, processed);
         let outputs = self.param_outputs(node, library, signature, block);
-        let late = self.generator.check_late(self.whole, node);
+        let late = self.generator.check_late(self.graph, node);
         let code = quote! { observer.fired(#index); #params #results #outputs #late observer.finished(#index); };
         if self.graph.nodes[node].can_be_disabled() {
-            let enabled = self.generator.flag(Flag::Enabled, node);
+            let is_enabled = self.generator.is_set(Flag::Enabled(node));
             let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });
-            quote! { if state.#enabled { #code } else { #(#clears)* } }
+            quote! { if #is_enabled { #code } else { #(#clears)* } }
         } else {
             code
         }

@@ -3,12 +3,12 @@
 use super::{
     Generator, Names,
     activity::Whole,
-    bits::Bits,
     cells::cell_name,
     program::{Field, boundaries},
     state::Kind,
     threads::part_name,
     types::ident,
+    wiring::Wiring,
 };
 use crate::{
     analyse::Analysis, catalog::Catalog, graph::Graph, program::Program, source::Sources, syntax::tree::PortKind,
@@ -84,8 +84,8 @@ impl Generator<'_> {
                 Piece { what: "ports", of: name.clone(), place: format!("{place}.{}", ident(name)) }
             }));
         }
-        let whole = Whole { graph, analysis, links: &analysis.links };
-        let mut state = self.state(whole, &Bits::new(graph, analysis));
+        let wiring = Wiring::new(self, graph, analysis);
+        let mut state = self.state(Whole::new(graph, analysis, &wiring));
         state.sort_by_key(|kept| kept.kind);
         pieces.extend(state.into_iter().map(|kept| Piece {
             what: word(kept.kind),

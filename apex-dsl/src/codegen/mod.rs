@@ -24,6 +24,7 @@ mod test;
 mod text;
 mod threads;
 mod types;
+mod wiring;
 mod witness;
 
 pub use memory::{Piece, memory};
@@ -73,36 +74,13 @@ pub struct Names {
     tokens: BTreeMap<End, String>,
     /// Where delays hold tokens back.
     held: BTreeMap<NodeId, String>,
+    /// Where delays keep the activity of these tokens.
+    held_activity: BTreeMap<NodeId, String>,
     /// Timers of sources.
     timers: BTreeMap<NodeId, String>,
-    /// What is kept about a node besides its state.
-    flags: BTreeMap<(Flag, NodeId), String>,
+    /// Timeouts of nodes.
+    timeouts: BTreeMap<NodeId, String>,
     inner: BTreeMap<NodeId, Names>,
-}
-
-/// Something that is kept about a node besides its state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Flag {
-    /// Whether it is active.
-    Active,
-    /// Whether a token that lies at an input brings activity.
-    Gains,
-    /// Whether a token that lies at an input takes activity away.
-    Loses,
-    /// Whether it is enabled.
-    Enabled,
-    /// How long it has been active.
-    Timeout,
-}
-
-impl Flag {
-    const ALL: [(Self, &'static str); 5] = [
-        (Self::Active, "active"),
-        (Self::Gains, "gains"),
-        (Self::Loses, "loses"),
-        (Self::Enabled, "enabled"),
-        (Self::Timeout, "timeout"),
-    ];
 }
 
 impl Names {
@@ -136,9 +114,10 @@ impl Names {
         }
         if let NodeKind::Delay(_) = &n.kind {
             self.held.insert(node, local(format!("{path}_held"), used));
+            self.held_activity.insert(node, local(format!("{path}_held_activity"), used));
         }
-        for (flag, word) in Flag::ALL {
-            self.flags.insert((flag, node), local(format!("{word}_{path}"), used));
+        if n.modifiers.timeout.is_some() {
+            self.timeouts.insert(node, local(format!("timeout_{path}"), used));
         }
         if n.modifiers.has_pace() {
             self.timers.insert(node, local(format!("timer_{path}"), used));
@@ -150,8 +129,8 @@ impl Names {
         let mut names = Self { number, ..Self::default() };
         for (node, n) in part.graph.nodes.iter().enumerate() {
             let Origin::Node(origin) = part.origins[node] else {
-                // It is no node of the program: nobody is told of it.
-                names.numbers.push(usize::MAX);
+                // It is not a node of the program: its number lies beyond those that observers know.
+                names.numbers.push(self.count() + node);
                 names.add(node, n, &format!("cell_{node}"), used);
                 continue;
             };
@@ -159,9 +138,9 @@ impl Names {
             let tokens = self.tokens.range(End { node: origin, port: 0 }..).take_while(|(end, _)| end.node == origin);
             names.tokens.extend(tokens.map(|(end, name)| (End { node, port: end.port }, name.clone())));
             names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
+            names.held_activity.extend(self.held_activity.get(&origin).map(|name| (node, name.clone())));
             names.timers.extend(self.timers.get(&origin).map(|name| (node, name.clone())));
-            let flags = Flag::ALL.iter().filter_map(|(flag, _)| Some((*flag, self.flags.get(&(*flag, origin))?)));
-            names.flags.extend(flags.map(|(flag, name)| ((flag, node), name.clone())));
+            names.timeouts.extend(self.timeouts.get(&origin).map(|name| (node, name.clone())));
             names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
         }
         names
@@ -170,29 +149,18 @@ impl Names {
 
 /// Names that the generated code itself uses, and those that stand for values in every module.
 #[rustfmt::skip]
-const OWN: [&str; 56] = [
-    "Err", "None", "Ok", "Some", "begins", "bits", "carries", "code", "counts",
-    "ctx", "dispatcher", "ends", "event", "events", "exit", "first", "found", "i",
-    "inputs", "late", "left", "life", "list", "made", "missing", "next", "nodes",
+const OWN: [&str; 60] = [
+    "Err", "None", "Ok", "Some", "active", "begins", "bits", "carries", "code", "counts",
+    "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains", "i",
+    "inputs", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
     "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue",
     "quiet", "recorded", "result", "results", "round", "row", "self", "sent", "stamp",
     "started", "state", "step", "steps", "tap", "token", "tokens", "told", "value",
     "wake", "woken",
 ];
 /// Beginnings of names that the generated code itself uses.
-const OWN_PREFIXES: [&str; 11] = [
-    "param_",
-    "token_",
-    "carries_",
-    "claim_",
-    "stamp_",
-    "recorded_",
-    "result_",
-    "cell_",
-    "holding_",
-    "sender_",
-    "receiver_",
-];
+const OWN_PREFIXES: [&str; 10] =
+    ["param_", "token_", "claim_", "stamp_", "recorded_", "result_", "cell_", "holding_", "sender_", "receiver_"];
 
 /// The name of a local, which no name that the generated code itself uses hides.
 fn local(mut name: String, used: &mut BTreeSet<String>) -> String {
@@ -273,9 +241,14 @@ impl<'a> Generator<'a> {
         types::ident(self.names.timers.get(&node).map_or("timer", String::as_str))
     }
 
-    /// The name of a flag.
-    fn flag(&self, flag: Flag, node: NodeId) -> syn::Ident {
-        types::ident(self.names.flags.get(&(flag, node)).map_or("flag", String::as_str))
+    /// The name of the timeout of a node.
+    fn timeout(&self, node: NodeId) -> syn::Ident {
+        types::ident(self.names.timeouts.get(&node).map_or("timeout", String::as_str))
+    }
+
+    /// The name of the place where a delay keeps the activity of the tokens that it holds.
+    fn held_activity(&self, node: NodeId) -> syn::Ident {
+        types::ident(self.names.held_activity.get(&node).map_or("held_activity", String::as_str))
     }
 
     /// The name of the place where a delay holds tokens back.

@@ -1,14 +1,14 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
 use super::{
-    Flag, Generator,
+    Generator,
     activity::Whole,
-    bits::Bits,
     dispatch::inlined,
     fire::Emitter,
     state,
     threads::{end_if_hung, group_info},
     types::ident,
+    wiring::Wiring,
 };
 use crate::{
     analyse::{Analysis, Cluster, is_multirate},
@@ -40,13 +40,13 @@ impl Generator<'_> {
     /// All items of a program on one thread.
     pub fn program(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
         let name = ident(&graph.name);
-        let whole = Whole { graph, analysis, links: &analysis.links };
-        let bits = Bits::new(graph, analysis);
-        let items = self.items(whole, &bits);
-        let (own_react, react) = self.around(graph, self.react(whole, &bits), &quote!(self));
+        let wiring = Wiring::new(self, graph, analysis);
+        let whole = Whole::new(graph, analysis, &wiring);
+        let items = self.items(whole);
+        let (own_react, react) = self.around(graph, self.react(whole), &quote!(self));
         let recording = self.recording(graph);
         let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
-        let waiting = self.waiting(whole, &bits);
+        let waiting = self.waiting(whole);
         let clusters: Vec<Vec<NodeId>> = analysis.clusters.iter().map(Cluster::schedule).collect();
         // A single thread is only mentioned if something is said about it.
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
@@ -84,14 +84,14 @@ impl Generator<'_> {
 
     /// The struct of a program or of a part of one, with all that it consists of, and the functions that fire its clusters and
     /// serve its slots.
-    pub fn items(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    pub fn items(&self, whole: Whole<'_>) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
         let name = ident(&graph.name);
         let mut fields = BTreeMap::new();
         let mut handed_in = vec![];
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
         let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields, false);
-        let (state_fields, state_make) = state::fields(&self.state(whole, bits));
+        let (state_fields, state_make) = state::fields(&self.state(whole));
         let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
         let inputs = boundaries(graph, comes_in);
         let outputs = boundaries(graph, |kind| kind == PortKind::Output);
@@ -124,8 +124,8 @@ impl Generator<'_> {
             };
             (quote!(parts: #parts_name), item, quote!())
         };
-        let clusters = self.clusters(whole, bits);
-        let (dispatcher, claims) = (self.dispatcher(whole, bits), self.claim_function(whole));
+        let clusters = self.clusters(whole);
+        let (dispatcher, claims) = (self.dispatcher(whole), self.claim_function(whole));
         let witnesses = self.witnesses(graph);
         let inner = around_text();
         quote! {
@@ -263,21 +263,13 @@ impl Generator<'_> {
         if whole.analysis.active.is_empty() {
             return quote!();
         }
-        // What only passes tokens on between groups has no number.
-        let is_node = |n: &&NodeId| !whole.graph.nodes[**n].is_delay() && self.index(**n) != usize::MAX;
-        let nodes = whole.analysis.active.iter().filter(is_node);
-        let arms = nodes.map(|node| {
-            let (index, flag) = (self.index(*node), self.flag(Flag::Active, *node));
-            quote! { #index => self.state.#flag, }
-        });
-        quote! {
-            fn is_active(&self, node: usize) -> bool {
-                match node { #(#arms)* _ => false }
-            }
+        if whole.analysis.active.iter().all(|node| whole.graph.nodes[*node].is_delay()) {
+            return quote!();
         }
+        quote! { fn is_active(&self, node: usize) -> bool { self.state.active.has(node) } }
     }
 
-    fn clusters(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    fn clusters(&self, whole: Whole<'_>) -> TokenStream {
         let firing: Vec<usize> =
             (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires).collect();
         let inline = inlined(firing.len());
@@ -288,7 +280,7 @@ impl Generator<'_> {
                 let code = self.rates(whole.graph, whole.analysis, whole.links, cluster);
                 quote! { #stamp #code }
             } else {
-                Emitter::new(self, whole, cluster).program_cluster(bits)
+                Emitter::new(self, whole, cluster).program_cluster()
             };
             quote! {
                 #inline

@@ -3,7 +3,6 @@
 
 use super::{
     Generator,
-    activity::Whole,
     types::{ident, path},
 };
 use crate::{
@@ -65,7 +64,7 @@ impl Generator<'_> {
             NodeKind::Library(library) => {
                 let signature = &self.catalog.signatures[library.signature];
                 let code = self.call_at_rate(graph, links, node, library, signature, &from);
-                let late = self.check_late(Whole { graph, analysis, links }, node);
+                let late = self.check_late(graph, node);
                 quote! { for i in 0..#count { #code } #late }
             }
             NodeKind::Delay(_) => {

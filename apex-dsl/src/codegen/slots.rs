@@ -1,13 +1,13 @@
 //! Slots: one function for each connection to one, and what is emitted when a firing ends.
 
 use super::{
-    Flag, Generator,
-    activity::{Carries, Whole, carries},
+    Generator,
+    activity::{Carries, Whole},
     bits::Bits,
-    cells::carries_missing,
     dispatch::inlined,
     plan::is_buffer,
     types::ident,
+    wiring::{Flag, Send, Slot},
 };
 use crate::{
     analyse::Delivery,
@@ -29,47 +29,42 @@ fn takes(whole: Whole<'_>, connection: usize) -> bool {
 impl Generator<'_> {
     /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
     /// are queued, those for inputs lie there. A slot sends on events only.
-    pub fn emit(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, by_process: bool) -> TokenStream {
-        self.emit_from(whole, bits, node, &|end| by_process || whole.graph.port(end).kind == PortKind::Event)
+    pub fn emit(&self, whole: Whole<'_>, node: NodeId, by_process: bool) -> TokenStream {
+        self.emit_from(whole, node, &|end| by_process || whole.graph.port(end).kind == PortKind::Event)
     }
 
     /// The same for the events that activity came, or went.
-    fn tell(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
-        self.emit_from(whole, bits, node, &|end| whole.graph.port(end).tells_of_activity())
+    fn tell(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+        self.emit_from(whole, node, &|end| whole.graph.port(end).tells_of_activity())
     }
 
-    fn emit_from(&self, whole: Whole<'_>, bits: &Bits, node: NodeId, wanted: &dyn Fn(End) -> bool) -> TokenStream {
-        let from = |c: usize| whole.graph.connections[c].from;
-        let sends: Vec<usize> = whole.links.sends[node].iter().copied().filter(|c| wanted(from(*c))).collect();
-        let ports = sends.chunk_by(|a, b| from(*a) == from(*b)).map(|connections| {
-            let (missing, connections_of_values): (Vec<usize>, Vec<usize>) =
-                connections.iter().partition(|c| carries_missing(whole.graph, **c));
-            let sent: TokenStream = connections_of_values.iter().map(|c| self.sent(whole, bits, *c)).collect();
-            let present = self.waits(whole.graph, from(connections[0]));
-            let missing = missing.iter().map(|c| self.sent(whole, bits, *c));
-            let chosen = self.chosen_event(whole.graph, from(connections[0]));
-            let sent = if sent.is_empty() && chosen.is_empty() {
-                quote!()
-            } else {
-                quote! { if #present { #chosen #sent } }
-            };
-            quote! { #(#missing)* #sent }
+    fn emit_from(&self, whole: Whole<'_>, node: NodeId, wanted: &dyn Fn(End) -> bool) -> TokenStream {
+        let rows = whole.wiring.of(node).iter().filter(|port| wanted(port.end) && !port.sends.is_empty());
+        let ports = rows.map(|port| {
+            let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
+            let always: TokenStream = always.into_iter().map(|send| self.sent(whole, send)).collect();
+            let sent: TokenStream = sends.into_iter().map(|send| self.sent(whole, send)).collect();
+            let chosen = self.chosen_event(whole.graph, port.end);
+            if sent.is_empty() && chosen.is_empty() {
+                return always;
+            }
+            let present = self.waits(whole.graph, port.end);
+            quote! { #always if #present { #chosen #sent } }
         });
         ports.collect()
     }
 
-    fn sent(&self, whole: Whole<'_>, bits: &Bits, connection: usize) -> TokenStream {
-        let occupied = bits.free(connection).map(|bit| quote! { state.dispatcher.clear(#bit); });
-        let stamp = self.stamp_sent(whole, connection);
-        match bits.token(connection) {
-            Some(token) => quote! { state.dispatcher.raise(#token); #occupied #stamp },
-            // The token itself tells that it waits.
-            None if whole.analysis.asynchronous.delivery != Delivery::Queued => stamp,
-            None => {
-                let slot = whole.analysis.asynchronous.slot(connection) as u16;
-                quote! { state.queue.push(#slot); #occupied #stamp }
-            }
-        }
+    /// A token goes off on a connection.
+    fn sent(&self, whole: Whole<'_>, send: &Send) -> TokenStream {
+        let stamp = self.stamp_sent(whole, send.connection);
+        let raised = send.raises.map(|bit| quote! { state.dispatcher.raise(#bit); });
+        let queued = send.queued.map(|slot| {
+            let slot = slot as u16;
+            quote! { state.queue.push(#slot); }
+        });
+        let goes = raised.is_some() || queued.is_some();
+        let occupied = send.occupies.filter(|_| goes).map(|bit| quote! { state.dispatcher.clear(#bit); });
+        quote! { #raised #queued #occupied #stamp }
     }
 
     /// Whether a token lies in the program's state.
@@ -113,10 +108,11 @@ impl Generator<'_> {
     }
 
     /// One function for each connection to a slot.
-    pub fn slot_functions(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
-        let inline = inlined(whole.analysis.asynchronous.slots.len());
-        let functions = whole.analysis.asynchronous.slots.iter().enumerate().map(|(slot, &connection)| {
-            let (name, code) = (format_ident!("slot_{slot}"), self.slot(whole, bits, slot, connection));
+    pub fn slot_functions(&self, whole: Whole<'_>) -> TokenStream {
+        let slots = &whole.wiring.slots;
+        let inline = inlined(slots.len());
+        let functions = slots.iter().enumerate().map(|(number, slot)| {
+            let (name, code) = (format_ident!("slot_{number}"), self.slot(whole, number, slot));
             quote! {
                 #inline
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
@@ -128,33 +124,28 @@ impl Generator<'_> {
         functions.collect()
     }
 
-    fn slot(&self, whole: Whole<'_>, bits: &Bits, slot: usize, connection: usize) -> TokenStream {
-        let Whole { graph, analysis, .. } = whole;
-        let c = &graph.connections[connection];
-        let node = c.to.node;
-        let free = bits.free(connection).map(|bit| quote! { state.dispatcher.raise(#bit); });
-        // What an output sent on is notified as soon as the slot took it.
-        let settles = graph.port(c.from).kind == PortKind::Output && free.is_some();
-        let settle = settles.then(|| bits.row(analysis.cluster_of[c.from.node])).flatten().map(|row| {
-            quote! { state.dispatcher.settle(&Self::CLUSTERS, #row); }
-        });
-        let activity = match self.carries(whole, connection) {
+    fn slot(&self, whole: Whole<'_>, number: usize, slot: &Slot) -> TokenStream {
+        let Slot { connection, node, .. } = *slot;
+        let free = slot.frees.map(|bit| quote! { state.dispatcher.raise(#bit); });
+        let settle = slot.settles.map(|row| quote! { state.dispatcher.settle(&Self::CLUSTERS, #row); });
+        let activity = match slot.carries {
             Carries::Nothing => quote!(),
             Carries::Always => self.activate(whole, node),
             Carries::Away => self.deactivate(whole, node),
             // The program ends: what it carries stays on its way.
-            Carries::Sometimes if matches!(graph.nodes[node].kind, NodeKind::Exit(_)) => quote!(),
+            Carries::Sometimes if matches!(whole.graph.nodes[node].kind, NodeKind::Exit(_)) => quote!(),
             Carries::Sometimes => {
-                let (flag, activate) = (carries(slot), self.activate(whole, node));
-                quote! { if ::core::mem::take(&mut state.#flag) { #activate } }
+                let (carried, activate) = (self.take(Flag::Carries(number)), self.activate(whole, node));
+                quote! { if #carried { #activate } }
             }
         };
         let check = if activity.is_empty() { quote!() } else { self.check_claims() };
         let call = self.call_slot(whole, connection);
-        let call = if takes(whole, connection) { self.taken(graph, c.from, call) } else { call };
+        let from = whole.graph.connections[connection].from;
+        let call = if takes(whole, connection) { self.taken(whole.graph, from, call) } else { call };
         let clear = self.clear_events(whole, node);
         let pass = self.pass_activity(whole, node, &|end| self.sent_event(whole, end));
-        let emit = self.emit(whole, bits, node, false);
+        let emit = self.emit(whole, node, false);
         let (stamp, index) = (self.stamp_of_slot(whole, connection), self.index(node));
         let handled = self.connection(connection).map(|number| quote! { observer.handled(#number); });
         let call = quote! { #call observer.finished(#index); };
@@ -176,15 +167,15 @@ impl Generator<'_> {
         let c = &graph.connections[connection];
         let node = c.to.node;
         match (&graph.nodes[node].kind, graph.port(c.to).standard) {
-            (_, Some(Standard::Disable)) => self.set_enabled(node, false),
+            (_, Some(Standard::Disable)) => self.set(Flag::Enabled(node), false),
             (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => {
-                let (flag, watch) = (self.flag(Flag::Enabled, node), self.watch_silence(whole, node));
-                let enable = self.set_enabled(node, true);
+                let (is_enabled, watch) = (self.is_set(Flag::Enabled(node)), self.watch_silence(whole, node));
+                let enable = self.set(Flag::Enabled(node), true);
                 // It was told to be silent: that is over now.
                 if watch.is_empty() {
                     enable
                 } else {
-                    quote! { if !state.#flag { #watch } #enable }
+                    quote! { if !#is_enabled { #watch } #enable }
                 }
             }
             (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
@@ -205,11 +196,6 @@ impl Generator<'_> {
             }
             _ => quote!(),
         }
-    }
-
-    fn set_enabled(&self, node: NodeId, value: bool) -> TokenStream {
-        let flag = self.flag(Flag::Enabled, node);
-        quote! { state.#flag = #value; }
     }
 
     /// The token of a connection, where it lies: `Option<&T>`.
@@ -244,7 +230,7 @@ impl Generator<'_> {
         let (place, method) = (self.node_place(graph, node), ident(&slot.method));
         let call = quote!(#place.#method(#(#args),*));
         let call = self.contained(graph, node, library, call, slot.fallible);
-        let late = self.check_late(whole, node);
+        let late = self.check_late(graph, node);
         let call = if takes {
             let token = self.token(whole, connection);
             quote! { if let Some(token) = #token { #call; } #late }
@@ -253,8 +239,8 @@ impl Generator<'_> {
         };
         let call = self.recorded_slot(graph, node, call);
         if graph.nodes[node].can_be_disabled() {
-            let flag = self.flag(Flag::Enabled, node);
-            quote! { if state.#flag { #call } }
+            let is_enabled = self.is_set(Flag::Enabled(node));
+            quote! { if #is_enabled { #call } }
         } else {
             call
         }
@@ -263,8 +249,8 @@ impl Generator<'_> {
     /// The context for a node, which knows whether it is active.
     pub fn context(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         if whole.analysis.active.contains(&node) {
-            let flag = self.flag(Flag::Active, node);
-            quote!(&ctx.of_node(state.#flag))
+            let is_active = self.is_active_now(whole, node);
+            quote!(&ctx.of_node(#is_active))
         } else {
             quote!(ctx)
         }
@@ -308,12 +294,12 @@ impl Generator<'_> {
     }
 
     /// Tokens that come from outside to a graph-level slot, and the moment of `start`.
-    pub fn enter(&self, whole: Whole<'_>, bits: &Bits, node: NodeId) -> TokenStream {
+    pub fn enter(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         let graph = whole.graph;
         let (name, port) = (self.name(End { node, port: 0 }), ident(&graph.nodes[node].name));
-        let free: Vec<usize> = whole.links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
+        let free: Vec<usize> = whole.links.sends[node].iter().filter_map(|c| whole.wiring.bits.free(*c)).collect();
         let test = self.allows(whole, &free);
-        let emit = self.emit(whole, bits, node, false);
+        let emit = self.emit(whole, node, false);
         let serve = self.deliver(whole, &whole.links.sends[node]);
         quote! {
             if self.inputs.#port.is_full() #test {
@@ -327,12 +313,12 @@ impl Generator<'_> {
     }
 
     /// `start`: the nodes that are active from the beginning, and the tokens of its events.
-    pub fn begin(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    pub fn begin(&self, whole: Whole<'_>) -> TokenStream {
         let graph = whole.graph;
         let mut code = quote!();
         for (node, n) in graph.nodes.iter().enumerate() {
             if n.starts_active && whole.analysis.active.contains(&node) {
-                let (activate, tell) = (self.activate(whole, node), self.tell(whole, bits, node));
+                let (activate, tell) = (self.activate(whole, node), self.tell(whole, node));
                 code.extend(quote! { #activate #tell });
             }
             if matches!(n.kind, NodeKind::Start) {
@@ -340,15 +326,16 @@ impl Generator<'_> {
                 if !self.is_sent_event(whole, end) {
                     continue;
                 }
-                let (name, emit) = (self.name(end), self.emit(whole, bits, node, false));
+                let (name, emit) = (self.name(end), self.emit(whole, node, false));
                 let sent = graph.connections.iter().enumerate().filter(|(_, c)| c.from == end);
                 let gains = sent.filter_map(|(i, c)| {
-                    let flag = match (graph.flow(c) == Flow::ToSlot, self.carries(whole, i)) {
-                        (true, Carries::Sometimes) => carries(whole.analysis.asynchronous.slot(i)),
-                        (false, Carries::Always | Carries::Sometimes) => self.flag(Flag::Gains, c.to.node),
-                        _ => return None,
-                    };
-                    Some(quote! { state.#flag = true; })
+                    match (graph.flow(c) == Flow::ToSlot, self.carries(graph, whole.analysis, i)) {
+                        (true, Carries::Sometimes) => {
+                            Some(self.set(Flag::Carries(whole.analysis.asynchronous.slot(i)), true))
+                        }
+                        (false, Carries::Always | Carries::Sometimes) => Some(self.set(Flag::Gains(c.to.node), true)),
+                        _ => None,
+                    }
                 });
                 code.extend(quote! { state.#name = Some(()); #(#gains)* #emit });
             }
@@ -358,33 +345,31 @@ impl Generator<'_> {
     }
 
     /// What happens once, before the first reaction.
-    pub fn first(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    pub fn first(&self, whole: Whole<'_>) -> TokenStream {
         let watches = (0..whole.graph.nodes.len()).map(|node| self.watch_silence(whole, node));
-        let begin = self.begin(whole, bits);
+        let begin = self.begin(whole);
         quote! { #(#watches)* #begin }
     }
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
-    pub fn reset(&self, whole: Whole<'_>, bits: &Bits) -> TokenStream {
+    pub fn reset(&self, whole: Whole<'_>) -> TokenStream {
         // Those that `start` makes active again say both at once.
         let deactivates = whole.analysis.active.iter().map(|&node| {
             if whole.graph.nodes[node].is_delay() {
-                let held = self.flag(Flag::Active, node);
+                let held = self.held_activity(node);
                 return quote! { state.#held.clear(); };
             }
             let ports = 0..whole.graph.nodes[node].ports.len();
             let told = ports.map(|port| End { node, port }).filter(|end| whole.graph.port(*end).tells_of_activity());
             let names = told.filter(|end| self.is_sent_event(whole, *end)).map(|end| self.name(end));
             let deactivate = self.deactivate(whole, node);
-            let tell = (!whole.graph.nodes[node].starts_active).then(|| self.tell(whole, bits, node));
+            let tell = (!whole.graph.nodes[node].starts_active).then(|| self.tell(whole, node));
             quote! { #(state.#names = None;)* #deactivate #tell }
         });
-        let modifiers = self.flags(whole).into_iter().map(|flag| flag.name).filter(|name| {
-            let name = name.to_string();
-            ["gains_", "loses_", "carries_"].iter().any(|prefix| name.starts_with(prefix))
-        });
-        let clears = modifiers.map(|name| quote! { state.#name = false; });
-        let begin = self.begin(whole, bits);
+        let sets = self.activity_state(whole).into_iter().map(|kept| kept.name);
+        let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
+        let clears = clears.map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
+        let begin = self.begin(whole);
         quote! { #(#deactivates)* #(#clears)* #begin }
     }
 }

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     analyse::Guard,
-    graph::{NodeId, Standard},
+    graph::{Graph, NodeId, Standard},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -64,10 +64,10 @@ impl Generator<'_> {
     }
 
     /// What a node with a `deadline` does when it has finished: it looks whether that was in time.
-    pub fn check_late(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let Some(deadline) = whole.graph.nodes[node].modifiers.deadline else { return quote!() };
+    pub fn check_late(&self, graph: &Graph, node: NodeId) -> TokenStream {
+        let Some(deadline) = graph.nodes[node].modifiers.deadline else { return quote!() };
         let (index, deadline) = (self.index(node), duration(deadline));
-        let trigger = self.trigger(whole.graph, node, Standard::Late);
+        let trigger = self.trigger(graph, node, Standard::Late);
         quote! { if ctx.is_late(#index, #deadline, observer) { #trigger } }
     }
 }

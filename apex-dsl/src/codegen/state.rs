@@ -3,7 +3,6 @@
 use super::{
     Generator,
     activity::Whole,
-    bits::Bits,
     plan::{Storage, is_buffer, storage},
     program::around_text,
     types::{constant, duration},
@@ -64,17 +63,17 @@ pub fn fields(kept: &[Kept]) -> (TokenStream, TokenStream) {
 
 impl Generator<'_> {
     /// The state of a program.
-    pub fn state(&self, whole: Whole<'_>, bits: &Bits) -> Vec<Kept> {
+    pub fn state(&self, whole: Whole<'_>) -> Vec<Kept> {
         let mut kept = self.token_state(whole.graph, whole.analysis);
         let timers = whole.analysis.guards.iter().filter_map(|guard| match guard {
             Guard::Timer(node) => Some(self.kept_timer(whole.graph, *node)),
             _ => None,
         });
         kept.extend(timers);
-        kept.extend(self.flags(whole));
+        kept.extend(self.activity_state(whole));
         kept.extend(self.claim_state(whole));
         kept.extend(self.stamps(whole));
-        kept.extend(self.dispatcher_state(whole, bits));
+        kept.extend(self.dispatcher_state(whole));
         kept
     }
 

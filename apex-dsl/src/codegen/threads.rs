@@ -4,10 +4,10 @@
 use super::{
     Generator, Names,
     activity::Whole,
-    bits::Bits,
     cells::{cell_name, ends_name},
     program::{Field, around_text, mailboxes, node_structs},
     types::{duration, ident},
+    wiring::Wiring,
 };
 use crate::{
     analyse::Analysis,
@@ -46,13 +46,13 @@ impl Generator<'_> {
         let mut views = vec![];
         for (number, part) in split.parts.iter().enumerate() {
             let generator = of_part(number);
-            let whole = Whole { graph: &part.graph, analysis: &part.analysis, links: &part.analysis.links };
-            let bits = Bits::new(&part.graph, &part.analysis);
-            let (items, react) = (generator.items(whole, &bits), generator.react(whole, &bits));
+            let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
+            let whole = Whole::new(&part.graph, &part.analysis, &wiring);
+            let (items, react) = (generator.items(whole), generator.react(whole));
             let view = View {
                 is_active: generator.is_active(whole),
                 is_graph_active: generator.is_graph_active(whole),
-                waiting: generator.waiting(whole, &bits),
+                waiting: generator.waiting(whole),
                 fields: generator.fields(&part.graph, &part.analysis),
             };
             let View { is_active, is_graph_active, waiting, .. } = &view;

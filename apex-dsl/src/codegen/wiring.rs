@@ -1,0 +1,173 @@
+//! The asynchronous and active half of a program as data: where the tokens of a port go, where activity goes with them, and
+//! what the token on a connection does to the node of a slot.
+//!
+//! It is made once from graph and analysis. Few slots become straight-line code, many become tables: both are written from
+//! this.
+
+use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing};
+use crate::{
+    analyse::{Analysis, Delivery, takes_activity},
+    graph::{End, Flow, Graph, NodeId},
+    syntax::tree::PortKind,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Something that is known about a node or a token besides their state: a bit of a set in the state of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Flag {
+    /// The node is active.
+    Active(NodeId),
+    /// A token at an input brings activity.
+    Gains(NodeId),
+    /// A token at an input takes activity away.
+    Loses(NodeId),
+    /// The node is enabled.
+    Enabled(NodeId),
+    /// The token for a slot, by the slot's number, carries activity.
+    Carries(usize),
+}
+
+/// What a token at a port sets off, besides what stays in its region. A port may have several of these rows.
+#[derive(Debug)]
+pub struct Port {
+    pub end: End,
+    /// An active connection leads on from it, and this row says what that does.
+    pub is_active: bool,
+    /// Set with each token: it takes activity away from its receiver.
+    pub takes_away: Vec<Flag>,
+    /// Set when activity goes along with a token; `None` if it stays with the node.
+    pub passes: Option<Vec<Flag>>,
+    /// Asynchronous connections, in the order of the text.
+    pub sends: Vec<Send>,
+}
+
+/// An asynchronous connection, as its sender sees it.
+#[derive(Debug)]
+pub struct Send {
+    pub connection: usize,
+    /// The slot whose token is queued; `None` if the token itself tells that it waits.
+    pub queued: Option<usize>,
+    /// The condition that a token is there.
+    pub raises: Option<usize>,
+    /// The condition that the connection is free.
+    pub occupies: Option<usize>,
+    /// It is sent with ⊥, too.
+    pub absent: bool,
+}
+
+/// The call of a slot because of the token on a connection.
+#[derive(Debug)]
+pub struct Slot {
+    pub connection: usize,
+    pub node: NodeId,
+    /// The condition that the connection is free again.
+    pub frees: Option<usize>,
+    pub carries: Carries,
+    /// The cluster, by its row, that may have been waiting for this call to count as finished.
+    pub settles: Option<usize>,
+    /// The conditions under which it may be called: its node can trigger its events (R5).
+    pub needs: Vec<usize>,
+}
+
+/// All of it.
+#[derive(Debug)]
+pub struct Wiring {
+    /// The numbers of the conditions.
+    pub bits: Bits,
+    /// The rows of each node: activity goes with the first token in the order of the ports (A5), tokens are sent in the order of
+    /// the text (R7).
+    ports: BTreeMap<NodeId, Vec<Port>>,
+    /// The slots by number.
+    pub slots: Vec<Slot>,
+}
+
+impl Wiring {
+    /// The wiring of a program or of a part of one.
+    pub fn new(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis) -> Self {
+        let links = &analysis.links;
+        let bits = Bits::new(graph, analysis);
+        let needs = bits.needs(graph, analysis, links);
+        let slots = analysis.asynchronous.slots.iter().zip(needs).map(|(&connection, needs)| {
+            let c = &graph.connections[connection];
+            let frees = bits.free(connection);
+            // What an output sent on is notified as soon as the slot took it.
+            let settles = graph.port(c.from).kind == PortKind::Output && frees.is_some();
+            Slot {
+                connection,
+                node: c.to.node,
+                frees,
+                carries: generator.carries(graph, analysis, connection),
+                settles: settles.then(|| bits.row(analysis.cluster_of[c.from.node])).flatten(),
+                needs,
+            }
+        });
+        let slots = slots.collect();
+        let rows = (0..graph.nodes.len()).map(|node| (node, rows(generator, graph, analysis, &bits, node)));
+        let ports = rows.filter(|(_, rows)| !rows.is_empty()).collect();
+        Self { bits, ports, slots }
+    }
+
+    /// The rows of a node.
+    pub fn of(&self, node: NodeId) -> &[Port] {
+        self.ports.get(&node).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// The rows of a node. Both orders are kept: a row says what its port does with activity unless an earlier one did.
+fn rows(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, bits: &Bits, node: NodeId) -> Vec<Port> {
+    let from = |c: &usize| graph.connections[*c].from;
+    let sends = analysis.links.sends[node].chunk_by(|a, b| from(a) == from(b));
+    let active: BTreeSet<End> =
+        analysis.links.from(node).filter(|c| graph.connections[*c].active).map(|c| from(&c)).collect();
+    let mut active = active.into_iter().peekable();
+    let mut rows = vec![];
+    for connections in sends {
+        let end = from(&connections[0]);
+        while let Some(before) = active.next_if(|before| *before < end) {
+            rows.push(passing(generator, graph, analysis, before));
+        }
+        let mut row = match active.next_if(|next| *next == end) {
+            Some(end) => passing(generator, graph, analysis, end),
+            None => Port { end, is_active: false, takes_away: vec![], passes: None, sends: vec![] },
+        };
+        row.sends.extend(connections.iter().map(|connection| send(graph, analysis, bits, *connection)));
+        rows.push(row);
+    }
+    rows.extend(active.map(|end| passing(generator, graph, analysis, end)));
+    rows
+}
+
+fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: usize) -> Send {
+    let raises = bits.token(connection);
+    let is_queued = analysis.asynchronous.delivery == Delivery::Queued && raises.is_none();
+    Send {
+        connection,
+        queued: is_queued.then(|| analysis.asynchronous.slot(connection)),
+        raises,
+        occupies: bits.free(connection),
+        absent: carries_missing(graph, connection),
+    }
+}
+
+/// What a token at `end` does with activity.
+fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: End) -> Port {
+    let connections = analysis.links.from(end.node);
+    let mut connections: Vec<usize> =
+        connections.filter(|c| graph.connections[*c].active && graph.connections[*c].from == end).collect();
+    connections.sort_unstable();
+    let (mut along, mut takes_away) = (vec![], vec![]);
+    for connection in connections {
+        let c = &graph.connections[connection];
+        let to_slot = graph.flow(c) == Flow::ToSlot;
+        match generator.carries(graph, analysis, connection) {
+            Carries::Sometimes if to_slot => along.push(Flag::Carries(analysis.asynchronous.slot(connection))),
+            Carries::Sometimes => along.push(Flag::Gains(c.to.node)),
+            Carries::Away if !to_slot => takes_away.push(Flag::Loses(c.to.node)),
+            _ => {}
+        }
+    }
+    let leaves = analysis.active.contains(&end.node) && !takes_activity(graph, generator.catalog, end.node);
+    // A delay keeps what its tokens carry, not what it is.
+    let leaves = leaves || graph.nodes[end.node].is_delay();
+    Port { end, is_active: true, takes_away, passes: leaves.then_some(along), sends: vec![] }
+}
