@@ -34,6 +34,8 @@ mod stop;
 #[cfg(feature = "std")]
 mod switch;
 mod sync;
+#[doc(hidden)]
+pub mod tables;
 #[cfg(feature = "std")]
 #[doc(hidden)]
 pub mod testing;

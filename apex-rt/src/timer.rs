@@ -1,6 +1,6 @@
 //! Clocks of nodes: when a source fires, and how long a node was active.
 
-use crate::{Next, Time, time::nanos};
+use crate::{Next, Time};
 use core::time::Duration;
 
 /// The clock of a source with `every` or `after`: due at `first`, `first + period`, `first` + 2·`period`, … Late
@@ -13,9 +13,9 @@ pub struct Timer {
 }
 
 impl Timer {
-    /// A timer that is due at `first` and every `period` from then on; `Duration::MAX` is once.
-    pub const fn new(first: Duration, period: Duration) -> Self {
-        Self { due: Time::from_nanos(nanos(first)), period: nanos(period) }
+    /// A timer that is due at `first` and every `period` from then on, in nanoseconds; `i64::MAX` is once.
+    pub const fn new(first: i64, period: i64) -> Self {
+        Self { due: Time::from_nanos(first), period }
     }
 
     /// Whether it is due at `now`.

@@ -9,6 +9,10 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
+/// From so many clusters, slots or timeouts on, code is called by number: rustc takes a time that grows with the square of the
+/// size of a function.
+pub const MANY: usize = 32;
+
 /// The asynchronous part of a graph.
 #[derive(Debug)]
 pub struct Asynchronous {
@@ -27,6 +31,8 @@ pub struct Asynchronous {
     pub endless: bool,
     /// How slot tokens are kept in their order.
     pub delivery: Delivery,
+    /// Slots or timeouts are so many that tables serve them: their tokens are queued.
+    pub is_tabled: bool,
     /// For each connection those on which a token may be sent because of one on it.
     causes: Vec<Vec<usize>>,
 }
@@ -43,7 +49,9 @@ impl Asynchronous {
         let links = &*links;
         let to_slot = |c: &usize| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
         let slots: Vec<usize> = (0..graph.connections.len()).filter(to_slot).collect();
-        let single = is_single(graph, catalog, links, &slots, &causes, regions);
+        let timeouts = graph.nodes.iter().filter(|node| node.modifiers.timeout.is_some()).count();
+        let is_tabled = slots.len().max(timeouts) > MANY;
+        let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut stays = stays(graph, links, &slots);
         live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| stays[c] = false);
         if single {
@@ -63,7 +71,7 @@ impl Asynchronous {
             sent_by_reset(graph).for_each(|c| tracked[c] = true);
         }
         let delivery = if single { Delivery::Single } else { Delivery::Queued };
-        Self { live, slots, stays, tracked, endless: is_endless(&causes), delivery, causes }
+        Self { live, slots, stays, tracked, endless: is_endless(&causes), delivery, is_tabled, causes }
     }
 
     /// Slots take their tokens in an order that is known: nobody has to look whether they are still there.

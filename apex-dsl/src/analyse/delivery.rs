@@ -25,6 +25,7 @@ pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
     let resets = graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset));
     let is_ordered = |sends: &Vec<usize>| ordered(graph, &analysis.links, asynchronous, sends).is_some();
     asynchronous.delivery == Delivery::Queued
+        && !asynchronous.is_tabled
         && !asynchronous.endless
         && !resets
         && !asynchronous.slots.iter().any(|c| asynchronous.stays[*c])

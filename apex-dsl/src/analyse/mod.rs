@@ -23,7 +23,7 @@ use crate::{
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use activity::{reachable as active_nodes, reachable_within as active_nodes_within};
-pub use asynchronous::Asynchronous;
+pub use asynchronous::{Asynchronous, MANY};
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
 pub use delivery::{Delivery, at_start, ordered};

@@ -4,16 +4,15 @@
 use super::{
     Generator,
     state::{Kept, Kind},
-    types::{duration, ident},
+    types::ident,
     wiring::{Flag, Wiring},
 };
 use crate::{
-    analyse::{Analysis, Guard, Links, is_source, takes_activity},
+    analyse::{Analysis, Links, takes_activity},
     graph::{End, Graph, NodeId, NodeKind, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::time::Duration;
 use syn::Ident;
 
 /// What the code of a program, or of a part of one, is generated from.
@@ -70,7 +69,7 @@ impl Generator<'_> {
         whole.links.inputs[node].iter().any(|c| what.contains(&self.carries(whole.graph, whole.analysis, *c)))
     }
 
-    /// Activity in the state of a program: sets of flags, and what delays and timeouts keep.
+    /// Activity in the state of a program: sets of flags, and what delays keep.
     pub fn activity_state(&self, whole: Whole<'_>) -> Vec<Kept> {
         let Whole { graph, analysis, .. } = whole;
         let active = || analysis.active.iter().copied();
@@ -106,10 +105,6 @@ impl Generator<'_> {
                 let of = graph.path(node);
                 kept.push(Kept::new(Kind::Activity, of, name, quote!(::apex_rt::Delay<(), #count>), make));
             }
-        }
-        for node in (0..graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)) {
-            let (name, ty) = (self.timeout(node), quote!(::apex_rt::Timeout));
-            kept.push(Kept::new(Kind::Timer, graph.path(node), name, ty, quote!(::apex_rt::Timeout::new())));
         }
         kept
     }
@@ -164,56 +159,12 @@ impl Generator<'_> {
         quote! { state.#held.put(#gains.then_some(())); }
     }
 
-    /// Whether the `timeout` of a node can come.
-    pub fn has_timeout(&self, whole: Whole<'_>, node: NodeId) -> bool {
-        let timeout = whole.graph.nodes[node].modifiers.timeout;
-        timeout.is_some() && (whole.analysis.active.contains(&node) || self.watches_silence(whole, node).is_some())
-    }
-
-    /// The `timeout` of a source that activity never comes to: so long it may send nothing.
-    pub fn watches_silence(&self, whole: Whole<'_>, node: NodeId) -> Option<Duration> {
-        let is_source = is_source(whole.graph, self.catalog, whole.links, node);
-        let watches = is_source && !whole.analysis.active.contains(&node);
-        whole.graph.nodes[node].modifiers.timeout.filter(|_| watches)
-    }
-
-    /// The time of a source's silence begins.
-    pub fn watch_silence(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        match self.watches_silence(whole, node) {
-            Some(timeout) => {
-                let (name, timeout) = (self.timeout(node), duration(timeout));
-                let open = self.open_agenda(whole);
-                quote! { state.#name.start(ctx.now(), #timeout); #open }
-            }
-            None => quote!(),
-        }
-    }
-
-    /// Whether the timers of a program have an agenda: few of them are as fast looked at themselves.
-    pub fn has_agenda(&self, whole: Whole<'_>) -> bool {
-        const FEWEST: usize = 3;
-        let timers = whole.analysis.guards.iter().filter(|guard| matches!(guard, Guard::Timer(_))).map(|_| ());
-        let timeouts = (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).map(|_| ());
-        timers.chain(timeouts).take(FEWEST).count() == FEWEST
-    }
-
-    /// A timer changes.
-    pub fn open_agenda(&self, whole: Whole<'_>) -> Option<TokenStream> {
-        self.has_agenda(whole).then(|| quote! { state.agenda.open(); })
-    }
-
     /// A node becomes active, unless it is already.
     pub fn activate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         let (is_active, set) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), true));
         let observed = self.observed(whole, node, true);
-        let timeout = whole.graph.nodes[node].modifiers.timeout.map(|timeout| {
-            let (name, timeout) = (self.timeout(node), duration(timeout));
-            let open = self.open_agenda(whole);
-            quote! { state.#name.start(ctx.now(), #timeout); #open }
-        });
-        let event = self.trigger(whole.graph, node, Standard::Activated);
-        let hook = self.hook(whole.graph, node, |s| s.on_activate.as_deref());
-        quote! { if !#is_active { #set #observed #timeout #event #hook } }
+        let (timeout, effects) = (self.start_timeout(whole, node), self.turn_effects(whole, node, true));
+        quote! { if !#is_active { #set #observed #timeout #effects } }
     }
 
     /// A node is no longer active.
@@ -226,21 +177,27 @@ impl Generator<'_> {
     /// What follows when a node is no longer active.
     fn left(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
         let observed = self.observed(whole, node, false);
-        let timeout = whole.graph.nodes[node].modifiers.timeout.map(|_| {
-            let (name, open) = (self.timeout(node), self.open_agenda(whole));
-            quote! { state.#name.stop(); #open }
-        });
-        let event = self.trigger(whole.graph, node, Standard::Deactivated);
-        let hook = self.hook(whole.graph, node, |s| s.on_deactivate.as_deref());
-        quote! { #observed #timeout #event #hook }
+        let (timeout, effects) = (self.stop_timeout(whole, node), self.turn_effects(whole, node, false));
+        quote! { #observed #timeout #effects }
+    }
+
+    /// The event and the hook of a node that became active, or is no longer.
+    pub fn turn_effects(&self, whole: Whole<'_>, node: NodeId, active: bool) -> TokenStream {
+        let graph = whole.graph;
+        let (event, hook) = match active {
+            true => (Standard::Activated, self.hook(graph, node, |s| s.on_activate.as_deref())),
+            false => (Standard::Deactivated, self.hook(graph, node, |s| s.on_deactivate.as_deref())),
+        };
+        let event = self.trigger(graph, node, event);
+        quote! { #event #hook }
     }
 
     /// Tells the observer; not of a node that only passes tokens on.
     fn observed(&self, whole: Whole<'_>, node: NodeId, active: bool) -> TokenStream {
         let index = self.index(node);
-        match whole.graph.nodes[node].kind {
-            NodeKind::Relay | NodeKind::Sender(_) | NodeKind::Receiver(_) => quote!(),
-            _ => quote! { observer.activity(#index, #active); },
+        match is_observed(whole.graph, node) {
+            true => quote! { observer.activity(#index, #active); },
+            false => quote!(),
         }
     }
 
@@ -324,4 +281,9 @@ impl Generator<'_> {
         }
         code
     }
+}
+
+/// Whether observers are told of a node's activity: not of that of one that only passes tokens on.
+pub fn is_observed(graph: &Graph, node: NodeId) -> bool {
+    !matches!(graph.nodes[node].kind, NodeKind::Relay | NodeKind::Sender(_) | NodeKind::Receiver(_))
 }

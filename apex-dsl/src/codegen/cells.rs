@@ -63,10 +63,7 @@ impl Generator<'_> {
         });
         let carries = carries.filter(|_| !far.takes_activity);
         let left = carries.is_some().then(|| self.set(Flag::Active(node), false));
-        let stamp = analysis.stamps.connections.contains(&index).then(|| {
-            let stamp = super::stamps::of_connection(index);
-            quote! { parcel.stamp = state.#stamp; }
-        });
+        let stamp = super::stamps::of_connection(whole, index).map(|stamp| quote! { parcel.stamp = state.#stamp; });
         let settle = (graph.port(c.from).kind == PortKind::Output)
             .then(|| bits.row(analysis.cluster_of[c.from.node]))
             .flatten()

@@ -14,10 +14,16 @@ impl Generator<'_> {
         let Whole { graph, analysis, wiring, .. } = whole;
         let needs: Vec<&[usize]> = wiring.slots.iter().map(|slot| slot.needs.as_slice()).collect();
         let count = needs.len();
-        let arms = (0..count).map(|slot| {
-            let (number, name) = (slot as u16, format_ident!("slot_{slot}"));
-            quote! { #number => self.#name(ctx, observer), }
-        });
+        let call = match wiring.is_tabled {
+            true => quote! { self.slot(slot as usize, ctx, observer); },
+            false => {
+                let arms = (0..count).map(|slot| {
+                    let (number, name) = (slot as u16, format_ident!("slot_{slot}"));
+                    quote! { #number => self.#name(ctx, observer), }
+                });
+                quote! { match slot { #(#arms)* _ => {} } }
+            }
+        };
         let ready = if needs.iter().all(|needs| needs.is_empty()) {
             quote!(|_| true)
         } else {
@@ -45,7 +51,7 @@ impl Generator<'_> {
                     #budget
                     let Some(slot) = self.state.queue.next(#ready) else { break; };
                     #step
-                    match slot { #(#arms)* _ => {} }
+                    #call
                     any = true;
                     #exit
                 }

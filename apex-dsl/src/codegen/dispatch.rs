@@ -7,11 +7,10 @@ use super::{
     cells::{ends_name, receivers},
     state::{Kept, Kind},
     types::ident,
-    wiring::Flag,
 };
 use crate::{
-    analyse::{Delivery, Guard, at_start},
-    graph::{Graph, NodeId, NodeKind, Standard},
+    analyse::{Delivery, Guard, MANY, at_start},
+    graph::{Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -47,7 +46,7 @@ impl Generator<'_> {
         if self.has_start(whole) {
             field("started", quote!(bool), quote!(false));
         }
-        if self.has_agenda(whole) {
+        if whole.wiring.has_agenda() {
             field("agenda", quote!(::apex_rt::Agenda), quote!(::apex_rt::Agenda::new()));
         }
         for (cell, _) in receivers(whole.graph) {
@@ -64,7 +63,7 @@ impl Generator<'_> {
 
     fn has_start(&self, whole: Whole<'_>) -> bool {
         let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        let watches = |node: NodeId| self.watches_silence(whole, node).is_some();
+        let watches = |node: NodeId| self.watches_silence(whole.graph, whole.analysis, node).is_some();
         whole.graph.nodes.iter().any(started) || (0..whole.graph.nodes.len()).any(watches)
     }
 
@@ -88,14 +87,17 @@ impl Generator<'_> {
             code.extend(quote! { const #name: usize = #bit; });
         }
         if !analysis.asynchronous.slots.is_empty() {
-            code.extend(self.slot_functions(whole));
+            if !wiring.is_tabled {
+                code.extend(self.slot_functions(whole));
+            }
             if analysis.asynchronous.delivery == Delivery::Queued {
                 code.extend(self.serve(whole));
             }
         }
-        let timeouts: Vec<NodeId> = (0..graph.nodes.len()).filter(|n| self.has_timeout(whole, *n)).collect();
-        let inline = inlined(timeouts.len());
-        code.extend(timeouts.iter().map(|node| self.expire(whole, *node, &inline)).collect::<TokenStream>());
+        code.extend(match wiring.is_tabled {
+            true => self.tables(whole),
+            false => self.expire_functions(whole),
+        });
         if self.has_start(whole) {
             let begin = self.first(whole);
             code.extend(quote! {
@@ -148,15 +150,15 @@ impl Generator<'_> {
         let has_exit = self.has_exit(graph);
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let has_agenda = self.has_agenda(whole);
+        let has_agenda = whole.wiring.has_agenda();
         let firing = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).map(|cluster| {
             let c = &analysis.clusters[cluster];
             let timers = c.own_guards.iter().filter_map(|g| match analysis.guards[*g] {
-                Guard::Timer(node) => Some(self.timer(node)),
+                Guard::Timer(node) => whole.wiring.timer(node),
                 _ => None,
             });
             let open = has_agenda.then(|| quote! { self.state.agenda.open(); });
-            let advances = timers.map(|timer| quote! { self.state.#timer.advance(); #open });
+            let advances = timers.map(|timer| quote! { self.state.timers[#timer].advance(); #open });
             let name = format_ident!("cluster_{cluster}");
             let served = match queued {
                 false => self.deliver(whole, &c.sends),
@@ -323,12 +325,11 @@ impl Generator<'_> {
     fn raises(&self, whole: Whole<'_>) -> TokenStream {
         let bits = &whole.wiring.bits;
         let Whole { graph, analysis, .. } = whole;
-        let mut raises = Raises { has_agenda: self.has_agenda(whole), code: quote!(), timed: quote!() };
+        let mut raises = Raises { has_agenda: whole.wiring.has_agenda(), code: quote!(), timed: quote!() };
         for (node, bit) in bits.room() {
             let port = ident(&graph.nodes[*node].name);
             raises.always(quote! { if !self.events.#port.is_full() { self.state.dispatcher.raise(#bit); } });
         }
-        let mut timers = vec![];
         for (index, guard) in analysis.guards.iter().enumerate() {
             let Some(bit) = bits.guard(index) else { continue };
             match guard {
@@ -336,19 +337,10 @@ impl Generator<'_> {
                     let port = ident(&graph.nodes[*node].name);
                     raises.always(quote! { if self.inputs.#port.is_full() { self.state.dispatcher.raise(#bit); } });
                 }
-                Guard::Timer(node) => timers.push((self.timer(*node), bit)),
-                Guard::React | Guard::Token(_) | Guard::Events(_) => {}
+                Guard::Timer(_) | Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
         }
-        let (timers, numbers): (Vec<Ident>, Vec<usize>) = timers.into_iter().unzip();
-        raises.timed(match raises.has_agenda && !timers.is_empty() {
-            true => quote! {
-                for (timer, bit) in [#((&self.state.#timers, #numbers)),*] {
-                    if timer.is_due(now) { self.state.dispatcher.raise(bit); }
-                }
-            },
-            false => quote! { #(if self.state.#timers.is_due(now) { self.state.dispatcher.raise(#numbers); })* },
-        });
+        raises.timed(self.timers_due(whole));
         for (id, node) in graph.nodes.iter().enumerate() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
                 raises.always(self.enter(whole, id));
@@ -358,50 +350,14 @@ impl Generator<'_> {
                 NodeKind::Receiver(far) => raises.always(self.receive_far(whole, id, far)),
                 _ => {}
             }
-            if self.has_timeout(whole, id) {
-                raises.timed(self.expires(whole, id));
+            if let Some(timeout) = whole.wiring.timeout(id).filter(|_| !whole.wiring.is_tabled) {
+                raises.timed(self.expires(whole, timeout));
             }
+        }
+        if whole.wiring.is_tabled {
+            raises.timed(self.all_expire(whole));
         }
         raises.finish()
-    }
-
-    /// When a program wants to be called because of its timers.
-    fn wishes(&self, whole: Whole<'_>) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        let guards = whole.analysis.guards.iter().enumerate().filter(|(index, _)| bits.guard(*index).is_some());
-        let timers = guards.filter_map(|(_, guard)| match guard {
-            Guard::Timer(node) => Some(self.timer(*node)),
-            _ => None,
-        });
-        let timers: Vec<Ident> = timers.collect();
-        let timeouts = (0..whole.graph.nodes.len()).filter(|n| self.has_timeout(whole, *n));
-        let timeouts: Vec<Ident> = timeouts.map(|node| self.timeout(node)).collect();
-        if !self.has_agenda(whole) {
-            return quote! {
-                #(next = next.or(self.state.#timers.wish(now));)*
-                #(next = next.or(self.state.#timeouts.wish(now));)*
-            };
-        }
-        let of_timers = (!timers.is_empty()).then(|| {
-            quote! { for timer in [#(&self.state.#timers),*] { wish = wish.or(timer.wish(now)); } }
-        });
-        let of_timeouts = (!timeouts.is_empty()).then(|| {
-            quote! {
-                for timeout in [#(&self.state.#timeouts),*] {
-                    wish = wish.or(timeout.wish(now));
-                    held_back |= timeout.is_due(now);
-                }
-            }
-        });
-        quote! {
-            if self.state.agenda.is_due(now) {
-                let (mut wish, mut held_back) = (::apex_rt::Next::Input, false);
-                #of_timers
-                #of_timeouts
-                self.state.agenda.close(wish, held_back);
-            }
-            next = next.or(self.state.agenda.wish());
-        }
     }
 
     /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
@@ -410,50 +366,7 @@ impl Generator<'_> {
         let budget = whole.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
         quote!(#(#free)* #budget)
     }
-
-    /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it does so
-    /// when it is enabled, if it is still active.
-    fn expires(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        let graph = whole.graph;
-        let (timeout, expire) = (self.timeout(node), format_ident!("expire_{node}"));
-        let free: Vec<usize> =
-            whole.analysis.asynchronous.holding_back(graph, whole.links, node).filter_map(|c| bits.free(c)).collect();
-        let mut test = self.allows(whole, &free);
-        if graph.nodes[node].can_be_disabled() {
-            let is_enabled = self.is_set(Flag::Enabled(node));
-            test.extend(quote!(&& self.#is_enabled));
-        }
-        quote! { if self.state.#timeout.is_due(now) #test { self.#expire(ctx, observer); quiet = false; } }
-    }
-
-    /// The function that triggers the event `timeout` of a node, with its activity.
-    fn expire(&self, whole: Whole<'_>, node: NodeId, inline: &TokenStream) -> TokenStream {
-        let graph = whole.graph;
-        let (timeout, expire) = (self.timeout(node), format_ident!("expire_{node}"));
-        let (clear, open) = (self.clear_events(whole, node), self.open_agenda(whole));
-        let trigger = self.trigger(graph, node, Standard::Timeout);
-        let pass = self.pass_activity(whole, node, &|end| {
-            let standard = graph.port(end).standard;
-            let sent = matches!(standard, Some(Standard::Timeout | Standard::Deactivated));
-            self.sent_event(whole, end).filter(|_| sent)
-        });
-        let emit = self.emit(whole, node, false);
-        let serve = self.deliver(whole, &whole.links.sends[node]);
-        quote! {
-            #inline
-            fn #expire<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                let Self { nodes, state, .. } = self;
-                state.#timeout.stop();
-                #open #clear #trigger #pass #emit #serve
-            }
-        }
-    }
 }
-
-/// From so many clusters, slots or timeouts on code is called by number: rustc takes a time that grows with the square of what
-/// stands in one function.
-const MANY: usize = 32;
 
 /// Whether functions of which there are `count` go into the one that calls them.
 pub fn inlined(count: usize) -> TokenStream {

@@ -87,11 +87,13 @@ impl Generator<'_> {
         let wiring = Wiring::new(self, graph, analysis);
         let mut state = self.state(Whole::new(graph, analysis, &wiring));
         state.sort_by_key(|kept| kept.kind);
-        pieces.extend(state.into_iter().map(|kept| Piece {
-            what: word(kept.kind),
-            of: kept.of,
-            place: format!("state.{}", kept.name),
-        }));
+        for kept in &state {
+            pieces.extend(kept.places().map(|(place, of)| Piece {
+                what: word(kept.kind),
+                of: of.to_owned(),
+                place: format!("state.{place}"),
+            }));
+        }
         pieces
     }
 }

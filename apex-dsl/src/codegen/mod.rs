@@ -20,9 +20,11 @@ mod record;
 mod slots;
 mod stamps;
 mod state;
+mod tables;
 mod test;
 mod text;
 mod threads;
+mod timers;
 mod types;
 mod wiring;
 mod witness;
@@ -76,10 +78,6 @@ pub struct Names {
     held: BTreeMap<NodeId, String>,
     /// Where delays keep the activity of these tokens.
     held_activity: BTreeMap<NodeId, String>,
-    /// Timers of sources.
-    timers: BTreeMap<NodeId, String>,
-    /// Timeouts of nodes.
-    timeouts: BTreeMap<NodeId, String>,
     inner: BTreeMap<NodeId, Names>,
 }
 
@@ -116,12 +114,6 @@ impl Names {
             self.held.insert(node, local(format!("{path}_held"), used));
             self.held_activity.insert(node, local(format!("{path}_held_activity"), used));
         }
-        if n.modifiers.timeout.is_some() {
-            self.timeouts.insert(node, local(format!("timeout_{path}"), used));
-        }
-        if n.modifiers.has_pace() {
-            self.timers.insert(node, local(format!("timer_{path}"), used));
-        }
     }
 
     /// The names of a thread group's part of the program with these names.
@@ -139,8 +131,6 @@ impl Names {
             names.tokens.extend(tokens.map(|(end, name)| (End { node, port: end.port }, name.clone())));
             names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
             names.held_activity.extend(self.held_activity.get(&origin).map(|name| (node, name.clone())));
-            names.timers.extend(self.timers.get(&origin).map(|name| (node, name.clone())));
-            names.timeouts.extend(self.timeouts.get(&origin).map(|name| (node, name.clone())));
             names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
         }
         names
@@ -149,13 +139,13 @@ impl Names {
 
 /// Names that the generated code itself uses, and those that stand for values in every module.
 #[rustfmt::skip]
-const OWN: [&str; 60] = [
-    "Err", "None", "Ok", "Some", "active", "begins", "bits", "carries", "code", "counts",
-    "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains", "i",
-    "inputs", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
-    "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue",
-    "quiet", "recorded", "result", "results", "round", "row", "self", "sent", "stamp",
-    "started", "state", "step", "steps", "tap", "token", "tokens", "told", "value",
+const OWN: [&str; 64] = [
+    "Err", "None", "Ok", "Some", "active", "agenda", "begins", "bits", "carries", "code", "counts",
+    "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains",
+    "i", "inputs", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
+    "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue", "quiet",
+    "recorded", "result", "results", "round", "row", "self", "sent", "stamp", "stamps", "started",
+    "state", "step", "steps", "tap", "timeouts", "timers", "token", "tokens", "told", "value",
     "wake", "woken",
 ];
 /// Beginnings of names that the generated code itself uses.
@@ -234,16 +224,6 @@ impl<'a> Generator<'a> {
     /// The name of a token.
     fn name(&self, end: End) -> syn::Ident {
         types::ident(self.names.tokens.get(&end).map_or("token", String::as_str))
-    }
-
-    /// The name of the timer of a source.
-    fn timer(&self, node: NodeId) -> syn::Ident {
-        types::ident(self.names.timers.get(&node).map_or("timer", String::as_str))
-    }
-
-    /// The name of the timeout of a node.
-    fn timeout(&self, node: NodeId) -> syn::Ident {
-        types::ident(self.names.timeouts.get(&node).map_or("timeout", String::as_str))
     }
 
     /// The name of the place where a delay keeps the activity of the tokens that it holds.

@@ -128,12 +128,10 @@ impl Generator<'_> {
         let Slot { connection, node, .. } = *slot;
         let free = slot.frees.map(|bit| quote! { state.dispatcher.raise(#bit); });
         let settle = slot.settles.map(|row| quote! { state.dispatcher.settle(&Self::CLUSTERS, #row); });
-        let activity = match slot.carries {
+        let activity = match slot.carries_to(whole.graph) {
             Carries::Nothing => quote!(),
             Carries::Always => self.activate(whole, node),
             Carries::Away => self.deactivate(whole, node),
-            // The program ends: what it carries stays on its way.
-            Carries::Sometimes if matches!(whole.graph.nodes[node].kind, NodeKind::Exit(_)) => quote!(),
             Carries::Sometimes => {
                 let (carried, activate) = (self.take(Flag::Carries(number)), self.activate(whole, node));
                 quote! { if #carried { #activate } }
@@ -162,7 +160,7 @@ impl Generator<'_> {
         }
     }
 
-    fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
+    pub fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
         let graph = whole.graph;
         let c = &graph.connections[connection];
         let node = c.to.node;

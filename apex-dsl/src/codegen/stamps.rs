@@ -17,12 +17,18 @@ use syn::Ident;
 impl Generator<'_> {
     /// The stamps that a program keeps, with what they start as.
     pub fn stamps(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let sent = whole.analysis.stamps.connections.iter();
-        let sent = sent.map(|c| (of_connection(*c), whole.graph.connection_text(*c)));
+        let sent: Vec<String> =
+            whole.analysis.stamps.connections.iter().map(|c| whole.graph.connection_text(*c)).collect();
         let fired = whole.analysis.stamps.clusters.iter().filter(|c| is_left(whole, **c));
-        let fired = fired.map(|c| (of_cluster(*c), format!("cluster {c}")));
         let (ty, make) = (quote!(::apex_rt::Time), quote!(::apex_rt::Time::ZERO));
-        sent.chain(fired).map(|(name, of)| Kept::new(Kind::Stamp, of, name, ty.clone(), make.clone())).collect()
+        let fired =
+            fired.map(|c| Kept::new(Kind::Stamp, format!("cluster {c}"), of_cluster(*c), ty.clone(), make.clone()));
+        let count = sent.len();
+        let sent = (count > 0).then(|| {
+            let (ty, make) = (quote!([#ty; #count]), quote!([#make; #count]));
+            Kept::list(Kind::Stamp, sent, format_ident!("stamps"), ty, make)
+        });
+        sent.into_iter().chain(fired).collect()
     }
 
     /// A firing of a cluster is as old as the oldest token that it takes.
@@ -31,12 +37,15 @@ impl Generator<'_> {
             return quote!();
         }
         let c = &whole.analysis.clusters[cluster];
-        let upstream = c.upstream.iter().map(|up| of_cluster(*up));
+        let upstream = c.upstream.iter().map(|up| {
+            let name = of_cluster(*up);
+            quote!(#name)
+        });
         let events = c.own_guards.iter().filter_map(|g| match whole.analysis.guards[*g] {
-            Guard::Token(connection) => Some(of_connection(connection)),
+            Guard::Token(connection) => of_connection(whole, connection),
             _ => None,
         });
-        let ages: Vec<Ident> = upstream.chain(events).collect();
+        let ages: Vec<TokenStream> = upstream.chain(events).collect();
         let since = (!ages.is_empty()).then(|| quote! { let ctx = &ctx.since(ctx.now() #(.min(state.#ages))*); });
         let left = is_left(whole, cluster).then(|| {
             let name = of_cluster(cluster);
@@ -47,20 +56,14 @@ impl Generator<'_> {
 
     /// A slot's token is as old as what sent it.
     pub fn stamp_of_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
-        if !whole.analysis.stamps.connections.contains(&connection) {
-            return quote!();
-        }
-        let name = of_connection(connection);
-        quote! { let ctx = &ctx.since(state.#name); }
+        let stamp = of_connection(whole, connection);
+        stamp.map(|stamp| quote! { let ctx = &ctx.since(state.#stamp); }).unwrap_or_default()
     }
 
     /// A token is sent.
     pub fn stamp_sent(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
-        if !whole.analysis.stamps.connections.contains(&connection) {
-            return quote!();
-        }
-        let name = of_connection(connection);
-        quote! { state.#name = ctx.stamp(); }
+        let stamp = of_connection(whole, connection);
+        stamp.map(|stamp| quote! { state.#stamp = ctx.stamp(); }).unwrap_or_default()
     }
 
     /// What a node with a `deadline` does when it has finished: it looks whether that was in time.
@@ -78,8 +81,15 @@ fn is_left(whole: Whole<'_>, cluster: usize) -> bool {
     down.iter().any(|c| whole.analysis.stamps.clusters.contains(c))
 }
 
-pub fn of_connection(connection: usize) -> Ident {
-    format_ident!("stamp_{connection}")
+/// The place of a connection's stamp in the state, if it is kept.
+pub fn of_connection(whole: Whole<'_>, connection: usize) -> Option<TokenStream> {
+    let index = number(whole, connection)?;
+    Some(quote!(stamps[#index]))
+}
+
+/// The number of a connection's stamp, if it is kept.
+pub fn number(whole: Whole<'_>, connection: usize) -> Option<usize> {
+    whole.analysis.stamps.connections.iter().position(|c| *c == connection)
 }
 
 fn of_cluster(cluster: usize) -> Ident {

@@ -5,24 +5,25 @@ use super::{
     activity::Whole,
     plan::{Storage, is_buffer, storage},
     program::around_text,
-    types::{constant, duration},
+    types::constant,
 };
 use crate::{
-    analyse::{Analysis, Guard},
+    analyse::Analysis,
     graph::{End, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::quote;
-use std::time::Duration;
 use syn::Ident;
 
 /// A field of the state of a program.
 pub struct Kept {
     /// What it is there for.
     pub kind: Kind,
-    /// To what of the text it belongs.
-    pub of: String,
+    /// To what of the text it belongs: of a list, each element.
+    pub of: Vec<String>,
+    /// It is a list.
+    pub is_list: bool,
     /// Its name in the struct.
     pub name: Ident,
     ty: TokenStream,
@@ -48,8 +49,21 @@ pub enum Kind {
 
 impl Kept {
     /// A field of type `ty` that starts as `make`.
-    pub const fn new(kind: Kind, of: String, name: Ident, ty: TokenStream, make: TokenStream) -> Self {
-        Self { kind, of, name, ty, make }
+    pub fn new(kind: Kind, of: String, name: Ident, ty: TokenStream, make: TokenStream) -> Self {
+        Self { kind, of: vec![of], is_list: false, name, ty, make }
+    }
+
+    /// A field that has an element for each of `of`.
+    pub const fn list(kind: Kind, of: Vec<String>, name: Ident, ty: TokenStream, make: TokenStream) -> Self {
+        Self { kind, of, is_list: true, name, ty, make }
+    }
+
+    /// The places in the state that it consists of, with what they belong to.
+    pub fn places(&self) -> impl Iterator<Item = (String, &str)> {
+        self.of.iter().enumerate().map(|(index, of)| match self.is_list {
+            true => (format!("{}[{index}]", self.name), of.as_str()),
+            false => (self.name.to_string(), of.as_str()),
+        })
     }
 }
 
@@ -65,24 +79,12 @@ impl Generator<'_> {
     /// The state of a program.
     pub fn state(&self, whole: Whole<'_>) -> Vec<Kept> {
         let mut kept = self.token_state(whole.graph, whole.analysis);
-        let timers = whole.analysis.guards.iter().filter_map(|guard| match guard {
-            Guard::Timer(node) => Some(self.kept_timer(whole.graph, *node)),
-            _ => None,
-        });
-        kept.extend(timers);
+        kept.extend(self.timer_state(whole));
         kept.extend(self.activity_state(whole));
         kept.extend(self.claim_state(whole));
         kept.extend(self.stamps(whole));
         kept.extend(self.dispatcher_state(whole));
         kept
-    }
-
-    fn kept_timer(&self, graph: &Graph, node: NodeId) -> Kept {
-        let modifiers = &graph.nodes[node].modifiers;
-        let [first, period] =
-            [modifiers.after.unwrap_or_default(), modifiers.every.unwrap_or(Duration::MAX)].map(duration);
-        let make = quote!(::apex_rt::Timer::new(#first, #period));
-        Kept::new(Kind::Timer, graph.path(node), self.timer(node), quote!(::apex_rt::Timer), make)
     }
 
     /// Tokens that are kept in the state of the program, or of a parallel body.

@@ -236,3 +236,8 @@ pub fn duration(time: std::time::Duration) -> TokenStream {
     let nanos = Literal::u64_unsuffixed(u64::try_from(time.as_nanos()).unwrap_or(u64::MAX));
     quote!(::core::time::Duration::from_nanos(#nanos))
 }
+
+/// A time in nanoseconds, of which the runtime's clock counts as many as an `i64` has; what is longer never comes.
+pub fn nanos(time: std::time::Duration) -> Literal {
+    Literal::i64_unsuffixed(i64::try_from(time.as_nanos()).unwrap_or(i64::MAX))
+}

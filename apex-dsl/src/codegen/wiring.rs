@@ -6,11 +6,14 @@
 
 use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing};
 use crate::{
-    analyse::{Analysis, Delivery, takes_activity},
-    graph::{End, Flow, Graph, NodeId},
+    analyse::{Analysis, Delivery, Guard, takes_activity},
+    graph::{End, Flow, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 /// Something that is known about a node or a token besides their state: a bit of a set in the state of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,6 +72,25 @@ pub struct Slot {
     pub needs: Vec<usize>,
 }
 
+impl Slot {
+    /// How the token changes the activity of the node. Where the program ends, what it carries stays on its way.
+    pub fn carries_to(&self, graph: &Graph) -> Carries {
+        match (self.carries, &graph.nodes[self.node].kind) {
+            (Carries::Sometimes, NodeKind::Exit(_)) => Carries::Nothing,
+            (carries, _) => carries,
+        }
+    }
+}
+
+/// The `timeout` of a node: how long it may be active.
+#[derive(Debug)]
+pub struct Timeout {
+    pub node: NodeId,
+    pub after: Duration,
+    /// The conditions under which its event can be triggered.
+    pub needs: Vec<usize>,
+}
+
 /// All of it.
 #[derive(Debug)]
 pub struct Wiring {
@@ -79,6 +101,12 @@ pub struct Wiring {
     ports: BTreeMap<NodeId, Vec<Port>>,
     /// The slots by number.
     pub slots: Vec<Slot>,
+    /// The sources with timers, and the conditions that these are due.
+    pub timers: Vec<(NodeId, usize)>,
+    /// The timeouts, in the order of the nodes.
+    pub timeouts: Vec<Timeout>,
+    /// Slots and timeouts are so many that tables serve them.
+    pub is_tabled: bool,
 }
 
 impl Wiring {
@@ -104,7 +132,36 @@ impl Wiring {
         let slots = slots.collect();
         let rows = (0..graph.nodes.len()).map(|node| (node, rows(generator, graph, analysis, &bits, node)));
         let ports = rows.filter(|(_, rows)| !rows.is_empty()).collect();
-        Self { bits, ports, slots }
+        let timers = analysis.guards.iter().enumerate().filter_map(|(guard, what)| match what {
+            Guard::Timer(node) => Some((*node, bits.guard(guard)?)),
+            _ => None,
+        });
+        let mut timers: Vec<(NodeId, usize)> = timers.collect();
+        timers.sort_unstable();
+        let timeouts = (0..graph.nodes.len()).filter_map(|node| {
+            let holding = analysis.asynchronous.holding_back(graph, links, node);
+            let needs = holding.filter_map(|connection| bits.free(connection)).collect();
+            Some(Timeout { node, after: generator.timeout(graph, analysis, node)?, needs })
+        });
+        let timeouts = timeouts.collect();
+        let is_tabled = analysis.asynchronous.is_tabled;
+        Self { bits, ports, slots, timers, timeouts, is_tabled }
+    }
+
+    /// The number of a source's timer.
+    pub fn timer(&self, node: NodeId) -> Option<usize> {
+        self.timers.binary_search_by_key(&node, |(source, _)| *source).ok()
+    }
+
+    /// The number of a node's timeout.
+    pub fn timeout(&self, node: NodeId) -> Option<usize> {
+        self.timeouts.binary_search_by_key(&node, |timeout| timeout.node).ok()
+    }
+
+    /// The timers have an agenda: few of them are as fast looked at themselves.
+    pub fn has_agenda(&self) -> bool {
+        const FEWEST: usize = 3;
+        self.timers.len() + self.timeouts.len() >= FEWEST
     }
 
     /// The rows of a node.
