@@ -10,11 +10,11 @@ impl<const W: usize> Bits<W> {
     pub const NONE: Self = Self([0; W]);
 
     /// The set of the given conditions.
-    pub const fn of(bits: &[usize]) -> Self {
+    pub const fn of(bits: &[u32]) -> Self {
         let mut words = [0; W];
         let mut i = 0;
         while i < bits.len() {
-            words[bits[i] / 64] |= 1 << (bits[i] % 64);
+            words[bits[i] as usize / 64] |= 1 << (bits[i] % 64);
             i += 1;
         }
         Self(words)
@@ -141,19 +141,30 @@ pub struct Cluster<S> {
     above: &'static [u32],
 }
 
-impl<S> Cluster<S> {
-    /// A row of the table, in the order of the fields.
-    #[allow(clippy::too_many_arguments, reason = "a row of a table that is generated")]
-    pub const fn new(
-        enabled: usize,
-        waits_for: S,
-        takes: S,
-        sends: S,
-        occupies: S,
-        notified_by: S,
-        notifies: S,
-        above: &'static [u32],
-    ) -> Self {
+/// Numbers of conditions in a row of a table.
+type List = &'static [u32];
+
+impl<const W: usize> Cluster<Bits<W>> {
+    /// A row of the table, its sets in the order of the fields.
+    pub const fn dense(enabled: usize, sets: [List; 6], above: List) -> Self {
+        let [waits_for, takes, sends, occupies, notified_by, notifies] = sets;
+        Self {
+            waits_for: Bits::of(waits_for),
+            takes: Bits::of(takes),
+            sends: Bits::of(sends),
+            occupies: Bits::of(occupies),
+            notified_by: Bits::of(notified_by),
+            notifies: Bits::of(notifies),
+            enabled,
+            above,
+        }
+    }
+}
+
+impl Cluster<List> {
+    /// A row of the table of a program with many conditions.
+    pub const fn sparse(enabled: usize, sets: [List; 6], above: List) -> Self {
+        let [waits_for, takes, sends, occupies, notified_by, notifies] = sets;
         Self { waits_for, takes, sends, occupies, notified_by, notifies, enabled, above }
     }
 }

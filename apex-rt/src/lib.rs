@@ -57,6 +57,8 @@ pub use failure::{Failure, contain, contain_fallible};
 pub use info::{ConnectionInfo, GroupInfo, Info, NodeInfo};
 pub use list::List;
 pub use mailbox::Mailbox;
+#[doc(hidden)]
+pub use node::construct;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
 pub use observer::Observer;
 #[cfg(feature = "std")]

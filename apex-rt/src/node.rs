@@ -52,6 +52,12 @@ pub trait Construct<Params> {
     fn construct(params: Params) -> Self;
 }
 
+/// A node from its parameters, which are a tuple in their order.
+#[doc(hidden)]
+pub fn construct<N: Construct<Params>, Params>(params: Params) -> N {
+    N::construct(params)
+}
+
 /// State that has a value to start with: everything with a `Default`.
 ///
 /// The lifetime has no meaning of its own. A bound `for<'a> State: Fresh<'a>` is checked where a node is made, not

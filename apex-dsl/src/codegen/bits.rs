@@ -170,9 +170,9 @@ impl Bits {
             let above = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c));
             let above = above.map(Literal::usize_unsuffixed);
             let sets = [waits_for, takes, sends, occupies, notified_by, notifies];
-            let (sets, enabled) =
-                (sets.iter().map(|bits| self.set(bits)), Literal::usize_unsuffixed(self.enabled[&index]));
-            quote!(::apex_rt::Cluster::new(#enabled, #(#sets,)* &[#(#above),*]))
+            let (sets, enabled) = (sets.iter().map(|bits| list(bits)), Literal::usize_unsuffixed(self.enabled[&index]));
+            let new = format_ident!("{}", if self.is_sparse() { "sparse" } else { "dense" });
+            quote!(Cluster::#new(#enabled, [#(#sets),*], &[#(#above),*]))
         });
         rows.collect()
     }
@@ -185,8 +185,8 @@ impl Bits {
 
     /// A constant set of conditions.
     pub fn set(&self, bits: &[usize]) -> TokenStream {
-        let bits = bits.iter().copied().map(Literal::usize_unsuffixed);
-        if self.is_sparse() { quote!(&[#(#bits),*]) } else { quote!(::apex_rt::Bits::of(&[#(#bits),*])) }
+        let bits = list(bits);
+        if self.is_sparse() { bits } else { quote!(::apex_rt::Bits::of(#bits)) }
     }
 
     /// Whether constant sets are lists: they are larger than a list of what is in them where there are many conditions.
@@ -234,6 +234,12 @@ impl Bits {
         };
         analysis.asynchronous.slots.iter().map(needs).collect()
     }
+}
+
+/// Numbers of conditions in a constant.
+fn list(bits: &[usize]) -> TokenStream {
+    let bits = bits.iter().copied().map(Literal::usize_unsuffixed);
+    quote!(&[#(#bits),*])
 }
 
 /// Whether all that a cluster sends to another comes from nodes that are done as soon as they have fired.

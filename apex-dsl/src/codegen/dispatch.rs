@@ -5,6 +5,7 @@ use super::{
     activity::Whole,
     bits::Bits,
     cells::{ends_name, receivers},
+    clusters::{Firing, fire, table},
     state::{Kept, Kind},
     types::ident,
 };
@@ -13,7 +14,7 @@ use crate::{
     graph::{Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
 
@@ -27,7 +28,7 @@ impl Generator<'_> {
         };
         let (words, slots) = (bits.words(), whole.analysis.asynchronous.slots.len());
         if words > 0 {
-            let initial = bits.initial();
+            let initial = bits.initial().into_iter().map(Literal::usize_unsuffixed);
             let make = quote!(::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])));
             // Fewer clusters are as fast tested as passed over.
             let tracks = bits.dispatched().len() >= 3;
@@ -75,7 +76,9 @@ impl Generator<'_> {
         let mut code = quote!();
         if bits.words() > 0 {
             let count = rows.len();
-            code.extend(quote! { const CLUSTERS: [::apex_rt::Cluster<#set>; #count] = [#(#rows),*]; });
+            code.extend(quote! {
+                const CLUSTERS: [::apex_rt::Cluster<#set>; #count] = { use ::apex_rt::Cluster; [#(#rows),*] };
+            });
         }
         let missing = bits.missing(analysis, &|c| self.connection(c));
         if !missing.is_empty() {
@@ -150,22 +153,14 @@ impl Generator<'_> {
         let has_exit = self.has_exit(graph);
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let has_agenda = whole.wiring.has_agenda();
         let firing = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).map(|cluster| {
             let c = &analysis.clusters[cluster];
-            let timers = c.own_guards.iter().filter_map(|g| match analysis.guards[*g] {
-                Guard::Timer(node) => whole.wiring.timer(node),
-                _ => None,
-            });
-            let open = has_agenda.then(|| quote! { self.state.agenda.open(); });
-            let advances = timers.map(|timer| quote! { self.state.timers[#timer].advance(); #open });
-            let name = format_ident!("cluster_{cluster}");
             let served = match queued {
                 false => self.deliver(whole, &c.sends),
                 true if c.sends.is_empty() && !any_stays => quote!(),
                 true => serve(false),
             };
-            Firing { row: bits.row(cluster), fire: quote! { #(#advances)* self.#name(ctx, observer); }, served }
+            Firing { cluster, row: bits.row(cluster), fire: fire(whole, cluster), served }
         });
         let (inside, before): (Vec<Firing>, Vec<Firing>) =
             firing.partition(|firing| loops && (firing.row.is_some() || ordered));
@@ -173,7 +168,7 @@ impl Generator<'_> {
         let before: TokenStream = before.iter().map(|firing| firing.straight(steps, false, exit.as_ref())).collect();
         let in_turn = inside.iter().any(|firing| firing.row.is_none());
         let clusters = match inside.len() > MANY && !bits.dispatched().is_empty() {
-            true => table(&inside, steps, exit.as_ref()),
+            true => table(&inside, analysis.clusters.len(), steps, exit.as_ref()),
             false => inside.iter().map(|firing| firing.straight(steps, true, exit.as_ref())).collect(),
         };
         // In a reaction that makes no cluster ready none is looked at.
@@ -365,82 +360,6 @@ impl Generator<'_> {
         let free = free.iter().map(|bit| quote!(&& self.state.dispatcher.has(#bit)));
         let budget = whole.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
         quote!(#(#free)* #budget)
-    }
-}
-
-/// Whether functions of which there are `count` go into the one that calls them.
-pub fn inlined(count: usize) -> TokenStream {
-    if count > MANY { quote!(#[inline(never)]) } else { quote!(#[inline]) }
-}
-
-/// A cluster in the code of a reaction.
-struct Firing {
-    /// Its row in the table of the dispatcher; without one it fires once in a reaction.
-    row: Option<usize>,
-    fire: TokenStream,
-    /// Slots that are served when it has fired.
-    served: TokenStream,
-}
-
-impl Firing {
-    /// Code of its own. `slots` is how many there are where steps are counted.
-    fn straight(&self, slots: Option<usize>, in_loop: bool, exit: Option<&TokenStream>) -> TokenStream {
-        let Self { row, fire, served } = self;
-        let budget = slots.map(|_| quote!(!self.state.steps.is_used_up()));
-        let Some(row) = row else {
-            let fire = quote! { #fire #served #exit };
-            return match (in_loop, budget) {
-                (true, Some(budget)) => quote! { if first && #budget { #fire } },
-                (true, None) => quote! { if first { #fire } },
-                (false, Some(budget)) => quote! { if #budget { #fire } },
-                (false, None) => fire,
-            };
-        };
-        let budget = budget.map(|budget| quote!(#budget &&));
-        let step = slots.map(|slots| slots + row).map(|kind| quote! { self.state.steps.take(#kind); });
-        quote! {
-            if #budget self.state.dispatcher.start(&Self::CLUSTERS[#row]) {
-                #step
-                #fire
-                self.state.dispatcher.finish(&Self::CLUSTERS, #row);
-                #served #exit
-                quiet = false;
-            }
-        }
-    }
-}
-
-/// Code for many clusters: all of them by number, in their order.
-fn table(firing: &[Firing], slots: Option<usize>, exit: Option<&TokenStream>) -> TokenStream {
-    let count = firing.len();
-    let rows = firing.iter().map(|firing| match firing.row {
-        Some(row) => quote!(Some(#row)),
-        None => quote!(None),
-    });
-    let budget = slots.map(|_| quote! { if self.state.steps.is_used_up() { break; } });
-    let step = slots.map(|slots| quote! { self.state.steps.take(#slots + row); });
-    let arms = firing.iter().enumerate().map(|(place, Firing { fire, .. })| quote! { #place => { #fire } });
-    let served = firing.iter().enumerate().filter(|(_, firing)| !firing.served.is_empty());
-    let served = served.map(|(place, Firing { served, .. })| quote! { #place => { #served } });
-    quote! {
-        const ROWS: [::core::option::Option<usize>; #count] = [#(#rows),*];
-        let clusters: &'static [_] = &Self::CLUSTERS;
-        for (place, row) in ROWS.into_iter().enumerate() {
-            #budget
-            let ready = match row {
-                Some(row) => self.state.dispatcher.start(&clusters[row]),
-                None => first,
-            };
-            if !ready { continue; }
-            if let Some(row) = row { #step }
-            match place { #(#arms)* _ => {} }
-            if let Some(row) = row {
-                self.state.dispatcher.finish(clusters, row);
-                quiet = false;
-            }
-            match place { #(#served)* _ => {} }
-            #exit
-        }
     }
 }
 

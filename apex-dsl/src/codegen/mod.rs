@@ -4,6 +4,7 @@ mod activity;
 mod bits;
 mod cells;
 mod claims;
+mod clusters;
 mod condition;
 mod deliver;
 mod dispatch;

@@ -3,15 +3,13 @@
 use super::{
     Generator,
     activity::Whole,
-    dispatch::inlined,
-    fire::Emitter,
     state,
     threads::{end_if_hung, group_info},
     types::ident,
     wiring::Wiring,
 };
 use crate::{
-    analyse::{Analysis, Cluster, is_multirate},
+    analyse::{Analysis, Cluster},
     graph::{End, Graph, Library, NodeId, NodeKind, camel},
     syntax::tree::PortKind,
 };
@@ -246,11 +244,12 @@ impl Generator<'_> {
             return quote!();
         }
         let (place, make) = (self.node_place(graph, node), self.make(graph, node, library));
+        let ty = self.node_type(graph, library);
         let keeps = (0..library.params.len()).map(|param| {
             quote! { ::core::mem::swap(::apex_rt::ParamField::<#param>::field(&mut #place), ::apex_rt::ParamField::<#param>::field(&mut made)); }
         });
         let mutable = (!library.params.is_empty()).then(|| quote!(mut));
-        quote! { let #mutable made = #make; #(#keeps)* #place = made; }
+        quote! { let #mutable made: #ty = #make; #(#keeps)* #place = made; }
     }
 
     fn make(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
@@ -267,30 +266,6 @@ impl Generator<'_> {
             return quote!();
         }
         quote! { fn is_active(&self, node: usize) -> bool { self.state.active.has(node) } }
-    }
-
-    fn clusters(&self, whole: Whole<'_>) -> TokenStream {
-        let firing: Vec<usize> =
-            (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires).collect();
-        let inline = inlined(firing.len());
-        let functions = firing.into_iter().map(|cluster| {
-            let name = format_ident!("cluster_{cluster}");
-            let code = if is_multirate(whole.graph, whole.analysis, cluster) {
-                let stamp = self.stamp_of_firing(whole, cluster);
-                let code = self.rates(whole.graph, whole.analysis, whole.links, cluster);
-                quote! { #stamp #code }
-            } else {
-                Emitter::new(self, whole, cluster).program_cluster()
-            };
-            quote! {
-                #inline
-                fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                    let Self { nodes, state, inputs, outputs, .. } = self;
-                    #code
-                }
-            }
-        });
-        quote! { #(#functions)* }
     }
 
     /// The table that describes a program. `clusters` has the numbers of their nodes.

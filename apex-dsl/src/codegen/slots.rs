@@ -4,7 +4,7 @@ use super::{
     Generator,
     activity::{Carries, Whole},
     bits::Bits,
-    dispatch::inlined,
+    clusters::inlined,
     plan::is_buffer,
     types::ident,
     wiring::{Flag, Send, Slot},
@@ -160,6 +160,7 @@ impl Generator<'_> {
         }
     }
 
+    /// The call of a slot's method, or what the slot of a built-in node does.
     pub fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
         let graph = whole.graph;
         let c = &graph.connections[connection];

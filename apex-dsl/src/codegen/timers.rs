@@ -3,7 +3,7 @@
 use super::{
     Generator,
     activity::Whole,
-    dispatch::inlined,
+    clusters::inlined,
     state::{Kept, Kind},
     types::nanos,
     wiring::Flag,

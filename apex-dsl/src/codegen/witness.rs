@@ -80,6 +80,8 @@ impl Generator<'_> {
         let ty = self.node_type(graph, library);
         match self.making(node, library) {
             Some(name) => quote!(<#ty as #name<_>>::made((#(#params,)*))),
+            None if params.is_empty() => quote!(::apex_rt::construct(())),
+            // With the type in sight, a list becomes what the parameter is declared as.
             None => quote!(<#ty as ::apex_rt::Construct<_>>::construct((#(#params,)*))),
         }
     }

@@ -1,0 +1,197 @@
+//! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
+
+use super::{Generator, activity::Whole, fire::Emitter};
+use crate::analyse::{Guard, MANY, is_multirate};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// Clusters that share a function where there are many: rustc takes a time that grows with the square of the size of a function,
+/// and each function costs, too.
+const CHUNK: usize = 32;
+
+/// Whether functions of which there are `count` go into the one that calls them.
+pub fn inlined(count: usize) -> TokenStream {
+    if count > MANY { quote!(#[inline(never)]) } else { quote!(#[inline]) }
+}
+
+/// Whether the clusters of a program share functions.
+fn share_functions(whole: Whole<'_>) -> bool {
+    whole.analysis.clusters.len() > MANY
+}
+
+/// The call that fires a cluster.
+pub fn fire(whole: Whole<'_>, cluster: usize) -> TokenStream {
+    match share_functions(whole) {
+        true => {
+            let (name, cluster) = (format_ident!("clusters_{}", cluster / CHUNK), Literal::usize_unsuffixed(cluster));
+            quote! { self.#name(#cluster, ctx, observer); }
+        }
+        false => {
+            let name = format_ident!("cluster_{cluster}");
+            quote! { self.#name(ctx, observer); }
+        }
+    }
+}
+
+impl Generator<'_> {
+    /// The functions that fire clusters.
+    pub fn clusters(&self, whole: Whole<'_>) -> TokenStream {
+        let firing = (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires);
+        let firing: Vec<usize> = firing.collect();
+        if share_functions(whole) {
+            return firing.chunk_by(|a, b| a / CHUNK == b / CHUNK).map(|chunk| self.chunk(whole, chunk)).collect();
+        }
+        let functions = firing.into_iter().map(|cluster| {
+            let (name, code) = (format_ident!("cluster_{cluster}"), self.cluster(whole, cluster));
+            quote! {
+                #[inline]
+                fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                    let Self { nodes, state, inputs, outputs, .. } = self;
+                    #code
+                }
+            }
+        });
+        functions.collect()
+    }
+
+    /// The function that fires the clusters of a chunk.
+    fn chunk(&self, whole: Whole<'_>, chunk: &[usize]) -> TokenStream {
+        let name = format_ident!("clusters_{}", chunk[0] / CHUNK);
+        let arms = chunk.iter().map(|cluster| {
+            let (number, code) = (Literal::usize_unsuffixed(*cluster), self.cluster(whole, *cluster));
+            quote! { #number => { #code } }
+        });
+        quote! {
+            #[inline(never)]
+            fn #name<O: ::apex_rt::Observer>(&mut self, cluster: usize, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                let Self { nodes, state, inputs, outputs, .. } = self;
+                match cluster { #(#arms)* _ => {} }
+            }
+        }
+    }
+
+    /// What a cluster does. The timers of its sources advance with it.
+    fn cluster(&self, whole: Whole<'_>, cluster: usize) -> TokenStream {
+        let guards = whole.analysis.clusters[cluster].own_guards.iter();
+        let timers = guards.filter_map(|guard| match whole.analysis.guards[*guard] {
+            Guard::Timer(node) => whole.wiring.timer(node),
+            _ => None,
+        });
+        let open = self.open_agenda(whole);
+        let advances = timers.map(|timer| quote! { state.timers[#timer].advance(); #open });
+        let advances: TokenStream = advances.collect();
+        if is_multirate(whole.graph, whole.analysis, cluster) {
+            let stamp = self.stamp_of_firing(whole, cluster);
+            let code = self.rates(whole.graph, whole.analysis, whole.links, cluster);
+            quote! { #advances #stamp #code }
+        } else {
+            let code = Emitter::new(self, whole, cluster).program_cluster();
+            quote! { #advances #code }
+        }
+    }
+}
+
+/// A cluster in the code of a reaction.
+pub struct Firing {
+    pub cluster: usize,
+    /// Its row in the table of the dispatcher; without one it fires once in a reaction.
+    pub row: Option<usize>,
+    pub fire: TokenStream,
+    /// Slots that are served when it has fired.
+    pub served: TokenStream,
+}
+
+impl Firing {
+    /// Code of its own. `slots` is how many there are where steps are counted.
+    pub fn straight(&self, slots: Option<usize>, in_loop: bool, exit: Option<&TokenStream>) -> TokenStream {
+        let Self { row, fire, served, .. } = self;
+        let budget = slots.map(|_| quote!(!self.state.steps.is_used_up()));
+        let Some(row) = row else {
+            let fire = quote! { #fire #served #exit };
+            return match (in_loop, budget) {
+                (true, Some(budget)) => quote! { if first && #budget { #fire } },
+                (true, None) => quote! { if first { #fire } },
+                (false, Some(budget)) => quote! { if #budget { #fire } },
+                (false, None) => fire,
+            };
+        };
+        let budget = budget.map(|budget| quote!(#budget &&));
+        let step = slots.map(|slots| slots + row).map(|kind| quote! { self.state.steps.take(#kind); });
+        quote! {
+            if #budget self.state.dispatcher.start(&Self::CLUSTERS[#row]) {
+                #step
+                #fire
+                self.state.dispatcher.finish(&Self::CLUSTERS, #row);
+                #served #exit
+                quiet = false;
+            }
+        }
+    }
+}
+
+/// Code for many clusters: all of them by number, in their order, which is that of their rows. There are `all` clusters.
+pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&TokenStream>) -> TokenStream {
+    let count = firing.len();
+    let budget = slots.map(|_| quote! { if self.state.steps.is_used_up() { break; } });
+    let step = slots.map(|slots| quote! { self.state.steps.take(#slots + row); });
+    let numbers = firing.iter().map(|firing| Literal::usize_unsuffixed(firing.cluster));
+    let chunks = 0..all.div_ceil(CHUNK);
+    let chunks = chunks.filter(|chunk| firing.iter().any(|firing| firing.cluster / CHUNK == *chunk)).map(|chunk| {
+        let (name, chunk) = (format_ident!("clusters_{chunk}"), Literal::usize_unsuffixed(chunk));
+        quote! { #chunk => self.#name(cluster, ctx, observer), }
+    });
+    let served = served(firing);
+    let once = (0..).map(Literal::usize_unsuffixed).zip(firing).filter(|(_, firing)| firing.row.is_none());
+    let once: Vec<Literal> = once.map(|(place, _)| place).collect();
+    let fire = quote! { match cluster / #CHUNK { #(#chunks)* _ => {} } };
+    let body = if once.is_empty() {
+        quote! {
+            let row = place;
+            if !self.state.dispatcher.start(&clusters[row]) { continue; }
+            #step
+            #fire
+            self.state.dispatcher.finish(clusters, row);
+            quiet = false;
+        }
+    } else {
+        quote! {
+            // Some fire once in a reaction and have no row.
+            if matches!(place, #(#once)|*) {
+                if !first { continue; }
+                #fire
+            } else {
+                let row = place - [#(#once),*].iter().filter(|once| **once < place).count();
+                if !self.state.dispatcher.start(&clusters[row]) { continue; }
+                #step
+                #fire
+                self.state.dispatcher.finish(clusters, row);
+                quiet = false;
+            }
+        }
+    };
+    quote! {
+        const ORDER: [usize; #count] = [#(#numbers),*];
+        let clusters: &'static [_] = &Self::CLUSTERS;
+        for (place, cluster) in ORDER.into_iter().enumerate() {
+            #budget
+            #body
+            #served
+            #exit
+        }
+    }
+}
+
+/// The slots that are served when a cluster of a table has fired: from the queue after each, or each its own.
+fn served(firing: &[Firing]) -> TokenStream {
+    let mut all = firing.iter().map(|firing| firing.served.to_string()).filter(|served| !served.is_empty());
+    let Some(first) = all.next() else { return quote!() };
+    let own = || firing.iter().enumerate().filter(|(_, firing)| !firing.served.is_empty());
+    if all.all(|served| served == first) {
+        return own().next().map(|(_, firing)| firing.served.clone()).unwrap_or_default();
+    }
+    let arms = own().map(|(place, Firing { served, .. })| {
+        let place = Literal::usize_unsuffixed(place);
+        quote! { #place => { #served } }
+    });
+    quote! { match place { #(#arms)* _ => {} } }
+}
