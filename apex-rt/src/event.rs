@@ -11,16 +11,16 @@ impl<'a, T> Event<'a, T> {
         Self { slot: None }
     }
 
-    /// An event whose token is put into `slot`.
-    #[doc(hidden)]
-    pub fn into_slot(slot: &'a mut Option<T>) -> Self {
-        Self { slot: Some(slot) }
-    }
-
     /// Triggers the event with `value`.
     pub fn emit(self, value: T) {
         if let Some(slot) = self.slot {
             *slot = Some(value);
         }
     }
+}
+
+/// An event whose token is put into `slot`.
+#[doc(hidden)]
+pub const fn event<T>(slot: &mut Option<T>) -> Event<'_, T> {
+    Event { slot: Some(slot) }
 }

@@ -53,6 +53,8 @@ pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
 pub use dispatch::{Bits, Cluster, Conditions, Dispatcher, Missing};
 pub use event::Event;
+#[doc(hidden)]
+pub use event::event;
 pub use failure::{Failure, contain, contain_fallible};
 pub use info::{ConnectionInfo, GroupInfo, Info, NodeInfo};
 pub use list::List;

@@ -110,6 +110,8 @@ pub struct Slot {
     pub node: usize,
     /// First of the node's ports, and the end of them.
     pub ports: (usize, usize),
+    /// Conditions under which it is served.
+    pub needs: &'static [u32],
     /// Number of the connection, unless it comes from another thread group.
     pub connection: Option<usize>,
     /// Condition "is free" of the connection.
@@ -123,9 +125,18 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// A slot of a node with these ports.
-    pub const fn new(node: usize, ports: (usize, usize)) -> Self {
-        Self { node, ports, connection: None, frees: None, carries: Carries::Nothing, settles: None, stamp: None }
+    /// A slot of a node with the ports from `first` to `end`.
+    pub const fn new(node: usize, first: usize, end: usize, needs: &'static [u32]) -> Self {
+        Self {
+            node,
+            ports: (first, end),
+            needs,
+            connection: None,
+            frees: None,
+            carries: Carries::Nothing,
+            settles: None,
+            stamp: None,
+        }
     }
 
     /// The connection has a number.
@@ -173,7 +184,7 @@ impl Slot {
 
 /// The `timeout` of a node (static data).
 #[derive(Debug)]
-pub struct Timeout<S> {
+pub struct Timeout {
     /// Number of the node.
     pub node: usize,
     /// First of the node's ports, and the end of them.
@@ -181,14 +192,14 @@ pub struct Timeout<S> {
     /// Time that the node may be active.
     pub after: Duration,
     /// Conditions under which the event can be triggered.
-    pub needs: S,
+    pub needs: &'static [u32],
     /// The node must be enabled.
     pub gated: bool,
 }
 
-impl<S> Timeout<S> {
+impl Timeout {
     /// The timeout of a node after a number of nanoseconds.
-    pub const fn new(node: usize, ports: (usize, usize), after: u64, needs: S, gated: bool) -> Self {
-        Self { node, ports, after: Duration::from_nanos(after), needs, gated }
+    pub const fn new(node: usize, first: usize, end: usize, after: u64, needs: &'static [u32], gated: bool) -> Self {
+        Self { node, ports: (first, end), after: Duration::from_nanos(after), needs, gated }
     }
 }

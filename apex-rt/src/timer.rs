@@ -59,6 +59,13 @@ impl Agenda {
         self.open = true;
     }
 
+    /// The source of a timer fired.
+    #[inline(always)]
+    pub fn advance(&mut self, timer: &mut Timer) {
+        timer.advance();
+        self.open();
+    }
+
     /// Whether a timer may be due at `now`, so that all are looked at, and then [`Agenda::close`] is called.
     #[inline(always)]
     pub fn is_due(&self, now: Time) -> bool {

@@ -164,7 +164,7 @@ pub fn image(ticks: u64) -> u64 {
 #[inline(never)]
 pub fn timer10(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Count::default(), Sink::default());
-    let mut timer = Timer::new(Duration::ZERO, Duration::from_millis(1));
+    let mut timer = Timer::new(0, 1_000_000);
     for now in milliseconds(ticks) {
         while timer.is_due(now) {
             timer.advance();
@@ -180,7 +180,7 @@ pub fn timer10(ticks: u64) -> u64 {
 #[inline(never)]
 pub fn timers2(ticks: u64) -> u64 {
     let (mut left, mut right, mut sink) = (Count::default(), Count::default(), Sink::default());
-    let mut timers = [1, 2].map(|ms| Timer::new(Duration::ZERO, Duration::from_millis(ms)));
+    let mut timers = [1, 2].map(|ms| Timer::new(0, ms * 1_000_000));
     let (mut a, mut b) = (None, None);
     for now in milliseconds(ticks) {
         loop {
@@ -205,7 +205,7 @@ pub fn timers2(ticks: u64) -> u64 {
 #[inline(never)]
 pub fn timers3(ticks: u64) -> u64 {
     let mut sources: [Count; 3] = Default::default();
-    let mut timers = [1, 2, 3].map(|ms| Timer::new(Duration::ZERO, Duration::from_millis(ms)));
+    let mut timers = [1, 2, 3].map(|ms| Timer::new(0, ms * 1_000_000));
     let mut tokens = [None; 3];
     let mut sink = Sink::default();
     for now in milliseconds(ticks) {

@@ -77,8 +77,10 @@ impl Generator<'_> {
             Guard::Timer(node) => whole.wiring.timer(node),
             _ => None,
         });
-        let open = self.open_agenda(whole);
-        let advances = timers.map(|timer| quote! { state.timers[#timer].advance(); #open });
+        let advances = timers.map(|timer| match whole.wiring.has_agenda() {
+            true => quote! { state.agenda.advance(&mut state.timers[#timer]); },
+            false => quote! { state.timers[#timer].advance(); },
+        });
         let advances: TokenStream = advances.collect();
         if is_multirate(whole.graph, whole.analysis, cluster) {
             let stamp = self.stamp_of_firing(whole, cluster);

@@ -24,12 +24,13 @@ impl Generator<'_> {
                 quote! { match slot { #(#arms)* _ => {} } }
             }
         };
-        let ready = if needs.iter().all(|needs| needs.is_empty()) {
-            quote!(|_| true)
-        } else {
-            quote!(|slot| self.state.dispatcher.holds(&Self::NEEDS[slot as usize]))
+        let has_needs = needs.iter().any(|needs| !needs.is_empty());
+        let ready = match (has_needs, wiring.is_tabled) {
+            (false, _) => quote!(|_| true),
+            (true, true) => quote!(|slot| self.state.dispatcher.holds(&Self::SLOTS[slot as usize].needs)),
+            (true, false) => quote!(|slot| self.state.dispatcher.holds(&Self::NEEDS[slot as usize])),
         };
-        let needs_table = needs.iter().any(|n| !n.is_empty()).then(|| {
+        let needs_table = (has_needs && !wiring.is_tabled).then(|| {
             let ty = wiring.bits.set_type();
             let needs = needs.iter().map(|needs| wiring.bits.set(needs));
             quote! { const NEEDS: [#ty; #count] = [#(#needs),*]; }

@@ -357,9 +357,15 @@ impl Generator<'_> {
 
     /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
     pub fn allows(&self, whole: Whole<'_>, free: &[usize]) -> TokenStream {
-        let free = free.iter().map(|bit| quote!(&& self.state.dispatcher.has(#bit)));
+        const MOST_STRAIGHT: usize = 4;
+        let free = if free.len() > MOST_STRAIGHT {
+            let free = whole.wiring.bits.set(free);
+            quote!(&& self.state.dispatcher.holds(&#free))
+        } else {
+            quote!(#(&& self.state.dispatcher.has(#free))*)
+        };
         let budget = whole.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
-        quote!(#(#free)* #budget)
+        quote!(#free #budget)
     }
 }
 

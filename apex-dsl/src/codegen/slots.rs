@@ -6,6 +6,7 @@ use super::{
     bits::Bits,
     clusters::inlined,
     plan::is_buffer,
+    stamps,
     types::ident,
     wiring::{Flag, Send, Slot},
 };
@@ -15,7 +16,7 @@ use crate::{
     graph::{End, Flow, Graph, Library, NodeId, NodeKind, Standard},
     syntax::tree::PortKind,
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
 /// Where no queue says which tokens wait, the last slot that a token comes to takes it away.
@@ -43,7 +44,7 @@ impl Generator<'_> {
         let ports = rows.map(|port| {
             let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
             let always: TokenStream = always.into_iter().map(|send| self.sent(whole, send)).collect();
-            let sent: TokenStream = sends.into_iter().map(|send| self.sent(whole, send)).collect();
+            let sent = self.all_sent(whole, &sends);
             let chosen = self.chosen_event(whole.graph, port.end);
             if sent.is_empty() && chosen.is_empty() {
                 return always;
@@ -52,6 +53,28 @@ impl Generator<'_> {
             quote! { #always if #present { #chosen #sent } }
         });
         ports.collect()
+    }
+
+    /// A token goes off on each of several connections.
+    fn all_sent(&self, whole: Whole<'_>, sends: &[&Send]) -> TokenStream {
+        const MOST_STRAIGHT: usize = 4;
+        let is_plain = |send: &&Send| send.queued.is_some() && stamps::number(whole, send.connection).is_none();
+        if sends.len() <= MOST_STRAIGHT || !sends.iter().all(is_plain) {
+            return sends.iter().map(|send| self.sent(whole, send)).collect();
+        }
+        let list = |numbers: &mut dyn Iterator<Item = usize>| {
+            let numbers = numbers.map(Literal::usize_unsuffixed);
+            quote!([#(#numbers),*])
+        };
+        let queued = list(&mut sends.iter().filter_map(|send| send.queued));
+        let occupied = sends.iter().any(|send| send.occupies.is_some()).then(|| {
+            let bits = list(&mut sends.iter().filter_map(|send| send.occupies));
+            quote! { for bit in #bits { state.dispatcher.clear(bit); } }
+        });
+        quote! {
+            for slot in #queued { state.queue.push(slot); }
+            #occupied
+        }
     }
 
     /// A token goes off on a connection.
@@ -101,7 +124,7 @@ impl Generator<'_> {
     pub fn event(&self, whole: Whole<'_>, end: End) -> TokenStream {
         if self.is_sent_event(whole, end) {
             let name = self.name(end);
-            quote!(::apex_rt::Event::into_slot(&mut state.#name))
+            quote!(::apex_rt::event(&mut state.#name))
         } else {
             quote!(::apex_rt::Event::unconnected())
         }

@@ -48,7 +48,7 @@ impl<'a> Ports<'a> {
     fn range(&self, node: NodeId) -> TokenStream {
         let (first, end) = self.of.get(&node).copied().unwrap_or_default();
         let (first, end) = (Literal::usize_unsuffixed(first), Literal::usize_unsuffixed(end));
-        quote!((#first, #end))
+        quote!(#first, #end)
     }
 }
 
@@ -71,15 +71,15 @@ impl Generator<'_> {
         let (slot, call, turns) = (self.slot_function(whole), self.call_function(whole), self.turns(whole));
         let expire = self.expire_table(whole, &ports);
         quote! {
-            const PORTS: [::apex_rt::tables::Port; #port_count] = [#(#rows),*];
-            const SLOTS: [::apex_rt::tables::Slot; #slot_count] = [#(#slots),*];
+            const PORTS: [::apex_rt::tables::Port; #port_count] = { use ::apex_rt::tables::Port; [#(#rows),*] };
+            const SLOTS: [::apex_rt::tables::Slot; #slot_count] = { use ::apex_rt::tables::Slot; [#(#slots),*] };
             #token #clear #leave #slot #call #turns #expire
         }
     }
 
     fn port_row(&self, whole: Whole<'_>, ports: &Ports<'_>, port: &Port) -> TokenStream {
         let token = Literal::usize_unsuffixed(ports.tokens.binary_search(&port.end).unwrap_or_default());
-        let mut row = quote!(::apex_rt::tables::Port::new(#token));
+        let mut row = quote!(Port::new(#token));
         let mut add = |method: &str, lists: &[TokenStream]| {
             let method = format_ident!("{method}");
             row.extend(quote!(.#method(#(#lists),*)));
@@ -112,7 +112,8 @@ impl Generator<'_> {
 
     fn slot_row(&self, whole: Whole<'_>, ports: &Ports<'_>, slot: &Slot) -> TokenStream {
         let (node, range) = (Literal::usize_unsuffixed(self.index(slot.node)), ports.range(slot.node));
-        let mut row = quote!(::apex_rt::tables::Slot::new(#node, #range));
+        let needs = list(slot.needs.iter().copied());
+        let mut row = quote!(Slot::new(#node, #range, #needs));
         let mut add = |method: &str, number: Option<usize>| {
             if let Some(number) = number {
                 let (method, number) = (format_ident!("{method}"), Literal::usize_unsuffixed(number));
@@ -388,15 +389,11 @@ impl Generator<'_> {
         if timeouts.is_empty() {
             return quote!();
         }
-        let bits = &whole.wiring.bits;
-        let set = bits.set_type();
-        let has_bits = bits.words() > 0;
-        let set = if has_bits { set } else { quote!(()) };
         let rows = timeouts.iter().map(|timeout| {
             let (node, range) = (Literal::usize_unsuffixed(self.index(timeout.node)), ports.range(timeout.node));
             let (after, gated) = (nanos(timeout.after), whole.graph.nodes[timeout.node].can_be_disabled());
-            let needs = if has_bits { bits.set(&timeout.needs) } else { quote!(()) };
-            quote!(::apex_rt::tables::Timeout::new(#node, #range, #after, #needs, #gated))
+            let needs = list(timeout.needs.iter().copied());
+            quote!(Timeout::new(#node, #range, #after, #needs, #gated))
         });
         let count = timeouts.len();
         let arms = timeouts
@@ -409,7 +406,7 @@ impl Generator<'_> {
         });
         let open = self.open_agenda(whole);
         quote! {
-            const TIMEOUTS: [::apex_rt::tables::Timeout<#set>; #count] = [#(#rows),*];
+            const TIMEOUTS: [::apex_rt::tables::Timeout; #count] = { use ::apex_rt::tables::Timeout; [#(#rows),*] };
             /// The `timeout` of a node is triggered.
             fn expire<O: ::apex_rt::Observer>(&mut self, timeout: usize, ctx: &::apex_rt::Ctx, observer: &mut O) {
                 let row = &Self::TIMEOUTS[timeout];

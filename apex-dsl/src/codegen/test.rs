@@ -62,7 +62,7 @@ impl Generator<'_> {
                 #(#steps)*
             }
         };
-        let module = module(&module_name, quote! { #program #run });
+        let module = module(&module_name, &graph.name, quote! { #program #run });
         quote! {
             #[cfg(test)]
             #module

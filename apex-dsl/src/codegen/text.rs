@@ -9,7 +9,7 @@ use crate::{
     program::Program,
     source::{FileId, Sources, Span},
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Group, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::path::Path;
 use syn::Ident;
@@ -32,11 +32,11 @@ pub fn text(
     recordable: bool,
 ) -> TokenStream {
     let machines: Vec<&Machine> = machines.values().collect();
-    let modules = machines.iter().map(|m| module(&ident(&m.module), machine::item(m, catalog)));
+    let modules = machines.iter().map(|m| module(&ident(&m.module), &m.name, machine::item(m, catalog)));
     let programs_of = programs.iter().map(|p| {
         let code = program(p, catalog, sources, place, recordable);
         match &p.script {
-            None => module(&graph_module(&p.graph.name), code),
+            None => module(&graph_module(&p.graph.name), &p.graph.name, code),
             Some(_) => code,
         }
     });
@@ -57,9 +57,47 @@ pub fn text(
     }
 }
 
-/// A module that sees what every module sees, also where the crate around it does not.
-pub fn module(name: &Ident, items: TokenStream) -> TokenStream {
-    quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::Observer as _; #items } }
+/// A module that sees what every module sees, also where the crate around it does not. The runtime is called `rt` in it, unless
+/// something of the text is.
+pub fn module(name: &Ident, graph: &str, items: TokenStream) -> TokenStream {
+    let (alias, items) = match graph == RUNTIME {
+        true => (quote!(), items),
+        false => (quote! { use ::apex_rt as rt; }, abbreviated(items)),
+    };
+    quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::Observer as _; #alias #items } }
+}
+
+/// What the runtime is called in the module of a program.
+const RUNTIME: &str = "rt";
+
+/// `rt` instead of `::apex_rt`.
+fn abbreviated(code: TokenStream) -> TokenStream {
+    let mut tokens = code.into_iter().peekable();
+    let mut short: Vec<TokenTree> = vec![];
+    while let Some(token) = tokens.next() {
+        match token {
+            TokenTree::Group(group) => {
+                let mut inner = Group::new(group.delimiter(), abbreviated(group.stream()));
+                inner.set_span(group.span());
+                short.push(inner.into());
+            }
+            TokenTree::Ident(name) if name == "apex_rt" && ends_in_colons(&short) => {
+                short.truncate(short.len() - 2);
+                short.push(Ident::new(RUNTIME, name.span()).into());
+            }
+            token => short.push(token),
+        }
+    }
+    short.into_iter().collect()
+}
+
+/// Whether the path begins here: `::`, and no name before it.
+fn ends_in_colons(tokens: &[TokenTree]) -> bool {
+    let is_colon = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ':');
+    let [before @ .., first, second] = tokens else { return false };
+    let goes_on = |name: &Ident| !["as", "dyn", "impl", "in", "mut", "return", "use"].iter().any(|word| name == word);
+    let after_name = matches!(before.last(), Some(TokenTree::Ident(name)) if goes_on(name));
+    is_colon(first) && is_colon(second) && !after_name
 }
 
 /// The names that a program has in Rust.
