@@ -1,4 +1,4 @@
-//! Names that are made from others.
+//! Names that are derived from other names.
 
 /// `fetch_cube` → `FetchCube`
 pub fn camel(word: &str) -> String {
