@@ -1,4 +1,4 @@
-//! What people write by mistake, and what they mean by it: better words than "expected …", and the change that mends it.
+//! Common mistakes in statements: explains them better than "expected …" does, and suggests a fix.
 
 use super::words;
 use crate::{
@@ -7,25 +7,25 @@ use crate::{
     units,
 };
 
-/// A place in a statement where the grammar could not go on.
+/// The place in a statement where the grammar does not match.
 pub struct Slip<'a> {
     /// The file.
     pub file: FileId,
-    /// Where the statement begins in it.
+    /// Offset of the statement in the file.
     pub start: usize,
     /// The statement.
     pub text: &'a str,
-    /// The place in the statement.
+    /// Offset of the place in the statement.
     pub at: usize,
-    /// What the grammar would have taken there, in words.
+    /// Names of the tokens that the grammar expects there.
     pub expected: &'a [&'static str],
 }
 
-/// The words that begin a statement of a graph.
+/// Keywords that begin a statement of a graph.
 const STATEMENTS: [&str; 7] = ["node", "in", "out", "slot", "event", "claim", "record"];
 
 impl Slip<'_> {
-    /// What was meant, if it is a slip that many make.
+    /// The explanation of the mistake, if it is a common one.
     pub fn explained(&self) -> Option<Diagnostic> {
         let slips = [
             Self::number,
@@ -47,7 +47,7 @@ impl Slip<'_> {
         &self.text[self.at..]
     }
 
-    /// What stands before the place, without the blanks in between.
+    /// The text before the place, without trailing blanks.
     fn before(&self) -> &str {
         self.text[..self.at].trim_end()
     }
@@ -60,7 +60,7 @@ impl Slip<'_> {
         Span::new(self.file, self.start + from, self.start + to)
     }
 
-    /// The next `length` bytes.
+    /// Span of the next `length` bytes.
     fn here(&self, length: usize) -> Span {
         self.span(self.at, self.at + length)
     }
@@ -207,7 +207,7 @@ impl Slip<'_> {
         };
         let error = Diagnostic::error("syntax", self.here(length), format!("`{sign}` is no arrow"))
             .note("`->` connects; `=>` connects and lets activity pass");
-        // A sign with a head can only be an arrow; of `a = b` nobody knows whether it goes from left to right.
+        // A sign with a head can only be an arrow, whereas the direction of `a = b` is unknown.
         let title = format!("write `{means}`");
         Some(if sign.ends_with('>') {
             error.fix(title, self.here(length), means)
@@ -307,7 +307,7 @@ impl Slip<'_> {
     }
 }
 
-/// The words that stand behind an instance.
+/// Keywords of modifiers.
 fn modifiers() -> impl Iterator<Item = &'static str> {
     words::words_at(words::Place::Modifier).map(|word| word.text)
 }
@@ -318,7 +318,7 @@ fn word(text: &str) -> &str {
     if text.starts_with(|c: char| c.is_ascii_digit()) { "" } else { &text[..end] }
 }
 
-/// Whether `text` is `Type(…` or `path::Type<…>(…`.
+/// Returns `true` if `text` begins with `Type(…` or `path::Type<…>(…`.
 fn makes_a_node(text: &str) -> bool {
     let path = text.find(|c: char| !c.is_ascii_alphanumeric() && !"_:".contains(c)).unwrap_or(text.len());
     path > 0 && text[path..].trim_start().starts_with(['(', '<'])
