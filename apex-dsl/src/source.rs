@@ -23,7 +23,7 @@ pub struct Span {
 impl Span {
     /// The span of `start..end` in `file`.
     pub fn new(file: FileId, start: usize, end: usize) -> Self {
-        // Texts are limited to a few megabytes (`syntax::MAX_BYTES`), so that the numbers always fit.
+        // The size of a source file is limited (`syntax::MAX_BYTES`), so that the offsets always fit.
         Self { file, start: start as u32, end: end as u32 }
     }
 

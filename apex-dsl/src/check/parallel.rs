@@ -1,4 +1,4 @@
-//! `each par`: its body must not remember anything from one element to the next.
+//! `each par`: its body must not keep any state from one element to the next.
 
 use crate::{
     catalog::Catalog,
@@ -8,7 +8,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 
-/// Reports nodes that remember something in the bodies of each `each par`.
+/// Reports nodes that keep state in the body of an `each par`.
 pub fn check_parallel(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for node in &graph.nodes {
         if let NodeKind::Each(each) = &node.kind

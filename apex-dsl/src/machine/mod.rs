@@ -33,7 +33,7 @@ pub struct Machine {
     pub events: Vec<(String, Type)>,
 }
 
-/// The state machines of a program's texts, by the nodes that they are.
+/// The state machines in the source files of a program, by their signatures as nodes.
 pub type Machines = BTreeMap<SignatureId, Machine>;
 
 /// A slot of a state machine.

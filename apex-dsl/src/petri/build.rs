@@ -95,6 +95,7 @@ impl<'a> Builder<'a> {
                 done: None,
             });
         }
+        // `Early` and `State` rely on this order: two places for each leg, then the copies for legs into loops.
         let loops = route::loops(graph, &legs);
         let entries = || loops.iter().flat_map(|on_loop| on_loop.entries.iter().map(move |entry| (on_loop, *entry)));
         for (on_loop, entry) in entries() {
@@ -235,6 +236,7 @@ impl<'a> Builder<'a> {
         let mut given = vec![running];
         let mut sends = vec![running];
         if let NodeKind::Delay(initial) = &self.graph.nodes[node].kind {
+            // `held` is the last place of both transitions, on which `State` relies.
             let held = self.place(format!("{name} holds"), initial.len());
             given.push(held);
             sends.push(held);
@@ -304,6 +306,7 @@ impl<'a> Builder<'a> {
         let waiting = self.place(format!("{name} waits for notifications"), 0);
         let mut takes = self.tokens(&inputs);
         takes.push(room);
+        // `State` relies on `held` being the last place.
         let mut gives = self.finished(&inputs);
         gives.push(held);
         self.transition(format!("{name} takes"), Meaning::Hold(node), takes, gives);
@@ -323,12 +326,14 @@ impl<'a> Builder<'a> {
         let out: Vec<usize> = delays.iter().flat_map(|delay| self.legs_from(Stop::Node(*delay))).collect();
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         let own = || delays.iter().map(|delay| &self.delays[delay]);
+        // `State` relies on the places where the delays hold tokens being the first.
         let mut takes: Vec<PlaceId> = own().map(|delay| delay.held).collect();
         takes.extend(own().map(|delay| delay.enabled));
         // The copies (`echo`) announce an iteration before the nodes at the ends of the entries fire, as they may need
         // the tokens of the delays to do so.
         takes.extend(entries.iter().filter_map(|entry| self.places[*entry].echo));
         takes.extend(self.free(&out));
+        // The legs of events on the loop are only tested, because they are sent later in the iteration.
         let events = self.free(events);
         takes.extend(&events);
         let mut gives: Vec<PlaceId> = own().flat_map(|delay| [delay.room, delay.waiting]).collect();

@@ -103,8 +103,8 @@ impl<'a> Replay<'a> {
         Ok(replay)
     }
 
-    /// The same replay with another order of the unrecorded transitions: a node with slots takes ⊥ as late as possible
-    /// instead of as early as possible, and a delay on a loop sends only when a node downstream fires. Events may be
+    /// The same replay with another order of the unrecorded transitions: a node with slots takes ⊥ as late as
+    /// possible, not as early as possible, and a delay on a loop sends only when a node downstream fires. Events may be
     /// blocked in one order and not in the other, so that a run is legal if it is legal in one of them.
     #[must_use]
     pub fn hesitating(mut self) -> Self {
@@ -128,6 +128,7 @@ impl<'a> Replay<'a> {
             let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
         }
+        // Time has passed, so that any transition may have become enabled.
         self.agenda = (0..self.net.transitions.len()).collect();
         self.settle();
     }
@@ -190,6 +191,7 @@ impl<'a> Replay<'a> {
             return Err(self.wrong(&what, format!("it has {} tokens to take", self.last.len())));
         }
         for (token, found) in self.last.iter().zip(found) {
+            // Initial tokens have no origin: only values and ⊥ can be told apart.
             let same = match (token.value, token.origin) {
                 (true, Some(origin)) => *found == Some(origin),
                 (value, _) => value == found.is_some(),
@@ -237,6 +239,7 @@ impl<'a> Replay<'a> {
             if !self.state.is_enabled(transition) {
                 continue;
             }
+            // Sources may remain enabled if they are not due, or if they fire on demand.
             let open = match t.meaning {
                 Meaning::Take(node) | Meaning::Release(node) => self.is_due(node) && !self.patient.contains(&node),
                 _ => true,
@@ -274,6 +277,7 @@ impl<'a> Replay<'a> {
         let modifiers = &self.graph.nodes[node].modifiers;
         let Some(passed) = self.now.checked_sub(modifiers.after.unwrap_or_default()) else { return false };
         match modifiers.every {
+            // The firings are at `after`, `after + period`, `after + 2 · period` and so on.
             Some(period) => period.saturating_mul(*count) <= passed,
             None => !fired || self.patient.contains(&node),
         }
@@ -408,6 +412,7 @@ impl<'a> Replay<'a> {
         match self.net.transitions[transition].meaning {
             Meaning::Take(node) => {
                 let preview = self.state.preview(node);
+                // Delays and relays have no activity, so that they pass activity on without a record.
                 let agnostic = matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_));
                 !preview.reported
                     && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
@@ -436,6 +441,7 @@ impl<'a> Replay<'a> {
 
     fn matches_expected(&mut self, node: NodeId, active: bool) -> bool {
         let Some(changes) = self.expected.get_mut(&node) else { return false };
+        // Initial activity that is missing in the record is skipped.
         while changes.front().is_some_and(|c| c.optional && c.active != active) {
             changes.pop_front();
         }

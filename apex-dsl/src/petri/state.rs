@@ -144,6 +144,7 @@ impl<'a> State<'a> {
         let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
         let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
         let loops = route::loops(graph, &legs);
+        // A loop without entries iterates on its own. Its first delay stands for it.
         sources.extend(loops.iter().filter(|on_loop| on_loop.entries.is_empty()).map(|on_loop| on_loop.delays[0]));
         Self {
             graph,
@@ -224,6 +225,7 @@ impl<'a> State<'a> {
         let decided = |end: End| self.decided.get(&end).is_some_and(Option::is_some);
         t.takes.iter().all(|p| !self.marking[*p].is_empty())
             && match t.meaning {
+                // The call has already decided if the port sends: only one of the two transitions is enabled.
                 Meaning::Trigger(end) => decided(end),
                 Meaning::Hush(end) => !decided(end),
                 _ => true,
@@ -235,6 +237,7 @@ impl<'a> State<'a> {
         let mut runs = true;
         let mut modifiers = vec![];
         for link in self.into.get(&Stop::Node(node)).into_iter().flatten() {
+            // A missing token does not matter, because the transition is not enabled then.
             let Some(token) = self.marking[link.token].front() else { continue };
             modifiers.push(token.modifier);
             runs &= token.value || !self.is_mandatory(node, self.graph.connections[link.connection].to.port);
@@ -369,6 +372,7 @@ impl<'a> State<'a> {
             if link.synchronous {
                 colours.insert(link.token, sent);
             } else {
+                // ⊥ is silence on an asynchronous connection.
                 let decided = self.decided.entry(c.from).or_insert_with(|| token.value.then(BTreeMap::new));
                 if let Some(tokens) = decided {
                     tokens.insert(link.token, sent);
@@ -397,6 +401,7 @@ impl<'a> State<'a> {
                 links.iter().copied().filter(|l| self.graph.connections[l.connection].from == end).collect();
             let value = taken.runs && self.sends(call, port);
             let has_active = links.iter().any(|l| self.graph.connections[l.connection].active);
+            // A node that deactivates others sends −1 with its events. Any other node gives its own activity away.
             let modifier = match value && has_active {
                 true if self.deactivates[node] && p.kind == PortKind::Event => -1,
                 true if self.active[node] => {
@@ -450,6 +455,7 @@ impl<'a> State<'a> {
         let tokens = BTreeMap::from([(to.port, token)]);
         match self.graph.nodes[to.node].kind {
             NodeKind::Reset => {
+                // A reset restores the initial activity of all nodes.
                 for node in 0..self.graph.nodes.len() {
                     self.set_active(node, self.graph.nodes[node].starts_active);
                 }

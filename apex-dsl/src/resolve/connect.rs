@@ -110,7 +110,7 @@ impl Table {
             let message = format!("`{}` is already defined in this graph", name.text);
             diagnostics
                 .push(Diagnostic::error("duplicate-name", name.span, message).also(*first, "first defined here"));
-            // It is unknown which of the two is meant where the name is used.
+            // Uses of the name may mean either of the two.
             let first = *first;
             self.symbols.insert(name.text.clone(), (Symbol::Broken, first));
             return;
@@ -559,7 +559,7 @@ pub fn list(ports: &[&Candidate]) -> String {
     words.join(", ")
 }
 
-/// `JumpDistance` → `jump_distance`
+/// Converts a name to snake case: `JumpDistance` → `jump_distance`.
 fn snake(word: &str) -> String {
     let mut text = String::new();
     for (i, c) in word.chars().enumerate() {

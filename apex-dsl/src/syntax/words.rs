@@ -12,9 +12,9 @@ pub enum Place {
     Machine,
     /// The beginning of a statement of a test.
     Test,
-    /// Behind an instance.
+    /// A modifier behind an instance.
     Modifier,
-    /// Inside a statement.
+    /// The inside of a statement.
     Inside,
     /// A value.
     Value,

@@ -53,6 +53,7 @@ fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
         let note = "say in a `robot` how long a node may run: `thread main { hang = 500ms }`";
         diagnostics.push(error.note(note));
     }
+    // An exit needs no thread: the watchdog itself ends the program.
     let is_called = |c: &&Connection| c.from.node == hung && !matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
     for c in graph.connections.iter().filter(is_called).filter(|_| is_alone) {
         let node = graph.path(c.to.node);
@@ -87,6 +88,7 @@ fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
 /// Reports connections from a region with several rates to another group: its code neither waits for cells nor fills
 /// them.
 fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    // A region may be divided among groups: only the parts with several rates are restricted.
     let part = |node: NodeId| (analysis.regions[node], graph.group(node));
     let parts: BTreeSet<_> = (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(part).collect();
     let is_within = |node: NodeId| parts.contains(&part(node));

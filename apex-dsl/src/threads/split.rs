@@ -93,8 +93,8 @@ impl Draft {
 }
 
 /// Key of a cell: the port that sends, the group of the receivers, and `true` for synchronous connections, which also
-/// transmit ⊥. Connections with the same key share the cell. A slot beside an input has a cell of its own, so that the
-/// sender is analysed as a node that sends to a slot.
+/// transmit ⊥. Connections with the same key share the cell. A slot beside an input has a cell of its own: the sender
+/// is analysed as a node that sends to a slot.
 type Way = (End, usize, bool);
 
 struct Splitter<'a> {
@@ -232,7 +232,7 @@ fn relay(draft: &mut Draft, connection: Connection, from: End, token: &Port) -> 
 fn node(beside: &Node, name: &str, kind: NodeKind, ports: Vec<Port>) -> Node {
     Node {
         name: name.to_owned(),
-        // It is outside all nested graphs.
+        // The new node is outside all nested graphs.
         scope: 0,
         kind,
         ports,
