@@ -170,7 +170,7 @@ impl Builder<'_> {
             {
                 return;
             }
-            // A node that is written in place is made once, although it stands behind one arrow and before the next.
+            // A node that is written in place is made once, although it is an end of two arrows.
             let symbols: Vec<Vec<Option<(Symbol, String, Span)>>> =
                 chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
             for (i, arrow) in chain.arrows.iter().enumerate() {
@@ -378,7 +378,7 @@ impl Builder<'_> {
         self.note(arrow, (from.2, source), (to.2, target));
     }
 
-    /// Records a connection of the outermost graph for tools that ask for links.
+    /// Records a connection of the outermost graph if a list for them was given.
     fn note(&mut self, arrow: &Arrow, from: (Span, Candidate), to: (Span, Candidate)) {
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
