@@ -1,4 +1,4 @@
-//! What the compiler has decided, in words and as JSON.
+//! Report of the compiler's decisions, as text and as JSON.
 
 use crate::{
     analyse::{Analysis, Block, Guard, Step},
@@ -14,7 +14,7 @@ use crate::{
 use serde_json::{Value, json};
 use std::{collections::BTreeSet, fmt::Write as _};
 
-/// Regions, guards, clusters, schedule, rates, pruning and memory of a program, for people.
+/// Regions, guards, clusters, schedule, rates, pruning and memory of a program, as text.
 pub fn explain(program: &Program, machines: &Machines, catalog: &Catalog) -> String {
     let mut text = String::new();
     let kind = if program.graph.robot { "robot" } else { "graph" };
@@ -30,7 +30,7 @@ pub fn explain(program: &Program, machines: &Machines, catalog: &Catalog) -> Str
     text
 }
 
-/// What runs on each thread, and what is between them.
+/// Writes the contents of each thread group, and the cells between them.
 fn threads(text: &mut String, program: &Program, split: &Split, catalog: &Catalog) {
     for part in &split.parts {
         let _ = writeln!(text, "  thread {}", part.group);
@@ -49,7 +49,7 @@ fn signature(node: &Node) -> Option<usize> {
     if let NodeKind::Library(library) = &node.kind { Some(library.signature) } else { None }
 }
 
-/// Slots in the order of the text, and which connections can hold back who sends on them.
+/// Writes the asynchronous connections in the order of the source, and for how long each one is occupied by a token.
 fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
     for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
         let how = match (graph.flow(c), analysis.asynchronous.stays[index]) {
@@ -127,12 +127,12 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
     }
 }
 
-/// Whether it is an end of a cell to another thread.
+/// Returns `true` for an end of a cell to another thread group.
 fn is_cell(graph: &Graph, node: NodeId) -> bool {
     matches!(graph.nodes[node].kind, NodeKind::Sender(_) | NodeKind::Receiver(_))
 }
 
-/// Which claims hold, and how many states were looked at for that.
+/// Writes the verdict on each claim, and the number of states that were visited for it.
 fn claims(text: &mut String, graph: &Graph, decided: &Decided, pad: &str) {
     if decided.verdicts.is_empty() {
         return;
@@ -143,7 +143,7 @@ fn claims(text: &mut String, graph: &Graph, decided: &Decided, pad: &str) {
     }
 }
 
-/// The first of many names, and how many more there are.
+/// The first few names, and the number of the others.
 fn shortened(names: &[String]) -> String {
     const SHOWN: usize = 8;
     let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
@@ -235,7 +235,7 @@ fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(End, Stri
     kept
 }
 
-/// The same for programs.
+/// The report of [`explain`] as JSON, without the state machines.
 pub fn explain_json(program: &Program, catalog: &Catalog) -> Value {
     let mut whole = object(&program.graph, &program.analysis, &program.claims, catalog);
     if let Some(split) = &program.split {

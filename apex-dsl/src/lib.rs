@@ -1,9 +1,9 @@
-//! The Apex compiler: sources and node signatures in; diagnostics, an analysed graph and Rust tokens out.
+//! The Apex compiler: turns source files and signatures of nodes into diagnostics, an analysed graph and Rust tokens.
 //!
-//! It is pure: all input comes through [`source::World`], nothing depends on clocks, environment or the order of a hash map.
-//! The passes stand in order in [`passes`].
+//! The compiler is pure: all input comes through [`source::World`], and nothing depends on clocks, the environment or
+//! the order of a hash map. [`passes`] lists the passes in order.
 
-// The parser that pest makes for `no_std` names it.
+// The parser that pest generates for `no_std` refers to `alloc`.
 extern crate alloc;
 
 pub mod analyse;

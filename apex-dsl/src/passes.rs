@@ -16,19 +16,19 @@ use crate::{
 };
 use proc_macro2::TokenStream;
 
-/// What is known about a text after all checks.
+/// Results of all checks of a source file.
 pub struct Checked {
-    /// The text and those that it imports.
+    /// The source file and all that it imports.
     pub texts: Texts,
-    /// Its connections, as written.
+    /// The connections in it, as written.
     pub links: Vec<Link>,
-    /// The programs in it, as far as they are whole.
+    /// The programs in it that could be built and analysed.
     pub programs: Vec<Program>,
-    /// The graphs in it that are no programs: used in other ones, or with parameters without a value.
+    /// The graphs in it that are not programs: graphs used in other ones, and graphs with parameters without a value.
     pub parts: Vec<Graph>,
 }
 
-/// Checks the text `root` and everything it imports. Programs are given as far as they are whole.
+/// Checks the source file `root` and everything it imports. Programs that cannot be built or analysed are left out.
 pub fn check(
     root: FileId,
     catalog: &mut Catalog,
@@ -39,7 +39,7 @@ pub fn check(
     check_all(root, catalog, sources, world, claims::MAX_STATES, diagnostics)
 }
 
-/// As [`check`], for tools that show the text too. To decide claims, at most `states` states are looked at.
+/// Variant of [`check`] for tools that also show the source. At most `states` states are visited to decide claims.
 pub fn check_all(
     root: FileId,
     catalog: &mut Catalog,
@@ -66,7 +66,7 @@ pub fn check_all(
             }
         }
     }
-    // In a text with errors connections may be missing, so that claims would fail for no reason.
+    // With errors, connections may be missing, and claims would fail only for that reason.
     if !diagnostics.has_errors() {
         for program in &mut programs {
             program.claims = claims::decide(&program.graph, catalog, states, diagnostics);
@@ -80,7 +80,7 @@ pub fn check_all(
     Checked { texts: resolved.texts, links: resolved.links, programs, parts }
 }
 
-/// What each of `programs` consists of in memory; nothing if `diagnostics` has errors then.
+/// Memory that each of `programs` uses, in pieces; empty if `diagnostics` has errors.
 pub fn memory<'a>(
     programs: impl Iterator<Item = &'a Program>,
     catalog: &Catalog,
@@ -90,8 +90,8 @@ pub fn memory<'a>(
     if diagnostics.has_errors() { vec![] } else { programs.map(|p| codegen::memory(p, catalog, sources)).collect() }
 }
 
-/// Rust for `programs` and `machines`; nothing if `diagnostics` has errors then. `place` says where a piece of the text stands in
-/// the code that called `graph!`; `recordable` if the runtime that it will call can record.
+/// Rust code of `programs` and `machines`; empty if `diagnostics` has errors. `place` maps a span of the source to the
+/// code that called `graph!`. `recordable` is `true` if the runtime that the code will call can record.
 pub fn generate(
     programs: &[Program],
     machines: &Machines,

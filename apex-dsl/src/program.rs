@@ -1,17 +1,17 @@
-//! A program between its checks and its code.
+//! A checked program, from which code is generated.
 
 use crate::{analyse::Analysis, claims::Decided, graph::Graph, script::Script, threads::Split};
 
-/// A graph that stood all checks, with what is known about it.
+/// A graph that has passed all checks, with the results of its analysis.
 pub struct Program {
     /// The graph.
     pub graph: Graph,
-    /// What is known about it before it runs.
+    /// Results of the analysis before it runs.
     pub analysis: Analysis,
-    /// What is known about its claims.
+    /// Verdicts on its claims.
     pub claims: Decided,
-    /// If it runs on several threads: what runs on which.
+    /// Division into thread groups, if it runs on several threads.
     pub split: Option<Split>,
-    /// If it is made for a test: what the test does with it.
+    /// Script of the test, if the program is made for one.
     pub script: Option<Script>,
 }

@@ -1,4 +1,4 @@
-//! What a `test` does with a program: the steps of its script, resolved.
+//! Resolved scripts of `test` blocks: the steps that a test takes with a program.
 
 use crate::{
     graph::{Condition, NodeId, Subject, Value},
@@ -13,67 +13,67 @@ pub struct Script {
     pub name: String,
     /// Documentation.
     pub docs: String,
-    /// Its place in the text.
+    /// Place in the source file.
     pub span: Span,
-    /// What is done and expected, in order.
+    /// Inputs and expectations, in order.
     pub steps: Vec<Step>,
 }
 
 /// A step of a test.
 #[derive(Debug, Clone)]
 pub enum Step {
-    /// Tokens for a port of the program: the first now, the others each a period later. A single one with a period
-    /// comes again and again.
+    /// Tokens for a port of the program: the first one now, each further one a period later. A single token with a
+    /// period is repeated.
     Feed {
         /// The port.
         port: NodeId,
         /// The tokens.
         values: Vec<Value>,
-        /// From token to token.
+        /// Period between the tokens.
         every: Option<Duration>,
     },
     /// The tokens of a channel of a recording for a port of the program, at their times.
     FeedRecorded {
         /// The port.
         port: NodeId,
-        /// The file, from the folder of the text.
+        /// Path of the file, relative to the folder of the source file.
         file: String,
         /// The channel.
         channel: String,
     },
     /// Lets time pass.
     Wait(Duration),
-    /// Something is to happen until then; without a time it has to have happened by now.
+    /// An observation that must be made until then; without a time it must have been made by now.
     Expect(Seen, Option<Until>),
-    /// Something is not to happen from now on.
+    /// An observation that must not be made from now on.
     Never(Seen),
 }
 
-/// A time of a test.
+/// Time limit of an expectation.
 #[derive(Debug, Clone, Copy)]
 pub enum Until {
-    /// Since the start.
+    /// Time since the start.
     By(Duration),
-    /// Since the step before.
+    /// Time since the previous step.
     Within(Duration),
 }
 
-/// What a test looks for.
+/// An observation that a test expects or forbids.
 #[derive(Debug, Clone)]
 pub struct Seen {
-    /// What it is.
+    /// Kind of the observation.
     pub what: What,
-    /// As the text says it.
+    /// Wording in the source file.
     pub text: String,
-    /// Its place in the text.
+    /// Place in the source file.
     pub span: Span,
 }
 
-/// What a test looks for.
+/// Kind of an observation.
 #[derive(Debug, Clone)]
 pub enum What {
-    /// It is active.
+    /// A node or nested graph is active.
     Active(Subject),
-    /// A token at a probe, for which this condition holds.
+    /// A token arrives at a probe and satisfies the condition, if there is one.
     Token(NodeId, Option<Condition>),
 }

@@ -1,18 +1,18 @@
-//! Texts, positions in them, and the one way in which the compiler reaches the outside.
+//! Source files, positions in them, and the only way in which the compiler reads from outside.
 
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-/// A text that was read, by number.
+/// Number of a source file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(pub u32);
 
-/// A range of bytes in a text.
+/// A range of bytes in a source file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The text.
+    /// The source file.
     pub file: FileId,
     /// First byte.
     pub start: u32,
@@ -23,7 +23,7 @@ pub struct Span {
 impl Span {
     /// The span of `start..end` in `file`.
     pub fn new(file: FileId, start: usize, end: usize) -> Self {
-        // Texts are limited to a few megabytes (`syntax::MAX_BYTES`), so that the numbers always fit.
+        // The size of a source file is limited (`syntax::MAX_BYTES`), so that the offsets always fit.
         Self { file, start: start as u32, end: end as u32 }
     }
 
@@ -38,16 +38,16 @@ impl Span {
     }
 }
 
-/// One text.
+/// A source file, or the text of a macro call.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// Where it came from, as messages show it.
+    /// Path as messages show it.
     pub path: PathBuf,
-    /// What it says.
+    /// The contents.
     pub text: Arc<str>,
     /// Line and column (from 0) at which the text starts in its file: not zero for text inside a macro.
     pub origin: (usize, usize),
-    /// Where its lines begin.
+    /// Offsets of the beginnings of the lines.
     lines: Vec<u32>,
 }
 
@@ -56,14 +56,14 @@ fn lines(text: &str) -> Vec<u32> {
     std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect()
 }
 
-/// All texts of a compilation.
+/// All source files of a compilation.
 #[derive(Debug, Clone, Default)]
 pub struct Sources {
     files: Vec<Source>,
 }
 
 impl Sources {
-    /// Adds a text.
+    /// Adds a source file.
     pub fn add(&mut self, path: impl Into<PathBuf>, text: impl Into<Arc<str>>) -> FileId {
         self.add_at(path, text, (0, 0))
     }
@@ -75,17 +75,17 @@ impl Sources {
         FileId(self.files.len() as u32 - 1)
     }
 
-    /// The text with this number.
+    /// The source file with this number.
     pub fn get(&self, file: FileId) -> &Source {
         &self.files[file.0 as usize]
     }
 
-    /// The number of the text with this path, if it was read.
+    /// The number of the source file with this path, if it was read.
     pub fn find(&self, path: &Path) -> Option<FileId> {
         self.files.iter().position(|s| s.path == path).map(|i| FileId(i as u32))
     }
 
-    /// All texts.
+    /// All source files.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
         self.files.iter()
     }
@@ -99,7 +99,7 @@ impl Sources {
     pub fn line_column(&self, file: FileId, offset: u32) -> (usize, usize) {
         let source = self.get(file);
         let line = source.lines.partition_point(|start| *start <= offset) - 1;
-        // A mark of byte order is no column: editors do not show it.
+        // Editors do not show a byte order mark, so that it does not count as a column.
         let before = &source.text[source.lines[line] as usize..offset as usize];
         let column = before.trim_start_matches('\u{feff}').chars().count();
         let shift = if line == 0 { source.origin.1 } else { 0 };
@@ -107,14 +107,14 @@ impl Sources {
     }
 }
 
-/// Everything the compiler needs from outside. It does nothing else that could differ between two runs.
+/// Access to the outside. The compiler does nothing else that could differ between two runs.
 pub trait World {
-    /// The text of a file.
+    /// The contents of a file.
     ///
     /// # Errors
-    /// Says why it cannot be read, without the path.
+    /// Returns the reason why the file cannot be read, without its path.
     fn read(&mut self, path: &Path) -> Result<Arc<str>, String>;
 
-    /// Whether there is such a file.
+    /// Returns `true` if the file exists.
     fn exists(&mut self, path: &Path) -> bool;
 }

@@ -1,4 +1,4 @@
-//! Physical dimensions, so that a length is never taken for a time.
+//! Physical dimensions, so that a length is never used as a time.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use std::fmt;
 pub struct Dimension([i8; 6]);
 
 const BASE: [&str; 6] = ["m", "s", "kg", "A", "K", "rad"];
-/// Exponents beyond this are a mistake.
+/// Largest exponent; a larger one is considered a mistake.
 const MAX_EXPONENT: i8 = 9;
 
 impl Dimension {
@@ -16,12 +16,12 @@ impl Dimension {
     /// A time.
     pub const TIME: Self = Self([0, 1, 0, 0, 0, 0]);
 
-    /// Whether it is a plain number.
+    /// Returns `true` for a plain number.
     pub fn is_none(self) -> bool {
         self == Self::NONE
     }
 
-    /// `self · other^sign`, `None` if an exponent leaves all bounds.
+    /// `self · other^sign`; `None` if an exponent exceeds its limit.
     pub fn combine(self, other: Self, sign: i8) -> Option<Self> {
         let mut sum = self.0;
         for (a, b) in sum.iter_mut().zip(other.0) {
@@ -30,7 +30,7 @@ impl Dimension {
         Some(Self(sum))
     }
 
-    /// What a quantity of this dimension is called, if it has a common name.
+    /// Common name of quantities with this dimension.
     pub fn noun(self) -> &'static str {
         match self.0 {
             [0, 0, 0, 0, 0, 0] => "a plain number",
@@ -76,13 +76,13 @@ impl fmt::Display for Dimension {
 /// A unit: its dimension and its size in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// What it measures.
+    /// Dimension of the quantities that it measures.
     pub dimension: Dimension,
-    /// How much of the SI unit it is.
+    /// Size in SI units.
     pub factor: f64,
 }
 
-/// All units that have a name: exponents as in [`Dimension`], and size in SI.
+/// All units with a name: exponents as in [`Dimension`], and size in SI units.
 const UNITS: [(&str, [i8; 6], f64); 32] = [
     ("m", [1, 0, 0, 0, 0, 0], 1.0),
     ("km", [1, 0, 0, 0, 0, 0], 1e3),
@@ -126,7 +126,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// Reads a unit such as `m/s^2`.
 ///
 /// # Errors
-/// Gives the part that is not known.
+/// Returns the part that is not known.
 pub fn parse(text: &str) -> Result<Unit, &str> {
     let mut unit = Unit { dimension: Dimension::NONE, factor: 1.0 };
     let mut sign = 1;

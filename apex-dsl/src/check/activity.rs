@@ -9,16 +9,16 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most nodes that a message names.
+/// Largest number of nodes that a message names.
 const MAX_NAMED: usize = 5;
 
-/// Reports nodes whose active connections can never carry activity, and nodes that hold it although it looks as if
-/// they were meant to pass it on. Of nodes that wait for each other only the first is named.
+/// Reports nodes whose active connections can never carry activity, and nodes that keep activity although they seem
+/// meant to pass it on. Of several nodes that wait for one another only the first is named.
 pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     if graph.is_body || graph.is_open {
         return;
     }
-    // Nobody is around a robot; a graph may get its activity from the one that uses it.
+    // A robot is never nested, whereas another graph may receive activity from the graph around it.
     let reached = if graph.robot { active_nodes(graph) } else { active_nodes_within(graph) };
     let (waiting, stuck) = (waiting(graph, catalog, &reached), stuck(graph, &reached));
     let mut check = Check { graph, reached, waiting, stuck, next: next(graph) };
@@ -34,15 +34,15 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     }
 }
 
-/// The nodes with `=>` behind them that activity never comes to, each with such a connection.
+/// Nodes with outgoing `=>` that activity never reaches, each with the first of these connections.
 fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
     let mut waiting = BTreeMap::new();
     for (index, c) in graph.connections.iter().enumerate() {
         let node = c.from.node;
-        // A node that takes activity away does so without any of its own.
+        // A node that deactivates others needs no activity of its own for that.
         let takes_away =
             matches!(&graph.nodes[node].kind, NodeKind::Library(l) if catalog.signatures[l.signature].deactivates);
-        // Activity goes into a delay only because it goes on from there.
+        // Activity enters a delay only to go on from there: the delay itself is checked instead.
         let counts = c.active && !graph.nodes[c.to.node].is_delay() && !takes_away;
         if counts && graph.can_hold_activity(node) && !reached.contains(&node) {
             let first = waiting.entry(node).or_insert(index);
@@ -54,7 +54,7 @@ fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTre
     waiting
 }
 
-/// The nodes that activity comes to and never leaves although tokens do, each with a connection.
+/// Nodes that activity reaches and never leaves although they send tokens, each with an outgoing connection.
 fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
     let mut stuck = BTreeMap::new();
     let mut passes = BTreeSet::new();
@@ -69,7 +69,7 @@ fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
     stuck
 }
 
-/// The nodes that the active connections of each node lead to.
+/// Targets of the active connections of each node.
 fn next(graph: &Graph) -> Vec<Vec<NodeId>> {
     let mut next = vec![vec![]; graph.nodes.len()];
     for c in graph.connections.iter().filter(|c| c.active) {
@@ -80,7 +80,7 @@ fn next(graph: &Graph) -> Vec<Vec<NodeId>> {
 
 struct Check<'a> {
     graph: &'a Graph,
-    /// Nodes that activity comes to.
+    /// Nodes that activity reaches.
     reached: BTreeSet<NodeId>,
     /// Nodes that wait for activity, with a connection that never carries any.
     waiting: BTreeMap<NodeId, usize>,
@@ -90,8 +90,8 @@ struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    /// Reports each `->` between a node that keeps its activity, or `start`, and nodes that wait for some: it is what was
-    /// meant to be `=>`.
+    /// Reports each `->` that leads from `start`, or from a node that keeps its activity, to nodes that wait for
+    /// activity: presumably `=>` was meant.
     fn report_gaps(&mut self, diagnostics: &mut Diagnostics) {
         let graph = self.graph;
         for c in graph.connections.iter().filter(|c| !c.active) {
@@ -106,7 +106,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Reports a `->` that is to be `=>`, and goes on as if it were one wherever this piece of the text is used.
+    /// Reports a `->` that should be `=>`, and continues as if it were one in every instance of its graph.
     fn close(&mut self, c: &Connection, diagnostics: &mut Diagnostics) {
         let mut named = self.behind(c.to.node);
         named.retain(|node| self.waiting.contains_key(node));
@@ -118,7 +118,7 @@ impl<'a> Check<'a> {
         self.waiting.retain(|node, _| !behind.contains(node));
     }
 
-    /// The node and all that activity comes to from it.
+    /// The node and all nodes that activity reaches from it.
     fn behind(&self, node: NodeId) -> BTreeSet<NodeId> {
         let (mut found, mut open) = (BTreeSet::new(), vec![node]);
         while let Some(node) = open.pop() {
@@ -150,9 +150,9 @@ impl<'a> Check<'a> {
         warning.inside(graph.scope_path(graph.nodes[c.from.node].scope))
     }
 
-    /// Reports the nodes that wait for activity, but for those that wait only because others do.
+    /// Reports the nodes that wait for activity, except those that only wait for other waiting nodes.
     fn report_waiting(&mut self, diagnostics: &mut Diagnostics) {
-        // First those that nothing leads to, then one of each circle.
+        // Nodes without a waiting predecessor come first, then one node of each cycle.
         let covered: BTreeSet<NodeId> = self
             .waiting
             .keys()
@@ -160,7 +160,7 @@ impl<'a> Check<'a> {
             .collect();
         let (later, first): (Vec<NodeId>, Vec<NodeId>) = self.waiting.keys().partition(|node| covered.contains(node));
         for nodes in [first, later] {
-            // An arrow that is missing may be missing wherever its graph is used.
+            // A missing arrow is reported once, although it is missing in every instance of its graph.
             for node in &nodes {
                 if let Some(c) = self.only_way(*node).filter(|_| self.waiting.contains_key(node)) {
                     self.close(c, diagnostics);
@@ -176,7 +176,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// The one connection over which a node that waits for activity takes tokens of a node that has some.
+    /// The connection over which a waiting node takes tokens from a node with activity, if there is exactly one.
     fn only_way(&self, node: NodeId) -> Option<&'a Connection> {
         let graph: &'a Graph = self.graph;
         let mut ways = graph.connections.iter().filter(|c| c.to.node == node && self.reached.contains(&c.from.node));
@@ -199,7 +199,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// The arrow that keeps activity from a connection: one that leads through ports of nested graphs has several.
+/// The arrow that stops activity on a connection. One that leads through ports of nested graphs has several arrows.
 fn arrow(graph: &Graph, c: &Connection) -> Span {
     let (mut open, mut seen) = (vec![(Place::Port(c.to), None)], BTreeSet::new());
     while let Some((place, arrow)) = open.pop() {

@@ -1,4 +1,4 @@
-//! Slots and events where they cannot work.
+//! Slots and events that cannot work.
 
 use crate::{
     analyse::events_on_circles,
@@ -41,8 +41,8 @@ pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Di
     check_waits(graph, diagnostics);
 }
 
-/// Reports events that lead to inputs from which tokens flow back to their node: the event is free again only when all
-/// behind it has finished (R7), and the node fires only while it is free (R1).
+/// Reports events that lead to inputs from which tokens flow back to the node of the event. Such an event is free again
+/// only when everything downstream has finished (R7), but the node fires only while the event is free (R1).
 fn check_waits(graph: &Graph, diagnostics: &mut Diagnostics) {
     for c in events_on_circles(graph).into_iter().map(|c| &graph.connections[c]) {
         let (node, event) = (graph.path(c.from.node), graph.end_name(c.from));
@@ -55,7 +55,7 @@ fn check_waits(graph: &Graph, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Ports that every node has, but that need something else to make sense.
+/// Reports standard ports without the modifier that they need, and `restart` of nodes that cannot be made again.
 fn check_standard_ports(node: &crate::graph::Node, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let needs = [
         (Standard::Timeout, node.modifiers.timeout.is_some(), "timeout"),

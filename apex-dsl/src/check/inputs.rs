@@ -1,4 +1,4 @@
-//! A required input that nothing is connected to.
+//! Required inputs and outputs of the graph without a connection.
 
 use crate::{
     catalog::Catalog,
@@ -8,7 +8,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// Reports open inputs.
+/// Reports open inputs of nodes, and outputs of the graph that nothing is connected to.
 pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let connected: BTreeSet<End> = graph.connections.iter().map(|c| c.to).collect();
     for (id, node) in graph.nodes.iter().enumerate() {
@@ -43,7 +43,7 @@ pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Dia
     }
 }
 
-/// An open port of the nested graph around it has been reported there.
+/// Returns `true` if a port of the nested graph around the node is open, which is reported there.
 fn inside_unconnected(graph: &Graph, node: usize) -> bool {
     graph.nodes[node].scope != 0 && graph.open_pins.contains(&node)
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a graph whose names are all known. One pass a file; each reports all it finds.
+//! Checks of a graph whose names are all resolved. One check per file; each reports all problems that it finds.
 
 mod activity;
 mod asynchronous;

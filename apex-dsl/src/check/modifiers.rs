@@ -1,4 +1,4 @@
-//! Modifiers that say something impossible.
+//! Modifiers that cannot work or have no effect.
 
 use crate::{
     analyse::is_told,
@@ -9,7 +9,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// Reports them.
+/// Reports timers of nodes that cannot have one, and `essential` without effect.
 pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let driven: BTreeSet<NodeId> =
         graph.connections.iter().filter(|c| graph.port(c.to).kind == PortKind::Input).map(|c| c.to.node).collect();

@@ -1,4 +1,4 @@
-//! `each par`: its body must not remember anything from one element to the next.
+//! `each par`: its body must not keep any state from one element to the next.
 
 use crate::{
     catalog::Catalog,
@@ -8,7 +8,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 
-/// Reports nodes that remember something in the bodies of each `each par`.
+/// Reports nodes that keep state in the body of an `each par`.
 pub fn check_parallel(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for node in &graph.nodes {
         if let NodeKind::Each(each) = &node.kind
@@ -39,7 +39,7 @@ fn inner_span(node: &Node, around: &Node) -> Span {
     if node.span.end == node.span.start { around.span } else { node.span }
 }
 
-/// Why a node depends on the elements before, and where it is declared.
+/// Reason why a node depends on previous elements, and the place of its declaration.
 fn remembers(body: &Graph, id: NodeId, catalog: &Catalog) -> Option<(String, Option<String>)> {
     let (node, name) = (&body.nodes[id], body.path(id));
     let library = match &node.kind {
@@ -63,7 +63,7 @@ fn remembers(body: &Graph, id: NodeId, catalog: &Catalog) -> Option<(String, Opt
     Some((why, Some(declared)))
 }
 
-/// A parameter of a struct node that tokens arrive at: a value stays until the next one comes.
+/// A connected input that sets a parameter of a struct node, which keeps the value until the next one arrives.
 fn kept_parameter<'a>(body: &'a Graph, node: NodeId, library: &Library, catalog: &Catalog) -> Option<&'a str> {
     if catalog.signatures[library.signature].is_function {
         return None;

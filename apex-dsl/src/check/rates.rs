@@ -8,7 +8,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// Reports what no code can be generated for in regions with several rates, also in the bodies of a graph.
+/// Reports everything in regions with several rates for which no code can be generated, also in the bodies of a graph.
 pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     check_regions(graph, analysis, diagnostics);
     for (id, node) in graph.nodes.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Nodes that need more than the machine has: the crate that the program becomes part of does without a heap, or without
-//! the standard library.
+//! Nodes that need more than the target offers: the crate that contains the program may lack a heap or the standard
+//! library.
 
 use crate::{
     catalog::{Catalog, Need},
@@ -7,7 +7,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
 };
 
-/// Reports them.
+/// Reports nodes whose needs the crate does not meet.
 pub fn check_target(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let Some(lacks) = catalog.lacks() else { return };
     for node in &graph.nodes {

@@ -1,4 +1,4 @@
-//! Both ends of a connection carry the same type.
+//! Comparison of the types at both ends of a connection.
 
 use crate::resolve::token_type;
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
 };
 
-/// Reports connections whose ends certainly differ. Of all others rustc has the last word.
+/// Reports connections whose ends certainly differ. All others are left to rustc.
 pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for connection in &graph.connections {
         if connection.differs || compare(graph, connection) != Match::Different {
@@ -32,7 +32,7 @@ pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnosti
     }
 }
 
-/// What is known about the two ends of a connection.
+/// Result of comparing the types at the two ends of a connection. The list of an `each` is compared by its elements.
 pub fn compare(graph: &Graph, connection: &Connection) -> Match {
     let from = token_type(graph, connection.from);
     let to = &graph.port(connection.to).ty;

@@ -1,19 +1,19 @@
-//! What claims say about one state: each is a property that every state must have.
+//! The properties of single states that claims require.
 
 use super::model::{Model, Place, PlaceId, State};
 use crate::graph::{ClaimKind, Graph, NodeId, ScopeId, Subject};
 use std::collections::BTreeMap;
 
-/// For `reaches`: places in the first that is named.
+/// For `reaches`: number of the places in the first subject.
 pub const FROM: u32 = 0;
-/// For `reaches`: places from which there is a way to the second.
+/// For `reaches`: number of the places from which activity can reach the second subject.
 pub const NEARER: u32 = 1;
 
 /// The claims of a graph, by place.
 #[derive(Debug)]
 pub struct Checks {
     kinds: Vec<ClaimKind>,
-    /// For each place the claims that look at it: the claim, and for which of its names.
+    /// For each place the claims that it matters to: the number of the claim, and of the subject in it.
     groups: Vec<Vec<(u32, u32)>>,
 }
 
@@ -45,7 +45,7 @@ impl Checks {
         checks
     }
 
-    /// The second name of `reaches` stands for all places from which it can be reached.
+    /// Extends the second subject of `reaches` to all places from which it can be reached.
     fn add_reaching(&mut self, model: &Model, claim: u32) {
         if self.kinds[claim as usize] != ClaimKind::Reaches {
             return;
@@ -58,26 +58,26 @@ impl Checks {
         }
     }
 
-    /// How many claims there are.
+    /// Number of claims.
     pub fn count(&self) -> usize {
         self.kinds.len()
     }
 
-    /// The places that count for one of the names of a claim.
+    /// The places that belong to a subject of a claim.
     pub fn places(&self, claim: usize, group: u32) -> Vec<PlaceId> {
         let meant = (claim as u32, group);
         let places = (0..).zip(&self.groups).filter(|(_, groups)| groups.contains(&meant));
         places.map(|(place, _)| place).collect()
     }
 
-    /// How much there is to look at in a state.
+    /// Cost of checking the claims in a state.
     pub fn cost(&self, state: &State) -> usize {
         state.iter().map(|place| 1 + self.groups[*place as usize].len()).sum::<usize>() + self.kinds.len()
     }
 
     /// The claims that do not hold in a state.
     pub fn broken(&self, model: &Model, state: &State) -> Vec<usize> {
-        // For each claim the first name that is active, and whether that breaks it so far.
+        // For each claim the first subject that is active, and `true` if the claim is known to fail.
         let mut found: Vec<(Option<u32>, bool)> = vec![(None, false); self.kinds.len()];
         for (claim, group) in state.iter().flat_map(|place| &self.groups[*place as usize]) {
             let (first, broken) = &mut found[*claim as usize];
@@ -97,7 +97,7 @@ impl Checks {
         (0..self.kinds.len()).filter(is_broken).collect()
     }
 
-    /// Whether a claim holds in every state there could be, so that nothing has to be searched.
+    /// Returns `true` if a claim holds in every conceivable state, so that no search is needed.
     pub fn is_certain(&self, claim: usize, names: u32) -> bool {
         match self.kinds[claim] {
             ClaimKind::Exclusive => (0..names).filter(|group| !self.places(claim, *group).is_empty()).count() < 2,
@@ -110,7 +110,7 @@ impl Checks {
     }
 }
 
-/// The nested graphs around a place. A connection is inside where both its ends are.
+/// The nested graphs around a place. A connection is inside a graph if both its ends are.
 pub fn scopes_of(graph: &Graph, place: Place) -> Vec<ScopeId> {
     match place {
         Place::Node(node) => graph.scopes_of(node),

@@ -1,4 +1,4 @@
-//! Claims about activity, decided before a program runs: a search through all states that activity can be in.
+//! Claims about activity, decided before a program runs by a search through all states of its activity.
 
 mod checks;
 mod model;
@@ -15,19 +15,19 @@ pub use checks::{Checks, FROM, NEARER, scopes_of};
 pub use model::{Arrival, Emission, Model, Move, Place, PlaceId, State};
 pub use search::{MAX_STATES, Outcome, search};
 
-/// What is known about a claim.
+/// Verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// It holds in every run.
+    /// The claim holds in every run.
     Holds,
-    /// There is a run in which it does not hold.
+    /// There is a run in which the claim does not hold.
     Fails,
-    /// There are too many states: the program checks it while it runs.
+    /// There are too many states: the program checks the claim at run time.
     Undecided,
 }
 
 impl Verdict {
-    /// In words.
+    /// The verdict as text.
     pub fn words(self) -> &'static str {
         match self {
             Self::Holds => "holds",
@@ -37,29 +37,29 @@ impl Verdict {
     }
 }
 
-/// What is known about the claims of a graph.
+/// Verdicts on the claims of a graph.
 #[derive(Debug, Clone, Default)]
 pub struct Decided {
-    /// How many states were looked at.
+    /// Number of visited states.
     pub states: usize,
-    /// For each claim, in the order of [`Graph::claims`].
+    /// Verdict on each claim, in the order of [`Graph::claims`].
     pub verdicts: Vec<Verdict>,
 }
 
 impl Decided {
-    /// Whether the program has to check claims while it runs.
+    /// Returns `true` if the program has to check claims at run time.
     pub fn has_undecided(&self) -> bool {
         self.verdicts.contains(&Verdict::Undecided)
     }
 
-    /// The claims that the program has to check while it runs.
+    /// The claims that the program has to check at run time.
     pub fn undecided(&self) -> Vec<usize> {
         (0..self.verdicts.len()).filter(|c| self.verdicts[*c] == Verdict::Undecided).collect()
     }
 }
 
-/// Decides the claims of `graph`, looking at no more than `bound` states, and reports those that fail or stay
-/// open; once for each place in the text, however often its graph is used.
+/// Decides the claims of `graph` with at most `bound` visited states. Reports claims that fail or remain undecided,
+/// once for each place in the source file, however often its graph is used.
 pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut Diagnostics) -> Decided {
     if graph.claims.is_empty() {
         return Decided::default();
@@ -131,7 +131,7 @@ fn end(model: &Model, run: &[Move]) -> State {
     state
 }
 
-/// The names of a claim that are active at the end of a run.
+/// The subjects of a claim that are active at the end of a run.
 fn active_at_end(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Vec<String> {
     let state = end(model, run);
     let is_in = |subject: &&Subject| {

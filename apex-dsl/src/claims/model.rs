@@ -1,5 +1,5 @@
-//! The activity of a graph with everything abstracted that decides when something happens: where activity can be,
-//! and how it can move. What the program does is among the runs of this model.
+//! Model of the activity of a graph, without the conditions on which anything happens: the places of activity, and its
+//! possible moves. Every run of the program is a run of this model.
 
 use crate::{
     analyse::{active_nodes, takes_activity},
@@ -9,71 +9,71 @@ use crate::{
 };
 use std::collections::BTreeMap;
 
-/// A place where activity can be, by number in [`Model::places`].
+/// Number of a place in [`Model::places`].
 pub type PlaceId = u32;
-/// Where activity is: places in ascending order.
+/// Distribution of activity: active places in ascending order.
 pub type State = Vec<PlaceId>;
 
-/// A place where activity can be.
+/// A place that can hold activity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Place {
-    /// In a node: it is active.
+    /// A node: it is active.
     Node(NodeId),
-    /// On a connection, by number: it holds a token that carries activity.
+    /// A connection, by number: it holds a token that carries activity.
     Connection(usize),
 }
 
-/// A port over which a node gives its activity away.
+/// A port over which a node passes its activity on.
 #[derive(Debug)]
 pub struct Emission {
     /// The port.
     pub from: End,
     /// Its active connections.
     pub to: Vec<PlaceId>,
-    /// Connections that must be free of activity before.
+    /// Connections that must be free of activity first.
     pub waits_for: Vec<PlaceId>,
 }
 
-/// What becomes of activity that arrives at the end of a connection.
+/// Effect of activity that arrives at the end of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arrival {
     /// The node becomes active.
     Node(PlaceId),
-    /// It leaves the program through a port.
+    /// The activity leaves the program through a port.
     Leaves,
     /// The program ends.
     Ends,
-    /// The program is as at its start.
+    /// The program returns to its initial state.
     Restarts,
 }
 
-/// One move.
+/// A step of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Move {
     /// `start`
     Start,
-    /// The node at this place gives its activity away over its emission of this number.
+    /// The node at this place passes its activity on over its emission of this number.
     Emit(PlaceId, usize),
     /// The token at this place is taken.
     Take(PlaceId),
-    /// The connection with this number takes the activity at this place away.
+    /// The connection with this number takes away the activity at this place.
     Away(usize, PlaceId),
 }
 
-/// Where the activity of a graph can be and how it can move.
+/// Places and moves of the activity of a graph.
 #[derive(Debug)]
 pub struct Model {
     /// All places: the nodes, then the connections.
     pub places: Vec<Place>,
-    /// Where it is after `start`.
+    /// State after `start`.
     pub initial: State,
-    /// How much of it `start` gave.
+    /// Amount of activity that `start` gave.
     pub given: usize,
-    /// The ports over which each place gives it away; none for connections.
+    /// Emissions of each place; none for connections.
     pub emissions: Vec<Vec<Emission>>,
-    /// What becomes of it at the end of each connection; `None` for nodes.
+    /// Effect of activity at the end of each connection; `None` for nodes.
     pub arrivals: Vec<Option<Arrival>>,
-    /// The connections that can take it away from each place.
+    /// Connections that can take activity away from each place.
     pub removers: Vec<Vec<usize>>,
 }
 
@@ -130,7 +130,8 @@ impl Model {
         }
     }
 
-    /// A node fires when everything is free that it sends on, and a slot is served when all events are (R1, R5).
+    /// Adds the connections that must be free before an emission: a node fires only if all its connections are free,
+    /// and a slot is served only if all connections from events are (R1, R5).
     fn add_waits(&mut self, graph: &Graph) {
         for emissions in &mut self.emissions {
             let kind = |end: End| graph.port(end).kind;
@@ -138,7 +139,7 @@ impl Model {
             for emission in emissions {
                 let own = kind(emission.from);
                 let held = all.iter().filter(|(k, _)| own == PortKind::Output || *k == PortKind::Event);
-                // The program ends where that is not free.
+                // A connection to an exit need not be free, as the program ends there.
                 let waits = held.flat_map(|(_, to)| to).filter(|p| self.arrivals[**p as usize] != Some(Arrival::Ends));
                 emission.waits_for = waits.copied().collect();
             }
@@ -156,7 +157,7 @@ impl Model {
         }
     }
 
-    /// All moves from a state, with where they lead.
+    /// Calls `each` with all moves from a state, and the states that they lead to.
     pub fn moves(&self, state: &State, each: &mut dyn FnMut(Move, State)) {
         let without = |place: PlaceId| state.iter().copied().filter(move |p| *p != place);
         for &place in state {
@@ -177,7 +178,7 @@ impl Model {
         }
     }
 
-    /// Whether there is a way from each place to one of `goals`, whatever else happens.
+    /// For each place, `true` if a path leads from it to one of `goals`. Other activity is ignored.
     pub fn reaching(&self, goals: &[PlaceId]) -> Vec<bool> {
         let mut before: Vec<Vec<PlaceId>> = vec![vec![]; self.places.len()];
         let mut restarts = vec![];
@@ -212,12 +213,12 @@ fn with(state: impl Iterator<Item = PlaceId>, more: &[PlaceId]) -> State {
     state
 }
 
-/// Whether activity can leave a node through a port. `deactivated` is sent when it has gone already.
+/// Returns `true` if activity can leave a node through a port. `deactivated` is sent only after it has left.
 fn gives_away(graph: &Graph, catalog: &Catalog, from: End) -> bool {
     graph.port(from).standard != Some(Standard::Deactivated) && !takes_activity(graph, catalog, from.node)
 }
 
-/// Whether a node can ever send something: it is a source, or something leads to it.
+/// Returns `true` if a node can ever send: it is a source, or a connection leads to it.
 fn can_fire(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     let NodeKind::Library(library) = &graph.nodes[node].kind else { return true };
     catalog.signatures[library.signature].process.is_some() || graph.connections.iter().any(|c| c.to.node == node)

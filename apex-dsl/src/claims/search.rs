@@ -6,17 +6,17 @@ use super::{
 };
 use std::{collections::BTreeSet, sync::Arc};
 
-/// Most states that are looked at.
+/// Largest number of states that are visited.
 pub const MAX_STATES: usize = 100_000;
-/// Most places that are looked at, in all states and moves together.
+/// Largest number of places that are visited, in all states and moves together.
 const MAX_WORK: usize = 40_000_000;
 
-/// What the search found.
+/// Result of a search.
 #[derive(Debug)]
 pub struct Outcome {
-    /// How many states it looked at.
+    /// Number of visited states.
     pub states: usize,
-    /// Whether these are all.
+    /// `true` if these are all states.
     pub complete: bool,
     /// For each claim a shortest run to a state where it does not hold, if there is one.
     pub runs: Vec<Option<Vec<Move>>>,
@@ -28,7 +28,7 @@ struct Visited {
     by: Move,
 }
 
-/// Looks for states where claims do not hold, in at most `bound` states.
+/// Searches at most `bound` states for violations of the claims.
 pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
     let initial = Arc::new(model.initial.clone());
     let mut known = BTreeSet::from([initial.clone()]);
@@ -42,6 +42,7 @@ pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
                 runs[claim] = Some(run(&visited, at));
             }
         }
+        // Nothing is left to be found if each claim is known to fail.
         if work > MAX_WORK || runs.iter().all(Option::is_some) {
             complete = false;
             at += 1;

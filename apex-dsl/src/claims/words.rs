@@ -1,15 +1,15 @@
-//! A run of a [`Model`] in words, and in a form for programs.
+//! A run of a [`Model`] as text for people and in a compact form for programs.
 
 use super::model::{Arrival, Model, Move, Place, PlaceId, State};
 use crate::graph::{Connection, Graph};
 
-/// Most steps of a run that are written down.
+/// Largest number of steps of a run that are shown.
 const MAX_STEPS: usize = 40;
 
-/// Steps in one line of the form for programs.
+/// Steps in one line of the compact form.
 const STEPS_IN_LINE: usize = 10;
 
-/// A sentence for each move, then all of them in lines of ten: `run: start; emit a.e; take a.e => b.s`.
+/// A sentence for each move, then all moves in lines of ten: `run: start; emit a.e; take a.e => b.s`.
 pub fn run(graph: &Graph, model: &Model, moves: &[Move]) -> Vec<String> {
     let mut state = model.initial.clone();
     let (mut notes, mut short) = (vec![], vec![]);
@@ -30,7 +30,7 @@ pub fn run(graph: &Graph, model: &Model, moves: &[Move]) -> Vec<String> {
         let left_out = notes.len() - MAX_STEPS;
         notes.splice(MAX_STEPS / 2..notes.len() - MAX_STEPS / 2, [format!("and {left_out} more steps here")]);
     }
-    // A note has a largest length.
+    // The length of a note is limited.
     notes.extend(short.chunks(STEPS_IN_LINE).map(|steps| format!("run: {}", steps.join("; "))));
     notes
 }
@@ -86,7 +86,7 @@ fn word(graph: &Graph, model: &Model, by: Move) -> String {
     }
 }
 
-/// The node at a place.
+/// The node or connection at a place.
 fn name(graph: &Graph, model: &Model, place: PlaceId) -> String {
     match model.places[place as usize] {
         Place::Node(node) => graph.path(node),

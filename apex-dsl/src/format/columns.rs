@@ -1,10 +1,10 @@
-//! What stands below each other: the words, names and arrows of neighbouring statements.
+//! Alignment of neighbouring lines in columns: keywords, names, arrows and comments.
 
-/// More blanks than this are not put in: the eye would lose the line.
+/// Largest number of blanks that are inserted: wider gaps are hard to read across.
 const MOST: usize = 12;
 
-/// How many blanks follow each of neighbouring cells, by their widths, so that what stands behind them is in one column.
-/// What has no width stands apart. Where widths differ too much, another column begins.
+/// Numbers of blanks that align the text behind neighbouring cells, by the widths of the cells. A cell without a width
+/// is not aligned. A new column begins where the widths differ too much.
 pub fn pads(widths: &[Option<usize>]) -> Vec<usize> {
     let mut pads = vec![];
     let mut rest = widths;

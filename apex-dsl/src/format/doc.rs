@@ -1,39 +1,39 @@
-//! What is to be written, with the places where a line may end.
+//! Documents: formatted text with its possible line breaks.
 
 use crate::syntax::concrete::Comment;
 use std::borrow::Cow;
 
-/// A piece of text whose lines are still to be found.
+/// A piece of text that is not yet divided into lines.
 #[derive(Clone)]
 pub enum Doc<'t> {
-    /// Written as it is.
+    /// Text that is written unchanged.
     Text(Cow<'t, str>),
     /// A blank between two words; nothing at the start of a line.
     Space,
-    /// A blank; the end of a line if the group around it is broken.
+    /// A blank, or a line break if the group around it is broken.
     Line,
-    /// Nothing; the end of a line if the group around it is broken.
+    /// Nothing, or a line break if the group around it is broken.
     SoftLine,
-    /// What follows begins a line.
+    /// Begins a new line.
     Fresh,
-    /// What follows begins a line with an empty one before it; nothing in a group that is not broken.
+    /// Begins a new line after an empty one; nothing in a group that is not broken.
     Blank,
-    /// Only written if the group around it is broken.
+    /// Text that is written only if the group around it is broken.
     Broken(Cow<'t, str>),
-    /// A comment. One that ends with its line is written at the end of the line that it stands in.
+    /// A comment. One that extends to the end of its line is written at the end of the current line.
     Comment {
-        /// What is written.
+        /// The comment.
         text: &'t str,
-        /// Whether it ends with its line.
+        /// `true` if it extends to the end of its line.
         is_line: bool,
     },
-    /// One behind the other.
+    /// Several documents in sequence.
     Concat(Vec<Doc<'t>>),
-    /// Lines that begin inside are indented.
+    /// A document in which new lines are indented.
     Indent(Box<Doc<'t>>),
-    /// In one line if it fits, else broken at all its lines.
+    /// A document in one line if it fits, otherwise broken at each possible line break.
     Group(Box<Doc<'t>>),
-    /// With a [`Doc::Line`] between each two, of which only those are broken that must be.
+    /// Documents separated by [`Doc::Line`], of which only the necessary ones are broken.
     Fill(Vec<Doc<'t>>),
 }
 
@@ -51,22 +51,22 @@ impl<'t> Doc<'t> {
         Self::Comment { text: comment.text, is_line: comment.is_line }
     }
 
-    /// So many blanks.
+    /// `count` blanks.
     pub fn pad(count: usize) -> Self {
         Self::text(" ".repeat(count))
     }
 
-    /// With lines that begin inside indented.
+    /// A sequence in which new lines are indented.
     pub fn indent(parts: Vec<Self>) -> Self {
         Self::Indent(Box::new(Self::Concat(parts)))
     }
 
-    /// In one line if it fits.
+    /// A sequence in one line if it fits.
     pub fn group(parts: Vec<Self>) -> Self {
         Self::Group(Box::new(Self::Concat(parts)))
     }
 
-    /// The text in one line, however long that is; nothing if a comment or documentation stands in it.
+    /// The text in one line, however long it is; `None` if it contains a comment or documentation.
     pub fn flat(&self) -> Option<String> {
         let mut text = String::new();
         self.write_flat(&mut text).then_some(text).filter(|t| !t.contains('\n'))
@@ -91,7 +91,7 @@ impl<'t> Doc<'t> {
     }
 }
 
-/// How many columns `text` takes.
+/// Number of columns that `text` takes.
 pub fn width(text: &str) -> usize {
     text.chars().count()
 }

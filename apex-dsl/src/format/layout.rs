@@ -1,4 +1,4 @@
-//! Where the lines of a text may end, rule by rule.
+//! Possible line breaks of a source file, by the rules of the grammar.
 
 use super::{
     columns,
@@ -10,18 +10,18 @@ use crate::syntax::{
     concrete::{Comment, Kid, Node, Token},
 };
 
-/// Makes documents of the nodes of a text.
+/// Makes documents from the nodes of a syntax tree.
 pub struct Layout<'a, 't> {
     tokens: &'a [Token<'t>],
 }
 
 impl<'a, 't> Layout<'a, 't> {
-    /// For a text with these tokens.
+    /// A layout for a source file with these tokens.
     pub fn new(tokens: &'a [Token<'t>]) -> Self {
         Self { tokens }
     }
 
-    /// The whole text: graphs, machines and tests have empty lines around them.
+    /// The whole source file: graphs, machines and tests are surrounded by empty lines.
     pub fn file(&self, file: &Node) -> Doc<'t> {
         let mut parts = vec![];
         let mut may_follow = true;
@@ -61,7 +61,7 @@ impl<'a, 't> Layout<'a, 't> {
     /// A token with its comments.
     fn token(&self, index: usize) -> Doc<'t> {
         let token = &self.tokens[index];
-        // What ends something has nothing before it: comments there go behind it.
+        // Nothing is written before a separator: comments there are moved behind it.
         let (before, after) = match token.text {
             "," | ";" => (&[][..], &token.before[..]),
             _ => (&token.before[..], &[][..]),
@@ -79,7 +79,7 @@ impl<'a, 't> Layout<'a, 't> {
         Doc::Concat(parts)
     }
 
-    /// A comment that stands before something.
+    /// A comment in front of a token.
     pub fn before(written: &Comment<'t>) -> Vec<Doc<'t>> {
         let blank = if written.blank { Doc::Blank } else { Doc::NIL };
         match written.ends_line {
@@ -88,7 +88,7 @@ impl<'a, 't> Layout<'a, 't> {
         }
     }
 
-    /// The token that a part begins with.
+    /// The first token of a part.
     pub fn first(&self, kid: &Kid) -> &'a Token<'t> {
         match kid {
             Kid::Token(token) => &self.tokens[*token],
@@ -106,7 +106,7 @@ impl<'a, 't> Layout<'a, 't> {
         }
     }
 
-    /// Parts with blanks between them where there should be some.
+    /// Parts with blanks between them where necessary.
     pub fn words(&self, kids: &[Kid]) -> Doc<'t> {
         let mut parts = vec![];
         for (i, kid) in kids.iter().enumerate() {
@@ -127,7 +127,7 @@ impl<'a, 't> Layout<'a, 't> {
         !(tight(left) || tight(right) || holds || hangs)
     }
 
-    /// A name, and statements in braces.
+    /// A head, and statements in braces.
     fn block(&self, node: &Node) -> Doc<'t> {
         let is_brace = |kid: &Kid| rule(kid) == Some(Rule::lbrace);
         let open = node.kids.iter().position(is_brace).unwrap_or(0);
@@ -141,7 +141,7 @@ impl<'a, 't> Layout<'a, 't> {
         Doc::Concat(vec![self.words(head), Doc::indent(body), end, close])
     }
 
-    /// What stands before a closing bracket, and the bracket.
+    /// The comments before a closing bracket, and the bracket.
     pub fn closing(&self, close: &Kid) -> (Vec<Doc<'t>>, Doc<'t>) {
         let token = self.first(close);
         let mut inside = vec![];
@@ -165,14 +165,14 @@ impl<'a, 't> Layout<'a, 't> {
         parts
     }
 
-    /// Whether there is an empty line before a statement.
+    /// Returns `true` if there is an empty line before a statement.
     fn has_blank(&self, node: &Node) -> bool {
         let first = self.first(&node.kids[0]);
         first.blank || first.before.iter().any(|c| c.blank)
     }
 
-    /// How wide the part of a statement is behind which neighbouring statements have a column. With a comment in it, it
-    /// has none.
+    /// Width of the first cell of a statement, behind which neighbouring statements are aligned. `None` if it contains
+    /// a comment.
     fn cell_width(&self, statement: &Node) -> Option<usize> {
         let cell = statement.kids[..cell(statement)].iter().filter(|kid| rule(kid) != Some(Rule::doc));
         let tokens: Vec<&Token<'t>> = cell.flat_map(|kid| self.all(kid)).collect();
@@ -191,7 +191,7 @@ impl<'a, 't> Layout<'a, 't> {
         }
     }
 
-    /// A statement with so many blanks behind its first cell.
+    /// A statement with `pad` blanks behind its first cell.
     fn statement(&self, node: &Node, pad: usize) -> Doc<'t> {
         let (head, rest) = node.kids.split_at(cell(node));
         match (node.rule, rest) {
@@ -206,7 +206,7 @@ impl<'a, 't> Layout<'a, 't> {
         }
     }
 
-    /// A transition goes on in the next line before its guard or an arrow.
+    /// A transition, which may be broken before its guard and before an arrow.
     fn transition(&self, node: &Node, pad: usize) -> Doc<'t> {
         let [on, slot, steps @ .., semi] = &node.kids[..] else { return self.words(&node.kids) };
         let steps = [Doc::NIL].into_iter().chain(steps.iter().map(|step| self.kid(step))).collect();
@@ -214,7 +214,8 @@ impl<'a, 't> Layout<'a, 't> {
         Doc::Concat(head.into_iter().chain([Doc::indent(vec![Doc::Fill(steps)]), self.kid(semi)]).collect())
     }
 
-    /// A chain goes on in the next line before an arrow. A list at its end that is longer than a line begins in the same.
+    /// A chain, which may be broken before an arrow. A list at its end that does not fit into a line begins in the
+    /// current one.
     fn chain(&self, node: &Node, pad: usize) -> Doc<'t> {
         let [head, links @ .., semi] = &node.kids[..] else { return self.words(&node.kids) };
         let mut links: Vec<Doc<'t>> = links.chunks(2).map(|link| self.words(link)).collect();
@@ -228,7 +229,7 @@ impl<'a, 't> Layout<'a, 't> {
         Doc::Concat(parts)
     }
 
-    /// What a node is made of, and its modifiers, which may go into the next line.
+    /// An instance with its modifiers, which may follow in the next line.
     fn instance(&self, node: &Node) -> Doc<'t> {
         let is_modifier = |kid: &Kid| rule(kid) == Some(Rule::modifier);
         let end = node.kids.iter().position(is_modifier).unwrap_or(node.kids.len());
@@ -237,7 +238,7 @@ impl<'a, 't> Layout<'a, 't> {
         Doc::Concat(vec![self.words(made_of), Doc::group(vec![Doc::indent(modifiers)])])
     }
 
-    /// An expression goes on in the next line before an operator.
+    /// An expression, which may be broken before an operator.
     fn expr(&self, node: &Node) -> Doc<'t> {
         let is_binary = |kid: &Kid| rule(kid) == Some(Rule::binary);
         let mut operands = node.kids.chunk_by(|_, next| !is_binary(next)).map(|operand| self.words(operand));
@@ -250,7 +251,7 @@ impl<'a, 't> Layout<'a, 't> {
     }
 }
 
-/// How many parts of a statement stand before the column that it has with its neighbours.
+/// Number of parts in the first cell of a statement.
 fn cell(statement: &Node) -> usize {
     use Rule::*;
     let has = |end: Rule| statement.kids.iter().position(|kid| rule(kid) == Some(end)).map(|at| at + 1);
@@ -265,7 +266,7 @@ fn cell(statement: &Node) -> usize {
     end.unwrap_or(0)
 }
 
-/// The rule of a part that is no mere sign.
+/// The rule of a part; `None` for a plain token.
 pub fn rule(kid: &Kid) -> Option<Rule> {
     match kid {
         Kid::Node(node) => Some(node.rule),
@@ -273,7 +274,7 @@ pub fn rule(kid: &Kid) -> Option<Rule> {
     }
 }
 
-/// The parts that are no mere signs.
+/// The parts that are not plain tokens.
 pub fn nodes(kids: &[Kid]) -> impl Iterator<Item = &Node> {
     kids.iter().filter_map(|kid| match kid {
         Kid::Node(node) => Some(node),
@@ -281,7 +282,7 @@ pub fn nodes(kids: &[Kid]) -> impl Iterator<Item = &Node> {
     })
 }
 
-/// The one node in `node`, where a rule only chooses between others.
+/// The single node in `node`, if the rule of `node` only chooses between other rules.
 pub fn only(node: &Node) -> &Node {
     use Rule::*;
     match (node.rule, &node.kids[..]) {

@@ -1,4 +1,4 @@
-//! Things in brackets, with commas between them.
+//! Lists in brackets, separated by commas.
 
 use super::{
     doc::{Doc, width},
@@ -9,7 +9,7 @@ use crate::syntax::{
     concrete::{Kid, Node},
 };
 
-/// Widest row of a matrix whose numbers stand below each other.
+/// Widest row of a matrix whose numbers are aligned in columns.
 const WIDEST_ROW: usize = 80;
 
 /// An element, and the comma behind it.
@@ -18,17 +18,17 @@ struct Element<'k> {
     comma: Option<&'k Kid>,
 }
 
-/// What becomes of a comma.
+/// Treatment of a comma.
 #[derive(Clone, Copy)]
 enum Comma {
     Stays,
-    /// It is there if the list is broken, and only then.
+    /// Written only if the list is broken.
     IfBroken,
     Goes,
 }
 
 impl<'t> Layout<'_, 't> {
-    /// A list that fills lines if its elements are short, else with an element in each line.
+    /// A list that fills its lines if the elements are short, and otherwise has one element per line.
     pub fn list(&self, node: &Node) -> Doc<'t> {
         match &node.kids[..] {
             [open, arg, .., close] if self.is_hugged(node) => {
@@ -73,7 +73,7 @@ impl<'t> Layout<'_, 't> {
         Doc::group(vec![self.words(head), Doc::indent(body), end, close])
     }
 
-    /// `kids` from the opening bracket to the closing one.
+    /// A list in brackets: `kids` from the opening bracket to the closing one.
     fn brackets(&self, kids: &[Kid], body: impl FnOnce(&[Element<'_>]) -> Doc<'t>) -> Doc<'t> {
         let [open, inner @ .., close] = kids else { return self.words(kids) };
         let elements = elements(inner);
@@ -93,7 +93,7 @@ impl<'t> Layout<'_, 't> {
 
     /// The comma behind the last of `count` elements.
     fn last_comma(&self, last: &Element<'_>, count: usize) -> Doc<'t> {
-        // People read a type in parentheses as a tuple only if it has a comma.
+        // A type in parentheses is a tuple only with a comma.
         let is_tuple = rule(last.value) == Some(Rule::ty) && last.comma.is_some() && count == 1;
         self.comma(last, if is_tuple { Comma::Stays } else { Comma::IfBroken })
     }
@@ -108,14 +108,14 @@ impl<'t> Layout<'_, 't> {
         self.separator(element, text)
     }
 
-    /// What stands behind an element, with the comments there.
+    /// The separator behind an element, with its comments.
     fn separator(&self, element: &Element<'_>, text: Doc<'t>) -> Doc<'t> {
         let token = element.comma.map(|comma| self.first(comma));
         let comments = token.into_iter().flat_map(|token| token.before.iter().chain(&token.after));
         Doc::Concat([text].into_iter().chain(comments.map(Doc::comment)).collect())
     }
 
-    /// Whether the only argument is a list: then its brackets and those around it open and close together.
+    /// Returns `true` if the only argument is a list: its brackets and the parentheses open and close together.
     fn is_hugged(&self, args: &Node) -> bool {
         let [open, Kid::Node(arg), rest @ ..] = &args.kids[..] else { return false };
         let is_list = nodes(&arg.kids).last().and_then(sole_value).is_some_and(|value| value.rule == Rule::list_expr);
@@ -128,7 +128,7 @@ impl<'t> Layout<'_, 't> {
             && self.first(close).before.is_empty()
     }
 
-    /// How wide the columns are, if this is a list of lists whose numbers can stand below each other.
+    /// Widths of the columns, if this is a list of lists whose numbers can be aligned.
     fn columns(&self, list: &Node) -> Option<Vec<usize>> {
         if list.rule != Rule::list_expr {
             return None;
@@ -145,7 +145,7 @@ impl<'t> Layout<'_, 't> {
         (widths.len() > 1 && count > 0 && fits && widths.iter().all(|row| row.len() == count)).then_some(columns)
     }
 
-    /// A row in each line, with columns of these widths.
+    /// One row per line, in columns of these widths.
     fn rows(&self, rows: &[Element<'_>], columns: &[usize]) -> Doc<'t> {
         let mut parts = vec![];
         for (i, row) in rows.iter().enumerate() {
@@ -187,12 +187,12 @@ fn elements(inner: &[Kid]) -> Vec<Element<'_>> {
     elements
 }
 
-/// What stands before an element, behind the opening bracket and its line end.
+/// Line break before an element. The first element directly follows the opening bracket.
 fn line<'t>(index: usize) -> Doc<'t> {
     if index == 0 { Doc::NIL } else { Doc::Line }
 }
 
-/// The value that an expression without operators is.
+/// The value of an expression without operators.
 fn sole_value(expr: &Node) -> Option<&Node> {
     match &expr.kids[..] {
         [Kid::Node(primary)] if expr.rule == Rule::expr => Some(only(primary)),
@@ -200,7 +200,7 @@ fn sole_value(expr: &Node) -> Option<&Node> {
     }
 }
 
-/// Whether several of these can stand in a line.
+/// Returns `true` if several of these elements may be written in one line.
 fn is_short(element: &Node) -> bool {
     match element.rule {
         Rule::param => false,

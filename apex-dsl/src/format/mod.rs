@@ -1,7 +1,7 @@
-//! The formatter: one style, and nothing of a text is lost.
+//! The formatter: one style, without loss of any part of a source file.
 //!
-//! `layout` says where lines may end, by the rules of the grammar, and writes every token with its comments; `print`
-//! finds the lines; what comes out is read again and compared with what went in.
+//! `layout` determines the possible line breaks by the rules of the grammar, and writes every token with its comments.
+//! `print` chooses the line breaks. The result is parsed again and compared with the input.
 
 mod columns;
 mod doc;
@@ -19,10 +19,10 @@ use crate::{
 };
 use layout::Layout;
 
-/// `text` in the style of the language. Line ends stay what the first one is.
+/// `text` in the style of the language. All line ends become those of the first line.
 ///
 /// # Errors
-/// What is wrong with a text that cannot be read, with spans in the first file of the sources.
+/// Returns the errors in a text that cannot be parsed, with spans in the first file of the sources.
 pub fn format(text: &str) -> Result<String, Diagnostics> {
     let mut diagnostics = Diagnostics::default();
     let Some(read) = syntax::read(FileId(0), text, &mut diagnostics) else { return Err(diagnostics) };
@@ -32,10 +32,10 @@ pub fn format(text: &str) -> Result<String, Diagnostics> {
     })
 }
 
-/// A comment may come to stand where it belongs to another token; then the second time differs from the first.
+/// Largest number of rounds: a comment may move to another token, so that the second round differs from the first.
 const MOST_ROUNDS: usize = 8;
 
-/// The formatted text, formatted until nothing changes any more.
+/// The formatted text, formatted again until it no longer changes.
 fn settled(text: &Text<'_>, newline: &str) -> Result<String, Box<Diagnostic>> {
     let error = |code, message: String| Diagnostic::error(code, Span::new(FileId(0), 0, 0), message);
     let write = |text: &Text<'_>| print::print(&Layout::new(&text.tokens).file(&text.root), newline);
@@ -58,9 +58,9 @@ fn settled(text: &Text<'_>, newline: &str) -> Result<String, Box<Diagnostic>> {
     Err(Box::new(error.note("this is a mistake of the formatter: please report it with the text")))
 }
 
-/// As for texts that are too large to be read.
+/// The same code as for source files that are too large to be read.
 const TOO_LARGE: &str = "too-large";
-/// No text should lead to it.
+/// Code of an error that should never occur.
 const FAILED: &str = "formatter";
 
 fn newline(text: &str) -> &'static str {
@@ -70,7 +70,7 @@ fn newline(text: &str) -> &'static str {
     }
 }
 
-/// The tokens, without commas behind the last thing of a list.
+/// The tokens, without commas behind the last elements of lists.
 fn words<'t>(text: &Text<'t>) -> Vec<&'t str> {
     let next = text.tokens.iter().skip(1).map(|t| t.text).chain([""]);
     text.tokens.iter().map(|t| t.text).zip(next).filter(|(t, n)| *t != "," || !closes(n)).map(|(t, _)| t).collect()

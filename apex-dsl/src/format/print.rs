@@ -1,4 +1,4 @@
-//! Finds the lines of a [`Doc`].
+//! Division of a [`Doc`] into lines.
 
 use super::{
     columns,
@@ -7,9 +7,9 @@ use super::{
 use crate::syntax::concrete::opens;
 use std::iter;
 
-/// Longest line, where there is a choice.
+/// Longest line, if there is a choice.
 pub const WIDTH: usize = 100;
-/// Blanks of one level.
+/// Blanks per level of indentation.
 const INDENT: usize = 4;
 
 /// The lines of `doc`, each ended by `newline`.
@@ -32,17 +32,17 @@ pub fn print(doc: &Doc<'_>, newline: &str) -> String {
     text
 }
 
-/// A line that is done.
+/// A finished line.
 struct Line {
     text: String,
     /// The comment at its end.
     comment: Option<String>,
-    /// Whether it opens something.
+    /// `true` if it ends with an opening bracket.
     opens: bool,
 }
 
 impl Line {
-    /// Whether the comments at the ends of two neighbouring lines stand below each other.
+    /// Returns `true` if the comments at the ends of two neighbouring lines are aligned.
     fn has_column_with(&self, next: &Self) -> bool {
         let indent = |line: &Self| line.text.len() - line.text.trim_start().len();
         self.comment.is_some() && next.comment.is_some() && indent(self) == indent(next)
@@ -55,13 +55,13 @@ enum Mode {
     Broken,
 }
 
-/// Something left to do.
+/// A piece of work that is left.
 #[derive(Clone, Copy)]
 enum Work<'d, 't> {
     Doc(&'d Doc<'t>),
     /// An item of a fill.
     Item(&'d Doc<'t>),
-    /// The items of a fill behind the first.
+    /// The items of a fill after the first one.
     Fill(&'d [Doc<'t>]),
 }
 
@@ -73,7 +73,7 @@ struct Printer<'n> {
     /// The current line with its indentation.
     line: String,
     column: usize,
-    /// Whether there is nothing in the current line but indentation.
+    /// `true` if the current line contains nothing but indentation.
     empty: bool,
     /// The comment at the end of the current line.
     comment: Option<String>,
@@ -136,7 +136,8 @@ impl Printer<'_> {
         }
     }
 
-    /// Whether `next` (first thing last), and what must stand in the same line behind it, fits into the current line.
+    /// Returns `true` if `next` (first item last) fits into the current line, with everything behind it up to the next
+    /// line break.
     fn fits<'d, 't>(&self, indent: usize, next: &[(Mode, Work<'d, 't>)], rest: &[Step<'d, 't>]) -> bool {
         let column = if self.line.is_empty() { indent } else { self.column };
         let mut fit = Fit { left: WIDTH.saturating_sub(column), comment: self.comment.is_some(), open: vec![] };
@@ -187,7 +188,7 @@ impl Printer<'_> {
     }
 
     fn comment(&mut self, text: &str, is_line: bool, indent: usize) {
-        // Comments keep their order: none goes before one that waits for the end of the line.
+        // Comments keep their order: none may overtake the one that is kept for the end of the line.
         if self.comment.is_some() {
             self.end_line();
         }
@@ -228,16 +229,16 @@ impl Printer<'_> {
     }
 }
 
-/// How far a line has been looked ahead.
+/// State of looking ahead in a line.
 struct Fit<'d, 't> {
     left: usize,
-    /// Whether a comment waits for the end of the line: then the line must end as soon as it can.
+    /// `true` if a comment is kept for the end of the line, which must end as soon as possible.
     comment: bool,
     open: Vec<(Mode, Work<'d, 't>)>,
 }
 
 impl<'d, 't> Fit<'d, 't> {
-    /// Takes one step; says whether it fits as soon as that is known.
+    /// Takes one step. Returns the result as soon as it is known.
     fn step(&mut self, mode: Mode, work: Work<'d, 't>) -> Option<bool> {
         let doc = match work {
             Work::Doc(doc) | Work::Item(doc) => doc,
@@ -273,7 +274,7 @@ impl<'d, 't> Fit<'d, 't> {
     }
 
     fn take(&mut self, text: &str) -> Option<bool> {
-        // What goes over several lines fits into none.
+        // Text with a line break does not fit into a line.
         match self.left.checked_sub(width(text)) {
             Some(left) if !text.contains('\n') => self.left = left,
             _ => return Some(false),

@@ -1,4 +1,4 @@
-//! Conditions on a token: guards of state machines, and what a test expects.
+//! Conditions on a token: guards of state machines and expectations of tests.
 
 use super::Value;
 
@@ -16,7 +16,8 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Whether it computes with integers, which may have no result: a division by zero, or more than the widest number holds.
+    /// Returns `true` if the condition contains arithmetic. Integer arithmetic may have no result: a division by zero,
+    /// or a number beyond the widest type.
     pub fn computes(&self) -> bool {
         match self {
             Self::Token | Self::Constant(_) => false,
@@ -25,7 +26,7 @@ impl Condition {
         }
     }
 
-    /// Whether the token occurs in it.
+    /// Returns `true` if the token occurs in the condition.
     pub fn mentions_token(&self) -> bool {
         match self {
             Self::Token => true,
@@ -35,7 +36,7 @@ impl Condition {
         }
     }
 
-    /// The condition as a text has it, with `token` for the token.
+    /// The condition as written in a source file, with `token` for the token.
     pub fn text(&self, token: &str) -> String {
         let part = |inner: &Self| match inner {
             Self::Binary(..) => format!("({})", inner.text(token)),
@@ -50,7 +51,7 @@ impl Condition {
     }
 }
 
-/// Whether an operator makes a number of two numbers.
+/// Returns `true` if an operator computes a number from two numbers.
 pub fn is_arithmetic(operator: &str) -> bool {
     matches!(operator, "+" | "-" | "*" | "/" | "%")
 }

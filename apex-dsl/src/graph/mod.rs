@@ -1,5 +1,5 @@
-//! The graph that all passes work on: nodes, ports, connections. Nested graphs are flattened; the scopes keep
-//! where each node came from. Only the body of an `each` stays a graph of its own.
+//! The graph that all passes work on: nodes, ports, connections. Nested graphs are flattened; the scopes record the
+//! instance that each node belongs to. Only the body of an `each` remains a graph of its own.
 
 mod condition;
 mod names;
@@ -14,62 +14,63 @@ pub use names::camel;
 pub use node::{Each, End, Far, Library, Modifiers, Node, NodeKind, Port, Standard, TypeArg};
 pub use value::{Claim, ClaimKind, Number, Subject, Value};
 
-/// A node, by number in [`Graph::nodes`].
+/// Number of a node in [`Graph::nodes`].
 pub type NodeId = usize;
-/// A scope, by number in [`Graph::scopes`].
+/// Number of a scope in [`Graph::scopes`].
 pub type ScopeId = usize;
 
-/// The thread group of nodes that the text puts in no other.
+/// Thread group of nodes that are not assigned to another one.
 pub const MAIN_GROUP: &str = "main";
 
-/// The group of what watches the threads and is on none of them: a name that no text can give to one.
+/// Group of the watchdogs, which run on none of the threads. The parentheses keep it apart from all names of a source.
 pub const WATCH_GROUP: &str = "(watch)";
 
 /// A resolved graph.
 #[derive(Debug, Clone)]
 pub struct Graph {
-    /// Its name.
+    /// Name of the graph.
     pub name: String,
     /// Documentation.
     pub docs: String,
-    /// Whether it is a `robot`.
+    /// `true` for a `robot`.
     pub robot: bool,
-    /// Whether a parameter has no value: it can be checked, but only be run as a part of another graph.
+    /// `true` if a parameter has no value: the graph can be checked, but it can only run as a part of another graph.
     pub is_open: bool,
-    /// Whether it is the body of an `each`.
+    /// `true` for the body of an `each`.
     pub is_body: bool,
-    /// Its name in the text.
+    /// Its name in the source file.
     pub span: Span,
-    /// Nodes in the order of the text.
+    /// Nodes in the order of the source file.
     pub nodes: Vec<Node>,
-    /// Connections in the order of the text.
+    /// Connections in the order of the source file.
     pub connections: Vec<Connection>,
     /// Scope 0 is the graph itself, each other one an instance of a nested graph; parents come first.
     pub scopes: Vec<Scope>,
     /// The ports of the nested graphs.
     pub pins: Vec<Pin>,
-    /// The connections as the text has them, before nested graphs were opened: what a picture shows.
+    /// The connections as written, before nested graphs were flattened: the ones that a picture shows.
     pub wires: Vec<Wire>,
     /// Claims.
     pub claims: Vec<Claim>,
-    /// What the text says about the threads of groups.
+    /// Settings of the threads of groups.
     pub threads: Vec<ThreadSettings>,
-    /// What its `record` statement says.
+    /// Its `record` statement.
     pub record: Option<Record>,
-    /// Nodes with an input that hangs on an unconnected port of the nested graph around them; reported there.
+    /// Nodes with an input that belongs to an unconnected port of the nested graph around them. The error is reported
+    /// at that port.
     pub open_pins: BTreeSet<NodeId>,
-    /// Inputs whose connection could not be made, which has been reported.
+    /// Inputs whose connection could not be made; the error has been reported.
     pub excused: BTreeSet<End>,
 }
 
-/// A `record` statement: the file, and ports whose tokens are recorded besides what comes from outside.
+/// A `record` statement: the file, and the ports that are recorded in addition to the inputs of the program.
 #[derive(Debug, Clone)]
 pub struct Record {
     /// The file.
     pub file: String,
     /// The ports.
     pub ports: Vec<End>,
-    /// Its place in the text.
+    /// Place in the source file.
     pub span: Span,
 }
 
@@ -88,26 +89,26 @@ pub struct Scope {
     pub args: Vec<(String, Value)>,
     /// Documentation: of the instance if it has one, else of the graph.
     pub docs: String,
-    /// The instance in the text.
+    /// The instance in the source file.
     pub span: Span,
 }
 
-/// A port of a nested graph, seen from both sides: tokens come in from one and go out to the other.
+/// A port of a nested graph. Tokens arrive at one side of it and leave on the other.
 #[derive(Debug, Clone)]
 pub struct Pin {
-    /// Its name.
+    /// Name of the port.
     pub name: String,
-    /// Its kind, seen from outside.
+    /// Kind, seen from outside.
     pub kind: PortKind,
     /// The type of its tokens.
     pub ty: Type,
     /// The scope of the nested graph.
     pub scope: ScopeId,
-    /// Where it is declared.
+    /// Place of the declaration.
     pub span: Span,
     /// Documentation.
     pub docs: String,
-    /// It stands for a port that every node has, of all nodes in the nested graph.
+    /// `true` if it stands for a port that every node has (such as `enable`), of all nodes in the nested graph.
     pub standard: bool,
 }
 
@@ -120,16 +121,16 @@ pub enum Place {
     Pin(usize),
 }
 
-/// A connection as written: it may begin and end at pins.
+/// A connection as written: each end is a port of a node or of a nested graph.
 #[derive(Debug, Clone)]
 pub struct Wire {
-    /// Where tokens come from.
+    /// Origin of the tokens.
     pub from: Place,
-    /// Where they go.
+    /// Destination of the tokens.
     pub to: Place,
     /// `=>`
     pub active: bool,
-    /// Its ends carry different types, which has been reported.
+    /// `true` if its ends carry different types, which has been reported.
     pub differs: bool,
     /// The arrow.
     pub span: Span,
@@ -138,56 +139,57 @@ pub struct Wire {
 /// A connection between two nodes.
 #[derive(Debug, Clone)]
 pub struct Connection {
-    /// Where tokens come from.
+    /// Origin of the tokens.
     pub from: End,
-    /// Where they go.
+    /// Destination of the tokens.
     pub to: End,
-    /// Whether activity passes.
+    /// `true` for `=>`, on which activity passes.
     pub active: bool,
-    /// Its ends carry different types, which has been reported.
+    /// `true` if its ends carry different types, which has been reported.
     pub differs: bool,
-    /// The sides of nested graphs that it passes, from its origin to its end.
+    /// Boundaries of nested graphs that it crosses, from its origin to its destination.
     pub crossings: Vec<Crossing>,
-    /// It passes a slot or an event of a nested graph: it is asynchronous, whatever its ends are.
+    /// `true` if it passes a slot or an event of a nested graph. It is asynchronous then, whatever its ends are.
     pub relayed: bool,
-    /// The arrow in the text (the last one, if it leads through ports of nested graphs).
+    /// The arrow in the source file; the last one, if the connection leads through ports of nested graphs.
     pub span: Span,
 }
 
-/// How tokens travel on a connection.
+/// Manner in which tokens travel on a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
     /// Output to input: one token per iteration, value or ⊥.
     Synchronous,
     /// Event or output to slot: values only, taken one at a time.
     ToSlot,
-    /// Event (or output by way of a slot of a nested graph) to input: values only; occupied until the region behind it has finished.
+    /// Event (or output by way of a slot of a nested graph) to input: values only. The connection is occupied until the
+    /// region behind it has finished.
     ToInput,
 }
 
-/// A side of a nested graph.
+/// Crossing of the boundary of a nested graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Crossing {
-    /// Tokens come in.
+    /// Tokens enter the nested graph.
     Enter(ScopeId),
-    /// Tokens go out.
+    /// Tokens leave the nested graph.
     Leave(ScopeId),
 }
 
-/// What the text says about the thread of a group.
+/// Settings of the thread of a group.
 #[derive(Debug, Clone, Default)]
 pub struct ThreadSettings {
     /// The group.
     pub group: String,
-    /// The cores that the thread may run on; all, if none is named.
+    /// Cores that the thread may run on. An empty list means all.
     pub cores: Vec<usize>,
-    /// Its real-time priority, 1 (lowest) to 99.
+    /// Real-time priority, 1 (lowest) to 99.
     pub priority: Option<u8>,
-    /// `policy = rr`: threads of the same priority run in turn. Else (`fifo`) each runs until it sleeps.
+    /// `policy = rr`: threads of the same priority run in turn. Otherwise (`fifo`) each thread runs until it sleeps.
     pub round_robin: bool,
-    /// `rights = strict`: without the right to that the program ends.
+    /// `rights = strict`: the program ends if it lacks the rights for these settings.
     pub strict: bool,
-    /// `hang`: a node that runs for longer than this hangs.
+    /// `hang`: a node that runs for longer than this is considered hung.
     pub hang: Option<Duration>,
 }
 
@@ -215,7 +217,7 @@ impl Graph {
         path(&self.scopes, scope, None)
     }
 
-    /// The full name of what a claim is about.
+    /// The full name of the subject of a claim.
     pub fn subject_name(&self, subject: Subject) -> String {
         match subject {
             Subject::Node(node) => self.path(node),
@@ -223,7 +225,7 @@ impl Graph {
         }
     }
 
-    /// A claim as a person would write it.
+    /// A claim as written in a source file.
     pub fn claim_text(&self, claim: &Claim) -> String {
         let names: Vec<String> = claim.of.iter().map(|s| self.subject_name(*s)).collect();
         match names.as_slice() {
@@ -232,7 +234,7 @@ impl Graph {
         }
     }
 
-    /// `node.port` as a person would write it.
+    /// A port as written in a source file: `node.port`.
     pub fn end_name(&self, end: End) -> String {
         match self.nodes[end.node].kind {
             NodeKind::Boundary(_) | NodeKind::Sender(_) | NodeKind::Receiver(_) => self.path(end.node),
@@ -240,7 +242,7 @@ impl Graph {
         }
     }
 
-    /// A connection as a person would write it.
+    /// A connection as written in a source file.
     pub fn connection_text(&self, connection: usize) -> String {
         let c = &self.connections[connection];
         let arrow = if c.active { "=>" } else { "->" };
@@ -258,7 +260,7 @@ impl Graph {
         scopes
     }
 
-    /// The thread group of a node: its own, or that of the nested graph around it.
+    /// The thread group of a node: its own, or that of the innermost nested graph with one.
     pub fn group(&self, node: NodeId) -> &str {
         if matches!(self.nodes[node].kind, NodeKind::Hung) {
             return WATCH_GROUP;
@@ -268,7 +270,8 @@ impl Graph {
         own.or_else(around).unwrap_or(MAIN_GROUP)
     }
 
-    /// Whether a node can be active. `start` is a moment, not a state; what ends the program or leaves it has none.
+    /// Returns `true` if a node can be active. `start` is an event in time without a state, and nodes that end the
+    /// program or form its boundary hold no activity.
     pub fn can_hold_activity(&self, node: NodeId) -> bool {
         use NodeKind::{Delay, Each, Library, Receiver, Relay, Sender};
         matches!(self.nodes[node].kind, Library(_) | Each(_) | Relay | Delay(_) | Sender(_) | Receiver(_))
@@ -279,10 +282,10 @@ impl Graph {
         self.connections.iter().find(|c| c.to == end)
     }
 
-    /// The port whose tokens a port sends: delays and relays only pass them on.
+    /// The port from which the tokens of a port originate: delays and relays only pass them on.
     pub fn origin(&self, end: End) -> End {
         let mut end = end;
-        // A loop of nothing but delays has no origin.
+        // The number of steps is bounded, as a loop of nothing but delays has no origin.
         for _ in 0..self.nodes.len() {
             let passes_on = matches!(self.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay);
             match self.incoming(End { node: end.node, port: 0 }).filter(|_| passes_on && self.port(end).kind.sends()) {
@@ -293,7 +296,7 @@ impl Graph {
         end
     }
 
-    /// How tokens travel on a connection.
+    /// Manner in which tokens travel on a connection.
     pub fn flow(&self, connection: &Connection) -> Flow {
         match (self.port(connection.from).kind, self.port(connection.to).kind) {
             (_, PortKind::Slot) => Flow::ToSlot,
@@ -302,13 +305,13 @@ impl Graph {
         }
     }
 
-    /// Whether a connection takes part in synchronous data flow at both ends.
+    /// Returns `true` if both ends of a connection are synchronous.
     pub fn is_synchronous(&self, connection: &Connection) -> bool {
         self.flow(connection) == Flow::Synchronous
     }
 }
 
-/// The names of `scope` and of those around it, then `name`, with dots.
+/// The names of the scopes from the outermost to `scope`, then `name`, separated by dots.
 pub fn path(scopes: &[Scope], mut scope: ScopeId, name: Option<&str>) -> String {
     let mut names: Vec<&str> = name.into_iter().collect();
     while scope != 0 {

@@ -1,6 +1,6 @@
-//! Names that are made from others.
+//! Names that are derived from other names.
 
-/// `fetch_cube` → `FetchCube`
+/// Converts a name to camel case: `fetch_cube` → `FetchCube`.
 pub fn camel(word: &str) -> String {
     word.split('_')
         .map(|part| {

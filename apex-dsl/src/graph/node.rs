@@ -1,4 +1,4 @@
-//! Nodes, their ports, and what the text says about them.
+//! Nodes, their ports and their modifiers.
 
 use super::{Graph, NodeId, ScopeId, Value};
 use crate::{
@@ -13,23 +13,23 @@ use std::time::Duration;
 pub struct Node {
     /// Instance name, unique in its scope.
     pub name: String,
-    /// The scope it stands in.
+    /// Scope that contains the node.
     pub scope: ScopeId,
-    /// What it is.
+    /// Kind of the node.
     pub kind: NodeKind,
-    /// Its ports.
+    /// Ports of the node.
     pub ports: Vec<Port>,
-    /// What the text says about its execution.
+    /// Modifiers of its execution.
     pub modifiers: Modifiers,
-    /// Its place in the text.
+    /// Place in the source file.
     pub span: Span,
     /// Documentation.
     pub docs: String,
-    /// `start` gives it activity.
+    /// `true` if `start` activates the node.
     pub starts_active: bool,
 }
 
-/// What a node is.
+/// Kind of a node.
 #[derive(Debug, Clone)]
 pub enum NodeKind {
     /// A node of the catalog.
@@ -38,24 +38,25 @@ pub enum NodeKind {
     Each(Each),
     /// A port of the graph itself: an input or slot has one sending port, an output or event one taking port.
     Boundary(PortKind),
-    /// Holds tokens back for some iterations. Starts with these values; `None` is the default of the type.
+    /// Holds tokens back for some iterations. Initially holds these values; `None` is the default of the type.
     Delay(Vec<Option<Value>>),
-    /// Passes each token on: where a nested graph takes tokens together (or sends them together) that go to a slot.
+    /// Passes each token on. Inserted where a port of a nested graph merges or distributes tokens on their way to a
+    /// slot.
     Relay,
-    /// Where activity begins: an event that is triggered once, before anything else, and always carries activity.
+    /// Origin of activity: an event that is triggered once, before anything else, and always carries activity.
     Start,
-    /// Where a test looks: takes tokens at an input or slot, and never holds anybody back.
+    /// Observation point of a test: takes the tokens of an input or slot, and never blocks their sender.
     Probe,
-    /// An event from outside all threads: a node has been running for too long.
+    /// An event of the watchdog, outside all threads: a node has been running for too long.
     Hung,
     /// A slot of the program that ends it with this code.
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
     Reset,
-    /// Where tokens go to another thread group: only in the graph of a group. Its input is occupied until they are
-    /// taken there, or until what they cause there has finished.
+    /// Sends tokens to another thread group: only in the graph of a group. Its input is occupied until the other group
+    /// has taken the token, or has finished everything that the token causes there.
     Sender(Far),
-    /// Where tokens come from another thread group: only in the graph of a group.
+    /// Receives tokens from another thread group: only in the graph of a group.
     Receiver(Far),
 }
 
@@ -64,35 +65,35 @@ pub enum NodeKind {
 pub struct Far {
     /// Number of the cell.
     pub cell: usize,
-    /// The tokens take activity away.
+    /// `true` if the tokens take activity away.
     pub takes_activity: bool,
-    /// Somebody on the other side asks when the source fired that a token descends from.
+    /// `true` if the receiving group needs the time at which the source of a token fired.
     pub stamped: bool,
 }
 
-/// Ports that every node has, besides those that it declares.
+/// Ports that every node has in addition to those that it declares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Standard {
-    /// Slot: the node takes part again.
+    /// Slot: ends the effect of `disable`.
     Enable,
-    /// Slot: the node takes its tokens and answers ⊥; its slots but `enable` swallow tokens.
+    /// Slot: from now on the node consumes its tokens and answers ⊥; all its slots except `enable` discard tokens.
     Disable,
     /// Event: the node became active.
     Activated,
     /// Event: the node is no longer active.
     Deactivated,
-    /// Event: `process` ran.
+    /// Event: `process` has run.
     Processed,
     /// Event: `process` or a slot failed.
     Failed,
-    /// Event: the node was active for as long as its `timeout` says.
+    /// Event: the node was active for as long as its `timeout`.
     Timeout,
-    /// Event: the node had finished later after the firing of its source than its `deadline` says.
+    /// Event: the node finished later after the firing of its source than its `deadline` allows.
     Late,
 }
 
 impl Standard {
-    /// All of them, in the order of their ports.
+    /// All standard ports, in the order of their numbers.
     pub const ALL: [Self; 8] = [
         Self::Enable,
         Self::Disable,
@@ -118,17 +119,17 @@ impl Standard {
         }
     }
 
-    /// Whether a nested graph has it for all its nodes together.
+    /// Returns `true` if a nested graph has the port on behalf of all its nodes.
     pub fn is_shared(self) -> bool {
         matches!(self, Self::Enable | Self::Disable | Self::Failed)
     }
 
-    /// Whether it is a slot or an event.
+    /// Kind of the port: slot or event.
     pub fn kind(self) -> PortKind {
         if matches!(self, Self::Enable | Self::Disable) { PortKind::Slot } else { PortKind::Event }
     }
 
-    /// The type of its tokens.
+    /// Type of its tokens.
     pub fn ty(self) -> Type {
         match self {
             Self::Failed => Type::Named("apex_rt::Failure".to_owned(), vec![]),
@@ -146,18 +147,18 @@ pub struct Library {
     pub types: Vec<TypeArg>,
     /// Values of the parameters, in the order of the signature.
     pub params: Vec<Value>,
-    /// Made in Rust and handed to the constructor.
+    /// `true` if the node is made in Rust and passed to the constructor.
     pub handed_in: bool,
 }
 
 /// A type argument.
 #[derive(Debug, Clone)]
 pub enum TypeArg {
-    /// Not known (yet).
+    /// Not known, or not yet.
     Open,
-    /// A type that the text or the connections say.
+    /// A type that the source file or the connections determine.
     Known(Type),
-    /// A type that the text spells, as Rust.
+    /// A type that is written in the source file, and its Rust code.
     Spelled(Type, String),
     /// The type of the tokens at this port, which only rustc can spell.
     TokenOf(End),
@@ -170,28 +171,29 @@ pub enum TypeArg {
 pub struct Each {
     /// The graph; its boundary nodes have the names of the ports.
     pub body: Box<Graph>,
-    /// The port that takes the list.
+    /// The input port of the list.
     pub list: usize,
-    /// Elements in parallel.
+    /// `true` if the elements run in parallel.
     pub parallel: bool,
 }
 
 /// A port of a node.
 #[derive(Debug, Clone)]
 pub struct Port {
-    /// Its name.
+    /// Name of the port.
     pub name: String,
-    /// Its kind.
+    /// Kind of the port.
     pub kind: PortKind,
     /// Type of one token.
     pub ty: Type,
     /// Tokens per firing.
     pub rate: usize,
-    /// Input: need not be connected, and ⊥ reaches the node. Output: may be ⊥ although the node fired.
+    /// For an input: it need not be connected, and ⊥ reaches the node. For an output: it may be ⊥ although the node
+    /// fired.
     pub optional: bool,
-    /// The parameter that it reads or sets.
+    /// Parameter that the port reads or sets.
     pub parameter: Option<usize>,
-    /// A port that every node has.
+    /// Meaning, if it is a port that every node has.
     pub standard: Option<Standard>,
     /// Documentation.
     pub docs: String,
@@ -206,7 +208,7 @@ pub struct End {
     pub port: usize,
 }
 
-/// What the text says about the execution of a node.
+/// Modifiers of the execution of a node.
 #[derive(Debug, Clone, Default)]
 pub struct Modifiers {
     /// `every`: period of a source.
@@ -223,26 +225,26 @@ pub struct Modifiers {
     pub pipelined: bool,
     /// `essential`
     pub essential: bool,
-    /// `restart`: after a failure the node is made anew.
+    /// `restart`: a new node replaces the node after a failure.
     pub restart: bool,
 }
 
 impl NodeKind {
-    /// Whether it is a place where a test looks.
+    /// Returns `true` for an observation point of a test.
     pub fn is_probe(&self) -> bool {
         matches!(self, Self::Probe)
     }
 }
 
 impl Modifiers {
-    /// Whether a source with these fires by a timer.
+    /// Returns `true` if a source with these modifiers is fired by a timer.
     pub fn has_pace(&self) -> bool {
         self.every.is_some() || self.after.is_some()
     }
 }
 
 impl Node {
-    /// Makes the list of an `each` an input that has to be there, and its elements as well.
+    /// Makes the list of an `each` a required input, and the element a required input of the body.
     pub fn require_list(&mut self) {
         let NodeKind::Each(each) = &mut self.kind else { return };
         let Some(list) = self.ports.get_mut(each.list) else { return };
@@ -253,34 +255,34 @@ impl Node {
         }
     }
 
-    /// Its port of this kind, if somebody named it.
+    /// Its port of this kind, if it is used.
     pub fn standard(&self, standard: Standard) -> Option<usize> {
         self.ports.iter().position(|p| p.standard == Some(standard))
     }
 
-    /// Whether it can be disabled.
+    /// Returns `true` if the node can be disabled.
     pub fn can_be_disabled(&self) -> bool {
         self.standard(Standard::Disable).is_some()
     }
 
-    /// Whether it holds tokens back for some iterations.
+    /// Returns `true` if the node is a delay.
     pub fn is_delay(&self) -> bool {
         matches!(self.kind, NodeKind::Delay(_))
     }
 
-    /// Whether its failures are contained: somebody wants to know of them, or it is to be made anew.
+    /// Returns `true` if failures of the node are contained: its event `failed` is used, or it restarts.
     pub fn is_contained(&self) -> bool {
         self.modifiers.restart || self.standard(Standard::Failed).is_some()
     }
 
-    /// Whether it may send nothing although it takes tokens.
+    /// Returns `true` if the node may send nothing although it consumes tokens.
     pub fn may_be_silent(&self) -> bool {
         self.can_be_disabled() || self.is_contained()
     }
 }
 
 impl Port {
-    /// A port for one token per firing that need not be connected.
+    /// An optional port for one token per firing.
     pub fn new(name: &str, kind: PortKind, ty: Type) -> Self {
         Self {
             name: name.to_owned(),
@@ -294,7 +296,7 @@ impl Port {
         }
     }
 
-    /// Whether it is the event that activity came, or went.
+    /// Returns `true` for the events `activated` and `deactivated`.
     pub fn tells_of_activity(&self) -> bool {
         matches!(self.standard, Some(Standard::Activated | Standard::Deactivated))
     }

@@ -7,30 +7,30 @@ use std::time::Duration;
 /// A claim about activity.
 #[derive(Debug, Clone)]
 pub struct Claim {
-    /// What is claimed.
+    /// Property that is claimed.
     pub kind: ClaimKind,
-    /// Of which nodes or nested graphs.
+    /// Nodes or nested graphs that the claim is about.
     pub of: Vec<Subject>,
-    /// Its place in the text.
+    /// Place in the source file.
     pub span: Span,
 }
 
-/// What a claim says.
+/// Property of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ClaimKind {
-    /// No two of them are ever active at the same time.
+    /// No two subjects are ever active at the same time.
     Exclusive,
-    /// Whenever the first is active, there is a way on which activity can come to the second.
+    /// Whenever the first subject is active, activity can reach the second.
     Reaches,
-    /// There is always as much activity in the program as `start` gave.
+    /// The amount of activity in the program is always the amount that `start` gave.
     Conserved,
 }
 
 impl ClaimKind {
-    /// All of them.
+    /// All kinds of claims.
     pub const ALL: [Self; 3] = [Self::Exclusive, Self::Reaches, Self::Conserved];
 
-    /// The word for it in a text.
+    /// The keyword of the claim.
     pub fn word(self) -> &'static str {
         match self {
             Self::Exclusive => "exclusive",
@@ -40,12 +40,12 @@ impl ClaimKind {
     }
 }
 
-/// What a claim is about.
+/// Subject of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
     /// A node.
     Node(NodeId),
-    /// A nested graph: active while a node inside is, or while activity is under way between two of them.
+    /// A nested graph: active while a node inside is active, or while activity is on its way between two nodes inside.
     Scope(ScopeId),
 }
 
@@ -64,14 +64,14 @@ pub enum Value {
     Unit,
     /// A duration
     Duration(Duration),
-    /// A constant of Rust, by the path with which generated code names it, and its type.
+    /// A constant of Rust: the path that generated code uses, and its type.
     Path(Vec<String>, Type),
-    /// The default that is written in Rust and that only rustc can evaluate.
+    /// A default that is written in Rust, which only rustc can evaluate.
     RustDefault,
 }
 
 impl Value {
-    /// The value as a text has it, in SI.
+    /// The value as written in a source file, in SI units.
     pub fn text(&self) -> String {
         match self {
             Self::Number(n) => n.integer.map_or_else(|| n.value.to_string(), |integer| integer.to_string()),
@@ -86,13 +86,13 @@ impl Value {
     }
 }
 
-/// A number in SI.
+/// A number in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number {
     /// Its value.
     pub value: f64,
     /// Its exact value, if it was written as an integer without a unit.
     pub integer: Option<i128>,
-    /// What it measures.
+    /// Dimension of the quantity.
     pub dimension: Dimension,
 }

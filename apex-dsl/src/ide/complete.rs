@@ -1,4 +1,4 @@
-//! What could be written at a place.
+//! Completion: the texts that may be written at a place.
 
 use super::{
     Definition, NodeType, PortFacts, View,
@@ -19,26 +19,26 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// Something that could be written.
+/// A proposed text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Completion {
-    /// What is shown, and written if nothing else is.
+    /// Label in the list, inserted if there is no snippet.
     pub label: String,
-    /// What it is.
+    /// Kind of the proposed item.
     pub kind: CompletionKind,
-    /// What is shown behind it.
+    /// Detail shown behind the label.
     pub detail: String,
     /// Documentation, as Markdown.
     pub docs: String,
-    /// What is written, with `$1` where the text goes on.
+    /// Inserted text, with `$1` for the position of the cursor.
     pub snippet: Option<String>,
-    /// An import that it needs.
+    /// Import that has to be added.
     pub import: Option<String>,
-    /// Whether its tokens certainly have the type that is wanted; where only rustc can say, it is `false`.
+    /// `true` if its tokens certainly have the expected type; `false` if only rustc can decide that.
     pub sure: bool,
 }
 
-/// What a completion is.
+/// Kind of a completion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CompletionKind {
     /// A node with a name, or a state.
@@ -55,9 +55,9 @@ pub enum CompletionKind {
     NodeType,
     /// A type of tokens.
     Type,
-    /// A crate, a module or a text.
+    /// A crate, a module or a source file.
     Module,
-    /// A word of the language.
+    /// A keyword.
     Word,
 }
 
@@ -68,18 +68,18 @@ impl Completion {
     }
 }
 
-/// The texts beside the first one: their names, and those of their graphs and state machines.
+/// The source files beside the first one: their names, and the names of their graphs and state machines.
 pub type Siblings<'a> = dyn Fn() -> Vec<(String, Vec<String>)> + 'a;
 
-/// What could be written at `offset` of `text`, which is the first text of the view or was a moment ago, and where the
-/// word begins that it stands for.
+/// The completions at `offset` of `text`, and the beginning of the word that they replace. `text` is the first source
+/// file of the view, possibly in a slightly newer version.
 pub fn complete(view: &View<'_>, text: &str, offset: usize, siblings: &Siblings<'_>) -> (usize, Vec<Completion>) {
     let (context, start) = context(text, offset);
     let completer = Completer { view: *view, graph: graph_at(view, offset), offset };
     (start, completer.at(context, siblings))
 }
 
-/// The graph of the first text around `offset`.
+/// The graph of the first source file around `offset`.
 fn graph_at(view: &View<'_>, offset: usize) -> Option<GraphId> {
     let around = |s: Span| s.start as usize <= offset && offset <= s.end as usize;
     let graph = view.texts.files[0].1.graphs.iter().position(|g| around(g.extent))?;
@@ -130,7 +130,7 @@ impl Completer<'_> {
 
     // Names and ports
 
-    /// The ends that an arrow can lead to or from.
+    /// The possible ends of a connection.
     fn ends(&self, named: Named, other: Option<&End>) -> Vec<Completion> {
         let graph = match named {
             Named::Node => self.graph.or_else(|| self.tested()),
@@ -143,7 +143,7 @@ impl Completer<'_> {
         found
     }
 
-    /// The ports and nodes of a graph that have a port which fits.
+    /// The ports of a graph, and the nodes in it that have a fitting port.
     fn names(&self, graph: Option<GraphId>, named: Named, other: Option<&End>) -> Vec<Completion> {
         let Some(id) = graph else { return vec![] };
         let item = self.view.texts.graph(id);
@@ -166,7 +166,7 @@ impl Completer<'_> {
         found.into_iter().chain(own).collect()
     }
 
-    /// A node: by its name if only one of its ports fits, else with each port that does.
+    /// A node: its name if only one of its ports fits, otherwise each fitting port.
     fn node(&self, id: GraphId, i: usize, name: &str, named: Named, types: Option<&[Type]>) -> Vec<Completion> {
         let (made, _) = self.view.made_of(id, i);
         let docs = || describe(&self.view, Definition::Instance(id, i));
@@ -184,14 +184,14 @@ impl Completer<'_> {
             [one] => vec![item(name.to_owned(), CompletionKind::Name, one, docs())],
             several => several.iter().map(|p| item(dotted(p), CompletionKind::Port, p, p.docs.clone())).collect(),
         };
-        // Behind the ports, and only where the types agree: every node has parameters.
+        // Parameters follow the ports, and only those with the same type, because nearly every node has some.
         let params = made.map(|made| self.parameter_ports(made, named)).unwrap_or_default();
         let agreeing = params.iter().filter(|p| is_sure(&p.ty, types));
         found.extend(agreeing.map(|p| item(dotted(p), CompletionKind::Param, p, p.docs.clone())));
         found
     }
 
-    /// The parameters of a node in Rust, as the ports that they are when a connection names them.
+    /// The parameters of a node in Rust, as the ports that they become in a connection.
     fn parameter_ports(&self, node: NodeType, named: Named) -> Vec<PortFacts> {
         let kind = match named {
             Named::Takes => PortKind::Input,
@@ -215,17 +215,17 @@ impl Completer<'_> {
         facts.collect()
     }
 
-    /// The ports of a node that can stand at an end.
+    /// The ports of a node that fit an end of a connection.
     fn fitting(&self, id: GraphId, i: usize, named: Named, types: Option<&[Type]>) -> Vec<PortFacts> {
         let (made, instance) = self.view.made_of(id, i);
         let modifiers = instance.map_or(&[][..], |i| i.modifiers.as_slice());
-        // Whether the list or its element is meant, the connections say.
+        // The connections decide if the list or its element is meant.
         let each = modifiers.iter().any(|m| matches!(m.kind, ModifierKind::Each { .. }));
         let ports = made.map(|made| self.view.ports(made)).unwrap_or_default();
         ports.into_iter().filter(|p| fits(p.kind, &p.ty, named, types.filter(|_| !each))).collect()
     }
 
-    /// The types of the tokens at an end; nothing if they are not known.
+    /// The types of the tokens at an end; `None` if they are not known.
     fn types_of(&self, id: GraphId, end: &End, named: Named) -> Option<Vec<Type>> {
         let of = |ports: Vec<PortFacts>, name: Option<&String>| -> Vec<Type> {
             let ports = ports.into_iter().filter(|p| name.is_none_or(|n| p.name == *n));
@@ -255,7 +255,7 @@ impl Completer<'_> {
         self.view.node_type(0, &PathExpr { segments, span })
     }
 
-    /// The ports behind `node.`
+    /// The ports that may follow `node.`.
     fn ports_of(&self, of: &End, named: Named, other: Option<&End>) -> Vec<Completion> {
         let graph = if named == Named::Tested { self.tested().or(self.graph) } else { self.graph };
         let (Some(mut id), End::Reference(parts)) = (graph, of) else { return vec![] };
@@ -287,7 +287,7 @@ impl Completer<'_> {
         found
     }
 
-    /// The list inputs of a node.
+    /// The inputs of a node that may be the list of an `each`.
     fn lists(&self, of: &[String]) -> Vec<Completion> {
         let ports = self.node_type(of).map(|node| self.view.ports(node)).unwrap_or_default();
         let inputs = ports.iter().filter(|p| p.kind == PortKind::Input);
@@ -296,7 +296,7 @@ impl Completer<'_> {
 
     // Tests and state machines
 
-    /// The graph that the test around is about.
+    /// The graph that the surrounding test runs.
     fn tested(&self) -> Option<GraphId> {
         let around = |s: Span| s.start as usize <= self.offset && self.offset <= s.end as usize;
         let test = self.view.texts.files[0].1.tests.iter().find(|t| around(t.extent))?;
@@ -368,7 +368,7 @@ impl Completer<'_> {
         found
     }
 
-    /// The parameters of the graph around.
+    /// The parameters of the surrounding graph.
     fn parameters(&self) -> Vec<Completion> {
         let params = self.graph.map(|id| self.view.params(NodeType::Graph(id))).unwrap_or_default();
         let found = params
@@ -398,7 +398,7 @@ impl Completer<'_> {
 
     // Node types and types
 
-    /// What an instance can be made of: what has a meaning here, then what can be imported.
+    /// The possible constructors of an instance: first those with a name here, then those that can be imported.
     fn node_types(&self, with_args: bool, named: Option<Named>, other: Option<&End>) -> Vec<Completion> {
         let types =
             self.graph.zip(other).zip(named).and_then(|((id, end), named)| self.types_of(id, end, opposite(named)));
@@ -473,7 +473,7 @@ impl Completer<'_> {
         }
     }
 
-    /// What a module of Rust has.
+    /// The contents of a Rust module.
     fn in_module(&self, path: &[String]) -> Vec<Completion> {
         let names: BTreeSet<&str> = self.view.catalog.names_in(path).into_iter().collect();
         let item = |name: &str| {
@@ -493,7 +493,7 @@ fn opposite(named: Named) -> Named {
     if named == Named::Takes { Named::Sends } else { Named::Takes }
 }
 
-/// Whether a port can stand at an end, with tokens of one of these types.
+/// Returns `true` if a port fits an end of a connection, with tokens of one of these types.
 fn fits(kind: PortKind, ty: &Type, named: Named, types: Option<&[Type]>) -> bool {
     let side = match named {
         Named::Sends => kind.sends(),
@@ -503,12 +503,12 @@ fn fits(kind: PortKind, ty: &Type, named: Named, types: Option<&[Type]>) -> bool
     side && types.is_none_or(|types| types.iter().any(|t| t.compare(ty) != Match::Different))
 }
 
-/// Whether tokens of a type are certainly of one of these.
+/// Returns `true` if tokens of this type certainly have one of these types.
 fn is_sure(ty: &Type, types: Option<&[Type]>) -> bool {
     types.is_some_and(|types| types.iter().any(|t| t.compare(ty) == Match::Same))
 }
 
-/// The ports that every node has, as far as this one has them.
+/// The standard ports of a node.
 fn standard_ports(
     named: Named,
     types: Option<&[Type]>,
@@ -533,7 +533,7 @@ fn noun(unit: &str) -> &'static str {
     dimension(unit).map_or("", Dimension::noun)
 }
 
-/// The units of one dimension; of a quotient, those of its parts.
+/// The units with the same dimension. For a quotient, also the quotients of units like its parts.
 fn units_like(unit: &str) -> Vec<String> {
     let Some(wanted) = dimension(unit) else { return vec![] };
     let mut found: Vec<String> = units::names().filter(|n| dimension(n) == Some(wanted)).map(str::to_owned).collect();

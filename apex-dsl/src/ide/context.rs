@@ -1,4 +1,4 @@
-//! What is being written at a place, told from the words before it.
+//! Recognition of the context at a place from the tokens before it.
 
 use super::lex::{Token, TokenKind, tokens_before, unit_start};
 use crate::syntax::MAX_DEPTH;
@@ -12,56 +12,56 @@ pub enum End {
     InPlace(Vec<String>),
 }
 
-/// Where a node or port of a graph is named.
+/// Role of a node or port that is named.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
-    /// As an end of a connection that sends.
+    /// End of a connection that sends.
     Sends,
-    /// As an end of a connection that takes.
+    /// End of a connection that takes.
     Takes,
-    /// Anything in the graph that is tested: its ports, its nodes and theirs.
+    /// Anything in the tested graph: its ports, its nodes and their ports.
     Tested,
-    /// What tokens can be fed to.
+    /// A port into which tokens can be fed.
     Fed,
     /// A node or nested graph.
     Node,
 }
 
-/// What a number that is being written measures.
+/// Quantity of a number that is being written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Quantity {
-    /// Nobody knows.
+    /// Not known.
     Any,
     /// A time.
     Time,
-    /// What this argument of this node wants.
+    /// The quantity of this argument of this node.
     Argument(Vec<String>, String),
 }
 
-/// What is being written.
+/// Context of a place: the kind of text that is expected there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Context {
-    /// Something that nobody can guess: a new name, a number.
+    /// Text that cannot be guessed: a new name, a number.
     Nothing,
     /// An item.
     Item,
-    /// Something behind these words of an import.
+    /// The next segment of an import, behind these segments.
     Import(Vec<String>),
-    /// Something behind `a::b::`.
+    /// The next segment of a path, behind `a::b::`.
     Path(Vec<String>),
     /// A type.
     Type,
     /// A statement of a graph.
     Statement,
-    /// What a named node is made of; `true` if it is handed in.
+    /// The constructor of a named node; `true` if the node is handed in.
     Made(bool),
-    /// An end of a connection; with the end at the other side of the arrow, if there is one.
+    /// An end of a connection, with the opposite end of the arrow if there is one.
     Name(Named, Option<End>),
-    /// A port of this node.
+    /// A port of this node, with its role and the opposite end of the arrow.
     Port(End, Named, Option<End>),
-    /// The name of an argument for this node; some are given.
+    /// The name of an argument of this node, with the arguments that are given already.
     Argument(Vec<String>, Vec<String>),
-    /// The value of this argument.
+    /// The value of this argument of this node.
     Value(Vec<String>, String),
     /// A time.
     Time,
@@ -69,13 +69,13 @@ pub enum Context {
     Expression,
     /// The unit of a number.
     Unit(Quantity),
-    /// A word behind an instance.
+    /// A modifier behind an instance.
     Modifier,
     /// A list input of this node.
     List(Vec<String>),
-    /// What is claimed.
+    /// The kind of a claim.
     Claim,
-    /// A statement of a state machine; `true` inside of a state.
+    /// A statement of a state machine; `true` inside a state.
     Machine(bool),
     /// A state.
     State,
@@ -87,11 +87,11 @@ pub enum Context {
     Test,
     /// The graph that is tested.
     Tested,
-    /// One of these words.
+    /// One of these keywords.
     Words(&'static [&'static str]),
 }
 
-/// What is being written at `offset`, and where the word begins of which a part is there.
+/// The context at `offset`, and the beginning of the word of which a part is written.
 pub fn context(text: &str, offset: usize) -> (Context, usize) {
     let Some(mut tokens) = tokens_before(text, offset) else { return (Context::Nothing, offset) };
     if depth(&tokens) > MAX_DEPTH {
@@ -122,7 +122,7 @@ fn unit(tokens: &[Token<'_>]) -> Context {
     }
 }
 
-/// How many brackets are open: every one of them is looked into.
+/// Number of open brackets, each of which is examined by recursion.
 fn depth(tokens: &[Token<'_>]) -> usize {
     tokens.iter().fold(0_usize, |depth, token| match token.text {
         "(" | "[" | "{" => depth + 1,
@@ -135,7 +135,7 @@ fn is(token: Option<&Token<'_>>, text: &str) -> bool {
     token.is_some_and(|t| t.text == text && t.kind != TokenKind::Text)
 }
 
-/// What a word behind these tokens would be.
+/// The context of a word behind these tokens.
 fn at_word(tokens: &[Token<'_>]) -> Context {
     if let Some(path) = path_before(tokens) {
         return in_import(tokens).map_or(Context::Path(path), Context::Import);
@@ -150,7 +150,7 @@ fn at_word(tokens: &[Token<'_>]) -> Context {
     }
 }
 
-/// The words of a path that ends with `::`.
+/// The segments of a path that ends with `::`.
 fn path_before(tokens: &[Token<'_>]) -> Option<Vec<String>> {
     let mut path = vec![];
     let mut rest = tokens;
@@ -164,11 +164,11 @@ fn path_before(tokens: &[Token<'_>]) -> Option<Vec<String>> {
     (!path.is_empty()).then_some(path)
 }
 
-/// The path in front of what is being written, if that is an import.
+/// The path before the last token, if the tokens belong to an import.
 fn in_import(tokens: &[Token<'_>]) -> Option<Vec<String>> {
     let mut at = tokens.len();
     let mut path = path_before(tokens).unwrap_or_default();
-    // Out of the groups, to the word `use`.
+    // Go outwards through the groups to the keyword `use`.
     loop {
         let before = &tokens[..at];
         let start = before.iter().rposition(|t| matches!(t.text, ";" | "use")).unwrap_or(0);
@@ -184,7 +184,7 @@ fn in_import(tokens: &[Token<'_>]) -> Option<Vec<String>> {
     }
 }
 
-/// The innermost bracket that is open.
+/// The innermost open bracket.
 fn opener(tokens: &[Token<'_>]) -> Option<usize> {
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().rev() {
@@ -192,7 +192,7 @@ fn opener(tokens: &[Token<'_>]) -> Option<usize> {
             ")" | "]" | "}" => depth += 1,
             "(" | "[" | "{" if depth == 0 => return Some(i),
             "(" | "[" | "{" => depth -= 1,
-            // An item begins here: what was open before was never closed.
+            // An item begins here: brackets that are still open before it were never closed.
             "graph" | "robot" | "fsm" if depth == 0 && starts_item(tokens, i) => return None,
             _ => {}
         }
@@ -205,7 +205,7 @@ fn starts_item(tokens: &[Token<'_>], at: usize) -> bool {
     named && (at == 0 || matches!(tokens[at - 1].text, ";" | "}"))
 }
 
-/// Where the statement begins in which the tokens from `from` end.
+/// Beginning of the statement that is written last, at `from` or later.
 fn statement(tokens: &[Token<'_>], from: usize) -> usize {
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().skip(from).rev() {
@@ -221,12 +221,12 @@ fn statement(tokens: &[Token<'_>], from: usize) -> usize {
     from
 }
 
-/// Whether the brace that closes at `at` was opened behind `::`.
+/// Returns `true` if the brace that closes at `at` was opened behind `::`.
 fn ends_group(tokens: &[Token<'_>], at: usize) -> bool {
     opener(&tokens[..at]).is_some_and(|open| is(tokens[..open].last(), "::"))
 }
 
-/// Outside of all brackets.
+/// The context outside all brackets.
 fn outside(item: &[Token<'_>]) -> Context {
     match item {
         [] => Context::Item,
@@ -255,13 +255,13 @@ fn in_braces(tokens: &[Token<'_>], open: usize) -> Context {
     }
 }
 
-/// Where the header of the block begins that is opened at `open`.
+/// Beginning of the header of the block that opens at `open`.
 fn header(tokens: &[Token<'_>], open: usize) -> usize {
     let before = &tokens[..open];
     statement(before, opener(before).map_or(0, |outer| outer + 1))
 }
 
-/// A statement of a graph.
+/// The context in a graph.
 fn in_graph(written: &[Token<'_>]) -> Context {
     let Some(last) = written.last() else { return Context::Statement };
     match (written[0].text, written) {
@@ -278,7 +278,7 @@ fn in_graph(written: &[Token<'_>]) -> Context {
     }
 }
 
-/// A port that is recorded.
+/// The context in a `record` block.
 fn in_record(written: &[Token<'_>]) -> Context {
     match written.split_last() {
         None => Context::Name(Named::Node, None),
@@ -289,7 +289,7 @@ fn in_record(written: &[Token<'_>]) -> Context {
     }
 }
 
-/// Behind the name in a declaration.
+/// The context behind the name in a declaration.
 fn typed(written: &[Token<'_>]) -> Context {
     match written.last() {
         Some(last) if matches!(last.text, ":" | "<" | ",") => Context::Type,
@@ -297,10 +297,10 @@ fn typed(written: &[Token<'_>]) -> Context {
     }
 }
 
-/// The words that can stand behind an instance with a value of their own.
+/// Modifiers with a value.
 const TIMES: [&str; 5] = ["every", "after", "timeout", "deadline", "delay"];
 
-/// Behind the arguments of an instance: a word, or the value of one.
+/// The context behind the arguments of an instance: a modifier, or the value of one.
 fn behind_instance(written: &[Token<'_>]) -> Option<Context> {
     let last = written.last()?;
     let open = written.iter().any(|t| t.text == ")") || written.iter().any(|t| t.text == ":");
@@ -317,7 +317,7 @@ fn behind_instance(written: &[Token<'_>]) -> Option<Context> {
     }
 }
 
-/// In a chain of connections.
+/// The context in a chain of connections.
 fn in_chain(written: &[Token<'_>]) -> Context {
     let Some(last) = written.last() else { return Context::Name(Named::Sends, None) };
     match last.text {
@@ -338,13 +338,13 @@ fn has_arrow(tokens: &[Token<'_>]) -> bool {
     tokens.iter().any(|t| matches!(t.text, "->" | "=>"))
 }
 
-/// The end in front of the arrow that these tokens end with, lists that are open aside.
+/// The end before the last arrow, also from inside an open list.
 fn arrow_before(tokens: &[Token<'_>]) -> Option<End> {
     let at = tokens.iter().rposition(|t| matches!(t.text, "->" | "=>"))?;
     end_before(&tokens[..at])
 }
 
-/// `a.b` at the end of these tokens, and where it begins.
+/// The reference `a.b` at the end of these tokens, and its beginning.
 fn reference_before(tokens: &[Token<'_>]) -> (Vec<String>, usize) {
     let mut parts = vec![];
     let mut at = tokens.len();
@@ -360,7 +360,7 @@ fn reference_before(tokens: &[Token<'_>]) -> (Vec<String>, usize) {
     (parts, at)
 }
 
-/// The end of a connection that these tokens end with.
+/// The last end of a connection in these tokens.
 fn end_before(tokens: &[Token<'_>]) -> Option<End> {
     let start = tokens.iter().rposition(|t| matches!(t.text, "->" | "=>")).map_or(0, |i| i + 1);
     let mut end = &tokens[start..];
@@ -405,7 +405,7 @@ fn is_state(tokens: &[Token<'_>], open: usize) -> bool {
     tokens[open].text == "{" && is(tokens.get(header(tokens, open)), "state")
 }
 
-/// `a::b` at the end of these tokens.
+/// The path `a::b` at the end of these tokens.
 fn path_of(tokens: &[Token<'_>]) -> Vec<String> {
     match tokens.split_last() {
         Some((word, rest)) => {
@@ -417,14 +417,14 @@ fn path_of(tokens: &[Token<'_>]) -> Vec<String> {
     }
 }
 
-/// The node whose `each` these tokens end with.
+/// The node whose `each` is at the end of these tokens.
 fn each_of(tokens: &[Token<'_>]) -> Option<Vec<String>> {
     let each = tokens.iter().rposition(|t| t.text == "each")?;
     let open = opener(tokens[..each].split_last().filter(|(last, _)| last.text == ")")?.1)?;
     Some(path_of(&tokens[..open]))
 }
 
-/// Brackets around a part of a value: what is in them is what they are a part of.
+/// The context in brackets around a part of a value: that of the whole value.
 fn nested(tokens: &[Token<'_>], open: usize) -> Context {
     match at_word(&tokens[..open]) {
         Context::Value(of, param) => Context::Value(of, param),
@@ -446,7 +446,7 @@ fn in_arguments(of: Vec<String>, inside: &[Token<'_>]) -> Context {
     }
 }
 
-/// Where the last element of a list begins.
+/// Beginning of the last element of a list.
 fn last_comma(tokens: &[Token<'_>]) -> usize {
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().rev() {
@@ -460,7 +460,7 @@ fn last_comma(tokens: &[Token<'_>]) -> usize {
     0
 }
 
-/// In the parameters of a graph.
+/// The context in the parameters of a graph.
 fn in_parameters(inside: &[Token<'_>]) -> Context {
     let written = &inside[last_comma(inside)..];
     match written.last().map(|t| t.text) {
@@ -525,7 +525,7 @@ fn in_test(written: &[Token<'_>]) -> Context {
     }
 }
 
-/// In what a test looks at.
+/// The context in a condition of a test.
 fn in_condition(inside: &[Token<'_>]) -> Context {
     match inside.split_last() {
         None => Context::Name(Named::Node, None),

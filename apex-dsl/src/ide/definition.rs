@@ -1,4 +1,4 @@
-//! What a name can mean, and what is declared of it.
+//! Definitions that names stand for, and facts from their declarations.
 
 use super::{View, rust::Part};
 use crate::{
@@ -15,16 +15,16 @@ use std::{
     path::PathBuf,
 };
 
-/// A state machine, by text and number.
+/// A state machine, by source file and number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MachineId {
-    /// The text.
+    /// The source file.
     pub file: usize,
-    /// Its number in the text.
+    /// Number in the source file.
     pub machine: usize,
 }
 
-/// What an instance is made of.
+/// Constructor of an instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NodeType {
     /// A graph.
@@ -35,10 +35,10 @@ pub enum NodeType {
     Rust(SignatureId),
 }
 
-/// What a name means. Numbers count in the order of the declarations.
+/// Meaning of a name. Numbers count in the order of the declarations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Definition {
-    /// A text beside this one.
+    /// Another source file.
     Text(usize),
     /// A graph, a state machine or a node in Rust.
     Node(NodeType),
@@ -56,59 +56,60 @@ pub enum Definition {
     Instance(GraphId, usize),
     /// `start`, `reset`, `exit`, `abort`.
     Own(&'static str),
-    /// A state; states inside of others come behind them.
+    /// A state. Inner states follow the state that contains them.
     State(MachineId, usize),
     /// A test.
     Test(usize, usize),
 }
 
-/// Where something is declared.
+/// Place of a declaration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
-    /// In a text.
+    /// A place in a source file.
     Text(Span),
-    /// In a Rust file, in a line that counts from 1: the line of the node or type, of which this is a part.
+    /// A part of the declaration of a node or type in a Rust file: the file, the line of the declaration (from 1), the
+    /// part.
     Rust(PathBuf, usize, Part),
 }
 
-/// What is declared of a port.
+/// Declaration of a port.
 pub struct PortFacts {
-    /// Its name.
+    /// Name of the port.
     pub name: String,
-    /// Its kind, seen from outside.
+    /// Kind, seen from outside.
     pub kind: PortKind,
-    /// The type of its tokens.
+    /// Type of the tokens.
     pub ty: Type,
     /// Tokens per firing.
     pub rate: usize,
-    /// An input that may stay open.
+    /// `true` for an input that need not be connected.
     pub optional: bool,
     /// Documentation.
     pub docs: String,
-    /// What it is.
+    /// Definition of the port.
     pub definition: Definition,
 }
 
-/// What is declared of a parameter.
+/// Declaration of a parameter.
 pub struct ParamFacts {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// Its type.
+    /// Type of the parameter.
     pub ty: String,
-    /// Its unit, if one is declared.
+    /// Unit, if one is declared.
     pub unit: Option<String>,
-    /// What it is where no value is given.
+    /// Default value.
     pub default: Option<String>,
-    /// Smallest and largest value.
+    /// Range, from the smallest to the largest value.
     pub range: Option<String>,
     /// Documentation.
     pub docs: String,
-    /// What it is.
+    /// Definition of the parameter.
     pub definition: Definition,
 }
 
 impl ParamFacts {
-    /// The unit in which a value is written: the one that is declared, or the one of times.
+    /// The unit in which a value is written: the declared one, or seconds for a time.
     pub fn written_in(&self) -> Option<&str> {
         let is_time = self.ty.rsplit("::").next() == Some("Duration");
         self.unit.as_deref().or(is_time.then_some("s"))
@@ -121,7 +122,7 @@ impl<'a> View<'a> {
         &self.texts.files[id.file].1.machines[id.machine]
     }
 
-    /// What stands behind the path of an instance in text `file`.
+    /// The node type that the path of an instance in source file `file` names.
     pub fn node_type(&self, file: usize, path: &PathExpr) -> Option<NodeType> {
         if let [name] = path.segments.as_slice() {
             match self.texts.names(file).get(&name.text) {
@@ -136,7 +137,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// A node of the catalog, in which state machines are nodes too.
+    /// The node type of a catalog entry. State machines have entries, too.
     pub fn of_signature(&self, signature: SignatureId) -> NodeType {
         match self.texts.machine(signature) {
             Some((file, machine)) => NodeType::Machine(MachineId { file, machine }),
@@ -144,7 +145,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What a named node of a graph is made of, and the instance if it is written as one.
+    /// The node type of a named node, and its instance if it is written as one.
     pub fn made_of(&self, graph: GraphId, node: usize) -> (Option<NodeType>, Option<&'a Instance>) {
         match &self.texts.graph(graph).nodes[node].body {
             NodeBody::Instance(instance) => (self.node_type(graph.file, &instance.path), Some(instance)),
@@ -173,7 +174,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The ports of a graph, state machine or node, without those that every node has.
+    /// The ports of a graph, state machine or node, without the standard ports.
     pub fn ports(&self, node: NodeType) -> Vec<PortFacts> {
         match node {
             NodeType::Graph(id) => {
@@ -244,7 +245,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// A graph and all graphs that it is nested in, at any depth: none of them can be nested in it.
+    /// A graph and all graphs that contain it, at any depth: none of them can be nested in it.
     pub fn graphs_around(&self, graph: GraphId) -> BTreeSet<GraphId> {
         let mut users = BTreeMap::<GraphId, Vec<GraphId>>::new();
         for (file, (_, tree)) in self.texts.files.iter().enumerate() {
@@ -281,7 +282,7 @@ impl<'a> View<'a> {
         all
     }
 
-    /// Where a definition stands.
+    /// The place of a definition.
     pub fn origin(&self, definition: Definition) -> Option<Origin> {
         if let Some(name) = self.declared_name(definition) {
             return Some(Origin::Text(name.span));
@@ -306,13 +307,13 @@ impl<'a> View<'a> {
         }
     }
 
-    /// A part of the declaration of a node in Rust.
+    /// The place of a part of a node's declaration in Rust.
     fn in_rust(&self, id: SignatureId, part: Part) -> Option<Origin> {
         let signature = &self.catalog.signatures[id];
         Some(Origin::Rust(signature.file.clone(), signature.line, part))
     }
 
-    /// The name in the declaration of something that a text declares.
+    /// The name in a declaration, if it is in a source file.
     pub fn declared_name(&self, definition: Definition) -> Option<&'a Ident> {
         let texts = self.texts;
         match definition {

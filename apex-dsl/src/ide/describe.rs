@@ -1,4 +1,4 @@
-//! What hover and completion say, as Markdown.
+//! Texts of hover and completion, as Markdown.
 
 use super::{Definition, NodeType, ParamFacts, PortFacts, View, lex::tokens_before};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// What a name means: its declaration, then its documentation.
+/// A definition: its declaration, then its documentation.
 pub fn describe(view: &View<'_>, definition: Definition) -> String {
     match definition {
         Definition::Node(node) => page(&declaration(view, node), view.docs_of(node)),
@@ -57,7 +57,7 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
     }
 }
 
-/// How tokens travel along an arrow.
+/// Description of a connection: its ends and types, and the manner in which tokens travel.
 pub fn describe_link(view: &View<'_>, link: &Link) -> String {
     let end = |side: &crate::resolve::Side| {
         let written = view.sources.text(side.span).split('(').next().unwrap_or_default().to_owned();
@@ -77,7 +77,7 @@ pub fn describe_link(view: &View<'_>, link: &Link) -> String {
     page(&declaration, &format!("{}: {what}{activity}\n\n{types}", flow_word(link)))
 }
 
-/// What the word of the language at `offset` of `text` does; `None` if there is none.
+/// Description of the keyword at `offset` of `text`; `None` if there is none.
 pub fn describe_word(view: &View<'_>, text: &str, offset: usize) -> Option<String> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let start = text.get(..offset)?.rfind(|c| !is_part(c)).map_or(0, |i| i + 1);
@@ -96,7 +96,7 @@ pub fn describe_word(view: &View<'_>, text: &str, offset: usize) -> Option<Strin
     Some(page(word, found.docs))
 }
 
-/// The word for how tokens travel: between synchronous ports, between asynchronous ones, or from one to the other.
+/// The flow of tokens as a word: between synchronous ports, between asynchronous ones, or between both kinds.
 pub fn flow_word(link: &Link) -> &'static str {
     match (link.from.kind.is_synchronous(), link.to.kind.is_synchronous()) {
         (true, true) => "synchronous",
@@ -105,14 +105,14 @@ pub fn flow_word(link: &Link) -> &'static str {
     }
 }
 
-/// A declaration and what is said about it.
+/// A page with a declaration and its documentation.
 fn page(declaration: &str, docs: &str) -> String {
     let code =
         if declaration.is_empty() { String::new() } else { format!("```afg\n{}\n```\n\n", declaration.trim_end()) };
     format!("{code}{}", docs.trim()).trim_end().to_owned()
 }
 
-/// A graph, state machine or node with its parameters and ports, as a text would declare it.
+/// A graph, state machine or node with its parameters and ports, as declared in a source file.
 pub fn declaration(view: &View<'_>, node: NodeType) -> String {
     let word = match node {
         NodeType::Graph(id) if view.texts.graph(id).robot => "robot",
@@ -162,7 +162,7 @@ fn kind_in_words(kind: PortKind) -> &'static str {
     }
 }
 
-/// What a port that every node has is for.
+/// Documentation of a standard port.
 pub fn standard_docs(standard: Standard) -> &'static str {
     match standard {
         Standard::Enable => "The node takes part again; also a place for activity at a node without slots.",

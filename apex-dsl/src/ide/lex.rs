@@ -1,17 +1,17 @@
-//! The words and signs of a text before a place. Half-written text has no tree, but it has these.
+//! The tokens of a text before a place. Unfinished text has no syntax tree, but it has tokens.
 
-/// A word or sign.
+/// A token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Token<'a> {
-    /// What it is.
+    /// Kind of the token.
     pub kind: TokenKind,
-    /// As it is written.
+    /// Text of the token.
     pub text: &'a str,
-    /// Its first byte.
+    /// Offset of the first byte.
     pub start: usize,
 }
 
-/// What a token is.
+/// Kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TokenKind {
     /// Letters, digits and `_`.
@@ -24,7 +24,7 @@ pub enum TokenKind {
     Sign,
 }
 
-/// The tokens before `end`, without comments; `None` if `end` stands in a comment or a string.
+/// The tokens before `end`, without comments; `None` if `end` is inside a comment or a string.
 pub fn tokens_before(text: &str, end: usize) -> Option<Vec<Token<'_>>> {
     let text = text.get(..end)?;
     let mut tokens = vec![];
@@ -55,7 +55,7 @@ pub fn tokens_before(text: &str, end: usize) -> Option<Vec<Token<'_>>> {
     Some(tokens)
 }
 
-/// The length of a comment, others inside included.
+/// Length of a comment, including nested comments.
 fn block_comment(text: &str) -> Option<usize> {
     let (mut depth, mut at) = (0, 0);
     let bytes = text.as_bytes();
@@ -72,7 +72,7 @@ fn block_comment(text: &str) -> Option<usize> {
     None
 }
 
-/// The length of a string; one that does not end with its line is being written.
+/// Length of a string. One that does not end in its line is unfinished and counts as a single character.
 fn string(text: &str) -> Option<usize> {
     let mut escaped = false;
     for (i, c) in text.char_indices().skip(1) {
@@ -89,7 +89,7 @@ fn word(text: &str) -> usize {
     text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len())
 }
 
-/// The length of a number with its unit: `1.5m/s^2`, `15cm`, `0x1F`.
+/// Length of a number with its unit: `1.5m/s^2`, `15cm`, `0x1F`.
 fn number(text: &str) -> usize {
     let bytes = text.as_bytes();
     let byte = |at: usize| bytes.get(at).copied().unwrap_or(b' ');
@@ -110,7 +110,7 @@ fn sign(text: &str, first: char) -> usize {
     long.iter().find(|s| text.starts_with(**s)).map_or(first.len_utf8(), |s| s.len())
 }
 
-/// Where the unit of a number begins.
+/// Offset of the unit in a number.
 pub fn unit_start(number: &str) -> usize {
     let digits = |c: char| c.is_ascii_digit() || c == '.' || c == '_';
     number.find(|c: char| !digits(c)).unwrap_or(number.len())

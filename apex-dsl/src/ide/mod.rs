@@ -1,5 +1,5 @@
-//! What an editor asks about a text: what stands at a place, where else it is used, what could be written there.
-//! Pure questions about trees, names and connections; a text that has errors is answered as far as it can be read.
+//! Queries of an editor about a source file: the meaning of a place, other uses of a name, completions. All queries are
+//! pure functions of trees, names and connections. A source file with errors is answered as far as it can be parsed.
 
 mod complete;
 mod context;
@@ -25,15 +25,15 @@ pub use outline::{Symbol, SymbolKind, outline};
 pub use rename::{may_rename, rename};
 pub use rust::{Part, place_in_rust};
 
-/// A text with what is known of the names in it.
+/// A source file with the meanings of the names in it.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
-    /// The text, which is the first, and those that it imports.
+    /// The source file, which is the first one, and those that it imports.
     pub texts: &'a Texts,
-    /// Its connections.
+    /// Connections in it.
     pub links: &'a [Link],
-    /// Where the texts are.
+    /// Contents and paths of the source files.
     pub sources: &'a Sources,
-    /// The nodes that it can use.
+    /// Nodes that it can use.
     pub catalog: &'a Catalog,
 }

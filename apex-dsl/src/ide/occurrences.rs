@@ -1,4 +1,4 @@
-//! Where names stand, and what they mean: what hover, navigation and rename are answered from.
+//! Occurrences of names and their meanings, the basis of hover, navigation and renaming.
 
 use super::{Definition, MachineId, NodeType, View};
 use crate::{
@@ -15,25 +15,25 @@ use crate::{
 };
 use std::collections::BTreeMap;
 
-/// A name in a text.
+/// A name in a source file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Occurrence {
-    /// Its place.
+    /// Place of the name.
     pub span: Span,
-    /// What it means.
+    /// Meaning of the name.
     pub definition: Definition,
-    /// Whether it is declared here.
+    /// `true` for the declaration.
     pub declares: bool,
 }
 
-/// The name at `offset` of the first text; between two, the one behind.
+/// The name at `offset` of the first source file. Between two names it is the second one.
 pub fn at(occurrences: &[Occurrence], view: &View<'_>, offset: usize) -> Option<Occurrence> {
     let root = view.texts.file_id(0);
     let touches = |s: Span| s.file == root && s.start as usize <= offset && offset <= s.end as usize;
     occurrences.iter().filter(|o| touches(o.span)).max_by_key(|o| o.span.start).cloned()
 }
 
-/// All names in all texts that mean something, in the order of the texts.
+/// All names with a meaning in all source files, in order.
 pub fn occurrences(view: &View<'_>) -> Vec<Occurrence> {
     let declared = Declared::new(view);
     let mut found = vec![];
@@ -48,7 +48,7 @@ pub fn occurrences(view: &View<'_>) -> Vec<Occurrence> {
 
 type Names<'a> = BTreeMap<&'a str, Definition>;
 
-/// Names that the texts declare, so that each use is looked up and not searched for.
+/// Names that are declared in source files, as an index for their uses.
 struct Declared<'a> {
     /// Ports and nodes of each graph.
     graphs: BTreeMap<GraphId, Names<'a>>,
@@ -87,7 +87,7 @@ impl<'a> Declared<'a> {
     }
 }
 
-/// What each name means: of two declarations the first.
+/// The meaning of each name. Of two declarations the first one counts.
 fn first_of_each<'a>(declared: impl Iterator<Item = (&'a Ident, Definition)>) -> Names<'a> {
     let mut names = BTreeMap::new();
     for (name, definition) in declared {
@@ -100,7 +100,7 @@ struct Walker<'a, 'b> {
     view: View<'a>,
     file: usize,
     declared: &'b Declared<'a>,
-    /// What the paths of instances in this text have turned out to mean.
+    /// Node types of the paths that were looked up in this source file.
     made: BTreeMap<String, Option<NodeType>>,
     found: &'b mut Vec<Occurrence>,
 }
@@ -114,13 +114,13 @@ impl<'a> Walker<'a, '_> {
         self.found.push(Occurrence { span: name.span, definition, declares: false });
     }
 
-    /// What stands behind the path of an instance.
+    /// The node type that the path of an instance names.
     fn made(&mut self, path: &PathExpr) -> Option<NodeType> {
         let (view, file) = (self.view, self.file);
         *self.made.entry(path.text()).or_insert_with(|| view.node_type(file, path))
     }
 
-    /// What a node of a graph is made of; the graph may stand in another text.
+    /// The node type of a node of a graph, which may be in another source file.
     fn made_of(&mut self, id: GraphId, node: usize) -> Option<NodeType> {
         let body = &self.view.texts.graph(id).nodes[node].body;
         match body {
@@ -222,7 +222,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// A node or port of a graph; a test also names what is inside of nested graphs.
+    /// A node or port of a graph. A test also refers to nodes inside nested graphs.
     fn reference(&mut self, graph: GraphId, reference: &PortRef) {
         let mut graph = graph;
         let mut parts = reference.parts.as_slice();
@@ -242,7 +242,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// The port of this name; a parameter can be one too.
+    /// The port with this name, which may also be a parameter or a standard port.
     fn port(&self, node: NodeType, name: &str) -> Option<Definition> {
         let declared = match node {
             NodeType::Graph(id) => {
@@ -325,7 +325,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// A parameter of the graph around.
+    /// A parameter of the surrounding graph.
     fn value(&mut self, around: Option<GraphId>, path: &PathExpr) {
         let (Some(id), [name]) = (around, path.segments.as_slice()) else { return };
         let param = self.declared.params[&id].get(name.text.as_str()).copied();

@@ -1,4 +1,4 @@
-//! What a text declares, as a tree.
+//! The declarations of a source file as a tree.
 
 use super::View;
 use crate::{
@@ -6,23 +6,23 @@ use crate::{
     syntax::tree::{FsmItem, GraphItem, Ident, NodeBody, StateItem},
 };
 
-/// Something that a text declares.
+/// A declaration.
 pub struct Symbol {
-    /// Its name.
+    /// Declared name.
     pub name: String,
-    /// What is shown behind the name.
+    /// Detail shown behind the name.
     pub detail: String,
-    /// What it is.
+    /// Kind of the declaration.
     pub kind: SymbolKind,
-    /// The name in the text.
+    /// The name in the source file.
     pub name_span: Span,
-    /// All of it.
+    /// The whole declaration.
     pub extent: Span,
-    /// What it holds.
+    /// Declarations inside.
     pub children: Vec<Symbol>,
 }
 
-/// What a symbol is.
+/// Kind of a declaration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SymbolKind {
     /// A graph or robot.
@@ -41,7 +41,7 @@ pub enum SymbolKind {
     Node,
 }
 
-/// What the first text declares, in its order.
+/// The declarations of the first source file, in order.
 pub fn outline(view: &View<'_>) -> Vec<Symbol> {
     let tree = &view.texts.files[0].1;
     let graphs = tree.graphs.iter().map(|g| graph(view, g));

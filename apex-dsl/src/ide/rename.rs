@@ -1,4 +1,4 @@
-//! Whether something can have another name.
+//! Renaming, and the reasons why a name cannot be changed.
 
 use super::{Definition, NodeType, Occurrence, View};
 use crate::{
@@ -9,10 +9,10 @@ use crate::{
     },
 };
 
-/// The places of these texts where `name` has to be written if `definition` is to have that name.
+/// The places in these source files where `name` has to be written if it becomes the name of `definition`.
 ///
 /// # Errors
-/// Says why it cannot.
+/// Returns the reason why the definition cannot have that name.
 pub fn rename(
     view: &View<'_>,
     occurrences: &[Occurrence],
@@ -23,14 +23,14 @@ pub fn rename(
     check_name(definition, name)?;
     let uses: Vec<Span> = occurrences.iter().filter(|o| o.definition == definition).map(|o| o.span).collect();
     check_clash(view, &uses, definition, name)?;
-    // What an import calls by a name of its own keeps that.
+    // Uses through an import with a name of its own keep that name.
     Ok(uses.into_iter().filter(|span| view.sources.text(*span) == old.text).collect())
 }
 
 /// The name that would be changed.
 ///
 /// # Errors
-/// Says why it cannot be.
+/// Returns the reason why it cannot be changed.
 pub fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ident, String> {
     view.declared_name(definition).ok_or_else(|| match definition {
         Definition::Own(name) => format!("every graph knows `{name}`; it cannot have another name"),
@@ -94,7 +94,7 @@ fn check_clash(view: &View<'_>, uses: &[Span], definition: Definition, name: &st
     }
 }
 
-/// Whether a graph or state machine that is used at `at` would be taken for something else there.
+/// Fails if a graph or state machine that is used at `at` would have another meaning there.
 fn item_clash(view: &View<'_>, at: Span, name: &str) -> Result<(), String> {
     let Some(file) = view.texts.files.iter().position(|(id, _)| *id == at.file) else { return Ok(()) };
     let path = view.sources.get(at.file).path.display().to_string();

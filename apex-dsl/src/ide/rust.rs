@@ -1,5 +1,5 @@
-//! Places of the parts of a node in its Rust source: the catalog knows the line of the node, its ports and parameters
-//! are looked for when somebody asks.
+//! Places of ports and parameters in the Rust source of a node. The catalog knows only the line of the node; its parts
+//! are searched on demand.
 
 use crate::{catalog::signature::marked, syntax::tree::PortKind};
 use proc_macro2::Span;
@@ -19,8 +19,8 @@ pub enum Part {
     Param(String),
 }
 
-/// The bytes of a `part` of what is declared in `line` (from 1) of a Rust file. The beginning of the line where the
-/// part is not found: the file may have changed since the catalog was read.
+/// The bytes of a `part` of the declaration in `line` (from 1) of a Rust file. The beginning of the line if the part is
+/// not found, because the file may have changed since the catalog was read.
 pub fn place_in_rust(text: &str, line: usize, part: &Part) -> Range<usize> {
     let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum::<usize>();
     let in_line = |name: &str| {
@@ -36,7 +36,7 @@ pub fn place_in_rust(text: &str, line: usize, part: &Part) -> Range<usize> {
 
 fn parsed(text: &str, line: usize, part: &Part) -> Option<Range<usize>> {
     let found = in_items(&syn::parse_file(text).ok()?.items, line, part).map(|span| span.byte_range());
-    // The text of every file that was parsed would be kept for its spans.
+    // proc_macro2 would keep the text of every parsed file for its spans.
     proc_macro2::extra::invalidate_current_thread_spans();
     found
 }
@@ -55,7 +55,7 @@ fn in_items(items: &[Item], line: usize, part: &Part) -> Option<Span> {
     })
 }
 
-/// A part of a struct node: a field, or something in one of its `impl`s, which stand in the same module.
+/// A part of a struct node: a field, or a part of one of its `impl` blocks in the same module.
 fn in_struct(node: &ItemStruct, module: &[Item], part: &Part) -> Option<Span> {
     let is_its = |block: &&ItemImpl| {
         let named =
@@ -87,7 +87,7 @@ fn in_impl(block: &ItemImpl, kind: PortKind, name: &str) -> Option<Span> {
     functions().filter(called).find_map(|m| in_call(&m.sig, kind, name))
 }
 
-/// The argument that is a port, or what is returned.
+/// The argument of a port, or the type that is returned.
 fn in_call(signature: &Signature, kind: PortKind, name: &str) -> Option<Span> {
     let returned = || match &signature.output {
         ReturnType::Type(_, ty) if kind == PortKind::Output => Some(ty.span()),
@@ -99,7 +99,7 @@ fn in_call(signature: &Signature, kind: PortKind, name: &str) -> Option<Span> {
 fn argument(signature: &Signature, name: &str) -> Option<Span> {
     signature.inputs.iter().find_map(|input| match input {
         FnArg::Typed(typed) => match &*typed.pat {
-            // A name that begins with `_` is that of an argument that the node does not read.
+            // A leading `_` marks an argument that the node does not read.
             Pat::Ident(ident) if ident.ident == name || ident.ident == format!("_{name}") => Some(ident.ident.span()),
             _ => None,
         },

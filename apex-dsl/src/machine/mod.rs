@@ -15,17 +15,17 @@ use std::{collections::BTreeMap, path::PathBuf};
 /// A resolved state machine.
 #[derive(Debug, Clone)]
 pub struct Machine {
-    /// Its name.
+    /// Name of the machine.
     pub name: String,
-    /// Its Rust module in that of the text.
+    /// Rust module of the machine, in the module of the source file.
     pub module: String,
-    /// It stands in the text that was read first.
+    /// `true` if it is declared in the first source file.
     pub is_own: bool,
     /// Documentation.
     pub docs: String,
-    /// The innermost states, by path: `fetch.drive`. It begins in the first.
+    /// The innermost states, by path: `fetch.drive`. The first one is the initial state.
     pub states: Vec<String>,
-    /// What is triggered at the start, because the first state is entered.
+    /// Events that are triggered at the start, because the initial state is entered.
     pub begin: Vec<Sending>,
     /// Its slots.
     pub slots: Vec<Slot>,
@@ -33,60 +33,61 @@ pub struct Machine {
     pub events: Vec<(String, Type)>,
 }
 
-/// The state machines of a program's texts, by the nodes that they are.
+/// The state machines in the source files of a program, by their signatures as nodes.
 pub type Machines = BTreeMap<SignatureId, Machine>;
 
 /// A slot of a state machine.
 #[derive(Debug, Clone)]
 pub struct Slot {
-    /// Its name.
+    /// Name of the slot.
     pub name: String,
-    /// The type of its tokens.
+    /// Type of its tokens.
     pub ty: Type,
-    /// What happens; the first that fits is done.
+    /// Possible transitions, of which the first that fits is taken.
     pub arms: Vec<Arm>,
 }
 
 /// A transition from an innermost state.
 #[derive(Debug, Clone)]
 pub struct Arm {
-    /// The state.
+    /// The current state.
     pub state: usize,
     /// A condition on the token.
     pub guard: Option<Condition>,
-    /// The state that it leads to, if it leads anywhere.
+    /// The new state, if the transition has a target.
     pub target: Option<usize>,
-    /// What is triggered: what is left, then the transition, then what is entered.
+    /// Events that are triggered: first those of exits, then of the transition, then of entries.
     pub sends: Vec<Sending>,
 }
 
 /// An event that a transition triggers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sending {
-    /// The event, by number.
+    /// Number of the event.
     pub event: usize,
     /// The token.
     pub token: Token,
 }
 
-/// What an event carries.
+/// Token of an event.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Token {
     /// `()`
     Unit,
-    /// The token that came to the slot.
+    /// The token that arrived at the slot.
     Same,
     /// A constant.
     Value(Value),
 }
 
 impl Machine {
-    /// The slot that is called at the start: a name that no text can give to one.
+    /// The slot that is called at the start. The parentheses keep its name apart from all names that can be written.
     pub const BEGIN: &str = "(begin)";
 }
 
 impl Machine {
-    /// A state machine as a node: slots and events. If something happens when it starts, `begin` is a slot too.
+    /// The signature of the machine as a node with slots and events. It has the slot [`Self::BEGIN`] if the initial
+    /// state triggers events.
     pub fn signature(&self, (file, line): (PathBuf, usize)) -> Signature {
         let port = |name: &str, kind, ty: &Type, index| PortSig {
             name: name.to_owned(),
@@ -128,17 +129,17 @@ impl Machine {
         }
     }
 
-    /// The method that enters the first state.
+    /// The method that enters the initial state.
     pub const BEGIN_METHOD: &str = "begin";
 
-    /// The method of a slot, which is none of the others, whatever the slot is called.
+    /// The method of a slot. The prefix keeps it apart from all other methods.
     pub fn method(slot: &str) -> String {
         format!("on_{slot}")
     }
 }
 
 impl Slot {
-    /// Whether its method looks at the token.
+    /// Returns `true` if its method uses the token.
     pub fn uses_token(&self) -> bool {
         self.arms.iter().any(|arm| arm.guard.is_some() || arm.sends.iter().any(|s| s.token == Token::Same))
     }

@@ -1,5 +1,5 @@
-//! A state machine as an activity flow graph (thesis 7.2.1), for people to read: each state is a node, each
-//! transition an event connected to a slot by an active connection.
+//! A state machine as an activity flow graph (thesis 7.2.1), to be read by people: each state is a node, each
+//! transition an event with an active connection to a slot.
 
 use super::Machine;
 use std::fmt::Write as _;

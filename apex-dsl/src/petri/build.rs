@@ -1,4 +1,4 @@
-//! Graph → net: one component for each node, connection and side of a nested graph.
+//! Translation of a graph into a net: one component for each node, connection and boundary of a nested graph.
 
 use super::{
     Meaning, Net, NoNet, Place, PlaceId, Transition, connection_name,
@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The net of a checked graph. The body of an `each` belongs to its node.
 ///
 /// # Errors
-/// If a port of the graph takes or sends several tokens per firing.
+/// Fails if a port of the graph takes or sends several tokens per firing.
 pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     for (node, n) in graph.nodes.iter().enumerate() {
         if let Some(port) = n.ports.iter().find(|p| p.rate != 1) {
@@ -35,23 +35,24 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     Ok(builder.net)
 }
 
-/// The places of a leg of a connection.
+/// Places of one leg of a connection.
 struct LegPlaces {
     token: PlaceId,
     free: PlaceId,
-    /// Tells the loop that it leads into.
+    /// Copy of each token on the leg for the loop that it leads into.
     echo: Option<PlaceId>,
-    /// Its end has finished; it is free when the delays have, too. Only for a leg into a loop.
+    /// Marked when the end of the leg has finished. The leg is free only when the delays of the loop have finished,
+    /// too. Only for a leg into a loop.
     done: Option<PlaceId>,
 }
 
-/// The places of a delay on a loop.
+/// Places of a delay on a loop.
 struct DelayPlaces {
     held: PlaceId,
     room: PlaceId,
     enabled: PlaceId,
     waiting: PlaceId,
-    /// Ports that send only values: whether they do is open.
+    /// Ports that send only values, marked while it is undecided if they send one.
     undecided: Vec<PlaceId>,
 }
 
@@ -61,11 +62,12 @@ struct Builder<'a> {
     legs: Vec<Leg>,
     places: Vec<LegPlaces>,
     loops: Vec<Loop>,
-    /// Of the delays on loops.
+    /// Places of the delays on loops.
     delays: BTreeMap<NodeId, DelayPlaces>,
-    /// For each delay on a loop and each leg into the loop: what that delay sent for a token on it has finished.
+    /// For each delay on a loop and each leg into the loop: everything that the delay sent for a token on the leg has
+    /// finished.
     returns: BTreeMap<(NodeId, usize), PlaceId>,
-    /// Where each `start` waits to begin.
+    /// For each `start`: marked until it has begun.
     starts: BTreeMap<NodeId, PlaceId>,
     from: BTreeMap<Stop, Vec<usize>>,
     to: BTreeMap<Stop, Vec<usize>>,
@@ -93,6 +95,7 @@ impl<'a> Builder<'a> {
                 done: None,
             });
         }
+        // `Early` and `State` rely on this order: two places for each leg, then the copies for legs into loops.
         let loops = route::loops(graph, &legs);
         let entries = || loops.iter().flat_map(|on_loop| on_loop.entries.iter().map(move |entry| (on_loop, *entry)));
         for (on_loop, entry) in entries() {
@@ -135,7 +138,7 @@ impl<'a> Builder<'a> {
         self.from.get(&stop).cloned().unwrap_or_default()
     }
 
-    /// Legs to the inputs of a node, or to a side.
+    /// Legs to the inputs of a node, or to a boundary.
     fn legs_into(&self, stop: Stop) -> Vec<usize> {
         let legs = self.to.get(&stop).into_iter().flatten().copied();
         legs.filter(|l| self.flow(*l) != Flow::ToSlot).collect()
@@ -149,7 +152,7 @@ impl<'a> Builder<'a> {
         legs.iter().map(|l| self.places[*l].token).collect()
     }
 
-    /// What gets a token when tokens are sent on `legs`.
+    /// Places that get a token when tokens are sent on `legs`.
     fn sent(&self, legs: &[usize]) -> Vec<PlaceId> {
         legs.iter().flat_map(|l| [self.places[*l].token].into_iter().chain(self.places[*l].echo)).collect()
     }
@@ -158,12 +161,13 @@ impl<'a> Builder<'a> {
         legs.iter().map(|l| self.places[*l].free).collect()
     }
 
-    /// What gets a token when the ends of `legs` have finished.
+    /// Places that get a token when the ends of `legs` have finished.
     fn finished(&self, legs: &[usize]) -> Vec<PlaceId> {
         legs.iter().map(|l| self.places[*l].done.unwrap_or(self.places[*l].free)).collect()
     }
 
-    /// A leg into a loop is free again when its end has finished, and what the delays of the loop sent for its token has.
+    /// Frees the legs into loops: each one when its end has finished, and with it everything that the delays of the
+    /// loop sent for its token.
     fn returning(&mut self) {
         for leg in 0..self.legs.len() {
             let Some(done) = self.places[leg].done else { continue };
@@ -174,7 +178,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Legs that a node waits for before it counts as finished: not those of its events.
+    /// Places of the free legs that a node awaits before it counts as finished: all except the legs of its events.
     fn awaited(&self, legs: &[usize]) -> Vec<PlaceId> {
         let own = legs.iter().copied().filter(|l| !route::from_event(self.graph, self.legs[*l].connection));
         self.free(&own.collect::<Vec<_>>())
@@ -189,6 +193,7 @@ impl<'a> Builder<'a> {
             }
             _ => {}
         }
+        // `process` and the slots of a node take the lock while they run, so that they exclude one another.
         let lock = self.place(format!("{name} is unlocked"), 1);
         let ports = self.undecided(node, &name);
         if has_process(self.graph, catalog, node) {
@@ -197,8 +202,8 @@ impl<'a> Builder<'a> {
         self.slots(node, &name, lock, &ports);
     }
 
-    /// A place for each port that sends only values: whether it sends one is still open. With the transitions that
-    /// decide it.
+    /// Places of the ports that send only values, marked while it is undecided if the port sends one. Adds the
+    /// transitions that decide it.
     fn undecided(&mut self, node: NodeId, name: &str) -> Vec<(usize, PlaceId)> {
         let mut ports = vec![];
         for port in 0..self.graph.nodes[node].ports.len() {
@@ -224,12 +229,14 @@ impl<'a> Builder<'a> {
         let enabled = self.place(format!("{name} is enabled"), 1);
         let running = self.place(format!("{name} is running"), 0);
         let waiting = self.place(format!("{name} waits for notifications"), 0);
+        // A node fires only if all its outgoing legs are free. `process` sends later, but then it must not block.
         let mut takes = self.tokens(&inputs);
         takes.extend([enabled, lock]);
         takes.extend(self.free(&out));
         let mut given = vec![running];
         let mut sends = vec![running];
         if let NodeKind::Delay(initial) = &self.graph.nodes[node].kind {
+            // `held` is the last place of both transitions, on which `State` relies.
             let held = self.place(format!("{name} holds"), initial.len());
             given.push(held);
             sends.push(held);
@@ -240,6 +247,7 @@ impl<'a> Builder<'a> {
         gives.extend(self.sent(&synchronous));
         gives.extend(ports.iter().map(|(_, place)| *place));
         self.transition(format!("{name} sends"), Meaning::Send(node), sends, gives);
+        // A leg that is both taken and given is only tested: it must be free, and remains so.
         let awaited = if self.graph.nodes[node].modifiers.pipelined { vec![] } else { self.awaited(&out) };
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
@@ -248,8 +256,8 @@ impl<'a> Builder<'a> {
         self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
     }
 
-    /// A slot takes the token of each connection to it as soon as the node is unlocked and all of its events are enabled. The
-    /// connection is free at once.
+    /// Adds the slots of a node. A slot takes the token of each connection to it as soon as the node is unlocked and
+    /// the legs of all its events are free. The connection is free at once.
     fn slots(&mut self, node: NodeId, name: &str, lock: PlaceId, ports: &[(usize, PlaceId)]) {
         let incoming = self.to.get(&Stop::Node(node)).cloned().unwrap_or_default();
         let incoming: Vec<usize> = incoming.into_iter().filter(|l| self.flow(*l) == Flow::ToSlot).collect();
@@ -265,6 +273,7 @@ impl<'a> Builder<'a> {
             let mut takes = vec![self.places[leg].token, lock];
             takes.extend(self.free(&events));
             let mut gives = vec![called, self.places[leg].free];
+            // After a reset every `start` is due again.
             if matches!(self.graph.nodes[node].kind, NodeKind::Reset) {
                 gives.extend(self.starts.values());
             }
@@ -272,6 +281,7 @@ impl<'a> Builder<'a> {
             let from = self.graph.end_name(self.graph.connections[connection].from);
             self.transition(format!("{slot} handles {from}"), Meaning::Handle(connection), takes, gives);
         }
+        // A slot can trigger events, but outputs are only sent by `process`.
         let mut gives = vec![lock];
         let is_event = |port: usize| self.graph.port(End { node, port }).kind == PortKind::Event;
         gives.extend(ports.iter().filter(|(port, _)| is_event(*port)).map(|(_, place)| *place));
@@ -285,7 +295,8 @@ impl<'a> Builder<'a> {
         self.transition(name, Meaning::Start(node), takes, self.sent(&legs));
     }
 
-    /// A delay on a loop cannot wait for what it leads to: it takes like a sink, and sends like a source.
+    /// Adds a delay on a loop. It takes like a sink and sends like a source, because the nodes that it would wait for
+    /// need its tokens.
     fn delay_in_loop(&mut self, node: NodeId, name: &str, initial: usize) {
         let (inputs, out) = (self.legs_into(Stop::Node(node)), self.legs_from(Stop::Node(node)));
         let undecided = self.undecided(node, name).into_iter().map(|(_, place)| place).collect();
@@ -295,6 +306,7 @@ impl<'a> Builder<'a> {
         let waiting = self.place(format!("{name} waits for notifications"), 0);
         let mut takes = self.tokens(&inputs);
         takes.push(room);
+        // `State` relies on `held` being the last place.
         let mut gives = self.finished(&inputs);
         gives.push(held);
         self.transition(format!("{name} takes"), Meaning::Hold(node), takes, gives);
@@ -307,16 +319,21 @@ impl<'a> Builder<'a> {
         self.delays.insert(node, DelayPlaces { held, room, enabled, waiting, undecided });
     }
 
-    /// The delays of a loop send, once for each iteration of what feeds it.
+    /// Adds the transition with which the delays of a loop send, once for each iteration of the nodes that feed the
+    /// loop.
     fn iteration(&mut self, on_loop: &Loop) {
         let Loop { delays, entries, events } = on_loop;
         let out: Vec<usize> = delays.iter().flat_map(|delay| self.legs_from(Stop::Node(*delay))).collect();
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         let own = || delays.iter().map(|delay| &self.delays[delay]);
+        // `State` relies on the places where the delays hold tokens being the first.
         let mut takes: Vec<PlaceId> = own().map(|delay| delay.held).collect();
         takes.extend(own().map(|delay| delay.enabled));
+        // The copies (`echo`) announce an iteration before the nodes at the ends of the entries fire, as they may need
+        // the tokens of the delays to do so.
         takes.extend(entries.iter().filter_map(|entry| self.places[*entry].echo));
         takes.extend(self.free(&out));
+        // The legs of events on the loop are only tested, because they are sent later in the iteration.
         let events = self.free(events);
         takes.extend(&events);
         let mut gives: Vec<PlaceId> = own().flat_map(|delay| [delay.room, delay.waiting]).collect();
@@ -328,7 +345,8 @@ impl<'a> Builder<'a> {
         self.transition(name, Meaning::Release(delays[0]), takes, gives);
     }
 
-    /// A side of a nested graph: takes a token from each leg that ends here, sends one to each that begins here.
+    /// Adds a boundary of a nested graph. It takes a token from each leg that ends there and sends one on each leg that
+    /// begins there.
     fn side(&mut self, side: Crossing) {
         let name = side_name(self.graph, side);
         let (incoming, outgoing) = (self.legs_into(Stop::Side(side)), self.legs_from(Stop::Side(side)));
@@ -349,12 +367,12 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The names of nodes.
+/// Names of nodes, separated by commas.
 fn names(graph: &Graph, nodes: &[NodeId]) -> String {
     nodes.iter().map(|node| graph.path(*node)).collect::<Vec<_>>().join(", ")
 }
 
-/// Whether a node takes its inputs and sends to its outputs.
+/// Returns `true` if a node takes inputs or sends outputs, as `process` does.
 pub fn has_process(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     match &graph.nodes[node].kind {
         NodeKind::Library(library) => {

@@ -1,7 +1,7 @@
-//! Tokens that pass a side of a nested graph before the others are there.
+//! Tokens that cross the boundary of a nested graph before the others have arrived.
 //!
-//! A compiler need not hold a token back at a side while the others are about to come in the same firing, because
-//! nobody can see a difference. Such a token is a debt: the others have to follow before anything else happens.
+//! A program need not hold a token back at a boundary while the others are about to arrive in the same firing, because
+//! the difference cannot be observed. Such a token is a debt: the others have to follow before anything else happens.
 
 use super::{
     Meaning, Net, PlaceId, TransitionId,
@@ -11,11 +11,12 @@ use super::{
 use crate::graph::Crossing;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// Which tokens went ahead.
+/// Tokens that have crossed a boundary early.
 #[derive(Clone)]
 pub struct Early {
     sides: BTreeMap<Crossing, Side>,
-    /// Where each leg that begins at a side leads to: its side, and its number there.
+    /// For each leg that begins at a boundary, by the place of its token: the boundary, and the number of the leg
+    /// there.
     begins: BTreeMap<PlaceId, (Crossing, usize)>,
 }
 
@@ -25,11 +26,11 @@ struct Side {
     enabled: PlaceId,
     waiting: PlaceId,
     ways: Vec<Way>,
-    /// Ways on which a token went ahead.
+    /// Ways on which a token has crossed early.
     ahead: BTreeSet<usize>,
 }
 
-/// The way of a connection through a side.
+/// A connection through a boundary: the place of its token before it, and the places behind it.
 #[derive(Clone)]
 struct Way {
     before: PlaceId,
@@ -40,10 +41,11 @@ struct Way {
 type Marking = [VecDeque<Token>];
 
 impl Early {
-    /// No token went ahead.
+    /// Initial state, without early tokens.
     pub fn new(legs: &[Leg], loops: &[Loop], net: &Net) -> Self {
+        // `build` makes two places for each leg: `2 * leg` for its token, and `2 * leg + 1` while it is free.
         let mut gives: Vec<Vec<PlaceId>> = (0..legs.len()).map(|leg| vec![2 * leg]).collect();
-        // The places for legs into loops follow those of the legs.
+        // The copies (`echo`) for legs into loops follow the places of all legs.
         let entries = loops.iter().flat_map(|on_loop| &on_loop.entries);
         for (echo, entry) in (2 * legs.len()..).zip(entries) {
             gives[*entry].push(echo);
@@ -54,22 +56,23 @@ impl Early {
             let mut ways = vec![];
             for leg in (0..legs.len()).filter(|l| legs[*l].from == Stop::Side(side)) {
                 begins.insert(2 * leg, (side, ways.len()));
-                // The leg before it belongs to the same connection.
+                // The preceding leg is the part of the same connection before the boundary.
                 ways.push(Way { before: 2 * (leg - 1), free: 2 * leg + 1, gives: gives[leg].clone() });
             }
+            // `Builder::side` takes a token of each way, then `enabled`. The last place that it gives to is `waiting`.
             let (enabled, waiting) = (transition.takes[ways.len()], transition.gives[transition.gives.len() - 1]);
             sides.insert(side, Side { pass, enabled, waiting, ways, ahead: BTreeSet::new() });
         }
         Self { sides, begins }
     }
 
-    /// Where the tokens wait that come to `place` through a side.
+    /// The place where a token waits that reaches `place` through a boundary.
     pub fn before(&self, place: PlaceId) -> Option<PlaceId> {
         let (side, index) = self.begins.get(&place)?;
         Some(self.sides.get(side)?.ways[*index].before)
     }
 
-    /// Brings a token to `place`, if only other tokens hold it back. Returns whether it did.
+    /// Advances a token to `place`, if only the other tokens at boundaries hold it back. Returns `true` if it did.
     pub fn advance(&mut self, place: PlaceId, marking: &mut Marking) -> bool {
         let Some((crossing, index)) = self.begins.get(&place).copied() else { return false };
         let Some(side) = self.sides.get(&crossing) else { return false };
@@ -77,6 +80,7 @@ impl Early {
         if marking[side.enabled].is_empty() || side.ahead.contains(&index) || marking[way.free].is_empty() {
             return false;
         }
+        // The token may itself have to cross an outer boundary first.
         if marking[way.before].is_empty() && !self.advance(way.before, marking) {
             return false;
         }
@@ -84,7 +88,8 @@ impl Early {
         self.sides.get_mut(&crossing).is_some_and(|s| s.ahead.insert(index))
     }
 
-    /// Lets the others follow where all of them are there; the transitions that this is in place of.
+    /// Advances the remaining tokens at boundaries where all of them have arrived. Returns the transitions that this
+    /// replaces.
     pub fn follow(&mut self, marking: &mut Marking) -> Vec<TransitionId> {
         let mut passed = vec![];
         for side in self.sides.values_mut().filter(|s| !s.ahead.is_empty()) {
@@ -101,7 +106,7 @@ impl Early {
         passed
     }
 
-    /// A side at which some token went ahead and others have not followed.
+    /// A boundary that some token crossed early and that others have yet to cross.
     pub fn owes(&self) -> Option<Crossing> {
         self.sides.iter().find(|(_, s)| !s.ahead.is_empty()).map(|(side, _)| *side)
     }

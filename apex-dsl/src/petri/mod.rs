@@ -1,12 +1,12 @@
-//! The Petri net of a graph: what the graph may do, whatever the compiler makes of it.
+//! The Petri net of a graph: everything that the graph may do, independently of the decisions of the compiler.
 //!
-//! It is built from the checked graph alone and knows nothing of analysis and code generation, so that it can judge
-//! them: [`Replay`] says whether what a compiled program did is something that the net may do, too.
+//! The net is built from the checked graph alone, without analysis and code generation, so that it can judge them:
+//! [`Replay`] decides if the net permits what a compiled program did.
 //!
-//! Each node takes its tokens in one transition and sends in another; a lock keeps its slots out in between. A connection has
-//! a place for its token and one that says that it is free. It becomes free again by a notification, which travels
-//! against the tokens as soon as everything behind it has finished; a slot notifies at once. A nested graph stands between its surroundings
-//! and its inside like a node of its own at each side.
+//! Each node takes its tokens in one transition and sends in another; a lock excludes its slots in between. A
+//! connection has a place for its token and one that is marked while it is free. A notification frees the connection:
+//! notifications travel against the tokens as soon as everything downstream has finished. A slot notifies at once. Each
+//! boundary of a nested graph behaves like a node between the surroundings and the inside.
 
 mod build;
 mod early;
@@ -24,15 +24,15 @@ pub use pnml::pnml;
 pub use replay::{Replay, Wrong};
 pub use state::{Call, Origin, Preview, Script, State, Token, unsupported};
 
-/// A place, by number in [`Net::places`].
+/// Number of a place in [`Net::places`].
 pub type PlaceId = usize;
-/// A transition, by number in [`Net::transitions`].
+/// Number of a transition in [`Net::transitions`].
 pub type TransitionId = usize;
 
 /// A Petri net. All arcs have weight one.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Net {
-    /// The graph that it belongs to.
+    /// Name of the graph.
     pub name: String,
     /// Places.
     pub places: Vec<Place>,
@@ -43,57 +43,57 @@ pub struct Net {
 /// A place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// Its name.
+    /// Name of the place.
     pub name: String,
-    /// Tokens in the beginning.
+    /// Initial number of tokens.
     pub initial: usize,
 }
 
 /// A transition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Transition {
-    /// Its name.
+    /// Name of the transition.
     pub name: String,
-    /// What it stands for.
+    /// Meaning of the transition.
     pub meaning: Meaning,
-    /// Places that it takes a token from.
+    /// Places from which it takes a token.
     pub takes: Vec<PlaceId>,
-    /// Places that it gives a token to.
+    /// Places to which it gives a token.
     pub gives: Vec<PlaceId>,
 }
 
-/// What a transition stands for.
+/// Meaning of a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meaning {
     /// A node takes one token from each input.
     Take(NodeId),
-    /// It sends one token to each output.
+    /// A node sends one token on each synchronous connection.
     Send(NodeId),
-    /// Everything behind a node has finished: it may fire again, and what feeds it is told.
+    /// Everything downstream of a node has finished: the node may fire again, and its inputs are free.
     Notify(NodeId),
     /// A port that sends only values sends one, or an event is triggered.
     Trigger(End),
-    /// It does not.
+    /// A port that sends only values sends none, or an event is not triggered.
     Hush(End),
     /// The slot at the end of this connection takes the token on it.
     Handle(usize),
-    /// The slots of a node have nothing to do any more.
+    /// The slots of a node have finished.
     Handled(NodeId),
-    /// All tokens at a side of a nested graph pass it together.
+    /// All tokens at a boundary of a nested graph cross it together.
     Pass(Crossing),
-    /// Everything behind a side of a nested graph has finished.
+    /// Everything downstream of a boundary of a nested graph has finished.
     NotifySide(Crossing),
-    /// The delays on a loop, this one being the first, send the tokens that they have held longest.
+    /// All delays of a loop, of which this node is the first, send their oldest tokens.
     Release(NodeId),
-    /// A delay inside a loop takes a token.
+    /// A delay on a loop takes a token.
     Hold(NodeId),
-    /// What delays sent for the token on a leg into their loop has finished, too.
+    /// Everything that the delays of a loop sent for the token on this leg into the loop has finished.
     Return(usize),
-    /// The activity of the program begins.
+    /// `start` begins the activity of the program.
     Start(NodeId),
 }
 
-/// Why a graph has no net.
+/// Reason why a graph has no net.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoNet(pub String);
 
@@ -104,13 +104,13 @@ impl fmt::Display for NoNet {
 }
 
 impl Net {
-    /// The transition that stands for `meaning`.
+    /// The transition with this meaning.
     pub fn find(&self, meaning: Meaning) -> Option<TransitionId> {
         self.transitions.iter().position(|t| t.meaning == meaning)
     }
 }
 
-/// A connection as a person would write it.
+/// A connection as written in a source file.
 fn connection_name(graph: &Graph, connection: usize) -> String {
     let c = &graph.connections[connection];
     format!("{} -> {}", graph.end_name(c.from), graph.end_name(c.to))

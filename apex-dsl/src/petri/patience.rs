@@ -1,11 +1,11 @@
-//! Which sources may wait for those that take their tokens.
+//! Sources that fire when their consumers need tokens.
 
 use super::route::{Stop, legs, reached};
 use crate::graph::{Flow, Graph, NodeId, NodeKind};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Sources without a pace that only feed inputs, if something behind them waits for others, too: they may fire when and as
-/// often as that.
+/// Demand-driven sources: they have no timer, send only to synchronous inputs, and share a node downstream with another
+/// source, a timer or an asynchronous connection. They may fire when and as often as that node needs their tokens.
 pub fn patient(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
     let has_pace = |node: &NodeId| graph.nodes[*node].modifiers.has_pace();
     let is_free = |node: &NodeId| {
@@ -17,7 +17,7 @@ pub fn patient(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
     let mut paces: BTreeSet<Stop> = (0..graph.nodes.len()).filter(has_pace).map(Stop::Node).collect();
     for leg in legs(graph) {
         let flow = graph.flow(&graph.connections[leg.connection]);
-        // At a side of a nested graph everything goes on together.
+        // Tokens cross a boundary together, so that asynchronous ones wait for all others there, too.
         if flow == Flow::Synchronous || flow == Flow::ToInput && matches!(leg.from, Stop::Side(_)) {
             after.entry(leg.from).or_default().push(leg.to);
         }

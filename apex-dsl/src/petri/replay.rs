@@ -1,8 +1,8 @@
-//! Replays what a program did on the net of its graph.
+//! Replay of a recorded run on the net of its graph.
 //!
-//! Only firings and slot calls are recorded. Everything else that the net does (notifications, ⊥ that nobody sees, tokens at
-//! the sides of nested graphs) happens here as soon as it can: the order of these transitions makes no
-//! difference. Only a node that does not run because of ⊥ and takes activity at the same time waits for the record of it.
+//! Only firings and slot calls are recorded. All other transitions of the net (notifications, unobserved ⊥, tokens at
+//! the boundaries of nested graphs) occur here as soon as they can: their order makes no difference. There is one
+//! exception: a node that takes activity but does not run because of ⊥ waits until the activity is recorded.
 
 use super::{
     Meaning, Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, connection_name,
@@ -20,14 +20,14 @@ use std::{
     time::Duration,
 };
 
-/// Where a record is not a firing sequence of the net.
+/// A record that is not a firing sequence of the net.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Wrong {
-    /// Number of the record, from 1.
+    /// Number of the record, counted from 1.
     pub step: usize,
-    /// What was recorded.
+    /// The recorded event.
     pub what: String,
-    /// Why that cannot be.
+    /// Reason why the event is not possible.
     pub why: String,
 }
 
@@ -41,7 +41,7 @@ impl fmt::Display for Wrong {
 struct Change {
     active: bool,
     step: usize,
-    /// What is so in the beginning need not be recorded.
+    /// `true` for initial activity, which need not be recorded.
     optional: bool,
 }
 
@@ -55,20 +55,20 @@ pub struct Replay<'a> {
     /// Transitions that may have become enabled.
     agenda: BTreeSet<TransitionId>,
     by_meaning: BTreeMap<Meaning, TransitionId>,
-    /// How often each source fired, in all and in this reaction.
+    /// For each source the number of its firings, and `true` if it has fired in this reaction.
     sources: BTreeMap<NodeId, (u32, bool)>,
-    /// Sources that may fire when and as often as who takes their tokens.
+    /// Sources that may fire when and as often as their consumers need their tokens.
     patient: BTreeSet<NodeId>,
     expected: BTreeMap<NodeId, VecDeque<Change>>,
-    /// Changes of activity that were recorded before what causes them.
+    /// Changes of activity that were recorded before their cause.
     early: Vec<(NodeId, bool)>,
-    /// What the call that was recorded last has taken.
+    /// Tokens that the last recorded call has taken.
     last: Vec<Token>,
-    /// What is not recorded comes as late as possible.
+    /// `true` if unrecorded transitions occur as late as possible.
     late: bool,
-    /// The nodes run in several thread groups.
+    /// `true` if the nodes run in several thread groups.
     has_groups: bool,
-    /// Nodes that wait with ⊥ until something else needs it.
+    /// Nodes that take ⊥ only when something else needs it.
     hesitant: BTreeSet<NodeId>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Replay<'a> {
     /// A replay from the beginning of the program.
     ///
     /// # Errors
-    /// If the graph has something that cannot be replayed.
+    /// Fails if the graph has a feature that cannot be replayed.
     pub fn new(graph: &'a Graph, catalog: &Catalog, net: &'a Net, script: &'a Script<'a>) -> Result<Self, String> {
         if let Some(what) = unsupported(graph) {
             return Err(format!("{what}, which cannot be replayed"));
@@ -103,9 +103,9 @@ impl<'a> Replay<'a> {
         Ok(replay)
     }
 
-    /// The same replay with another order of what is not recorded: a node with slots takes ⊥ as late as possible, not as
-    /// early, and a delay on a loop sends when a node behind it fires. Events may have to wait
-    /// in one order and not in the other, so that a run is legal if one of the two is.
+    /// The same replay with another order of the unrecorded transitions: a node with slots takes ⊥ as late as
+    /// possible, not as early as possible, and a delay on a loop sends only when a node downstream fires. Events may be
+    /// blocked in one order and not in the other, so that a run is legal if it is legal in one of them.
     #[must_use]
     pub fn hesitating(mut self) -> Self {
         self.late = true;
@@ -117,25 +117,26 @@ impl<'a> Replay<'a> {
         self
     }
 
-    /// A reaction begins.
+    /// Begins a reaction.
     pub fn begin(&mut self, now: Duration) {
         self.step += 1;
         self.now = now;
         for (node, (_, fired)) in &mut self.sources {
-            // The turn that is under way is that of this reaction.
+            // An iteration that is still under way counts as the one of this reaction.
             let notify = self.by_meaning.get(&Meaning::Notify(*node)).filter(|_| self.late);
             let waits = notify.and_then(|t| self.net.transitions[*t].takes.first());
             let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
         }
+        // Time has passed, so that any transition may have become enabled.
         self.agenda = (0..self.net.transitions.len()).collect();
         self.settle();
     }
 
-    /// `process` of `node` runs.
+    /// Replays a firing: `process` of `node` runs.
     ///
     /// # Errors
-    /// If it may not.
+    /// Fails if it may not run.
     pub fn fired(&mut self, node: NodeId) -> Result<(), Wrong> {
         self.step += 1;
         let what = format!("fired {}", self.name(node));
@@ -157,10 +158,10 @@ impl<'a> Replay<'a> {
         self.match_early(&what)
     }
 
-    /// The slot at the end of `connection` takes the token on it.
+    /// Replays a slot call: the slot at the end of `connection` takes the token on it.
     ///
     /// # Errors
-    /// If it may not.
+    /// Fails if it may not take the token.
     pub fn handled(&mut self, connection: usize) -> Result<(), Wrong> {
         self.step += 1;
         let Some(handle) = self.by_meaning.get(&Meaning::Handle(connection)).copied() else {
@@ -179,16 +180,18 @@ impl<'a> Replay<'a> {
         self.match_early(&what)
     }
 
-    /// What the call that was recorded last found at its connected inputs (its slot), in the order of the ports; `None` is ⊥.
+    /// Compares the tokens that the last recorded call found at its connected inputs (or its slot), in the order of the
+    /// ports; `None` is ⊥.
     ///
     /// # Errors
-    /// If it should have found something else.
+    /// Fails if other tokens should have been there.
     pub fn took(&mut self, found: &[Option<Origin>]) -> Result<(), Wrong> {
         let what = format!("took {found:?}");
         if found.len() != self.last.len() {
             return Err(self.wrong(&what, format!("it has {} tokens to take", self.last.len())));
         }
         for (token, found) in self.last.iter().zip(found) {
+            // Initial tokens have no origin: only values and ⊥ can be told apart.
             let same = match (token.value, token.origin) {
                 (true, Some(origin)) => *found == Some(origin),
                 (value, _) => value == found.is_some(),
@@ -201,16 +204,16 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// `node` became active, or is no longer.
+    /// Replays a change of activity of `node`.
     ///
     /// # Errors
-    /// If that is neither so nor about to be so.
+    /// A change without a cause is reported by the next call, unless that is its cause.
     pub fn activity(&mut self, node: NodeId, active: bool) -> Result<(), Wrong> {
         self.step += 1;
         if self.matches_expected(node, active) {
             return Ok(());
         }
-        // A node that does not run because of ⊥ may have taken activity.
+        // The activity may have come to a node that does not run because of ⊥.
         if self.lazy().into_iter().any(|(n, p)| n == node && p.active == active && self.state.is_active(n) != active) {
             self.run(self.by_meaning[&Meaning::Take(node)]);
             self.settle();
@@ -222,10 +225,10 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// The reaction ends: nothing is left to do.
+    /// Ends the reaction, after which nothing may be left to do.
     ///
     /// # Errors
-    /// If something is.
+    /// Fails if a transition can still occur, or if a change of activity was not recorded.
     pub fn end(&mut self) -> Result<(), Wrong> {
         self.step += 1;
         let what = "the reaction ends";
@@ -236,6 +239,7 @@ impl<'a> Replay<'a> {
             if !self.state.is_enabled(transition) {
                 continue;
             }
+            // Sources may remain enabled if they are not due, or if they fire on demand.
             let open = match t.meaning {
                 Meaning::Take(node) | Meaning::Release(node) => self.is_due(node) && !self.patient.contains(&node),
                 _ => true,
@@ -254,7 +258,7 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Whether `node` is active now.
+    /// Returns `true` if `node` is active now.
     pub fn is_active(&self, node: NodeId) -> bool {
         self.state.is_active(node)
     }
@@ -267,22 +271,24 @@ impl<'a> Replay<'a> {
         Wrong { step: self.step, what: what.to_owned(), why }
     }
 
-    /// A source without a pace fires once per reaction; one with a pace at its times.
+    /// Returns `true` if `node` may fire now: a source with a timer at its times, any other source once per reaction.
     fn is_due(&self, node: NodeId) -> bool {
         let Some((count, fired)) = self.sources.get(&node) else { return true };
         let modifiers = &self.graph.nodes[node].modifiers;
         let Some(passed) = self.now.checked_sub(modifiers.after.unwrap_or_default()) else { return false };
         match modifiers.every {
+            // The firings are at `after`, `after + period`, `after + 2 · period` and so on.
             Some(period) => period.saturating_mul(*count) <= passed,
             None => !fired || self.patient.contains(&node),
         }
     }
 
-    /// Makes sure that `transition` is enabled, if it can be with what is silent.
+    /// Enables `transition` by unrecorded transitions, if that is possible.
     fn prepare(&mut self, transition: TransitionId, what: &str) -> Result<(), Wrong> {
         if !self.state.is_enabled(transition) {
             self.bring_all(transition, &mut BTreeSet::new());
         }
+        // A deferred transition may be the one that blocks it.
         if !self.state.is_enabled(transition) {
             self.hurry_for(transition);
         }
@@ -294,13 +300,13 @@ impl<'a> Replay<'a> {
         Err(self.wrong(what, format!("no token at: {}", places.join("; "))))
     }
 
-    /// Brings what `transition` lacks.
+    /// Brings tokens to the places where `transition` lacks them.
     fn bring_all(&mut self, transition: TransitionId, seen: &mut BTreeSet<PlaceId>) {
         self.state.missing(transition).into_iter().for_each(|place| self.bring(place, seen));
     }
 
-    /// Brings a token to `place`, if only others hold it back at sides of nested graphs: also a ⊥ that nodes in between pass on
-    /// without running.
+    /// Brings a token to `place`, if only other tokens hold it back at boundaries of nested graphs. Nodes on the way
+    /// that pass ⊥ on without running do so.
     fn bring(&mut self, place: PlaceId, seen: &mut BTreeSet<PlaceId>) {
         if self.state.is_marked(place) || !seen.insert(place) {
             return;
@@ -326,7 +332,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Lets a delay on a loop send, if it can.
+    /// Lets the delays of a loop send, if they can.
     fn release(&mut self, transition: TransitionId) {
         let Meaning::Release(node) = self.net.transitions[transition].meaning else { return };
         if self.state.is_enabled(transition) && self.is_due(node) {
@@ -335,7 +341,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Nodes that would take activity without running.
+    /// Nodes that could fire without running, but are deferred because they take activity or have slots.
     fn lazy(&self) -> Vec<(NodeId, Preview)> {
         let nodes = 0..self.graph.nodes.len();
         nodes
@@ -345,14 +351,14 @@ impl<'a> Replay<'a> {
             .collect()
     }
 
-    /// Runs everything that was deferred: all delays on loops send, and all nodes with ⊥ take it.
+    /// Executes everything that is deferred: delays on loops send, then nodes take ⊥.
     fn hurry(&mut self) {
         self.release_all();
         while self.take_deferred(None) {}
     }
 
-    /// Runs what was deferred until `transition` is enabled. Its own node comes last, because what it defers may need what
-    /// `transition` occupies.
+    /// Executes deferred transitions until `transition` is enabled. Those of its own node come last, because they may
+    /// need the places that `transition` occupies.
     fn hurry_for(&mut self, transition: TransitionId) {
         let own = match self.net.transitions[transition].meaning {
             Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
@@ -369,8 +375,8 @@ impl<'a> Replay<'a> {
         (0..self.net.transitions.len()).for_each(|transition| self.release(transition));
     }
 
-    /// One deferred node takes its tokens: not `last` while there are others, and nodes whose activity stays as it is first.
-    /// Returns `false` if nothing is deferred.
+    /// Lets one deferred node take its tokens: `last` only if there is no other, and nodes whose activity does not change
+    /// first. Returns `false` if nothing is deferred.
     fn take_deferred(&mut self, last: Option<NodeId>) -> bool {
         let deferred = self.lazy();
         let rank =
@@ -381,7 +387,7 @@ impl<'a> Replay<'a> {
         true
     }
 
-    /// Lets a transition occur, with what belongs to the same call.
+    /// Executes a transition, and records its effects on sources, agenda and activity.
     fn run(&mut self, transition: TransitionId) {
         if let Meaning::Take(node) | Meaning::Release(node) = self.net.transitions[transition].meaning
             && let Some((count, fired)) = self.sources.get_mut(&node)
@@ -394,7 +400,7 @@ impl<'a> Replay<'a> {
         self.expect_changes(false);
     }
 
-    /// All that is silent, until nothing of it is enabled.
+    /// Executes unrecorded transitions until none of them is enabled.
     fn settle(&mut self) {
         loop {
             while let Some(transition) = self.agenda.pop_first() {
@@ -402,6 +408,7 @@ impl<'a> Replay<'a> {
                     self.run(transition);
                 }
             }
+            // Tokens that follow early ones may enable further transitions.
             for passed in self.state.follow() {
                 self.agenda.extend(self.state.behind(passed));
             }
@@ -411,7 +418,8 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Tokens that went ahead at a side of a nested graph belong to the same firing as those that follow.
+    /// Reports tokens that have crossed a boundary of a nested graph without the others: they belong to the same
+    /// firing.
     fn check_debts(&self, what: &str) -> Result<(), Wrong> {
         match self.state.owes() {
             Some(side) => {
@@ -426,6 +434,7 @@ impl<'a> Replay<'a> {
         match self.net.transitions[transition].meaning {
             Meaning::Take(node) => {
                 let preview = self.state.preview(node);
+                // Delays and relays have no activity, so that they pass activity on without a record.
                 let agnostic = matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_));
                 !preview.reported
                     && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
@@ -443,7 +452,8 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// What is active from the beginning is recorded before anything else, or not at all. Each thread group begins by itself.
+    /// Drops initial activity that was not recorded: it is recorded before anything else, or not at all. With several
+    /// thread groups it is kept, because each group begins on its own.
     fn forget_optional(&mut self) {
         if self.has_groups {
             return;
@@ -453,6 +463,7 @@ impl<'a> Replay<'a> {
 
     fn matches_expected(&mut self, node: NodeId, active: bool) -> bool {
         let Some(changes) = self.expected.get_mut(&node) else { return false };
+        // Initial activity that is missing in the record is skipped.
         while changes.front().is_some_and(|c| c.optional && c.active != active) {
             changes.pop_front();
         }
@@ -463,7 +474,8 @@ impl<'a> Replay<'a> {
         same
     }
 
-    /// Activity may be recorded just before the call that causes it, not earlier.
+    /// Reports activity that was recorded too early: it may be recorded just before the call that causes it, but not
+    /// earlier.
     fn check_early(&self, what: &str, belongs: impl Fn(NodeId) -> bool) -> Result<(), Wrong> {
         match self.early.iter().find(|(n, _)| !belongs(*n)) {
             Some((node, active)) => {

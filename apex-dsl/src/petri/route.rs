@@ -1,4 +1,4 @@
-//! Connections cut into legs at the sides of nested graphs, and what lies on a loop.
+//! Connections cut into legs at the boundaries of nested graphs, and the loops of a graph.
 
 use crate::{
     graph::{Crossing, Flow, Graph, NodeId, NodeKind},
@@ -6,12 +6,12 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Where a leg begins or ends.
+/// End of a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stop {
-    /// At a node.
+    /// A node.
     Node(NodeId),
-    /// At a side of a nested graph.
+    /// A boundary of a nested graph.
     Side(Crossing),
 }
 
@@ -20,28 +20,29 @@ pub enum Stop {
 pub struct Leg {
     /// The connection.
     pub connection: usize,
-    /// Where it begins.
+    /// Origin of the leg.
     pub from: Stop,
-    /// Where it ends.
+    /// Destination of the leg.
     pub to: Stop,
 }
 
-/// All legs, those of a connection one after the other.
+/// All legs. Those of one connection are adjacent and in order.
 pub fn legs(graph: &Graph) -> Vec<Leg> {
     let insides = insides(graph);
-    // A delay breaks a loop: the loop goes on with what it sends, before the graph around it sends everything else.
+    // The token of a delay begins an iteration of its loop. It must not wait at the outputs of nested graphs on the
+    // loop, because the other tokens there are made only in that iteration.
     cut(graph, |node, side| {
         matches!(side, Crossing::Leave(_))
             && insides.get(&node).is_some_and(|inside| inside.contains(&Stop::Side(side)))
     })
 }
 
-/// The legs, if connections from a node pass by those sides for which `passes` holds.
+/// The legs, where connections from a node ignore the boundaries for which `passes` is true.
 fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Leg> {
     let mut legs = vec![];
     for (connection, c) in graph.connections.iter().enumerate() {
         let mut from = Stop::Node(c.from.node);
-        // A slot takes each token alone, so that no side of a nested graph holds it back.
+        // A slot takes each token alone, so that no boundary holds it back.
         let sides = if graph.flow(c) == Flow::ToSlot { &[] } else { c.crossings.as_slice() };
         for &crossing in sides.iter().filter(|side| !passes(c.from.node, **side)) {
             let to = Stop::Side(crossing);
@@ -53,14 +54,16 @@ fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Leg> {
     legs
 }
 
-/// A loop, or several that have nodes in common. An iteration begins only when it can come to its end: all delays send together.
+/// A loop, or several loops with nodes in common. An iteration begins only when it can be completed: all delays send
+/// together.
 #[derive(Debug, Clone)]
 pub struct Loop {
     /// Its delays.
     pub delays: Vec<NodeId>,
-    /// The legs that lead into it from elsewhere. It goes round once for each token on each of them; without any, it sets its own pace.
+    /// Legs that lead into it from outside. It iterates once for each token on each of them; without any it is a
+    /// source.
     pub entries: Vec<usize>,
-    /// The legs of the events of all nodes on it: they have to be free when an iteration begins.
+    /// Legs of the events of all nodes on it. They have to be free when an iteration begins.
     pub events: Vec<usize>,
 }
 
@@ -77,12 +80,14 @@ pub fn loops(graph: &Graph, legs: &[Leg]) -> Vec<Loop> {
             events: numbered().filter(|(_, l)| is_event(l)).map(|(i, _)| i).collect(),
         }
     };
+    // Delays with the same stops around them are on the same loop.
     let mut delays: BTreeMap<BTreeSet<Stop>, Vec<NodeId>> = BTreeMap::new();
     insides(graph).into_iter().for_each(|(delay, inside)| delays.entry(inside).or_default().push(delay));
     delays.into_iter().map(on_loop).collect()
 }
 
-/// For each delay on a loop all that lies on the loop. A nested graph is passed as a whole: by its sides.
+/// For each delay on a loop, the nodes and boundaries on that loop. Nested graphs count as a whole, by their
+/// boundaries.
 fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<Stop>> {
     let mut after: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
     let mut before: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
@@ -92,6 +97,7 @@ fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<Stop>> {
     }
     let mut insides = BTreeMap::new();
     for (node, _) in graph.nodes.iter().enumerate().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
+        // Everything that is both downstream and upstream of a delay is on a loop with it.
         let (below, above) = (reached([Stop::Node(node)], &after), reached([Stop::Node(node)], &before));
         if below.contains(&Stop::Node(node)) {
             insides.insert(node, below.intersection(&above).copied().collect());
@@ -104,7 +110,8 @@ fn to_input(graph: &Graph, leg: &Leg) -> bool {
     graph.flow(&graph.connections[leg.connection]) != Flow::ToSlot
 }
 
-/// What `next` leads to from any of `from`, directly or not; one of them only if it is led back to.
+/// Stops that can be reached along `next` from any of `from`. Members of `from` are included only if they can be
+/// reached, too.
 pub fn reached(from: impl IntoIterator<Item = Stop>, next: &BTreeMap<Stop, Vec<Stop>>) -> BTreeSet<Stop> {
     let mut found = BTreeSet::new();
     let mut ends: Vec<Stop> = from.into_iter().filter_map(|stop| next.get(&stop)).flatten().copied().collect();
@@ -116,13 +123,13 @@ pub fn reached(from: impl IntoIterator<Item = Stop>, next: &BTreeMap<Stop, Vec<S
     found
 }
 
-/// The connections that start at a port and carry only values: those of an event, and those from an output to a slot.
+/// Connections from a port that carry only values: those from an event, and those from an output to a slot.
 pub fn value_connections(graph: &Graph, end: crate::graph::End) -> impl Iterator<Item = usize> + '_ {
     let connections = graph.connections.iter().enumerate();
     connections.filter(move |(_, c)| c.from == end && graph.flow(c) != Flow::Synchronous).map(|(i, _)| i)
 }
 
-/// Whether a connection starts at an event of its node.
+/// Returns `true` if a connection starts at an event of its node.
 pub fn from_event(graph: &Graph, connection: usize) -> bool {
     graph.port(graph.connections[connection].from).kind == PortKind::Event
 }

@@ -1,4 +1,4 @@
-//! A net with coloured tokens: where each comes from, whether it is a value or ⊥, and what it does to activity.
+//! A net with coloured tokens: each token has an origin, is a value or ⊥, and has an effect on activity.
 
 use super::{
     Meaning, Net, PlaceId, TransitionId,
@@ -13,23 +13,23 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// Where a token was made.
+/// Origin of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Origin {
     /// The port that sent it.
     pub end: End,
-    /// How often `process` or a slot of that node had been called before.
+    /// Number of previous calls of `process` and slots of that node.
     pub call: usize,
 }
 
 /// A token. Places that carry no messages hold the default.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Token {
-    /// Where it was made; `None` if it was there in the beginning.
+    /// Origin; `None` for an initial token.
     pub origin: Option<Origin>,
-    /// A value, not ⊥.
+    /// `true` for a value, `false` for ⊥.
     pub value: bool,
-    /// What it does to the activity of the node that takes it: 0, +1 or −1.
+    /// Effect on the activity of the node that takes it: 0, +1 or −1.
     pub modifier: i8,
 }
 
@@ -38,34 +38,34 @@ pub struct Token {
 pub struct Call {
     /// The node.
     pub node: NodeId,
-    /// How often `process` or a slot of it had been called before.
+    /// Number of previous calls of `process` and slots of the node.
     pub nth: usize,
     /// The port of the slot; `None` is `process`.
     pub slot: Option<usize>,
 }
 
-/// What nodes do: whether a call sends a value (triggers the event) at a port.
+/// Behaviour of the nodes: returns `true` if a call sends a value at a port, or triggers the event there.
 pub type Script<'a> = dyn Fn(Call, usize) -> bool + 'a;
 
-/// What a call has taken.
+/// Tokens that a call has taken.
 #[derive(Debug, Clone, Default)]
 struct Taken {
     slot: Option<usize>,
     runs: bool,
-    /// By port.
+    /// Tokens by port.
     tokens: BTreeMap<usize, Token>,
 }
 
-/// What can be asked about a transition before it occurs.
+/// Effects of a firing that has not occurred yet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preview {
-    /// `process` runs: no mandatory input holds ⊥.
+    /// `true` if `process` will run: no mandatory input holds ⊥.
     pub runs: bool,
-    /// A program reports it: `process` runs, or the node is told of ⊥.
+    /// `true` if a program reports the firing: `process` runs, or the node handles ⊥.
     pub reported: bool,
-    /// Activity of the node afterwards.
+    /// Activity of the node after the firing.
     pub active: bool,
-    /// Some token carries a modifier.
+    /// `true` if some token carries a modifier.
     pub modifies: bool,
 }
 
@@ -79,7 +79,7 @@ pub struct State<'a> {
     active: Vec<bool>,
     calls: Vec<usize>,
     taken: BTreeMap<NodeId, Taken>,
-    /// What undecided ports will do: `None` is nothing; else a token for each connection.
+    /// Decisions of undecided ports: `None` for silence, else a token for each leg.
     decided: BTreeMap<End, Option<BTreeMap<usize, Token>>>,
     changes: Vec<(NodeId, bool)>,
     told: Vec<bool>,
@@ -87,7 +87,7 @@ pub struct State<'a> {
     into: BTreeMap<Stop, Vec<Link>>,
     from: BTreeMap<Stop, Vec<Link>>,
     consumers: Vec<Vec<TransitionId>>,
-    /// Nodes that nothing leads to, and the first delays of loops that nothing feeds.
+    /// Nodes without connected inputs, and the first delays of loops without entries.
     sources: BTreeSet<NodeId>,
     /// The delays of each loop, by the first one.
     loops: BTreeMap<NodeId, Vec<NodeId>>,
@@ -102,7 +102,7 @@ struct Link {
     synchronous: bool,
 }
 
-/// What of a graph the coloured net cannot follow; `None` if nothing.
+/// A feature of the graph that the coloured net does not support, if there is one.
 pub fn unsupported(graph: &Graph) -> Option<String> {
     for (id, node) in graph.nodes.iter().enumerate() {
         if let NodeKind::Boundary(_) = node.kind {
@@ -118,7 +118,7 @@ pub fn unsupported(graph: &Graph) -> Option<String> {
 }
 
 impl<'a> State<'a> {
-    /// The beginning of `graph`, whose nodes do what `script` says. `net` is its net.
+    /// The initial state of `graph`, whose nodes behave as `script` says. `net` is its net.
     pub fn new(graph: &'a Graph, catalog: &Catalog, net: &'a Net, script: &'a Script<'a>) -> Self {
         let library = |node: NodeId| match &graph.nodes[node].kind {
             NodeKind::Library(library) => Some(&catalog.signatures[library.signature]),
@@ -129,7 +129,7 @@ impl<'a> State<'a> {
         let legs = route::legs(graph);
         for (i, leg) in legs.iter().enumerate() {
             let flow = graph.flow(&graph.connections[leg.connection]);
-            // The net begins with the two places of each leg.
+            // The net begins with two places for each leg, of which the first one holds the token.
             let link = Link { connection: leg.connection, token: 2 * i, synchronous: flow == Flow::Synchronous };
             from.entry(leg.from).or_default().push(link);
             if flow != Flow::ToSlot {
@@ -144,6 +144,7 @@ impl<'a> State<'a> {
         let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
         let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
         let loops = route::loops(graph, &legs);
+        // A loop without entries iterates on its own. Its first delay stands for it.
         sources.extend(loops.iter().filter(|on_loop| on_loop.entries.is_empty()).map(|on_loop| on_loop.delays[0]));
         Self {
             graph,
@@ -166,27 +167,27 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Nodes that set their own pace: nothing leads to their inputs. So do delays on loops that nothing feeds.
+    /// Nodes that fire on their own: nodes without connected inputs, and the first delays of loops without entries.
     pub fn sources(&self) -> &BTreeSet<NodeId> {
         &self.sources
     }
 
-    /// Whether a node is active.
+    /// Returns `true` if a node is active.
     pub fn is_active(&self, node: NodeId) -> bool {
         self.active[node]
     }
 
-    /// Changes of activity since this was asked last.
+    /// Changes of activity since the previous call.
     pub fn take_changes(&mut self) -> Vec<(NodeId, bool)> {
         std::mem::take(&mut self.changes)
     }
 
-    /// Transitions that wait for a token at the places that `transition` gives to.
+    /// Transitions that take from the places that `transition` gives to.
     pub fn behind(&self, transition: TransitionId) -> impl Iterator<Item = TransitionId> + '_ {
         self.net.transitions[transition].gives.iter().flat_map(|p| self.consumers[*p].iter().copied())
     }
 
-    /// Whether a token lies at a place.
+    /// Returns `true` if there is a token at a place.
     pub fn is_marked(&self, place: PlaceId) -> bool {
         !self.marking[place].is_empty()
     }
@@ -197,43 +198,46 @@ impl<'a> State<'a> {
         takes.iter().copied().filter(|p| self.marking[*p].is_empty()).collect()
     }
 
-    /// Lets the token that `place` lacks pass a side of a nested graph before the others are there, if it can.
+    /// Lets the token that `place` lacks cross a boundary of a nested graph before the others have arrived, if it can.
     pub fn advance(&mut self, place: PlaceId) {
         self.early.advance(place, &mut self.marking);
     }
 
-    /// If tokens come to `place` through a side of a nested graph: where they wait before it.
+    /// The place before the boundary, if tokens reach `place` through the boundary of a nested graph.
     pub fn before(&self, place: PlaceId) -> Option<PlaceId> {
         self.early.before(place)
     }
 
-    /// Lets the others follow where all of them are there; the transitions that this is in place of.
+    /// Lets the remaining tokens cross boundaries where all of them have arrived. Returns the transitions that this
+    /// replaces.
     pub fn follow(&mut self) -> Vec<TransitionId> {
         self.early.follow(&mut self.marking)
     }
 
-    /// A side at which some token went ahead and others have not followed.
+    /// A boundary that some token crossed early and that others have yet to cross.
     pub fn owes(&self) -> Option<Crossing> {
         self.early.owes()
     }
 
-    /// Whether `transition` may occur.
+    /// Returns `true` if `transition` may occur.
     pub fn is_enabled(&self, transition: TransitionId) -> bool {
         let t = &self.net.transitions[transition];
         let decided = |end: End| self.decided.get(&end).is_some_and(Option::is_some);
         t.takes.iter().all(|p| !self.marking[*p].is_empty())
             && match t.meaning {
+                // The call has already decided if the port sends: only one of the two transitions is enabled.
                 Meaning::Trigger(end) => decided(end),
                 Meaning::Hush(end) => !decided(end),
                 _ => true,
             }
     }
 
-    /// What happens if `node` takes the tokens that lie at its inputs.
+    /// Effects of `node` taking the tokens at its inputs.
     pub fn preview(&self, node: NodeId) -> Preview {
         let mut runs = true;
         let mut modifiers = vec![];
         for link in self.into.get(&Stop::Node(node)).into_iter().flatten() {
+            // A missing token does not matter, because the transition is not enabled then.
             let Some(token) = self.marking[link.token].front() else { continue };
             modifiers.push(token.modifier);
             runs &= token.value || !self.is_mandatory(node, self.graph.connections[link.connection].to.port);
@@ -255,12 +259,12 @@ impl<'a> State<'a> {
         }
     }
 
-    /// The tokens that the running call of `node` has taken, in the order of its ports.
+    /// The tokens that the current call of `node` has taken, in the order of its ports.
     pub fn tokens_of(&self, node: NodeId) -> Vec<Token> {
         self.taken.get(&node).map(|t| t.tokens.values().copied().collect()).unwrap_or_default()
     }
 
-    /// Lets an enabled transition occur.
+    /// Executes an enabled transition.
     pub fn occur(&mut self, transition: TransitionId) {
         let t = &self.net.transitions[transition];
         let mut tokens: BTreeMap<PlaceId, Token> = BTreeMap::new();
@@ -280,7 +284,7 @@ impl<'a> State<'a> {
             Meaning::Handle(connection) => self.handle(connection, &tokens),
             Meaning::Handled(node) => self.handled(node),
             Meaning::Pass(side) => self.pass(side, &tokens),
-            // Its places begin with those where the delays hold tokens.
+            // The first places that it takes from are those where the delays hold tokens.
             Meaning::Release(first) => {
                 let delays = self.loops.get(&first).cloned().unwrap_or_default();
                 let held: Vec<_> =
@@ -288,7 +292,7 @@ impl<'a> State<'a> {
                 held.into_iter().flat_map(|(delay, oldest)| self.forward(delay, oldest)).collect()
             }
             Meaning::Hold(_) => {
-                // The place where it holds tokens is the last that it gives to.
+                // The last place that it gives to is the one where the delay holds tokens.
                 let token = t.takes.first().and_then(|p| tokens.get(p)).copied().unwrap_or_default();
                 t.gives.last().map(|p| (*p, token)).into_iter().collect()
             }
@@ -307,7 +311,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// A1: +1 wins over −1.
+    /// Updates the activity of a node (A1): +1 wins over −1.
     fn activate(&mut self, node: NodeId, tokens: &BTreeMap<usize, Token>) {
         let modifiers: Vec<i8> = tokens.values().map(|t| t.modifier).collect();
         self.set_active(node, after(self.active[node], &modifiers));
@@ -329,7 +333,7 @@ impl<'a> State<'a> {
         }
         let first = by_port.values().next().copied().unwrap_or_default();
         self.taken.insert(node, Taken { slot: None, runs, tokens: by_port });
-        // What a delay takes goes to the place where it holds tokens, the last that it gives to.
+        // A delay stores the token in the last place that the transition gives to.
         let holds = matches!(self.graph.nodes[node].kind, NodeKind::Delay(_));
         let transition = self.net.find(Meaning::Take(node)).filter(|_| holds);
         transition.and_then(|t| self.net.transitions[t].gives.last().copied()).map(|p| (p, first)).into_iter().collect()
@@ -359,7 +363,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Sends `token` on, with what it does to activity where the connection is active.
+    /// Passes `token` on. Its effect on activity is passed on only over active connections.
     fn forward(&mut self, node: NodeId, token: Token) -> BTreeMap<PlaceId, Token> {
         let mut colours = BTreeMap::new();
         for link in self.from.get(&Stop::Node(node)).cloned().unwrap_or_default() {
@@ -368,6 +372,7 @@ impl<'a> State<'a> {
             if link.synchronous {
                 colours.insert(link.token, sent);
             } else {
+                // ⊥ is silence on an asynchronous connection.
                 let decided = self.decided.entry(c.from).or_insert_with(|| token.value.then(BTreeMap::new));
                 if let Some(tokens) = decided {
                     tokens.insert(link.token, sent);
@@ -377,7 +382,8 @@ impl<'a> State<'a> {
         colours
     }
 
-    /// What a call sends, port by port. The first value on a port with an active connection takes the activity along.
+    /// Tokens that a call sends, port by port. The first value on a port with an active connection takes the activity
+    /// along.
     fn emit(&mut self, node: NodeId, taken: &Taken) -> BTreeMap<PlaceId, Token> {
         let call = Call { node, nth: self.calls[node], slot: taken.slot };
         if taken.runs {
@@ -386,6 +392,7 @@ impl<'a> State<'a> {
         let links = self.from.get(&Stop::Node(node)).cloned().unwrap_or_default();
         let mut colours = BTreeMap::new();
         for (port, p) in self.graph.nodes[node].ports.iter().enumerate() {
+            // A slot sends only events.
             if !p.kind.sends() || (taken.slot.is_some() && p.kind != PortKind::Event) {
                 continue;
             }
@@ -394,6 +401,7 @@ impl<'a> State<'a> {
                 links.iter().copied().filter(|l| self.graph.connections[l.connection].from == end).collect();
             let value = taken.runs && self.sends(call, port);
             let has_active = links.iter().any(|l| self.graph.connections[l.connection].active);
+            // A node that deactivates others sends −1 with its events. Any other node gives its own activity away.
             let modifier = match value && has_active {
                 true if self.deactivates[node] && p.kind == PortKind::Event => -1,
                 true if self.active[node] => {
@@ -419,7 +427,7 @@ impl<'a> State<'a> {
         colours
     }
 
-    /// An `each` passes its list on, element by element.
+    /// Origin of a sent token. An `each` keeps the origin of its list, whose elements it sends on.
     fn origin(&self, call: Call, end: End, taken: &Taken) -> Option<Origin> {
         match &self.graph.nodes[end.node].kind {
             NodeKind::Each(each) => taken.tokens.get(&each.list).and_then(|t| t.origin),
@@ -441,11 +449,13 @@ impl<'a> State<'a> {
 
     fn handle(&mut self, connection: usize, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
         let to = self.graph.connections[connection].to;
+        // A connection to a slot consists of a single leg.
         let link = self.from.values().flatten().find(|l| l.connection == connection);
         let token = link.and_then(|l| tokens.get(&l.token)).copied().unwrap_or_default();
         let tokens = BTreeMap::from([(to.port, token)]);
         match self.graph.nodes[to.node].kind {
             NodeKind::Reset => {
+                // A reset restores the initial activity of all nodes.
                 for node in 0..self.graph.nodes.len() {
                     self.set_active(node, self.graph.nodes[node].starts_active);
                 }
@@ -483,7 +493,7 @@ impl<'a> State<'a> {
     }
 }
 
-/// The activity of a node that has taken tokens with these modifiers.
+/// Activity of a node after it has taken tokens with these modifiers.
 fn after(active: bool, modifiers: &[i8]) -> bool {
     if modifiers.contains(&1) { true } else { active && !modifiers.contains(&-1) }
 }

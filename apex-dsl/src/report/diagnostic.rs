@@ -1,12 +1,12 @@
 use crate::source::Span;
 
-/// How bad it is.
+/// Severity of a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// No program comes out of this text.
+    /// No program is generated.
     Error,
-    /// A program comes out, but probably not the one that was meant.
+    /// A program is generated, but probably not the intended one.
     Warning,
 }
 
@@ -19,16 +19,17 @@ pub struct Label {
     pub text: String,
 }
 
-/// A change of the text that would mend the error.
+/// A change of the source file that would fix the error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fix {
-    /// What it does.
+    /// Description of the change.
     pub title: String,
-    /// What is replaced.
+    /// Range that is replaced.
     pub span: Span,
-    /// By what.
+    /// Replacement text.
     pub replacement: String,
-    /// Whether this is what was meant, so that a tool may do it unasked; otherwise it is a guess.
+    /// `true` if the change is certainly the intended one, so that a tool may apply it without asking. Otherwise it is
+    /// a guess.
     pub certain: bool,
 }
 
@@ -37,21 +38,21 @@ pub struct Fix {
 pub struct Diagnostic {
     /// Stable name, for example `unknown-port`.
     pub code: &'static str,
-    /// How bad it is.
+    /// Severity of the message.
     pub severity: Severity,
-    /// What is wrong.
+    /// Description of the problem.
     pub message: String,
-    /// Where.
+    /// Primary place.
     pub primary: Label,
-    /// Other places that have to do with it.
+    /// Other relevant places.
     pub secondary: Vec<Label>,
-    /// Why, where things were declared, and how to mend it.
+    /// Reasons, declarations and advice.
     pub notes: Vec<String>,
-    /// Changes that would mend it.
+    /// Changes that would fix the problem.
     pub fixes: Vec<Fix>,
-    /// The path of the nested graph that it is about, if it is not about the text by itself.
+    /// Path of the instance in which the problem occurs; empty if the problem does not depend on an instance.
     pub instance: String,
-    /// The item whose statements would declare what is missing, if it is one that is known.
+    /// Item in which the missing name would be declared, if the item is known.
     pub declared_in: Option<Span>,
 }
 
@@ -85,33 +86,33 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a sentence.
+    /// Adds a note.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(shortened(text.into()));
         self
     }
 
-    /// Says which nested graph it is about, by its path; it is told once for all of them.
+    /// Names the instance that the message is about, by its path. Equal messages about several instances become one.
     #[must_use]
     pub fn inside(mut self, instance: impl Into<String>) -> Self {
         self.instance = instance.into();
         self
     }
 
-    /// Adds a change that mends it: nothing else can have been meant.
+    /// Adds a fix that is certain: nothing else can have been meant.
     #[must_use]
     pub fn fix(self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
         self.change(title.into(), span, replacement.into(), true)
     }
 
-    /// Adds a change that may be what was meant: somebody has to look at it.
+    /// Adds a fix that is a guess, to be confirmed by the user.
     #[must_use]
     pub fn guess(self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
         self.change(title.into(), span, replacement.into(), false)
     }
 
-    /// All places that it names: the primary one, further ones and those of its changes.
+    /// All places of the message: the primary one, the further ones and those of its fixes.
     pub fn places(&self) -> impl Iterator<Item = Span> {
         let labels = std::iter::once(&self.primary).chain(&self.secondary).map(|label| label.span);
         labels.chain(self.fixes.iter().map(|fix| fix.span))
@@ -123,7 +124,7 @@ impl Diagnostic {
     }
 }
 
-/// Longer than any message that somebody reads to its end: names and lists in it may be of any length.
+/// Largest length of a message, in characters: names and lists in it may be of any length.
 const MAX_MESSAGE: usize = 1000;
 
 fn shortened(text: String) -> String {

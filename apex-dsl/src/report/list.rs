@@ -1,4 +1,4 @@
-//! All messages of a run: each mistake once, without what follows from it.
+//! All messages of a run: each error once, without its consequences.
 
 use super::{
     Diagnostic, Severity,
@@ -6,24 +6,24 @@ use super::{
 };
 use crate::source::Span;
 
-/// How many errors are collected before the rest is only counted; as many warnings.
+/// Number of errors after which further ones are only counted. The same limit holds for warnings.
 pub const MAX_ERRORS: usize = 100;
-/// Most nested graphs that a message remembers.
+/// Largest number of instances that are stored with a message.
 const MAX_INSTANCES: usize = 100;
-/// Most nested graphs that a message names.
+/// Largest number of instances that a message names.
 const MAX_NAMED: usize = 5;
 
-/// All messages of a run. Errors are collected, never thrown.
+/// All messages of a run, which are collected instead of being returned.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Entry>,
     left_out: usize,
     items: Items,
-    /// The names of the nested graphs that are being opened, outermost first.
+    /// Names of the nested graphs that are being instantiated, outermost first.
     open: Vec<String>,
 }
 
-/// A message with the nested graphs that it is about; an empty path stands for the text by itself.
+/// A message with the instances that it is about; an empty path stands for the source file itself.
 #[derive(Debug)]
 struct Entry {
     diagnostic: Diagnostic,
@@ -31,12 +31,12 @@ struct Entry {
 }
 
 impl Diagnostics {
-    /// Makes the items of a text known: an error in one of them hides what may follow from it there.
+    /// Adds the items of a source file. An error in an item hides messages that may be its consequences there.
     pub fn add_items(&mut self, items: impl Iterator<Item = Span>) {
         self.items.add(items);
     }
 
-    /// Enters a nested graph: messages are about it, until [`Diagnostics::leave`].
+    /// Enters a nested graph. Messages belong to it until [`Diagnostics::leave`].
     pub fn enter(&mut self, name: &str) {
         self.open.push(name.to_owned());
     }
@@ -46,8 +46,8 @@ impl Diagnostics {
         self.open.pop();
     }
 
-    /// Adds a message, unless it may follow from an earlier one. What is said of the same place of the text in another
-    /// nested graph is one message with it.
+    /// Adds a message, unless it may be a consequence of an earlier one. Messages about the same place in several
+    /// instances become one.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if diagnostic.instance.is_empty() {
             diagnostic.instance = self.open.join(".");
@@ -68,7 +68,7 @@ impl Diagnostics {
         }
     }
 
-    /// The message that says the same of the same place: of another nested graph it may say it in other words.
+    /// The message with the same code at the same place. Its wording may differ only if it is about another instance.
     fn same(&self, new: &Diagnostic) -> Option<usize> {
         let is_here = |old: &Diagnostic| old.code == new.code && old.primary.span == new.primary.span;
         let is_equal = |entry: &Entry| is_here(&entry.diagnostic) && entry.diagnostic.message == new.message;
@@ -80,7 +80,7 @@ impl Diagnostics {
         self.list.iter().filter(|entry| entry.diagnostic.severity == severity).count()
     }
 
-    /// Adds a message unless there is one of its kind at the same place.
+    /// Adds a message unless there is one with the same code at the same place.
     pub fn push_once(&mut self, diagnostic: Diagnostic) {
         let same = |entry: &Entry| {
             entry.diagnostic.code == diagnostic.code && entry.diagnostic.primary.span == diagnostic.primary.span
@@ -90,34 +90,34 @@ impl Diagnostics {
         }
     }
 
-    /// Whether one of them is an error.
+    /// Returns `true` if there is an error.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|entry| entry.diagnostic.severity == Severity::Error)
     }
 
-    /// Whether one of them is an error at this place or inside it.
+    /// Returns `true` if there is an error at this place or inside it.
     pub fn has_errors_in(&self, place: Span) -> bool {
         let is_inside = |span: Span| span.file == place.file && place.start <= span.start && span.end <= place.end;
         let errors = self.list.iter().map(|entry| &entry.diagnostic).filter(|d| d.severity == Severity::Error);
         errors.into_iter().any(|error| is_inside(error.primary.span))
     }
 
-    /// Whether further errors are only counted: what goes on can stop.
+    /// Returns `true` if further errors are only counted, so that checks may stop.
     pub fn is_full(&self) -> bool {
         self.count(Severity::Error) >= MAX_ERRORS
     }
 
-    /// Counts a message that is not worth making because [`Diagnostics::is_full`].
+    /// Counts a message that need not be made because [`Diagnostics::is_full`].
     pub fn leave_out(&mut self) {
         self.left_out += 1;
     }
 
-    /// How many messages were left out for being too many.
+    /// Number of messages that were left out because there were too many.
     pub fn left_out(&self) -> usize {
         self.left_out
     }
 
-    /// The messages in the order of their stages, then in that of the text.
+    /// The messages in the order of their stages, then of their places.
     pub fn sorted(&self) -> Vec<&Diagnostic> {
         let mut list: Vec<&Diagnostic> = self.list.iter().map(|entry| &entry.diagnostic).collect();
         list.sort_by_key(|d| (Stage::of(d.code), d.primary.span, d.severity));
@@ -131,8 +131,7 @@ impl Diagnostics {
 }
 
 impl Entry {
-    /// Adds that the message is also about the nested graph of `other`. If it is about the text by itself, the nested
-    /// graphs need not be named.
+    /// Adds the instance of `other`. No instances are named if the message is also about the source file itself.
     fn merge(&mut self, other: Diagnostic) {
         if self.instances.len() >= MAX_INSTANCES || self.instances.contains(&other.instance) {
             return;

@@ -1,4 +1,4 @@
-//! What the compiler has to say.
+//! Diagnostics: their collection, order and display.
 
 mod diagnostic;
 mod list;

@@ -1,16 +1,16 @@
-//! Names that are like others.
+//! Names that resemble other names.
 
-/// Longer names are not compared: nobody mistypes them, and comparing takes time.
+/// Longer names are not compared: the comparison takes time, and such names are hardly ever mistyped.
 const MAX_NAME: usize = 64;
-/// Most names that are looked at for one that is like another.
+/// Largest number of names that are compared with a given one.
 const MAX_CANDIDATES: usize = 4000;
 
-/// The name of `candidates` that is most like `name`, if one is near enough to be meant.
+/// The name in `candidates` most similar to `name`, if it is similar enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     nearest_within(name, candidates, 3)
 }
 
-/// The name of `candidates` that is most like `name`, if no more than one letter in `part` of them differs.
+/// The name in `candidates` most similar to `name`, if no more than one letter in `part` differs.
 pub fn nearest_within<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>, part: usize) -> Option<&'a str> {
     let limit = (name.chars().count() / part).max(1);
     if name.len() > MAX_NAME {
@@ -21,13 +21,13 @@ pub fn nearest_within<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
         .take(MAX_CANDIDATES)
         .filter(|c| c.len().abs_diff(name.len()) <= limit)
         .map(|c| (distance(name, c), c))
-        // Of a word with one letter everything is as far away as everything else.
+        // A name of one letter is equally far from all others.
         .filter(|(d, _)| *d <= limit && *d < name.len())
         .min()
         .map(|(_, c)| c)
 }
 
-/// Edit distance in which a swap of two neighbours counts one, regardless of case.
+/// Edit distance, regardless of case, in which swapping two adjacent letters counts as one edit.
 fn distance(a: &str, b: &str) -> usize {
     let a: Vec<char> = a.to_lowercase().chars().collect();
     let b: Vec<char> = b.to_lowercase().chars().collect();

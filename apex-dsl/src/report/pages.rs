@@ -1,6 +1,6 @@
-//! A page about each code: what it means, a text that has it, and one that has not.
+//! One page per code: its meaning, an example with the error, and one without.
 
-/// The codes with their pages, which stand in `docs/errors/`.
+/// The codes with their pages in `docs/errors/`.
 macro_rules! pages {
     ($($code:literal)*) => {
         /// All codes with their pages, in order.

@@ -4,7 +4,7 @@ use super::{Diagnostic, Label, Severity};
 use crate::source::{Sources, Span};
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Patch, Renderer, Snippet};
 
-/// The message as rustc would show it, with the text around it. `color` for terminals.
+/// The message in the layout of rustc, with an excerpt of the source file. `color` adds the colors of a terminal.
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
@@ -21,7 +21,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String
     let mut main = title.elements(std::iter::empty::<Element<'_>>());
     for (file, path) in files.iter().zip(&paths) {
         let source = sources.get(*file);
-        // Two places of one line are shown with all between them.
+        // An excerpt contains everything between two places of one line, so that places far apart are left out.
         let is_far = |label: &Label| {
             let (a, b) = (
                 label.span.start.min(diagnostic.primary.span.start),
@@ -64,10 +64,10 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, color: bool) -> String
     renderer.render(&report)
 }
 
-/// A change is shown with its whole line: not if that is longer than this.
+/// Longest line that is shown with a fix, in bytes: a fix is displayed with its whole lines.
 const MAX_LINE: usize = 500;
 
-/// Length of the lines that `span` stands in.
+/// Length of the lines that contain `span`.
 fn line_length(text: &str, span: Span) -> usize {
     let (start, end) = (span.start as usize, span.end as usize);
     let first = text[..start].rfind('\n').map_or(0, |n| n + 1);
@@ -84,7 +84,7 @@ fn range(span: Span) -> std::ops::Range<usize> {
 }
 
 /// The message as one JSON object: `file`, `line`, `column`, `end_line`, `end_column`, `severity`, `code`, `message`,
-/// `labels`, `notes`, `fixes`. Lines and columns count from 1, columns in characters.
+/// `label`, `labels`, `notes`, `fixes`. Lines and columns count from 1, columns in characters.
 pub fn json(diagnostic: &Diagnostic, sources: &Sources) -> serde_json::Value {
     let mut object = place(diagnostic.primary.span, sources);
     object["severity"] = serde_json::json!(diagnostic.severity);

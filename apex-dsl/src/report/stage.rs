@@ -1,28 +1,28 @@
-//! The order of mistakes: what is told of a text with several of them, and what only follows from another one.
+//! Order of the errors in a source file, and detection of those that only follow from another one.
 
 use super::{Diagnostic, Severity};
 use crate::source::Span;
 
-/// What a message is about. What is wrong in one stage may look wrong in every later one.
+/// Subject of a message. An error in one stage may cause apparent errors in every later one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
-    /// Characters, brackets, words and signs.
+    /// Characters, brackets, keywords and punctuation.
     Syntax,
-    /// What names stand for.
+    /// Meaning of names.
     Names,
     /// Values, units and types.
     Values,
-    /// What is connected to what.
+    /// Structure of the connections.
     Connections,
-    /// Where tokens and activity come to.
+    /// Flow of tokens and activity.
     Activity,
-    /// What is claimed of activity.
+    /// Claims about activity.
     Claims,
 }
 
-/// What may be wrong only because something that could not be read declares it, in whatever item that is.
+/// Codes that may only follow from a syntax error, wherever it is: the missing declaration could not be read.
 const DECLARED_ANYWHERE: [&str; 5] = ["unknown-port", "unknown-name", "unknown-state", "no-state", "not-replaced"];
-/// What may be wrong only because an item could not be read.
+/// Codes that may only follow from a syntax error outside all items: the missing item could not be read.
 const DECLARED_OUTSIDE: [&str; 3] = ["unknown-node", "unknown-import", "unknown-graph"];
 
 impl Stage {
@@ -44,25 +44,25 @@ impl Stage {
     }
 }
 
-/// The items of all texts: what stands in one of them belongs together.
+/// The items of all source files. Messages within one item belong together.
 #[derive(Debug, Default)]
 pub struct Items(Vec<Span>);
 
 impl Items {
-    /// Adds those of one text.
+    /// Adds the items of a source file.
     pub fn add(&mut self, items: impl Iterator<Item = Span>) {
         self.0.extend(items);
         self.0.sort_unstable();
     }
 
-    /// The item around a place.
+    /// The item that contains a place.
     fn around(&self, place: Span) -> Option<Span> {
         let behind = self.0.partition_point(|item| (item.file, item.start) <= (place.file, place.start));
         let item = self.0[..behind].last()?;
         (item.file == place.file && place.end <= item.end).then_some(*item)
     }
 
-    /// Whether `message` may be wrong because of what `cause` is about, so that there is no need to tell it.
+    /// Returns `true` if `message` may only be a consequence of `cause`, so that it need not be shown.
     pub fn explain(&self, cause: &Diagnostic, message: &Diagnostic) -> bool {
         let (from, to) = (Stage::of(cause.code), Stage::of(message.code));
         if cause.severity != Severity::Error || from >= to {

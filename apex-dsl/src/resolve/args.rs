@@ -18,10 +18,10 @@ use std::{
     time::Duration,
 };
 
-/// Stands for a time that is not known.
+/// Placeholder for an unknown time.
 const ANY_TIME: Duration = Duration::from_secs(1);
 
-/// The given arguments by name, and whether they all have one; says what is wrong with the list itself.
+/// The given arguments by name, and `true` if all of them have a known name. Reports errors of the list itself.
 fn by_name<'a>(
     args: &'a [Arg],
     known: &[&str],
@@ -71,7 +71,7 @@ fn quoted(names: &[&str]) -> String {
     names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// Values for all parameters of a node.
+/// Values of all parameters of a node.
 pub fn of_node(
     signature: &Signature,
     args: &[Arg],
@@ -89,7 +89,7 @@ pub fn of_node(
             Some(expr) => evaluate(expr, scope)
                 .and_then(|value| wanted(signature, param).fit(value, expr))
                 .map_err(|error| handed_down(error, expr, origins)),
-            // The argument with a wrong name may be this one.
+            // An argument with a wrong name may be meant for this parameter.
             None if !whole && param.default.is_none() => Ok(Value::RustDefault),
             None => default(signature, param, at, fed),
         };
@@ -127,7 +127,7 @@ fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str)
         Some(DefaultValue::Literal(Literal::Bool(value))) => Ok(Value::Bool(*value)),
         Some(DefaultValue::Literal(Literal::Text(text))) => Ok(Value::Text(text.clone())),
         Some(DefaultValue::Rust) => Ok(Value::RustDefault),
-        // A function takes the value that arrives at the port; a struct needs one to start with.
+        // A function takes the value that arrives at the port, whereas a struct needs an initial one.
         None if signature.is_function && fed(&param.name) => Ok(Value::RustDefault),
         None => {
             let unit = param.unit.as_deref().unwrap_or_default();
@@ -140,19 +140,19 @@ fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str)
     }
 }
 
-/// Where the value of a parameter was given that is handed down.
+/// Origin of a parameter's value that is passed on.
 #[derive(Debug, Clone, Copy)]
 pub struct Origin {
-    /// The value, as it is written.
+    /// The value as written.
     given: Span,
-    /// The parameter of the graph that hands it down.
+    /// The parameter of the graph that passes the value on.
     declared: Span,
 }
 
-/// Where the values of the parameters of a graph were given.
+/// Origins of the values of a graph's parameters.
 pub type Origins = BTreeMap<String, Origin>;
 
-/// Where the values of `params` were given: by `args`, which may name parameters of the graph around, or by a default.
+/// Origins of the values of `params`: arguments in `args`, which may name parameters of the graph around, or defaults.
 pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins) -> Origins {
     let of_param = |param: &ParamItem| {
         let arg = args.iter().find(|arg| arg.name.as_ref().is_some_and(|name| name.text == param.name.text));
@@ -164,7 +164,7 @@ pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins) -> Origins 
     params.iter().filter_map(of_param).collect()
 }
 
-/// The parameter that an expression consists of.
+/// The name of the parameter, if an expression consists of nothing else.
 fn only_param(expr: &Expr) -> Option<&str> {
     match &expr.kind {
         ExprKind::Path(path) => match path.segments.as_slice() {
@@ -175,8 +175,8 @@ fn only_param(expr: &Expr) -> Option<&str> {
     }
 }
 
-/// An error about a value that parameters of the graph around are part of, with both ends: a value that is out of range is
-/// wrong where it was given, all else where it is used.
+/// Adds the origins of the parameters in `expr` to an error about its value. A single parameter that is out of range is
+/// reported where its value was given; all other errors are reported where the value is used.
 fn handed_down(mut error: Box<Diagnostic>, expr: &Expr, origins: &Origins) -> Box<Diagnostic> {
     if let Some(origin) = only_param(expr).and_then(|name| origins.get(name))
         && error.code == "out-of-range"
@@ -190,7 +190,7 @@ fn handed_down(mut error: Box<Diagnostic>, expr: &Expr, origins: &Origins) -> Bo
     given.fold(error, |error, (name, origin)| Box::new(error.also(origin.given, format!("`{name}` is given here"))))
 }
 
-/// Values for all parameters of a graph that stands in no other one.
+/// Values of all parameters of a graph that is not nested.
 pub fn of_graph(
     name: &Ident,
     params: &[(&ParamItem, Type)],
@@ -201,7 +201,7 @@ pub fn of_graph(
     of_graph_inside(name, params, given, &Origins::new(), at, diagnostics)
 }
 
-/// Values for all parameters of a graph, with the type of each; `origins` are those of the graph around.
+/// Values of all parameters of a graph, given with their types. `origins` are those of the graph around.
 pub fn of_graph_inside(
     name: &Ident,
     params: &[(&ParamItem, Type)],
@@ -217,7 +217,7 @@ pub fn of_graph_inside(
     };
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
     for (param, ty) in params {
-        // What a parameter is like that its own default does not fit, nobody knows.
+        // If the default does not fit its own parameter, only that is reported: arguments cannot be checked then.
         let default = graph_default(name, param, ty, at, &values, false);
         let value = match (exprs.get(param.name.text.as_str()), given) {
             (Some(_), Some(_)) if default.is_err() => default,
@@ -226,7 +226,7 @@ pub fn of_graph_inside(
                 fitting.map_err(|error| handed_down(error, expr, origins))
             }
             _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
-            // As long as a graph is not used, its parameters need no value.
+            // The parameters of a graph need no value while it is not used.
             _ => graph_default(name, param, ty, at, &values, given.is_some()),
         };
         match value {
@@ -274,8 +274,8 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
     })
 }
 
-/// A value in the declaration of a parameter: a plain number there has the unit of the parameter. Another parameter has
-/// been brought into that of its own already, which shows where the unit is not one of a ratio.
+/// A value in the declaration of a parameter, where a plain number has the unit of the parameter. Values of other
+/// parameters are already converted: their dimension shows it, except for dimensionless units such as `%`.
 fn declared(param: &ParamItem, expr: &Expr, before: &BTreeMap<String, Value>) -> Evaluated<Value> {
     let value = evaluate(expr, &Scope { params: before, constant: &|_| None })?;
     let unit = param.unit.as_ref().and_then(|unit| units::parse(&unit.text).ok());
@@ -285,7 +285,7 @@ fn declared(param: &ParamItem, expr: &Expr, before: &BTreeMap<String, Value>) ->
     })
 }
 
-/// Whether a parameter is part of an expression.
+/// Returns `true` if a parameter is part of an expression.
 fn names_parameter(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Path(_) => true,
@@ -328,14 +328,14 @@ fn graph_default(
     }
 }
 
-/// The modifiers that stay with a node; `each` and `delay` are left to the caller.
+/// Modifiers that remain with a node; `each` and `delay` are left to the caller.
 pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagnostics: &mut Diagnostics) -> Modifiers {
     let mut modifiers = Modifiers::default();
     let mut time = |expr: &Expr| -> Option<Duration> {
         let value = evaluate(expr, scope).and_then(|value| match value {
             Value::Number(n) => duration(n, expr),
             Value::Duration(d) => Ok(d),
-            // Not known yet: any time will do for the checks.
+            // The value is not known yet: any time will do for the checks.
             Value::RustDefault => Ok(ANY_TIME),
             other => Err(Box::new(Diagnostic::error(
                 "wrong-value",
@@ -355,7 +355,7 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagno
             Ok(duration) => Some(duration),
             Err(error) => {
                 diagnostics.push(*handed_down(error, expr, origins));
-                // The modifier is there, whatever time it is.
+                // The modifier itself is present, whatever its time.
                 Some(ANY_TIME)
             }
         }

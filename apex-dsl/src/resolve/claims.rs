@@ -1,4 +1,4 @@
-//! Claims: which nodes and nested graphs their names stand for.
+//! Resolution of the names in claims to nodes and nested graphs.
 
 use super::{
     MAX_CLAIMS,
@@ -14,7 +14,7 @@ use crate::{
 use std::collections::BTreeMap;
 
 impl Builder<'_> {
-    /// Resolves the claims of a graph body. Its nodes and nested graphs have these numbers and higher ones.
+    /// Resolves the claims of a graph body. The numbers of its nodes and scopes begin at `node` and `scope`.
     pub fn resolve_claims(&mut self, body: &Body<'_>, table: &Table, (node, scope): (usize, usize)) {
         if body.item.claims.is_empty() {
             return;

@@ -1,4 +1,4 @@
-//! Conditions on a token: what they say about its type, and whether their constants fit it.
+//! Conditions on a token: checks of their types and of the constants in them.
 
 use super::value::{Evaluated, Scope, Wanted, describe, evaluate, limits};
 use crate::{
@@ -9,29 +9,29 @@ use crate::{
     syntax::tree::{Expr, ExprKind, Ident},
 };
 
-/// What a part of a condition is.
+/// Kind of a part of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
     Truth,
-    /// Only rustc knows how it compares.
+    /// A type whose comparisons only rustc knows.
     Other,
 }
 
 /// Reads conditions on a token.
 pub struct Conditions<'a> {
-    /// What the token is called in messages.
+    /// Name of the token in messages.
     pub name: &'a str,
-    /// The name that stands for it in the condition, if one does.
+    /// Name of the token in the condition; empty if it has none.
     pub token: &'a str,
-    /// Its type.
+    /// Type of the token.
     pub ty: &'a Type,
-    /// What other names mean.
+    /// Meaning of other names.
     pub scope: &'a Scope<'a>,
 }
 
 impl Conditions<'_> {
-    /// A condition in which the token is called by its name.
+    /// Reads a condition in which the token has its name.
     pub fn read(&self, expr: &Expr) -> Evaluated<Condition> {
         let (condition, kind) = self.part(expr)?;
         let what = match (kind, &condition) {
@@ -44,7 +44,7 @@ impl Conditions<'_> {
         Err(Box::new(error.note("compare it: `== != < <= > >=`")))
     }
 
-    /// The token compared with a constant.
+    /// Comparison of the token with a constant.
     pub fn comparison(&self, operator: &'static str, value: &Expr) -> Evaluated<Condition> {
         let (constant, kind) = self.part(value)?;
         let token = (Condition::Token, self.kind_of_token());
@@ -52,7 +52,7 @@ impl Conditions<'_> {
         Ok(condition)
     }
 
-    /// A name in a condition that means nothing may be meant for the token.
+    /// Turns an error about an unknown name in a condition into one that suggests the name of the token.
     fn unknown_token(&self, error: Box<Diagnostic>, expr: &Expr) -> Box<Diagnostic> {
         let names = names_in(expr);
         let unknown = names.into_iter().find(|name| name.span == error.primary.span);
@@ -144,7 +144,8 @@ impl Conditions<'_> {
         Err(Box::new(Diagnostic::error("wrong-value", span, message)))
     }
 
-    /// A constant as it is compared with the token. Where something is computed, it is not the token's type that bounds it.
+    /// Fits a constant to the type of the token that it is compared with. This type does not limit the result of a
+    /// computation.
     fn fit(&self, condition: Condition, expr: &Expr, computes: bool) -> Evaluated<Condition> {
         let Condition::Constant(value) = condition else { return Ok(condition) };
         if computes && let Value::Number(n) = value {
@@ -187,7 +188,7 @@ fn mentions(expr: &Expr, name: &str) -> bool {
     names_in(expr).iter().any(|found| found.text == name)
 }
 
-/// The names in an expression that are no paths.
+/// The plain names in an expression, without longer paths.
 pub fn names_in(expr: &Expr) -> Vec<&Ident> {
     match &expr.kind {
         ExprKind::Path(path) => match path.segments.as_slice() {

@@ -1,4 +1,4 @@
-//! Connections as written: which port is meant where none is named, and whether two ends go together.
+//! Connections as written: the choice of ports that are not named, and the comparison of their types.
 
 use super::{
     instance::{Body, Builder},
@@ -13,18 +13,18 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A port that a name in a text can mean.
+/// A port that a name may stand for.
 #[derive(Debug, Clone)]
 pub struct Candidate {
     pub name: String,
     pub kind: PortKind,
     pub ty: Type,
     pub place: Place,
-    /// A parameter: only by name.
+    /// `true` for a parameter, which counts only if it is named.
     pub parameter: bool,
 }
 
-/// Whose ports they are.
+/// Owner of ports.
 #[derive(Debug, Clone, Copy)]
 pub enum Owner {
     /// A node.
@@ -33,19 +33,19 @@ pub enum Owner {
     Scope(ScopeId),
 }
 
-/// What a name in a graph stands for.
+/// Meaning of a name in a graph.
 #[derive(Debug, Clone)]
 pub enum Symbol {
     /// A node or nested graph with its ports.
     Ports(Owner, Vec<Candidate>),
-    /// A port of the graph around.
+    /// A port of the graph itself, seen from inside.
     Own(Candidate),
-    /// Something that could not be made; said already.
+    /// A node or nested graph that could not be made, which has been reported.
     Broken,
 }
 
 impl Symbol {
-    /// A port of the graph around.
+    /// A port of the graph itself.
     pub fn port(place: Place, kind: PortKind, ty: &Type, name: &str) -> Self {
         Self::Own(Candidate { name: name.to_owned(), kind, ty: ty.clone(), place, parameter: false })
     }
@@ -56,7 +56,7 @@ impl Symbol {
         let ports = node.ports.iter().enumerate().map(|(port, p)| Candidate {
             name: p.name.clone(),
             kind: p.kind,
-            // Whether a list or its element is wanted depends on the port; `check::types` looks at it again.
+            // The port decides if a list or its element is wanted; `check::types` compares them later.
             ty: if each { Type::Unknown(String::new()) } else { p.ty.clone() },
             place: Place::Port(End { node: id, port }),
             parameter: p.parameter.is_some(),
@@ -94,7 +94,7 @@ impl Table {
         Self { symbols: BTreeMap::new() }
     }
 
-    /// What a name stands for, and where it is declared.
+    /// The meaning of a name, and the place of its declaration.
     pub fn get(&self, name: &str) -> Option<(&Symbol, Span)> {
         self.symbols.get(name).map(|(symbol, span)| (symbol, *span))
     }
@@ -104,13 +104,13 @@ impl Table {
         self.symbols.keys().map(String::as_str)
     }
 
-    /// Adds a name.
+    /// Adds a name. A name that is declared twice becomes [`Symbol::Broken`].
     pub fn insert(&mut self, name: &Ident, symbol: Symbol, diagnostics: &mut Diagnostics) {
         if let Some((_, first)) = self.symbols.get(&name.text) {
             let message = format!("`{}` is already defined in this graph", name.text);
             diagnostics
                 .push(Diagnostic::error("duplicate-name", name.span, message).also(*first, "first defined here"));
-            // Which of the two is meant where the name is used, nobody knows.
+            // Uses of the name may mean either of the two.
             let first = *first;
             self.symbols.insert(name.text.clone(), (Symbol::Broken, first));
             return;
@@ -132,7 +132,7 @@ pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str
     }
 }
 
-/// What a name means that every graph knows, unless a node has it.
+/// The meaning of a predefined name. Every graph has these names, unless a node of it has the same name.
 pub fn own_node(name: &str) -> Option<NodeKind> {
     match name {
         "start" => Some(NodeKind::Start),
@@ -148,11 +148,11 @@ fn own(kind: &NodeKind) -> bool {
     matches!(kind, NodeKind::Start | NodeKind::Hung | NodeKind::Reset | NodeKind::Exit(_))
 }
 
-/// One alternative of an endpoint: the ports it may mean and where it stands.
+/// An endpoint of a connection: the ports that it may stand for, and its place.
 struct Meant {
     candidates: Vec<Candidate>,
     explicit: bool,
-    /// All ports of the node, in words.
+    /// All ports of the node, as text.
     all: String,
     name: String,
     span: Span,
@@ -163,14 +163,14 @@ impl Builder<'_> {
     pub fn chains(&mut self, body: &Body<'_>, table: &Table) {
         let mut in_place = 0;
         for chain in &body.item.chains {
-            // Ends that name nothing cost as well.
+            // Ends that name nothing count, too.
             if self
                 .look(chain.ends.len(), chain.arrows.first().map_or(body.item.name.span, |arrow| arrow.span))
                 .is_none()
             {
                 return;
             }
-            // Nodes written in place are made once, although they stand behind one arrow and before the next.
+            // A node that is written in place is made once, although it is an end of two arrows.
             let symbols: Vec<Vec<Option<(Symbol, String, Span)>>> =
                 chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
             for (i, arrow) in chain.arrows.iter().enumerate() {
@@ -195,7 +195,8 @@ impl Builder<'_> {
         }
     }
 
-    /// What stands at one place of a chain: symbol (narrowed to a port if one is named), its name, its span.
+    /// Meanings of one end of a chain: symbol (narrowed to a port if one is named), name and span. `None` stands for an
+    /// error.
     fn endpoint(
         &mut self,
         body: &Body<'_>,
@@ -262,7 +263,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The node that stands for a name that every graph knows; there is one in each graph that uses it.
+    /// The node of a predefined name. Each graph that uses the name has one.
     pub fn own_node(&mut self, body: &Body<'_>, name: &Ident, kind: NodeKind) -> Option<NodeId> {
         let made = self.nodes.iter().position(|n| n.scope == body.scope && n.name == name.text && own(&n.kind));
         match made {
@@ -276,7 +277,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A port that every node has; it is added when somebody names it.
+    /// A port that every node has. It is added to the node when it is first used.
     fn standard_port(&mut self, owner: Owner, port: &Ident) -> Option<Candidate> {
         let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text)?;
         let place = match owner {
@@ -300,7 +301,7 @@ impl Builder<'_> {
         Some(End { node, port })
     }
 
-    /// A port of a nested graph that stands for the ports of the same name of all nodes in it.
+    /// A port of a nested graph that stands for the ports with this name of all nodes in it.
     fn shared_port(&mut self, scope: ScopeId, standard: Standard, span: Span) -> Place {
         let (name, kind) = (standard.name(), standard.kind());
         let is_it = |p: &Pin| p.scope == scope && p.name == name && p.kind == kind && p.standard;
@@ -318,20 +319,20 @@ impl Builder<'_> {
         inner.extend(nested.into_iter().map(|s| self.shared_port(s, standard, span)));
         for inner in inner {
             let (from, to) = if kind == PortKind::Slot { (place, inner) } else { (inner, place) };
-            // Who fails may pass its activity on; who is told to pause has no use for any.
+            // A node that fails may pass its activity on; one that is enabled or disabled has no use for any.
             self.wires.push(Wire { from, to, active: kind == PortKind::Event, differs: false, span });
         }
         place
     }
 
-    /// `start => node`: nothing is sent, the node is active from the beginning. A node with a slot for it is sent
-    /// a token as by any other event.
+    /// Handles `start => node`: the node is initially active, and no token is sent. Returns `false` for any other
+    /// connection, and for a node with a slot for the token, which is sent as by any other event then.
     fn starts_active(&mut self, body: &Body<'_>, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
         let (Symbol::Ports(_, from), Symbol::Ports(_, to_ports)) = (from, &to.0) else { return false };
         let is_start = from
             .iter()
             .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
-        // Of a generic slot other connections say what it takes, if there are any.
+        // The type of a generic slot is determined by its other connections, if there are any.
         let takes = |c: &Candidate| {
             let decided = matches!(c.ty, Type::Param(_)) && is_fed(body.item, &to.1);
             c.kind == PortKind::Slot && !decided && c.ty.compare(&Type::unit()) != Match::Different
@@ -348,8 +349,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Connects two ends of a chain; `open` says for each whether a port can be named behind it: a node that is written
-    /// in place has no name, and one inside the chain would be left by the port that takes.
+    /// Connects two ends of a chain. `open` is `true` for each end where a port can be named: a node that is written in
+    /// place has no name, and a port that is named inside a chain would be used by the next arrow, too.
     fn connect(
         &mut self,
         body: &Body<'_>,
@@ -367,7 +368,7 @@ impl Builder<'_> {
         }
         let sources = meant(from, true);
         let targets = meant(to, false);
-        // A port that is named decides which port is meant at the other side; so do types.
+        // A port that is named decides which port is meant at the other end; so do types.
         let Some((source, target)) = self.choose(sources, targets, open) else { return self.excuse(&to.0) };
         let differs = source.ty.compare(&target.ty) == Match::Different;
         if differs {
@@ -377,7 +378,7 @@ impl Builder<'_> {
         self.note(arrow, (from.2, source), (to.2, target));
     }
 
-    /// Notes a connection of the outermost graph for those who want to know of it.
+    /// Records a connection of the outermost graph if a list for them was given.
     fn note(&mut self, arrow: &Arrow, from: (Span, Candidate), to: (Span, Candidate)) {
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
@@ -385,7 +386,7 @@ impl Builder<'_> {
         links.push(Link { arrow: arrow.span, active: arrow.active, from: side(from), to: side(to) });
     }
 
-    /// A connection that leads here could not be made: that it is missing is no error of its own.
+    /// Suppresses errors about a missing connection to `to`: it could not be made, which has been reported.
     fn excuse(&mut self, to: &Symbol) {
         match to {
             Symbol::Ports(_, ports) => self.excused.extend(ports.iter().filter(|p| !p.kind.sends()).map(|p| p.place)),
@@ -429,7 +430,7 @@ impl Builder<'_> {
             (0, _) if meant.explicit => {
                 let message = format!("`{name}` {one} no tokens, it {opposite} them");
                 let error = Diagnostic::error("wrong-direction", meant.span, message);
-                // Seen from inside, the ports of the graph around are the other way round.
+                // Seen from inside, the ports of the graph itself have the opposite direction.
                 let own = "inside a graph its `in` and `slot` ports send, and its `out` and `event` ports take";
                 if name.contains('.') { error } else { error.note(own) }
             }
@@ -485,7 +486,7 @@ impl Builder<'_> {
             .note(self.declared(source, &a))
             .note(self.declared(target, &b))
             .note("nothing is converted silently: put a node that converts between them");
-        // A list of ends has one arrow.
+        // All connections of a list of ends have the same arrow.
         self.diagnostics.push_once(error);
     }
 
@@ -515,7 +516,7 @@ impl Builder<'_> {
     }
 }
 
-/// Whether anything but `start` leads to the node `name` in this graph.
+/// Returns `true` if a connection leads to the node `name` in this graph from anything but `start`.
 fn is_fed(graph: &GraphItem, name: &str) -> bool {
     fn names(end: &Endpoint, name: &str) -> bool {
         match end {
@@ -528,7 +529,8 @@ fn is_fed(graph: &GraphItem, name: &str) -> bool {
     steps.into_iter().any(|step| names(&step[1], name) && !names(&step[0], "start"))
 }
 
-/// The ports on the sending or the taking side that an endpoint may mean. Parameters count only if named.
+/// The ports that an endpoint may stand for, among those that send or those that take. Parameters count only if they
+/// are named.
 fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
     let explicit = name.contains('.');
     let candidates = match symbol {
@@ -542,7 +544,7 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
         _ => vec![],
     };
     let all = match symbol {
-        // Only said where nothing else can be.
+        // The list is shown only if there are no candidates.
         Symbol::Ports(_, ports) if candidates.is_empty() => {
             list(&ports.iter().filter(|p| !p.parameter).collect::<Vec<_>>())
         }
@@ -551,13 +553,13 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
     Meant { candidates, all, explicit: explicit || matches!(symbol, Symbol::Own(_)), name: name.clone(), span: *span }
 }
 
-/// Ports in words.
+/// Ports as text.
 pub fn list(ports: &[&Candidate]) -> String {
     let words: Vec<String> = ports.iter().map(|p| format!("{} `{}: {}`", p.kind.word(), p.name, p.ty)).collect();
     words.join(", ")
 }
 
-/// `JumpDistance` → `jump_distance`
+/// Converts a name to snake case: `JumpDistance` → `jump_distance`.
 fn snake(word: &str) -> String {
     let mut text = String::new();
     for (i, c) in word.chars().enumerate() {

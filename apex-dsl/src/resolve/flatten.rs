@@ -1,4 +1,4 @@
-//! Wires through ports of nested graphs → connections between nodes.
+//! Flattening: wires through ports of nested graphs become connections between nodes.
 
 use super::{MAX_NODES, instance::Builder};
 use crate::{
@@ -8,7 +8,8 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Replaces all pins by what stands behind them. Also gives the nodes that hang on a pin without a token.
+/// Replaces all pins by the ports that are connected through them. Also returns the nodes with an input at a pin
+/// without tokens.
 pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     let mut wires = builder.wires.clone();
     check_single(builder, &wires);
@@ -22,15 +23,17 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     let mut seen = BTreeSet::new();
     for wire in &wires {
         let Place::Port(to) = wire.to else { continue };
-        // Follow the wire upstream to the ports it starts at; pins in a circle are left to `check_pins`.
+        // Follow the wire upstream to the ports where it begins. Each pin is visited once, because pins may form a
+        // cycle.
         let mut ends = vec![(wire.from, wire.active, wire.differs, false, vec![])];
         let mut visited = BTreeSet::new();
         while let Some((place, active, differs, relayed, crossings)) = ends.pop() {
             match place {
                 Place::Port(from) => {
-                    // Two ways to a slot are two tokens.
+                    // Several ways from port to port are one connection, but each way to a slot delivers a token.
                     let to_slot = builder.nodes[to.node].ports[to.port].kind == PortKind::Slot;
                     if seen.insert((from, to)) || to_slot {
+                        // The crossings were collected against the direction of the tokens.
                         let crossings = crossings.into_iter().rev().collect();
                         let span = wire.span;
                         connections.push(Connection { from, to, active, differs, crossings, relayed, span });
@@ -38,11 +41,13 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
                 }
                 Place::Pin(pin) if visited.insert(place) => {
                     let relayed = relayed || !builder.pins[pin].kind.is_synchronous();
-                    // Only synchronous ports are taken and sent together.
+                    // The ports of other kinds pass each token alone, so that it does not cross the boundary together
+                    // with others.
                     let side = builder.pins[pin].kind.is_synchronous().then(|| crossing(&builder.pins[pin]));
                     let crossings: Vec<Crossing> = crossings.into_iter().chain(side).collect();
                     for &up in into.get(&place).into_iter().flatten() {
                         let wire = &wires[up];
+                        // One `->` on the way suffices to stop activity.
                         let (active, differs) = (active && wire.active, differs || wire.differs);
                         ends.push((wire.from, active, differs, relayed, crossings.clone()));
                     }
@@ -64,9 +69,10 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     (connections, hanging.collect())
 }
 
-/// Inputs of a nested graph are taken together and its outputs sent together, also where an event leads to them or
-/// where they lead to a slot: there a node of its own takes part in the synchronous flow. Not needed where the port is
-/// the only one of its side, because nobody can see a difference then.
+/// Adds relays at ports of nested graphs where the synchronous flow begins or ends. The inputs of a nested graph are
+/// taken together and its outputs are sent together, even if an event leads to them or they lead to a slot: the relay
+/// takes part in the synchronous flow there. A port that is the only one of its kind needs no relay, because no
+/// difference can be observed.
 fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
     let barred = barred_pins(builder);
     let is_barred = |place| match place {
@@ -75,15 +81,18 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
     };
     let comes = |w: &Wire| (w.from, w.to);
     let goes = |w: &Wire| (w.to, w.from);
+    // Tokens arrive outside the synchronous flow from the places in `comes`, and leave it to the places in `goes`.
     let (comes, goes) = (asynchronous(builder, wires, &barred, comes), asynchronous(builder, wires, &barred, goes));
     let mut behind: BTreeMap<usize, NodeId> = BTreeMap::new();
     for index in 0..wires.len() {
         let Wire { from, to, .. } = wires[index];
+        // In front of the pin: each wire to the pin has a relay of its own, as each of them delivers tokens.
         if let Some(pin) = is_barred(to).filter(|_| comes.contains(&from)) {
             let Some(relay) = add_relay(builder, pin, false) else { return };
             wires.push(Wire { from: Place::Port(End { node: relay, port: 1 }), ..wires[index] });
             wires[index].to = Place::Port(End { node: relay, port: 0 });
         }
+        // Behind the pin: one relay serves all wires, as the pin sends each token only once.
         if let Some(pin) = is_barred(from).filter(|_| goes.contains(&to)) {
             let relay = match behind.get(&pin) {
                 Some(relay) => *relay,
@@ -98,7 +107,7 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
     }
 }
 
-/// The pins that are not the only one of their side.
+/// Synchronous pins of nested graphs with several pins of the same kind, which pass their tokens together.
 fn barred_pins(builder: &Builder<'_>) -> BTreeSet<usize> {
     let mut ports: BTreeMap<(ScopeId, PortKind), usize> = BTreeMap::new();
     for pin in &builder.pins {
@@ -108,8 +117,8 @@ fn barred_pins(builder: &Builder<'_>) -> BTreeSet<usize> {
     (0..builder.pins.len()).filter(|pin| is_barred(&builder.pins[*pin])).collect()
 }
 
-/// The places outside the synchronous flow, and the pins that `next` leads to from there with nothing that takes part in
-/// the flow in between.
+/// Places outside the synchronous flow, and the pins that can be reached from them along `next` without entering the
+/// flow.
 fn asynchronous(
     builder: &Builder<'_>,
     wires: &[Wire],
@@ -124,6 +133,7 @@ fn asynchronous(
     found.retain(|place| !is_synchronous(builder, *place));
     let mut ends: Vec<Place> = found.iter().copied().collect();
     while let Some(place) = ends.pop() {
+        // A pin that is the only one of its kind passes tokens on as they come.
         for next in behind.get(&place).into_iter().flatten() {
             let passes = matches!(next, Place::Pin(pin) if !barred.contains(pin));
             if passes && found.insert(*next) {
@@ -134,10 +144,11 @@ fn asynchronous(
     found
 }
 
-/// A node that passes on the tokens of a pin: the one that sends to it, or the one `behind` it.
+/// Adds a node that passes on the tokens of a pin: in front of the pin, or `behind` it.
 fn add_relay(builder: &mut Builder<'_>, pin: usize, behind: bool) -> Option<NodeId> {
     let Pin { kind, scope, span, ref name, ref ty, .. } = builder.pins[pin];
     let name = Ident { text: format!("{name}_{}", if behind { "relay" } else { "entry" }), span };
+    // Tokens behind an input, or in front of an output, are inside the nested graph.
     let inside = (kind == PortKind::Input) == behind;
     let at = if inside { scope } else { builder.scopes[scope].parent };
     let port = |name, kind| Port::new(name, kind, ty.clone());
@@ -145,7 +156,7 @@ fn add_relay(builder: &mut Builder<'_>, pin: usize, behind: bool) -> Option<Node
     builder.node(&name, at, NodeKind::Relay, ports, "")
 }
 
-/// Whether the tokens at a place belong to the synchronous flow.
+/// Returns `true` if the tokens at a place belong to the synchronous flow.
 fn is_synchronous(builder: &Builder<'_>, place: Place) -> bool {
     match place {
         Place::Port(end) => builder.nodes[end.node].ports[end.port].kind.is_synchronous(),
@@ -160,7 +171,7 @@ fn crossing(pin: &Pin) -> Crossing {
     }
 }
 
-/// An input takes one connection; nothing is connected twice to the same.
+/// Reports inputs with several connections, and connections that are made twice.
 fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
     let mut first: BTreeMap<Place, usize> = BTreeMap::new();
     let mut pairs: BTreeMap<(Place, Place), usize> = BTreeMap::new();
@@ -199,7 +210,7 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
     }
 }
 
-/// Of two connections to one input one may be meant for another one of the same node.
+/// Suppresses errors about the other inputs of a node: one of two connections to one input may be meant for them.
 fn excuse_inputs(builder: &mut Builder<'_>, place: Place) {
     match place {
         Place::Port(End { node, .. }) => {
@@ -217,7 +228,7 @@ fn excuse_inputs(builder: &mut Builder<'_>, place: Place) {
 fn is_input(builder: &Builder<'_>, place: Place) -> bool {
     match place {
         Place::Port(end) => builder.nodes[end.node].ports[end.port].kind == PortKind::Input,
-        // An `in` is an input from outside, an `out` is one from inside.
+        // An `in` is an input seen from outside, an `out` is one seen from inside.
         Place::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
     }
 }
@@ -238,7 +249,7 @@ fn name(builder: &Builder<'_>, place: Place) -> String {
     }
 }
 
-/// A pin that tokens go out of needs something that sends them in.
+/// Reports pins that nothing is connected to although their tokens are needed.
 fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wires: &[Wire]) {
     let mut out_of: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
     for wire in wires {
@@ -248,7 +259,7 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
     for index in 0..builder.pins.len() {
         let place = Place::Pin(index);
         if !into.contains_key(&place) {
-            // What comes out of a pin that nothing goes into is missing there, not behind it.
+            // The error is reported at the pin, not at the places downstream of it.
             let behind = places_behind(&out_of, place).into_iter().filter(|behind| *behind != place);
             excused.extend(behind);
         }
@@ -258,7 +269,7 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
         }
         let scope = &builder.scopes[pin.scope];
         let error = match pin.kind {
-            // A slot that leads to an input inside is what that waits for.
+            // A slot needs a connection, too, if it leads to a required input inside.
             PortKind::Input | PortKind::Slot if needs_token(builder, &out_of, place) => {
                 let message = format!("{} `{}` of `{}` is not connected", pin.kind.word(), pin.name, scope.name);
                 Diagnostic::error("open-input", scope.span, message)
@@ -276,7 +287,7 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
     builder.excused.extend(excused);
 }
 
-/// A pin, those that its tokens go on to, and the ports behind them.
+/// A pin, the pins that its tokens go on to, and the ports at their ends.
 fn places_behind(out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> BTreeSet<Place> {
     let (mut ends, mut found) = (vec![pin], BTreeSet::new());
     while let Some(place) = ends.pop() {
@@ -287,7 +298,7 @@ fn places_behind(out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> BTreeSet<P
     found
 }
 
-/// Whether some node behind an unconnected pin cannot do without its tokens.
+/// Returns `true` if a node behind an unconnected pin requires its tokens.
 fn needs_token(builder: &Builder<'_>, out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> bool {
     places_behind(out_of, pin).into_iter().any(|place| match place {
         Place::Port(end) => {

@@ -1,4 +1,4 @@
-//! Type arguments that the text leaves to the connections.
+//! Inference of type arguments from connections.
 
 use super::value::Wanted;
 use crate::{
@@ -9,10 +9,10 @@ use crate::{
 };
 use std::collections::VecDeque;
 
-/// Finds the type arguments of all generic nodes, and gives the ports their types.
+/// Infers the type arguments of all generic nodes, and sets the types of their ports.
 pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     settle(graph, catalog);
-    // Of what is not known connections may be missing.
+    // If there are errors, the connections that determine a type may be missing.
     if diagnostics.has_errors() {
         return;
     }
@@ -20,7 +20,7 @@ pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
     for node in &graph.nodes {
         let NodeKind::Library(library) = &node.kind else { continue };
         let signature = &catalog.signatures[library.signature];
-        // Those of a function that its inputs mention never have to be written: rustc sees the tokens.
+        // Type arguments that the inputs of a function mention need not be known: rustc infers them from the tokens.
         let is_seen = |name: &str| {
             let inputs = signature.ports.iter().filter(|p| p.kind == PortKind::Input).map(|p| &p.ty);
             let given = signature.params.iter().map(|p| &p.ty);
@@ -38,7 +38,7 @@ pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
     }
 }
 
-/// Fits values to the types of parameters that are known only now.
+/// Fits values to the types of parameters that depend on type arguments.
 fn fit_values(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for node in &mut graph.nodes {
         let NodeKind::Library(library) = &mut node.kind else { continue };
@@ -61,7 +61,8 @@ fn fit_values(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostic
     }
 }
 
-/// As far as it goes, without complaint: the ports of the body of an `each` on one node have no types of their own.
+/// Infers type arguments as far as possible, without errors: the ports of the body of an `each` on one node have no
+/// types of their own.
 pub fn settle(graph: &mut Graph, catalog: &Catalog) {
     substitute(graph, catalog);
     let mut touching: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
@@ -69,12 +70,12 @@ pub fn settle(graph: &mut Graph, catalog: &Catalog) {
         touching[connection.from.node].push(index);
         touching[connection.to.node].push(index);
     }
-    // First what the inputs say, then what is left and an output says.
+    // First the inputs determine types, then the outputs determine those that are left.
     for only_from_inputs in [true, false] {
         let mut queue: VecDeque<NodeId> = (0..graph.nodes.len()).filter(|n| is_open(graph, *n)).collect();
         while let Some(node) = queue.pop_front() {
             if is_open(graph, node) && settle_node(graph, catalog, node, &touching[node], only_from_inputs) {
-                // The types of this node's tokens are known now: its neighbours look again.
+                // The types of this node's tokens are known now, so that its neighbours are examined again.
                 let neighbours = touching[node]
                     .iter()
                     .flat_map(|c| [graph.connections[*c].from.node, graph.connections[*c].to.node]);
@@ -88,7 +89,7 @@ fn is_open(graph: &Graph, node: NodeId) -> bool {
     matches!(&graph.nodes[node].kind, NodeKind::Library(l) if l.types.iter().any(|t| matches!(t, TypeArg::Open)))
 }
 
-/// Tries to settle the arguments of one node; whether something new is known.
+/// Infers arguments of one node. Returns `true` if a new one is known.
 fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[usize], only_from_inputs: bool) -> bool {
     let NodeKind::Library(library) = graph.nodes[node].kind.clone() else { return false };
     let signature = &catalog.signatures[library.signature];
@@ -119,7 +120,7 @@ fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[u
     changed
 }
 
-/// What the connection between `mine`, whose type mentions `name`, and `other` says about `name`.
+/// The argument for `name` that follows from the connection between `mine`, whose type mentions `name`, and `other`.
 fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<TypeArg> {
     let pattern = &graph.port(mine).ty;
     let other = graph.origin(other);
@@ -129,7 +130,7 @@ fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<Typ
     };
     match pattern.bind(name, &known) {
         Some(ty) if !ty.is_open() => Some(TypeArg::Known(ty)),
-        // A port whose own node is still open has to wait.
+        // A node at the other end that is still open has to be settled first.
         _ if is_open(graph, other.node) => None,
         _ if graph.port(other).kind == PortKind::Input => None,
         _ => match pattern {
@@ -154,7 +155,7 @@ fn substitute_node(graph: &mut Graph, catalog: &Catalog, node: NodeId) {
     substitute_ports(&mut graph.nodes[node].ports, signature, &types);
 }
 
-/// Gives the ports of a node the types that its type arguments say.
+/// Sets the types of a node's ports according to its type arguments.
 pub fn substitute_ports(ports: &mut [Port], signature: &Signature, types: &[TypeArg]) {
     if signature.generics.is_empty() {
         return;

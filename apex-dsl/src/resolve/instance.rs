@@ -1,4 +1,4 @@
-//! Makes instances: nodes of the catalog become nodes, nested graphs are opened in place.
+//! Instantiation: instances of catalog nodes become nodes, nested graphs are expanded in place.
 
 use super::{
     Budget, MAX_NESTING, MAX_NODES,
@@ -22,7 +22,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Everything that one flat graph is built from.
+/// State of the construction of one flat graph.
 pub struct Builder<'a> {
     pub texts: &'a Texts,
     pub catalog: &'a Catalog,
@@ -33,40 +33,40 @@ pub struct Builder<'a> {
     pub wires: Vec<Wire>,
     /// Inputs whose connection could not be made, which has been reported.
     pub excused: BTreeSet<Place>,
-    /// The names that no node or port of a graph has, which has been reported.
+    /// Unknown names of nodes or ports in each graph, which have been reported.
     pub unknown: BTreeSet<(GraphId, String)>,
-    /// The initial tokens of delays, as the text has them.
+    /// The initial tokens of delays, as written.
     pub delays: Vec<(graph::NodeId, Expr)>,
     pub claims: Vec<Claim>,
-    /// The graphs that are being opened, outermost first.
+    /// The graphs that are being expanded, outermost first.
     pub open: Vec<GraphId>,
-    /// Instances that a test puts in the place of nodes, by path.
+    /// Instances with which a test replaces nodes, by path.
     pub replaced: BTreeMap<String, &'a Instance>,
-    /// What may still be added.
+    /// Remaining budget.
     pub budget: &'a mut Budget,
-    /// Where the connections of the outermost graph are noted, if somebody wants to know of them.
+    /// List that receives the connections of the outermost graph, if they are wanted.
     pub links: Option<&'a mut Vec<Link>>,
 }
 
-/// What a graph is opened for; with the arguments for its parameters.
+/// Purpose for which a graph is expanded, with the arguments for its parameters.
 pub enum Purpose {
-    /// To be a program. Its parameters have their defaults.
+    /// A program of its own. The parameters have their defaults.
     Program,
-    /// To be the body of an `each`.
+    /// The body of an `each`.
     Body(BTreeMap<String, Value>),
-    /// To be tested.
+    /// A graph under test.
     Test(BTreeMap<String, Value>),
 }
 
-/// What a graph body is opened with.
+/// A graph body and the context in which it is expanded.
 pub struct Body<'a> {
     pub id: GraphId,
     pub scope: ScopeId,
     pub values: BTreeMap<String, Value>,
-    /// Where the values were given.
+    /// Origins of the values.
     pub origins: Origins,
     pub item: &'a GraphItem,
-    /// All `node.port` that a chain of the body ends at.
+    /// All `node.port` to which a chain of the body leads.
     pub fed: BTreeSet<(&'a str, &'a str)>,
 }
 
@@ -98,7 +98,7 @@ pub fn graph(
 }
 
 impl<'a> Builder<'a> {
-    /// A builder that has nothing yet, while the graphs `open` are being opened.
+    /// An empty builder, to be used while the graphs `open` are being expanded.
     pub fn new(
         texts: &'a Texts,
         catalog: &'a Catalog,
@@ -125,7 +125,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The whole graph, with boundary nodes for its ports.
+    /// Builds the whole graph, with boundary nodes for its ports.
     pub fn top(mut self, id: GraphId, purpose: Purpose) -> Option<Graph> {
         let item = self.texts.graph(id);
         let is_program = matches!(purpose, Purpose::Program);
@@ -154,7 +154,7 @@ impl<'a> Builder<'a> {
         let mut table = Table::new();
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
-            // A graph-level input sends into the graph.
+            // Seen from inside, an input of the graph sends.
             let kind = port.kind.seen_from_inside();
             let inner = Port { docs: port.docs.clone(), ..Port::new(&port.name.text, kind, ty) };
             let node = self.node(&port.name, 0, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
@@ -201,7 +201,7 @@ impl<'a> Builder<'a> {
         generics::infer(&mut graph, self.catalog, self.diagnostics);
         super::lists::resolve(&mut graph, self.diagnostics);
         super::wrap::fit_delays(&mut graph, &self.delays, self.diagnostics);
-        // A statement that could not be read may make what is to be recorded.
+        // After a syntax error, the nodes that are to be recorded may be missing.
         if is_program && !self.texts.are_broken() {
             graph.record = super::record::record(&graph, item, self.diagnostics);
         }
@@ -209,7 +209,7 @@ impl<'a> Builder<'a> {
         Some(graph)
     }
 
-    /// Adds a node; `None` when there are too many.
+    /// Adds a node; `None` if there are too many.
     pub fn node(
         &mut self,
         name: &Ident,
@@ -242,7 +242,7 @@ impl<'a> Builder<'a> {
         Some(())
     }
 
-    /// Pays for a look at `count` ports or ends of connections.
+    /// Charges the budget for a visit to `count` ports or ends of connections.
     pub fn look(&mut self, count: usize, span: Span) -> Option<()> {
         if self.budget.looks < count {
             self.too_large(span, "this program has too many ports and connections".to_owned());
@@ -260,7 +260,7 @@ impl<'a> Builder<'a> {
         );
     }
 
-    /// Whether it makes no sense to go on.
+    /// Returns `true` if there is no point in continuing.
     pub fn is_exhausted(&self) -> bool {
         self.budget.exceeded || self.diagnostics.is_full()
     }
@@ -269,14 +269,14 @@ impl<'a> Builder<'a> {
         self.texts.graph(id).params.iter().map(|p| (p, self.ty(id, &p.ty))).collect()
     }
 
-    /// A type as written in the text of graph `id`.
+    /// A type as written in the source file of graph `id`.
     pub fn ty(&self, id: GraphId, ty: &TypeExpr) -> Type {
         let graph = self.texts.files[id.file].1.graphs.get(id.graph);
         let generics: Vec<String> = graph.iter().flat_map(|graph| &graph.generics).map(|g| g.text.clone()).collect();
         self.catalog.type_in_text(&self.texts.ty(id.file, ty), &generics)
     }
 
-    /// Opens a graph body: its nodes, then its connections.
+    /// Expands a graph body: first its nodes, then its connections.
     fn body(&mut self, body: &Body<'_>, mut table: Table) {
         self.open.push(body.id);
         let first = (self.nodes.len(), self.scopes.len());
@@ -288,7 +288,7 @@ impl<'a> Builder<'a> {
                 NodeBody::Instance(instance) => self.instance(body, &node.name, instance, &node.docs),
                 NodeBody::HandedIn(ty, modifiers) => self.handed_in(body, &node.name, ty, modifiers, &node.docs),
             };
-            // A node that cannot be made still has its name, so that its uses are no errors of their own.
+            // A node that cannot be made keeps its name, so that its uses are not reported as well.
             table.insert(&node.name, made.unwrap_or(Symbol::Broken), self.diagnostics);
             if self.is_exhausted() {
                 break;
@@ -303,8 +303,7 @@ impl<'a> Builder<'a> {
         self.open.pop();
     }
 
-    /// The path of a node in a scope.
-    /// What a test puts in the place of a node; the names in it are those of the first text.
+    /// The instance with which a test replaces a node. Names in it belong to the first source file.
     fn replace(&mut self, body: &Body<'_>, node: &crate::syntax::tree::NodeItem) -> Option<Symbol> {
         let path = graph::path(&self.scopes, body.scope, Some(&node.name.text));
         let instance = *self.replaced.get(&path)?;
@@ -370,7 +369,7 @@ impl<'a> Builder<'a> {
         docs: &str,
     ) -> Option<Symbol> {
         let signature = &self.catalog.signatures[id];
-        // A state machine that is wrong has been reported.
+        // An incorrect state machine has been reported.
         if signature.name.is_empty() {
             return None;
         }
@@ -403,7 +402,7 @@ impl<'a> Builder<'a> {
         Some(Symbol::of_node(node, &self.nodes[node]))
     }
 
-    /// A state machine whose first state triggers something is called at the start.
+    /// Connects `start` to a state machine whose initial state triggers events.
     fn begin_machine(&mut self, body: &Body<'_>, span: Span, node: usize) -> Option<()> {
         let Some(port) = self.nodes[node].ports.iter().position(|p| p.name == Machine::BEGIN) else { return Some(()) };
         let start = Ident { text: "start".to_owned(), span };
@@ -532,10 +531,10 @@ impl<'a> Builder<'a> {
             let (kind, span) = (port.kind, port.name.span);
             self.pins.push(Pin { name, kind, ty: ty.clone(), scope, span, docs, standard: false });
             let place = Place::Pin(self.pins.len() - 1);
-            // What takes tokens outside sends them inside.
+            // Seen from inside, a port that takes tokens outside sends them.
             let inner = port.kind.seen_from_inside();
             inside.insert(&port.name, Symbol::port(place, inner, &ty, &port.name.text), self.diagnostics);
-            // One that is declared twice has been reported.
+            // A second declaration of a port has been reported.
             if symbol.iter().all(|(name, ..)| *name != port.name.text) {
                 symbol.push((port.name.text.clone(), port.kind, ty, place));
             }
@@ -567,7 +566,7 @@ impl<'a> Builder<'a> {
         Some(())
     }
 
-    /// A graph that stays a graph of its own: the body of an `each`.
+    /// Builds a graph that remains a graph of its own: the body of an `each`.
     fn nested_program(
         &mut self,
         id: GraphId,
@@ -587,7 +586,7 @@ fn ports(places: &BTreeSet<Place>) -> BTreeSet<End> {
     places.iter().filter_map(|p| if let Place::Port(end) = p { Some(*end) } else { None }).collect()
 }
 
-/// A function keeps nothing: a parameter of it that is connected is an input like any other.
+/// Makes connected parameters of functions required inputs, because a function cannot store their values.
 fn require_function_params(graph: &mut Graph, catalog: &Catalog) {
     for connection in &graph.connections {
         let node = &mut graph.nodes[connection.to.node];
@@ -598,7 +597,7 @@ fn require_function_params(graph: &mut Graph, catalog: &Catalog) {
     }
 }
 
-/// The ports of a node: those of the signature, then one input and one output for each parameter.
+/// The ports of a node: those of the signature, then an input and an output for each parameter.
 fn library_ports(signature: &crate::catalog::Signature) -> Vec<Port> {
     let ports = signature.ports.iter().map(|p| Port {
         name: p.name.clone(),

@@ -1,35 +1,35 @@
-//! Connections as they are written, for tools that show them. The graph itself knows only what they lead to in the end.
+//! Connections as written, for tools that show them. The graph itself contains only the resulting connections of nodes.
 
 use crate::{catalog::Type, graph::Flow, source::Span, syntax::tree::PortKind};
 
-/// What one arrow connects; lists have one for each pair of their ends.
+/// A connection that an arrow makes; lists make one for each pair of their ends.
 #[derive(Debug, Clone)]
 pub struct Link {
     /// The arrow.
     pub arrow: Span,
-    /// Whether activity passes.
+    /// `true` for `=>`, on which activity passes.
     pub active: bool,
-    /// Where tokens come from.
+    /// Origin of the tokens.
     pub from: Side,
-    /// Where they go.
+    /// Destination of the tokens.
     pub to: Side,
 }
 
-/// One side of an arrow.
+/// An end of a connection.
 #[derive(Debug, Clone)]
 pub struct Side {
-    /// What is written there.
+    /// The text of the endpoint.
     pub span: Span,
-    /// The port that is meant.
+    /// Name of the port that is meant.
     pub port: String,
-    /// Its kind, seen from the arrow.
+    /// Kind of the port, seen from the arrow.
     pub kind: PortKind,
-    /// The type of its tokens, as far as it is declared.
+    /// Type of the tokens, as far as it is declared.
     pub ty: Type,
 }
 
 impl Link {
-    /// How tokens travel.
+    /// Manner in which tokens travel.
     pub fn flow(&self) -> Flow {
         match (self.from.kind, self.to.kind) {
             (_, PortKind::Slot) => Flow::ToSlot,

@@ -1,4 +1,4 @@
-//! Which input of an `each` is the list.
+//! Choice of the list among the inputs of an `each`.
 
 use crate::{
     catalog::{Match, Type},
@@ -7,7 +7,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 
-/// Decides it from the types where the text does not say it.
+/// Chooses the list of each `each` by the types, if it is not written.
 pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
     for id in 0..graph.nodes.len() {
         let NodeKind::Each(each) = &mut graph.nodes[id].kind else { continue };
@@ -46,7 +46,7 @@ fn is_list(graph: &Graph, input: End) -> bool {
         && arriving.compare(&graph.port(input).ty) != Match::Same
 }
 
-/// The type of the tokens that leave a port; those of an `each` are lists.
+/// The type of the tokens that leave a port. An `each` sends lists.
 pub fn token_type(graph: &Graph, from: End) -> Type {
     let ty = &graph.port(from).ty;
     match &graph.nodes[from.node].kind {

@@ -1,5 +1,5 @@
-//! An `fsm` item as written → a table. Nested states are opened; every transition of an outer state counts for all
-//! states inside that have no transition of their own for the token.
+//! Translation of an `fsm` item into a table. Nested states are flattened: a transition of an outer state applies to
+//! every state inside that has no transition of its own for the token.
 
 use super::{
     Known,
@@ -16,10 +16,10 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// More innermost states than a machine has that somebody can understand.
+/// Largest number of innermost states. Nobody would understand a larger machine.
 const MAX_STATES: usize = 1_000;
 
-/// Resolves `item`; `ty` finds the types that its ports name, `rust_path` the constants of Rust.
+/// Resolves `item`. `ty` determines the types of its ports, `scope` the meaning of names in values and guards.
 pub fn resolve(
     item: &FsmItem,
     ty: &dyn Fn(&PortItem) -> Type,
@@ -44,7 +44,7 @@ pub fn resolve(
     opener.machine()
 }
 
-/// A state with the states around it.
+/// A state and the state around it.
 struct Open<'a> {
     item: &'a StateItem,
     parent: Option<usize>,
@@ -97,15 +97,15 @@ impl<'a> Opener<'a> {
         }
     }
 
-    /// A state and those around it, from the inside out.
+    /// A state and the states around it, from the inside out.
     fn around(&self, state: usize) -> Vec<usize> {
         std::iter::successors(Some(state), |s| self.states[*s].parent).collect()
     }
 
-    /// The state that is entered with `state`: the first inside, and so on.
+    /// The innermost state that is entered with `state`: always the first one inside.
     fn innermost(&self, mut state: usize) -> usize {
         while !self.states[state].item.states.is_empty() {
-            // States stand in the order of the text: the first one inside comes next.
+            // States are in the order of the source file, so that the first state inside follows its parent.
             state += 1;
         }
         state
@@ -162,7 +162,7 @@ impl<'a> Opener<'a> {
         ports.map(|p| (p.name.text.clone(), self.ports[p.name.text.as_str()].1.clone())).collect()
     }
 
-    /// Slots and targets that do not exist, and transitions that can never be taken.
+    /// Reports unknown slots and targets, and transitions that can never be taken.
     fn check_names(&mut self) {
         let states: Vec<&str> = self.states.iter().map(|s| s.item.name.text.as_str()).collect();
         let mut errors = vec![];
@@ -242,7 +242,8 @@ impl<'a> Opener<'a> {
         match target {
             Some((named, inner)) => {
                 let entered = self.around(inner);
-                // What both have around them stays; but who goes to the state he is in leaves and enters it.
+                // States around both the old and the new state are kept. The old state and the named target are not, so
+                // that a transition to the current state leaves and enters it.
                 let stays = |s: &usize| around.contains(s) && entered.contains(s) && *s != named && *s != leaf;
                 let kept: BTreeSet<usize> =
                     around.iter().copied().filter(stays).filter(|s| !self.is_inside(*s, named)).collect();
@@ -261,7 +262,7 @@ impl<'a> Opener<'a> {
         Arm { state: number, guard, target, sends }
     }
 
-    /// Whether `state` lies inside `outer`.
+    /// Returns `true` if `state` is inside `outer`.
     fn is_inside(&self, state: usize, outer: usize) -> bool {
         state != outer && self.around(state).contains(&outer)
     }

@@ -1,4 +1,5 @@
-//! Trees and signatures → one flat graph: names, imports, arguments, default ports, nested graphs.
+//! Resolution: turns syntax trees and signatures into flat graphs. Resolves names, imports, arguments, default ports
+//! and nested graphs.
 
 mod args;
 mod claims;
@@ -34,41 +35,42 @@ pub use lists::token_type;
 pub use names::{GraphId, Made, Meaning, Texts, suggest};
 pub(crate) use unknown::{Known, everywhere, unknown};
 
-/// Most nodes, nested graphs and connections that one program may have, each.
+/// Largest number of nodes and nested graphs of a program. It has at most four times as many connections.
 pub const MAX_NODES: usize = 50_000;
-/// Most ports and ends of connections that are looked at, nested graphs as often as they are used: bounds the time.
+/// Largest number of ports and ends of connections that are visited, which limits the time. A nested graph counts as
+/// often as it is used.
 const MAX_LOOKS: usize = 1_000_000;
-/// Most claims of one program.
+/// Largest number of claims of a program.
 const MAX_CLAIMS: usize = 256;
-/// How deep graphs nest in each other.
+/// Largest depth of nested graphs.
 pub const MAX_NESTING: usize = 64;
 
-/// What may still be added to the programs of a text.
+/// Remaining budget for the programs of a source file.
 pub struct Budget {
-    /// Nodes and nested graphs.
+    /// Nodes and nested graphs that may be added.
     pub nodes: usize,
-    /// Looks at a port or at an end of a connection.
+    /// Visits to ports or ends of connections.
     pub looks: usize,
-    /// More was wanted, which has been reported.
+    /// `true` if the budget was exceeded, which has been reported.
     pub exceeded: bool,
 }
 
-/// What the texts of a program resolve to.
+/// Result of the resolution of a source file.
 pub struct Resolved {
-    /// The texts.
+    /// The source file and those that it imports.
     pub texts: Texts,
-    /// The graphs that are not used inside another one of the first text: the programs in it, and those that would
-    /// be programs if all their parameters had a value.
+    /// Graphs of the first source file that are not used in another one of it: programs, and graphs that would be
+    /// programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
-    /// The graphs that are used inside another one of the first text, by themselves.
+    /// Graphs of the first source file that are used in another one of it, each on its own.
     pub nested: Vec<Graph>,
-    /// The connections of the graphs of the first text, as written.
+    /// Connections of the graphs of the first source file, as written.
     pub links: Vec<Link>,
-    /// The tests of the first text: the graph that is tested, and what is done with it.
+    /// Tests of the first source file: the graph under test, and the script.
     pub tests: Vec<(Graph, Script)>,
 }
 
-/// Resolves the text `root` with everything that it imports.
+/// Resolves the source file `root` and everything that it imports.
 pub fn resolve(
     root: FileId,
     catalog: &mut Catalog,
@@ -99,7 +101,7 @@ pub fn resolve(
         if budget.exceeded || broken {
             break;
         }
-        // What has no name that is certain can be neither fed nor expected.
+        // A port without a certain name can be neither fed nor expected.
         let graph = texts.files[0].1.graphs.iter().find(|graph| test.graph.text() == graph.name.text);
         let mut ports = graph.into_iter().flat_map(|graph| &graph.ports);
         if ports.any(|port| diagnostics.has_errors_in(port.name.span)) {
@@ -117,7 +119,7 @@ pub fn resolve(
     Resolved { texts, graphs, nested, links, tests }
 }
 
-/// Reports tests with the name of another one.
+/// Reports tests with the same name.
 fn test_names(file: &File, diagnostics: &mut Diagnostics) {
     let mut known: BTreeMap<&str, &Ident> = BTreeMap::new();
     for name in file.tests.iter().map(|test| &test.name) {
@@ -131,8 +133,8 @@ fn test_names(file: &File, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Names that every Rust module knows, and those of `apex_rt::prelude` that signatures of nodes have: one of a text would hide
-/// them from the Rust beside it.
+/// Names that every Rust module knows, and names of `apex_rt::prelude` that occur in signatures of nodes. An item with
+/// such a name would hide them from the Rust code beside it.
 #[rustfmt::skip]
 const OF_RUST: [&str; 38] = [
     "AsMut", "AsRef", "Box", "Clone", "Copy", "Debug", "Default", "Drop", "Eq", "Err", "Extend",
@@ -142,7 +144,8 @@ const OF_RUST: [&str; 38] = [
     "Ctx", "Event", "Out", "Outputs",
 ];
 
-/// Reports graphs and machines whose names in Rust are taken: by Rust itself, or by what belongs to another one of the text.
+/// Reports graphs and machines whose names are taken in Rust: by Rust itself, or by a type that belongs to another
+/// item.
 fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let graphs = || file.graphs.iter().filter(|graph| !used.contains(graph.name.text.as_str()));
     let made = || graphs().map(|g| &g.name).chain(file.machines.iter().map(|m| &m.name));
@@ -175,7 +178,7 @@ fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagno
     }
 }
 
-/// The names of all graphs and nodes that the graphs of a text have instances of.
+/// The names of all graphs and nodes of which the graphs in a source file contain instances.
 fn used(file: &File) -> BTreeSet<&str> {
     let paths = file.graphs.iter().flat_map(|g| g.instances()).map(|i| i.path.segments.as_slice());
     paths.filter_map(|path| if let [name] = path { Some(name.text.as_str()) } else { None }).collect()

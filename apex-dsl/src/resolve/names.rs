@@ -1,4 +1,4 @@
-//! Which texts belong to a program, and what the names in each of them mean.
+//! Source files of a program, and the meaning of the names in each of them.
 
 use crate::{
     catalog::{Catalog, Constant, DefId, Signature, SignatureId, Ty, Type},
@@ -20,10 +20,10 @@ use super::{
     value::Scope,
 };
 
-/// More texts than one program is made of.
+/// Largest number of source files of a program.
 const MAX_FILES: usize = 256;
 
-/// A graph, by text and number.
+/// A graph, by source file and number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GraphId {
     /// Index in [`Texts::files`].
@@ -32,32 +32,32 @@ pub struct GraphId {
     pub graph: usize,
 }
 
-/// The texts of a program with their names.
+/// The source files of a program, with their names.
 pub struct Texts {
-    /// The texts; the first is the one that was asked for.
+    /// The source files. The first one is the one that was given to the compiler.
     pub files: Vec<(FileId, File)>,
     names: Vec<BTreeMap<String, Meaning>>,
     /// The state machines.
     pub machines: Machines,
-    /// The nodes of the catalog that the state machines of each text are.
+    /// The catalog nodes of the state machines in each source file.
     machine_nodes: Vec<Vec<SignatureId>>,
     unreadable: BTreeSet<PathBuf>,
-    /// The names in each text that mean nothing or several things, which has been reported.
+    /// The names in each source file with no meaning or several meanings, which has been reported.
     unclear: Vec<BTreeSet<String>>,
 }
 
-/// What a name in a text means.
+/// Meaning of a name in a source file.
 #[derive(Debug, Clone)]
 pub enum Meaning {
     /// A graph.
     Graph(GraphId),
     /// A state machine.
     Machine(SignatureId),
-    /// Something in Rust, by its full path.
+    /// An item of Rust, by its full path.
     Rust(Vec<String>),
 }
 
-/// What an instance is made of.
+/// Constructor of an instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Made {
     /// A nested graph.
@@ -67,7 +67,7 @@ pub enum Made {
 }
 
 impl Texts {
-    /// Parses `root` and all texts that it imports from.
+    /// Parses `root` and all source files that it imports.
     pub fn load(
         root: FileId,
         catalog: &mut Catalog,
@@ -84,7 +84,8 @@ impl Texts {
             texts.imports(at, catalog, sources, world, diagnostics);
             at += 1;
         }
-        // A machine has a number before anybody can name it, and is known only after its types can be named.
+        // Machines get their numbers before names are resolved. Their contents follow later, because they use names of
+        // types.
         for file in 0..texts.files.len() {
             let count = texts.files[file].1.machines.len();
             let first = catalog.reserve_machines(count);
@@ -125,7 +126,7 @@ impl Texts {
             };
             if let Some(machine) = super::machine::resolve(item, &ty, &scope, diagnostics) {
                 let place = (sources.get(*file_id).path.clone(), sources.line_column(*file_id, item.name.span.start).0);
-                // Machines of two texts may have one name.
+                // Machines of two source files may have the same name.
                 let number = if file == 0 { String::new() } else { file.to_string() };
                 let module = format!("fsm{number}_{}", machine.name);
                 let machine = Machine { module, is_own: file == 0, ..machine };
@@ -136,7 +137,7 @@ impl Texts {
         self.machines.extend(machines);
     }
 
-    /// Reads the sibling texts that text `at` imports from.
+    /// Reads the sibling files that source file `at` imports.
     fn imports(
         &mut self,
         at: usize,
@@ -180,7 +181,7 @@ impl Texts {
         }
     }
 
-    /// The names that text `file` declares and imports, and those of them that are not clear.
+    /// The names that source file `file` declares and imports, and the unclear ones among them.
     fn names_of(
         &self,
         file: usize,
@@ -198,7 +199,8 @@ impl Texts {
                 Ok(meaning) => imports.push((&u.name, meaning)),
                 Err(error) => {
                     unclear.insert(u.name.text.clone());
-                    // Who misspells an import spells the name well where it is used, or the other way round.
+                    // If the import is misspelt, the name is presumably correct where it is used, or the other way
+                    // round.
                     let meant = error.iter().flat_map(|error| &error.fixes).map(|fix| fix.replacement.clone());
                     unclear.extend(meant);
                     error.into_iter().for_each(|error| diagnostics.push(*error));
@@ -222,7 +224,7 @@ impl Texts {
         (names, unclear)
     }
 
-    /// What an import means; if nothing, an error, unless another one says why.
+    /// Meaning of an import. The error is `None` if its cause is reported elsewhere.
     fn import(
         &self,
         file: usize,
@@ -252,7 +254,7 @@ impl Texts {
         self.import_item(other, first, last)
     }
 
-    /// The graph or state machine `name` of text `other`, which is imported from as `module`.
+    /// The graph or state machine `name` of source file `other`, which is imported as `module`.
     fn import_item(&self, other: usize, module: &Ident, name: &Ident) -> Result<Meaning, Option<Box<Diagnostic>>> {
         let tree = &self.files[other].1;
         if let Some(machine) = tree.machines.iter().position(|m| m.name.text == name.text) {
@@ -270,7 +272,7 @@ impl Texts {
         Err(Some(Box::new(suggest(error, name, known.map(|name| name.text.as_str())))))
     }
 
-    /// Whether one of them has statements or items that could not be read.
+    /// Returns `true` if a source file contains statements or items that could not be read.
     pub fn are_broken(&self) -> bool {
         self.files.iter().any(|(_, file)| file.broken)
     }
@@ -280,12 +282,12 @@ impl Texts {
         &self.files[id.file].1.graphs[id.graph]
     }
 
-    /// The names that text `file` declares and imports, but for those in its graphs.
+    /// The names that source file `file` declares and imports, except those inside its graphs.
     pub fn names(&self, file: usize) -> &BTreeMap<String, Meaning> {
         &self.names[file]
     }
 
-    /// The state machine that text `file` calls `name`.
+    /// The state machine with the name `name` in source file `file`.
     pub fn machine_named(&self, file: usize, name: &str) -> Option<&Machine> {
         match self.names(file).get(name)? {
             Meaning::Machine(signature) => self.machines.get(signature),
@@ -293,19 +295,19 @@ impl Texts {
         }
     }
 
-    /// The text and the number in it of a state machine.
+    /// The source file of a state machine, and its number there.
     pub fn machine(&self, signature: SignatureId) -> Option<(usize, usize)> {
-        // Those of one text have been numbered one after the other.
+        // The machines of one source file have consecutive numbers.
         let find = |machines: &Vec<SignatureId>| machines.binary_search(&signature).ok();
         self.machine_nodes.iter().enumerate().find_map(|(file, machines)| Some((file, find(machines)?)))
     }
 
-    /// The number of a text.
+    /// The number of a source file.
     pub fn file_id(&self, file: usize) -> FileId {
         self.files[file].0
     }
 
-    /// A path in text `file` with what its first word was imported as.
+    /// A path in source file `file`, with its first segment replaced by its import.
     pub fn full_path(&self, file: usize, path: &PathExpr) -> Vec<String> {
         let words: Vec<String> = path.segments.iter().map(|s| s.text.clone()).collect();
         match words.first().and_then(|first| self.names[file].get(first)) {
@@ -314,12 +316,12 @@ impl Texts {
         }
     }
 
-    /// Whether nobody knows what a path in text `file` stands for, which has been reported.
+    /// Returns `true` if the meaning of a path in source file `file` is unclear, which has been reported.
     pub fn is_unclear(&self, file: usize, path: &PathExpr) -> bool {
         path.segments.first().is_some_and(|first| self.unclear[file].contains(&first.text))
     }
 
-    /// What stands behind the path of an instance; if nothing, an error, unless it has been reported why.
+    /// The constructor that the path of an instance names. The error is `None` if the reason has been reported.
     pub fn made(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Result<Made, Option<Box<Diagnostic>>> {
         if self.is_unclear(file, path) {
             return Err(None);
@@ -366,7 +368,7 @@ impl Texts {
         }
         let message = format!("there is no node or graph `{}`", path.text());
         let uses = self.uses_of(file, path);
-        // What is not known at all is missing once, however often it is used.
+        // An unknown name is reported once, however often it is used.
         let mut error = everywhere("unknown-node", message.clone(), path.span, &uses);
         if !catalog.types(full).is_empty() {
             return error.note(format!("`{}` is a type, but not marked `#[node]`", path.text()));
@@ -414,7 +416,7 @@ impl Texts {
         error
     }
 
-    /// A name of text `file` that an instance may mean; `used` are those that some do.
+    /// A name of source file `file` that an instance may mean. `used` are the names that instances use.
     fn known<'a>(&'a self, file: usize, name: &'a str, used: &BTreeSet<&str>) -> Known<'a> {
         let tree = &self.files[file].1;
         let declared = match self.names[file].get(name) {
@@ -425,7 +427,7 @@ impl Texts {
         Known { name, declared, used: used.contains(name) }
     }
 
-    /// The places in text `file` where a node or graph is called as `path` is.
+    /// The places in source file `file` where a node or graph is written as `path`.
     fn uses_of(&self, file: usize, path: &PathExpr) -> Vec<Span> {
         let text = path.text();
         let mut uses: Vec<Span> = self.paths(file).filter(|p| p.text() == text).map(|p| p.span).collect();
@@ -436,14 +438,14 @@ impl Texts {
         uses
     }
 
-    /// The paths of all nodes and graphs that text `file` uses.
+    /// The paths of all nodes and graphs that source file `file` uses.
     fn paths(&self, file: usize) -> impl Iterator<Item = &PathExpr> {
         let tree = &self.files[file].1;
         let of_instances = tree.graphs.iter().flat_map(|graph| graph.instances()).map(|instance| &instance.path);
         of_instances.chain(tree.tests.iter().map(|test| &test.graph))
     }
 
-    /// A type as written in a text, for the catalog, and spelled for generated code.
+    /// A type as written in a source file, for the catalog and for generated code.
     pub fn ty(&self, file: usize, ty: &TypeExpr) -> Ty {
         match &ty.kind {
             TypeKind::Path(path, args) => {
@@ -455,7 +457,7 @@ impl Texts {
         }
     }
 
-    /// The constant of Rust that a path names; nothing if it is a name of the text.
+    /// The constant of Rust that a path names; `None` for a name of the source file itself.
     pub fn constant(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Option<Constant> {
         let known =
             path.segments.first().is_some_and(|s| matches!(self.names[file].get(&s.text), Some(Meaning::Rust(_))));
@@ -463,7 +465,7 @@ impl Texts {
     }
 }
 
-/// A node that generated code cannot name.
+/// Error about a node that generated code cannot name.
 fn hidden_node(path: &PathExpr, signature: &Signature) -> Diagnostic {
     let message = format!("the program cannot name the node `{}`", path.text());
     let (file, line) = (signature.file.display(), signature.line);
@@ -479,7 +481,7 @@ pub fn suggest<'a>(error: Diagnostic, word: &Ident, candidates: impl Iterator<It
     }
 }
 
-/// What to say of an import whose first word is no crate and no text.
+/// Error about an import whose first segment is neither a crate nor a source file.
 fn unknown_crate(first: &Ident, catalog: &Catalog) -> Diagnostic {
     let message = format!("there is no crate and no text `{}`", first.text);
     let note = format!(

@@ -7,7 +7,7 @@ use crate::{
     syntax::tree::{GraphItem, Ident, PortRef, RecordItem},
 };
 
-/// Resolves the `record` statement of `item`, of which `graph` is the program.
+/// Resolves the `record` statement of `item`, whose program is `graph`.
 pub fn record(graph: &Graph, item: &GraphItem, diagnostics: &mut Diagnostics) -> Option<Record> {
     let [first, others @ ..] = item.records.as_slice() else { return None };
     for other in others {
@@ -36,7 +36,7 @@ fn report_twice(record: &RecordItem, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The ports that a name stands for: that of a node, or all that send to the port of a nested graph.
+/// The ports that a name stands for: a port of a node, or all ports that send to the port of a nested graph.
 fn port_of(graph: &Graph, port: &PortRef, diagnostics: &mut Diagnostics) -> Option<Vec<End>> {
     let path = port.text();
     let ends = match sending_port(graph, &path) {
@@ -73,7 +73,7 @@ fn sending_ports(graph: &Graph) -> impl Iterator<Item = End> + '_ {
     ends.filter(|end| graph.port(*end).kind.sends())
 }
 
-/// `node.port`, or `node` if only one port sends; also a graph-level input.
+/// The port that `path` names: `node.port`, an input of the graph, or `node` if only one of its ports sends.
 pub fn sending_port(graph: &Graph, path: &str) -> Option<End> {
     let exact = |end: &End| format!("{}.{}", graph.path(end.node), graph.port(*end).name) == path;
     let of_node: Vec<End> = sending_ports(graph)
@@ -86,7 +86,7 @@ fn pin_name(graph: &Graph, pin: usize) -> String {
     format!("{}.{}", graph.scope_path(graph.pins[pin].scope), graph.pins[pin].name)
 }
 
-/// The ports of nodes whose tokens leave a nested graph by the port `path`.
+/// The ports of nodes whose tokens leave a nested graph through its port `path`.
 fn ends_of_pin(graph: &Graph, path: &str) -> Vec<End> {
     let is_meant = |pin: &usize| graph.pins[*pin].kind.sends() && pin_name(graph, *pin) == path;
     let mut open: Vec<usize> = (0..graph.pins.len()).filter(is_meant).collect();

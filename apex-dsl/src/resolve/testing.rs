@@ -1,5 +1,4 @@
-//! `test` items: the graph under test, with other nodes in place of some and probes where the test looks, and the
-//! script.
+//! `test` items: the graph under test with some nodes replaced and with probes at observed ports, and the script.
 
 use super::{
     args,
@@ -19,7 +18,7 @@ use crate::{
 };
 use std::{collections::BTreeMap, time::Duration};
 
-/// Resolves test `item` of the first text.
+/// Resolves test `item` of the first source file.
 pub fn test(
     texts: &Texts,
     catalog: &Catalog,
@@ -89,7 +88,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Nodes that are to be replaced exist; those that only Rust can make are replaced.
+    /// Reports replacements of unknown nodes, and nodes made in Rust that are not replaced.
     fn check_replaced(&mut self, item: &TestItem) {
         let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
         for (of, _) in &item.replaced {
@@ -109,7 +108,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What the program sends out is seen by the test, and held back by nobody.
+    /// Turns the outputs and events of the program into probes, which never block their senders.
     fn probe_ports(&mut self) {
         for node in &mut self.graph.nodes {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Output | PortKind::Event)) {
@@ -138,7 +137,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The port of the graph that a test puts tokens into.
+    /// The port of the graph into which a test feeds tokens.
     fn way_in(&mut self, port: &Ident) -> Option<NodeId> {
         let is_way_in = |n: &crate::graph::Node| matches!(n.kind, NodeKind::Boundary(_));
         let ports: Vec<(NodeId, &str)> = self
@@ -186,7 +185,7 @@ impl Writer<'_> {
         Some(Step::Feed { port: node, values, every })
     }
 
-    /// A token for a port, if it has the type of the port.
+    /// A token for a port; reports one that does not fit the type of the port.
     fn fit(&mut self, port: &Ident, ty: &Type, value: Value, expr: &Expr) -> Option<Value> {
         let declared = format!("`{}` takes `{ty}`", port.text);
         let wanted = Wanted { name: &port.text, ty, unit: None, range: None, declared };
@@ -232,8 +231,7 @@ impl Writer<'_> {
         Some(Seen { what, text: self.sources.text(condition.span).to_owned(), span: condition.span })
     }
 
-    /// The nodes that a name stands for: a node, or all nodes of a nested graph.
-    /// The node or nested graph of this name.
+    /// The node or nested graph with this name.
     fn subject(&mut self, of: &PortRef) -> Option<Subject> {
         let path = of.text();
         let nodes = (0..self.graph.nodes.len()).map(Subject::Node);
@@ -252,7 +250,7 @@ impl Writer<'_> {
         self.diagnostics.push(suggest(error, &word, known));
     }
 
-    /// The probe at a port, which is made when a test looks at it for the first time.
+    /// The probe at a port, which is made when it is first used.
     fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
         let path = of.text();
         let name = format!("probe {path}");
@@ -275,7 +273,7 @@ impl Writer<'_> {
             scope: 0,
             kind: NodeKind::Probe,
             ports: vec![Port::new("probe", probe_kind(self.graph.port(from).kind), ty.clone())],
-            // Nothing between two threads stands between a port and those who look at it.
+            // The probe runs in the group of the port, so that no cell is between them.
             modifiers: Modifiers { group: Some(self.graph.group(from.node).to_owned()), ..Modifiers::default() },
             span: of.span,
             docs: String::new(),
@@ -297,12 +295,12 @@ impl Writer<'_> {
     }
 }
 
-/// How a test looks at a port: at an output as a node behind it does, which takes what each firing sends.
+/// Kind of a probe's port. At an output it is an input, which takes the token of each firing.
 fn probe_kind(port: PortKind) -> PortKind {
     if port == PortKind::Output { PortKind::Input } else { PortKind::Slot }
 }
 
-/// Whether `path` is the node that is meant, or in the nested graph that is meant.
+/// Returns `true` if `path` is the node that is meant, or a node inside the nested graph that is meant.
 fn is_or_contains(meant: &PortRef, path: &str) -> bool {
     path.strip_prefix(&meant.text()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }

@@ -13,7 +13,7 @@ use crate::{
 };
 use std::{collections::BTreeMap, time::Duration};
 
-/// What can be set.
+/// Names of all settings.
 const SETTINGS: [&str; 5] = ["cores", "priority", "policy", "rights", "hang"];
 
 impl Builder<'_> {
@@ -39,7 +39,7 @@ impl Builder<'_> {
         found
     }
 
-    /// A group that one node is in, and that no `thread` statement describes, may be meant for one that is described.
+    /// Warns about a group with a single node and without a `thread` statement that may be a misspelt one.
     fn check_groups(&mut self, item: &GraphItem) {
         let described = || item.threads.iter().map(|thread| thread.name.text.as_str());
         let groups = item.groups();
@@ -49,7 +49,7 @@ impl Builder<'_> {
             if !is_single || name == MAIN_GROUP || described().any(|thread| thread == name) {
                 continue;
             }
-            // Groups that are numbered are alike on purpose.
+            // Similar names of numbered groups are intended.
             let letters = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
             let near = nearest(name, described()).filter(|near| letters(near) != letters(name));
             if let Some(near) = near.filter(|near| groups.iter().any(|other| other.text == *near)) {
@@ -60,7 +60,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A thread is named once, and some node runs on it.
+    /// Reports a thread that is described twice, or on which no node runs.
     fn check_group(&mut self, thread: &ThreadItem, item: &GraphItem, again: bool) {
         let name = &thread.name;
         if again {
@@ -127,8 +127,8 @@ impl Builder<'_> {
     }
 }
 
-/// An error about the one `on` that names a thread like `described`, if no `thread` statement describes that one: it is
-/// what was misspelt. Where several name it, the description is.
+/// An error about the only `on` with a name similar to `described`, if it has no `thread` statement of its own:
+/// presumably that name is misspelt. If several nodes use it, the description is misspelt instead.
 fn misspelt_group(described: &Ident, item: &GraphItem) -> Option<Diagnostic> {
     let is_known = |group: &Ident| item.threads.iter().any(|thread| thread.name.text == group.text);
     let groups: Vec<&Ident> = item.groups().into_iter().filter(|group| !is_known(group)).collect();
@@ -149,7 +149,7 @@ fn whole(value: &Value, range: std::ops::RangeInclusive<usize>) -> Option<usize>
     usize::try_from(*integer).ok().filter(|n| range.contains(n))
 }
 
-/// Which of two words it is.
+/// Index of a value among two words.
 fn word(value: &Expr, words: [&str; 2]) -> Evaluated<usize> {
     let text = match &value.kind {
         ExprKind::Path(path) => path.text(),

@@ -1,4 +1,4 @@
-//! Types that a text names: each is looked at once, however often the graph around it is used.
+//! Checks of the types in source files: each is examined once, however often the graph around it is used.
 
 use super::names::{Texts, suggest};
 use crate::{
@@ -9,7 +9,8 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// Reports types of all texts that are not there, that generated code cannot name, or that have too many or too few arguments.
+/// Reports types in all source files that do not exist, that generated code cannot name, or that have a wrong number of
+/// arguments.
 pub fn check(texts: &Texts, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for file in 0..texts.files.len() {
         let tree = &texts.files[file].1;
@@ -27,7 +28,7 @@ pub fn check(texts: &Texts, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Another number of type arguments is given than what `path` names takes.
+/// Error about a wrong number of type arguments for `path`.
 pub fn wrong_count(path: &PathExpr, takes: usize, given: usize, span: Span) -> Diagnostic {
     let takes = match takes {
         0 => "no type arguments".to_owned(),
@@ -42,7 +43,7 @@ struct Checker<'a> {
     catalog: &'a Catalog,
     file: usize,
     generics: Vec<&'a str>,
-    /// The types that are missing, which have been reported.
+    /// Unknown types that have been reported.
     missing: &'a mut BTreeSet<String>,
     diagnostics: &'a mut Diagnostics,
 }
@@ -61,7 +62,7 @@ impl Checker<'_> {
         for node in &graph.nodes {
             match &node.body {
                 NodeBody::Instance(instance) => self.instance(instance),
-                // Its head is a node.
+                // The head of the type is the node itself.
                 NodeBody::HandedIn(TypeExpr { kind: TypeKind::Path(_, args), .. }, _) => {
                     args.iter().for_each(|ty| self.argument(ty));
                 }
@@ -139,7 +140,7 @@ impl Checker<'_> {
                 }
                 None => self.unlisted(path),
             },
-            // What stands in a crate that is not scanned, or comes from a macro, is rustc's to say.
+            // Only rustc knows the contents of a crate that is not scanned, and the items that macros make.
             None if self.catalog.is_extern(first) => {}
             None if self.catalog.is_crate(first) && self.catalog.may_hide(&full[..full.len() - 1]) => {}
             None => self.unknown(path, &full),
@@ -165,7 +166,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports numbers among arguments that are types.
+    /// Reports numbers among arguments that have to be types.
     fn no_numbers(&mut self, args: &[TypeExpr]) {
         args.iter().filter(|arg| matches!(arg.kind, TypeKind::Const(_))).for_each(|arg| self.ty(arg));
     }
@@ -177,7 +178,7 @@ impl Checker<'_> {
         self.diagnostics.push(wrong_count(path, most, given, path.span));
     }
 
-    /// A type of the standard library or of the runtime that is not one of those that are known here.
+    /// Reports a type of the standard library or the runtime that is not known here.
     fn unlisted(&mut self, path: &PathExpr) {
         let Some(last) = path.segments.last() else { return };
         let message = format!("`{}` is no type that texts can name by its path", path.text());
@@ -205,7 +206,7 @@ impl Checker<'_> {
                 .take(4)
                 .fold(error, |error, import| error.guess(format!("import `{import}`"), at, format!("use {import};\n"))),
         };
-        // A type that is misspelt is so at one place; one that is not there at all is missing once.
+        // A misspelt type is reported at each place, an unknown one only once.
         let is_misspelt = elsewhere.is_empty() && !error.fixes.is_empty();
         if !is_misspelt && !self.missing.insert(path.text()) {
             return;
@@ -214,7 +215,7 @@ impl Checker<'_> {
         self.diagnostics.push(self.catalog.broken().fold(error.note(note), Diagnostic::note));
     }
 
-    /// The names that may have been meant.
+    /// Names that may have been meant.
     fn known(&self, full: &[String]) -> Vec<String> {
         match full.split_last() {
             Some((_, parent)) if !parent.is_empty() => {

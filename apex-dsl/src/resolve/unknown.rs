@@ -1,4 +1,4 @@
-//! Names that mean nothing: which one was misspelt, and where that is told.
+//! Unknown names: finds the one that was misspelt, and the place at which to report it.
 
 use super::{
     connect::{Candidate, Owner, Symbol, Table},
@@ -11,7 +11,7 @@ use crate::{
     syntax::tree::{Ident, PortRef},
 };
 
-/// Most places that one message points at.
+/// Largest number of places that one message shows.
 const MAX_PLACES: usize = 8;
 
 /// A name that may have been meant.
@@ -19,20 +19,20 @@ const MAX_PLACES: usize = 8;
 pub struct Known<'a> {
     /// The name.
     pub name: &'a str,
-    /// Where the texts declare it.
+    /// Place of its declaration in the source files.
     pub declared: Option<Span>,
-    /// Whether anything uses it.
+    /// `true` if it is used.
     pub used: bool,
 }
 
 impl<'a> Known<'a> {
-    /// A name that the texts do not declare.
+    /// A name that is not declared in the source files.
     pub fn elsewhere(name: &'a str) -> Self {
         Self { name, declared: None, used: true }
     }
 }
 
-/// An error about a name that is missing: one for all places where it is used.
+/// An error about an unknown name, for all places where it is used.
 pub fn everywhere(code: &'static str, message: String, word: Span, uses: &[Span]) -> Diagnostic {
     let (first, others) = uses.split_first().unwrap_or((&word, &[]));
     let message = match others.len() {
@@ -44,8 +44,8 @@ pub fn everywhere(code: &'static str, message: String, word: Span, uses: &[Span]
     others.iter().take(MAX_PLACES).fold(error, |error, place| error.also(*place, "here too"))
 }
 
-/// An error about `word`, which is used at `uses` and is like a name that is known; `None` if there is no such name. Where
-/// nothing uses that name, but several places use the word, it is the declaration that is misspelt.
+/// An error about `word`, which is used at `uses` and resembles a known name; `None` if it resembles none. If that name
+/// is not used, but `word` is used in several places, the declaration is considered misspelt.
 pub fn unknown(
     code: &'static str,
     message: String,
@@ -53,7 +53,7 @@ pub fn unknown(
     uses: &[Span],
     known: &[Known<'_>],
 ) -> Option<Diagnostic> {
-    // Of what nothing uses, also a name that is less like it may be meant.
+    // A name without uses may be meant even if it is less similar.
     let unused = known.iter().filter(|known| !known.used && known.declared.is_some()).map(|known| known.name);
     let near = nearest(&word.text, known.iter().map(|known| known.name));
     let near = near.or_else(|| nearest_within(&word.text, unused, 2))?;
@@ -68,7 +68,7 @@ pub fn unknown(
     })
 }
 
-/// An error about a declaration: another name than the one that it declares is used.
+/// An error about a declaration: a name similar to the declared one is used instead.
 fn misspelt(code: &'static str, declared: Span, name: &str, word: &str, used: Span) -> Diagnostic {
     let message = format!("`{name}` is declared here, but what is used is `{word}`");
     Diagnostic::error(code, declared, message).also(used, "for example here").guess(
@@ -79,9 +79,9 @@ fn misspelt(code: &'static str, declared: Span, name: &str, word: &str, used: Sp
 }
 
 impl Builder<'_> {
-    /// Reports a name in a graph body that is no node and no port.
+    /// Reports a name in a graph body that is neither a node nor a port.
     pub fn unknown_name(&mut self, body: &Body<'_>, table: &Table, word: &Ident) {
-        // One message is about all its uses in the graph, however often that is opened.
+        // One message covers all uses of the name in the graph, however often the graph is instantiated.
         if !self.unknown.insert((body.id, word.text.clone())) {
             return;
         }
@@ -100,7 +100,7 @@ impl Builder<'_> {
             })
             .collect();
         let message = format!("there is no node or port `{}` in this graph", word.text);
-        // A port is known by its name also to the graphs around.
+        // The name of a port is also used by the graphs around.
         let code = if is_port { "unknown-port" } else { "unknown-node" };
         let all = if is_port { self.uses_of_port(body.id.file, word, body.item.extent) } else { uses.clone() };
         let error = unknown(code, message.clone(), word, &all, &known).unwrap_or_else(|| {
@@ -110,7 +110,7 @@ impl Builder<'_> {
             );
             everywhere("unknown-node", message, word.span, &uses).note(declare)
         });
-        // A statement that could not be read may declare it.
+        // The declaration may be in a statement that could not be read.
         self.diagnostics.push(Diagnostic { declared_in: Some(body.item.extent), ..error });
     }
 
@@ -147,7 +147,8 @@ impl Builder<'_> {
         }));
     }
 
-    /// The places in text `file` that name a port so: behind a node, or inside the graph at `inside`.
+    /// The places in source file `file` that use the port name: behind the name of a node, or inside the graph at
+    /// `inside`.
     fn uses_of_port(&self, file: usize, port: &Ident, inside: Span) -> Vec<Span> {
         let mut uses = vec![];
         for graph in &self.texts.files[file].1.graphs {
@@ -161,7 +162,7 @@ impl Builder<'_> {
         uses
     }
 
-    /// Where the text declares a port of a nested graph, and whether anything inside uses it.
+    /// Place of the declaration of a nested graph's port, and `true` if a wire uses the port.
     fn declaration(&self, owner: Owner, port: &Candidate) -> Option<(Span, bool)> {
         let (Owner::Scope(_), Place::Pin(pin)) = (owner, port.place) else { return None };
         let span = self.pins[pin].span;

@@ -1,4 +1,4 @@
-//! Constant expressions, and whether a value fits the parameter it is given to.
+//! Constant expressions, and conversion of values to the types of parameters.
 
 use crate::{
     catalog::{Constant, Match, Type},
@@ -15,11 +15,11 @@ use super::names::suggest;
 /// Error or value; the error is boxed because it is much larger than most values.
 pub type Evaluated<T> = Result<T, Box<Diagnostic>>;
 
-/// What names mean in an expression.
+/// Meaning of the names in an expression.
 pub struct Scope<'a> {
-    /// Parameters of the graph around it.
+    /// Parameters of the graph that contains the expression.
     pub params: &'a BTreeMap<String, Value>,
-    /// The constant of Rust that a path names, if it names one.
+    /// The constant of Rust that a path names, if there is one.
     pub constant: &'a dyn Fn(&PathExpr) -> Option<Constant>,
 }
 
@@ -129,7 +129,7 @@ fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
 
 fn binary(operator: &str, (a, at_a): (Value, Span), (b, at_b): (Value, Span), span: Span) -> Evaluated<Value> {
     match (&a, &b) {
-        // What is not known yet fits everywhere.
+        // An unknown value fits everywhere.
         (Value::RustDefault, _) | (_, Value::RustDefault) => Ok(Value::RustDefault),
         (Value::Number(x), Value::Number(y)) => arithmetic(operator, (*x, at_a), (*y, at_b), span),
         (Value::Bool(x), Value::Bool(y)) => match operator {
@@ -164,7 +164,7 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
     let Some(dimension) = dimension else {
         return error("wrong-unit", span, "the unit of this value leaves all bounds");
     };
-    // As in Rust, integers stay integers, also when they are divided.
+    // As in Rust, the result for integers is an integer, also in a division.
     let result = |value: f64, exact: fn(i128, i128) -> Option<i128>| {
         let integer = x.integer.zip(y.integer).map(|(a, b)| exact(a, b));
         match integer {
@@ -200,7 +200,7 @@ fn kind(n: Number) -> String {
     }
 }
 
-/// What a value is, in words.
+/// Description of a value for messages.
 pub fn describe(value: &Value) -> String {
     match value {
         Value::Number(n) => kind(*n),
@@ -214,22 +214,22 @@ pub fn describe(value: &Value) -> String {
     }
 }
 
-/// What a parameter wants.
+/// Requirements of a parameter on its value.
 pub struct Wanted<'a> {
-    /// Its name, for messages.
+    /// Name of the parameter, for messages.
     pub name: &'a str,
-    /// Its type.
+    /// Type of the parameter.
     pub ty: &'a Type,
-    /// Its unit.
+    /// Unit of the parameter.
     pub unit: Option<&'a str>,
-    /// Smallest and largest value in SI, and whether the largest belongs to it.
+    /// Smallest and largest value in SI units, and `true` if the largest value is included.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
-    /// Where it is declared, as a sentence.
+    /// Place of the declaration, as a sentence.
     pub declared: String,
 }
 
 impl Wanted<'_> {
-    /// Whether `value` can be given to the parameter, and what it is then.
+    /// The value as the parameter stores it; an error if it does not fit.
     pub fn fit(&self, value: Value, expr: &Expr) -> Evaluated<Value> {
         if let Value::Path(_, ty) = &value
             && ty.compare(self.ty) == Match::Different
@@ -277,7 +277,7 @@ impl Wanted<'_> {
                     .collect::<Evaluated<_>>()
                     .map(Value::List)
             }
-            // What a type that cannot be seen through takes is rustc's to say: it may be another name of a number.
+            // Only rustc knows the type behind another name, which may be a number.
             _ if ty.may_be_another() && !matches!(value, Value::List(_)) => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
@@ -375,8 +375,8 @@ pub fn element_of(list: &Expr, index: usize) -> &Expr {
     }
 }
 
-/// A value without a unit where one of `units`, in words and as written, is wanted. Only behind a number it can be
-/// written at once; a parameter must be declared as `declared`.
+/// An error about a value without a unit, where one of `units` (name and symbol) is expected. The unit can be suggested
+/// only behind a number; a parameter must be declared as `declared`.
 fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: &[(&str, &str)]) -> Diagnostic {
     let error = Diagnostic::error("missing-unit", expr.span, message);
     let is_number = |expr: &Expr| matches!(expr.kind, ExprKind::Number(..));
@@ -396,7 +396,7 @@ fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: 
 const NO_PART_HAS_A_UNIT: &str =
     "nothing in it has a unit: write one behind a number, or declare a parameter in it with one";
 
-/// Metres where a time is wanted: who writes `5m` may mean minutes.
+/// Adds a note to an error about metres in place of a time: `5m` may mean minutes.
 fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
     match &expr.kind {
         ExprKind::Number(_, Some(unit)) if unit == "m" => {
@@ -407,7 +407,7 @@ fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
     }
 }
 
-/// A time as a duration.
+/// A time as a duration. Reports values with another dimension.
 pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
     if n.dimension.is_none() {
         let message = "a time is wanted here: the unit is missing";
@@ -421,7 +421,7 @@ pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
     seconds(n.value, expr.span)
 }
 
-/// So many seconds as a duration.
+/// A number of seconds as a duration.
 pub fn seconds(value: f64, span: Span) -> Evaluated<Duration> {
     let nanos = (value * 1e9).round();
     if !(0.0..=i64::MAX as f64).contains(&nanos) {
@@ -430,12 +430,12 @@ pub fn seconds(value: f64, span: Span) -> Evaluated<Duration> {
     Ok(Duration::from_nanos(nanos as u64))
 }
 
-/// `15cm` is 0.15, not 0.15 plus the error of a multiplication.
+/// The value of a quantity in SI units. It is rounded so that `15cm` is exactly 0.15.
 pub fn scaled(value: f64, factor: f64) -> f64 {
     if factor == 1.0 { value } else { format!("{:.14e}", value * factor).parse().unwrap_or(value * factor) }
 }
 
-/// The smallest and the largest value of a type of whole numbers.
+/// The smallest and the largest value of an integer type.
 pub fn limits(name: &str) -> Option<(i128, i128)> {
     Some(match name {
         "u8" => (0, u8::MAX.into()),

@@ -1,4 +1,4 @@
-//! Modifiers that put something around an instance: `each` and `delay`.
+//! Modifiers that wrap an instance: `each` and `delay`.
 
 use super::{
     connect::Symbol,
@@ -17,7 +17,7 @@ use crate::{
 use std::collections::BTreeSet;
 
 impl Builder<'_> {
-    /// The body of an `each` on a single node: a graph with just that node and its ports.
+    /// The body of an `each` on a single node: a graph with only that node and its ports.
     pub fn each_of_node(
         &mut self,
         body: &Body<'_>,
@@ -35,7 +35,7 @@ impl Builder<'_> {
                 ..*body
             };
             builder.library(&inside, name, id, instance, "")?;
-            // The body runs where its `each` does.
+            // The body runs in the thread group of its `each`.
             builder.nodes[0].modifiers.group = None;
             let ports: Vec<Port> = builder.nodes[0].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
             for (port, inner) in ports.into_iter().enumerate() {
@@ -129,7 +129,7 @@ impl Builder<'_> {
                 ));
                 return None;
             }
-            // Decided when the connections are known.
+            // The list is chosen when the connections are known.
             (None, _) => usize::MAX,
         };
         let kind = NodeKind::Each(Each { body: Box::new(inner), list, parallel });
@@ -139,7 +139,7 @@ impl Builder<'_> {
         Some(Symbol::of_node(node, &self.nodes[node]))
     }
 
-    /// `delay`: each output is held back.
+    /// Applies `delay`: a delay follows each output.
     pub fn delayed(
         &mut self,
         body: &Body<'_>,
@@ -191,20 +191,20 @@ impl Builder<'_> {
     }
 }
 
-/// Whether ⊥ at an input of the body of an `each` is of use inside: a node there takes it as `None`.
+/// Returns `true` if a node in the body of an `each` handles ⊥ at this input, as `None`.
 fn takes_missing(body: &Graph, boundary: NodeId) -> bool {
     let mut leads_to = body.connections.iter().filter(|c| c.from.node == boundary).map(|c| body.port(c.to));
     leads_to.any(|port| port.optional && port.parameter.is_none())
 }
 
-/// Fits the initial tokens of delays to the types of their ports, which are known only when all connections are.
+/// Fits the initial tokens of delays to the types of their ports, which depend on the connections.
 pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mut Diagnostics) {
     for (node, expr) in delays {
         let from = graph.incoming(End { node: *node, port: 0 }).map(|c| c.from);
         let (Some(from), NodeKind::Delay(initial)) = (from, &graph.nodes[*node].kind) else { continue };
         let origin = graph.origin(from);
         let ty = match token_type(graph, origin) {
-            // Some kind of list, which has no literals.
+            // Some kind of list, for which there are no literals.
             Type::Unknown(_) if matches!(graph.nodes[origin.node].kind, NodeKind::Each(_)) => {
                 Type::Named("Vec".to_owned(), vec![graph.port(origin).ty.clone()])
             }
@@ -224,7 +224,7 @@ pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mu
     }
 }
 
-/// Activity goes into a delay if it can go on from there: the text says it only behind the delay.
+/// Makes the connection into a delay active if one behind it is: only the latter is written.
 pub fn let_activity_into_delays(nodes: &[Node], wires: &mut [Wire]) {
     let delay = |place: Place| match place {
         Place::Port(end) if nodes[end.node].is_delay() => Some(end.node),

@@ -1,4 +1,4 @@
-//! Characters that mean nothing in a text, and what somebody means by them.
+//! Characters without a meaning in the language, and their probable meaning.
 
 use super::words::is_name;
 use crate::{
@@ -7,12 +7,12 @@ use crate::{
 };
 use std::ops::Range;
 
-/// Most places of one word that a message points at.
+/// Largest number of places that a message shows for one word.
 const MAX_PLACES: usize = 8;
-/// Most words that are told one by one.
+/// Largest number of words that are reported individually.
 const MAX_WORDS: usize = 20;
 
-/// An error about a character that means nothing.
+/// An error about a character without a meaning.
 pub fn unknown(char: char, span: Span) -> Diagnostic {
     let shown = match char {
         _ if is_invisible(char) => format!("U+{:04X}", char as u32),
@@ -22,12 +22,13 @@ pub fn unknown(char: char, span: Span) -> Diagnostic {
     explained(char, Diagnostic::error("unknown-character", span, format!("`{shown}` means nothing here")))
 }
 
-/// Marks of byte order, widths of zero and directions of writing: what other programs leave in a text unseen.
+/// Returns `true` for byte order marks, characters without width and marks of the writing direction, which other
+/// programs leave in a text.
 fn is_invisible(char: char) -> bool {
     matches!(char, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }
 
-/// What somebody means by a character that means nothing, if that is known.
+/// Adds the probable meaning of a character to an error, if it is known.
 fn explained(char: char, error: Diagnostic) -> Diagnostic {
     let span = error.primary.span;
     let meant = match char {
@@ -49,7 +50,7 @@ fn explained(char: char, error: Diagnostic) -> Diagnostic {
 
 const NAMES: &str = "a name is made of the letters a to z, digits and `_`";
 
-/// The word around the letter at `at`, if it could be a name but for its letters.
+/// The word around the letter at `at`, if it would be a name with other letters.
 pub fn foreign_word(text: &str, at: usize) -> Option<Range<usize>> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let start = text[..at].rfind(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -61,7 +62,7 @@ pub fn foreign_word(text: &str, at: usize) -> Option<Range<usize>> {
     (begins && is_letter).then_some(start..end)
 }
 
-/// Words with letters that no name has, each with its places.
+/// Words with letters that are not allowed in names, each with its places.
 #[derive(Default)]
 pub struct Foreign(Vec<(String, Vec<Span>)>);
 
@@ -110,7 +111,7 @@ fn foreign(word: &str, places: &[Span]) -> Diagnostic {
     })
 }
 
-/// A word in the letters of names, as its language writes it where it has no others.
+/// A word transcribed into the letters of names, as in its own language.
 fn plain(word: &str) -> String {
     let mut plain = String::new();
     for char in word.chars() {

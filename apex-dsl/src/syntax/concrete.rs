@@ -1,70 +1,70 @@
-//! A text as it stands: every token and every comment of it, under the rules of the grammar.
+//! The concrete syntax of a source file: all its tokens and comments, under the rules of the grammar.
 
 use super::{Rule, lexical::Lexical};
 use pest::iterators::Pair;
 use std::ops::Range;
 
-/// A text without errors.
+/// A source file without errors.
 pub struct Text<'t> {
-    /// The tokens in order. The last is empty: what stands before it ends the text.
+    /// The tokens in order. The last one is empty and marks the end of the file.
     pub tokens: Vec<Token<'t>>,
     /// The rule `file`.
     pub root: Node,
 }
 
-/// What a rule of the grammar matched.
+/// The part of the text that matched a rule of the grammar.
 pub struct Node {
     /// The rule.
     pub rule: Rule,
-    /// What it consists of, in order.
+    /// Its parts, in order.
     pub kids: Vec<Kid>,
 }
 
 /// A part of a [`Node`].
 pub enum Kid {
-    /// What another rule matched.
+    /// The match of another rule.
     Node(Node),
-    /// A sign without a rule of its own, by its place in [`Text::tokens`].
+    /// A token without a rule of its own, by its index in [`Text::tokens`].
     Token(usize),
 }
 
-/// A word, a sign or a line of documentation, with the comments around it.
+/// A word, a punctuation mark or a line of documentation, with the comments around it.
 pub struct Token<'t> {
-    /// What is written.
+    /// Text of the token.
     pub text: &'t str,
-    /// The comments that belong to it and stand before it.
+    /// Comments in front of it that belong to it.
     pub before: Vec<Comment<'t>>,
-    /// The comments that stand behind it in its line.
+    /// Comments behind it in the same line.
     pub after: Vec<Comment<'t>>,
-    /// Whether an item, a statement or a parameter begins here.
+    /// `true` if an item, a statement or a parameter begins here.
     pub begins: bool,
-    /// Whether there is an empty line before it, behind its comments.
+    /// `true` if there is an empty line between its comments and itself.
     pub blank: bool,
 }
 
 /// A comment that is not documentation.
 pub struct Comment<'t> {
-    /// What is written.
+    /// Text of the comment.
     pub text: &'t str,
-    /// Whether it is of the kind that ends with its line.
+    /// `true` for a comment that extends to the end of its line.
     pub is_line: bool,
-    /// Whether there is an empty line before it.
+    /// `true` if there is an empty line before it.
     pub blank: bool,
-    /// Whether no token stands behind it in its line.
+    /// `true` if no token follows in the same line.
     pub ends_line: bool,
 }
 
-/// Opens something that is closed again.
+/// Returns `true` for an opening bracket.
 pub fn opens(token: &str) -> bool {
     matches!(token, "(" | "[" | "{" | "<")
 }
 
-/// Closes what was opened.
+/// Returns `true` for a closing bracket.
 pub fn closes(token: &str) -> bool {
     matches!(token, ")" | "]" | "}" | ">")
 }
 
-/// The tokens of `original`, which was parsed as `file` once its comments were blanked.
+/// The tokens of `original`, which was parsed as `file` after its comments had been blanked.
 pub fn read<'t>(original: &'t str, lexical: &Lexical, file: Pair<'_, Rule>) -> Text<'t> {
     let mut shape = Shape { blanked: &lexical.text, places: vec![], begins: vec![] };
     let root = shape.node(file);
@@ -82,7 +82,7 @@ pub fn read<'t>(original: &'t str, lexical: &Lexical, file: Pair<'_, Rule>) -> T
     Text { tokens, root }
 }
 
-/// Finds the tokens: pairs without pairs inside, and the signs between pairs.
+/// Collects the tokens: matches without inner matches, and the punctuation between matches.
 struct Shape<'b> {
     blanked: &'b str,
     places: Vec<Range<usize>>,
@@ -136,7 +136,7 @@ impl Shape<'_> {
     }
 }
 
-/// Rules that match two brackets with nothing between them.
+/// Returns `true` for rules that can match a pair of brackets without contents.
 fn is_bracketed(rule: Rule) -> bool {
     matches!(rule, Rule::list | Rule::list_expr | Rule::tuple_ty | Rule::use_group)
 }
@@ -146,14 +146,14 @@ fn begins_line(rule: Rule) -> bool {
     matches!(rule, inner_doc | item | stmt | fsm_stmt | state_stmt | test_stmt | param)
 }
 
-/// What stands between two tokens.
+/// The text between two tokens.
 struct Gap<'t> {
     original: &'t str,
     place: Range<usize>,
 }
 
 impl<'t> Gap<'t> {
-    /// Gives the comments of the gap, which stand at `places`, to the token on its left or to the one on its right.
+    /// Attaches the comments of the gap, which are at `places`, to the token on its left or to the one on its right.
     fn attach(&self, places: &[Range<usize>], mut left: Option<&mut Token<'t>>, right: &mut Token<'t>) {
         let mut is_behind_left = true;
         for (i, comment) in self.comments(places).into_iter().enumerate() {
@@ -175,7 +175,7 @@ impl<'t> Gap<'t> {
         let comment = |i: usize| {
             let text = &self.original[places[i].clone()];
             let is_line = text.starts_with("//");
-            // One that another one follows in its line ends it if that one does.
+            // The line of a comment that is followed by another one ends with the latter.
             ends_line = is_line || self.lines_before(i + 1, places) > 0 || (i + 1 < places.len() && ends_line);
             Comment { text: text.trim_end(), is_line, blank: self.lines_before(i, places) > 1, ends_line }
         };
@@ -184,7 +184,8 @@ impl<'t> Gap<'t> {
         comments
     }
 
-    /// How many lines end between a comment and what stands before it; behind the last comment, the token.
+    /// Number of line ends before a comment, back to the previous comment or token. After the last comment: before the
+    /// token.
     fn lines_before(&self, comment: usize, places: &[Range<usize>]) -> usize {
         let start = if comment == 0 { self.place.start } else { places[comment - 1].end };
         let end = places.get(comment).map_or(self.place.end, |place| place.start);
@@ -192,7 +193,7 @@ impl<'t> Gap<'t> {
     }
 }
 
-/// Whether a comment that stands right behind `left` is about it, and not about what follows.
+/// Returns `true` if a comment directly behind `left` belongs to it, not to the following token.
 fn stays(left: &Token<'_>, comment: &Comment<'_>, right: &Token<'_>) -> bool {
     match left.text {
         _ if comment.is_line => true,

@@ -1,5 +1,5 @@
-//! The first look at a text: what no grammar should have to deal with. Finds characters that mean nothing,
-//! brackets that do not match or nest too deeply, and comments, which are blanked.
+//! The first pass over a source file, which relieves the grammar. Reports characters without a meaning, and brackets
+//! that do not match or nest too deeply. Replaces comments by blanks.
 
 use super::characters::{self, Foreign};
 use crate::{
@@ -7,24 +7,24 @@ use crate::{
     source::{FileId, Span},
 };
 
-/// Largest text.
+/// Largest size of a source file.
 pub const MAX_BYTES: usize = 4 << 20;
 /// Deepest nesting of brackets, type arguments and block comments.
 pub const MAX_DEPTH: usize = 64;
-/// Characters that mean nothing are reported one by one up to this number.
+/// Largest number of characters without a meaning that are reported individually.
 const MAX_UNKNOWN: usize = 20;
-/// Stands before the first character of a text that some editors write.
+/// Mark that some editors write before the first character of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// A text in which comments are blanks.
+/// A text whose comments are replaced by blanks.
 pub struct Lexical {
-    /// As long as the original.
+    /// The text, with the same length as the original.
     pub text: String,
-    /// Where the comments were.
+    /// Places of the comments.
     pub comments: Vec<Span>,
 }
 
-/// Looks through `text`; `None` if it cannot be parsed at all.
+/// Scans `text`; `None` if it cannot be parsed at all.
 pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<Lexical> {
     if text.len() > MAX_BYTES {
         let message = format!("this text has {} bytes; at most {MAX_BYTES} are read", text.len());
@@ -62,7 +62,7 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
             }
         }
     }
-    // Whole comments are replaced by ASCII blanks, so that this stays UTF-8.
+    // Only whole comments are replaced by ASCII blanks, so that the text remains valid UTF-8.
     let text = String::from_utf8(blanked).ok()?;
     Some(Lexical { text, comments })
 }
@@ -74,10 +74,10 @@ struct Scanner<'a> {
     open: Vec<(u8, usize)>,
     angles: usize,
     unknown: usize,
-    /// Words with letters that no name has.
+    /// Words with letters that are not allowed in names.
     foreign: Foreign,
     comments: Vec<Span>,
-    /// The first string that goes over the end of its line.
+    /// The first string that continues after the end of its line.
     long_string: Option<usize>,
     failed: bool,
 }
@@ -124,7 +124,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Says which bracket is open at the end: if an item begins where another one is open, that one is meant.
+    /// Reports a bracket that is open at the end. If an item begins inside an open brace, that brace is reported.
     fn never_closed(&mut self, text: &str, diagnostics: &mut Diagnostics) {
         let Some(&(bracket, at)) = self.open.last() else { return };
         let never = |bracket: u8, at: usize| {
@@ -133,7 +133,7 @@ impl Scanner<'_> {
         };
         let outer = self.open[0].1;
         let next = items(text).find(|item| *item > outer).filter(|_| {
-            // The braces of an import are no item.
+            // The braces of an import are not those of an item.
             self.open[0].0 == b'{' && bracket == b'{' && !text[..outer].trim_end().ends_with("::")
         });
         let error = match next {
@@ -155,12 +155,12 @@ impl Scanner<'_> {
         self.fail(diagnostics, error);
     }
 
-    /// No statement ends inside of parentheses.
+    /// Reports parentheses that are open at the end of a statement, which must be outside.
     fn statement_ends(&mut self, text: &str, diagnostics: &mut Diagnostics) {
         while let Some((b'(', at)) = self.open.last().copied() {
             self.open.pop();
             let span = Span::new(self.file, at, at + 1);
-            // Nor is there an arrow in them.
+            // Parentheses do not contain arrows either, so that they should be closed before the first one.
             let inside = &text[at..self.at];
             let end = [inside.find("->"), inside.find("=>")].into_iter().flatten().min().unwrap_or(inside.len());
             let end = at + inside[..end].trim_end().len();
@@ -180,7 +180,7 @@ impl Scanner<'_> {
         diagnostics.push(diagnostic);
     }
 
-    /// Nothing behind this can be understood.
+    /// Reports an error after which nothing can be understood.
     fn give_up(&mut self, diagnostics: &mut Diagnostics, diagnostic: Diagnostic) {
         self.fail(diagnostics, diagnostic);
         self.at = self.bytes.len();
@@ -236,7 +236,7 @@ impl Scanner<'_> {
                 return;
             }
         }
-        // Behind a string that is not closed, all others begin where they should end.
+        // An unclosed string swaps the beginnings and ends of all later ones: the first long one is the culprit.
         let start = self.long_string.unwrap_or(start);
         let span = Span::new(self.file, start, start + 1);
         self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this string is never closed"));
@@ -297,14 +297,14 @@ impl Scanner<'_> {
     }
 }
 
-/// Where lines begin with the word of an item and its name.
+/// Offsets of the lines that begin with the keyword of an item.
 fn items(text: &str) -> impl Iterator<Item = usize> {
     let words = ["use ", "graph ", "robot ", "fsm ", "test "];
     let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1));
     starts.filter(move |at| words.iter().any(|word| text[*at..].starts_with(word)))
 }
 
-/// The end of the code before an item, whose documentation stands directly above it.
+/// The end of the code before an item. The documentation directly above belongs to the item.
 fn code_before(text: &str, item: usize) -> usize {
     let mut end = text[..item].trim_end().len();
     loop {

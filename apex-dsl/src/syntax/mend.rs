@@ -1,14 +1,14 @@
-//! Half-written text, for editors: makes of it one that can be parsed, in which everything else keeps its place.
+//! Repair of unfinished text for editors: makes it parsable without moving the rest.
 
 use super::lexical::{self, MAX_BYTES, MAX_DEPTH};
 use crate::{report::Diagnostics, source::FileId};
 
-/// The words that begin an item.
+/// Keywords that begin an item.
 const ITEMS: [&str; 5] = ["use", "graph", "robot", "fsm", "test"];
 
-/// Text that can be parsed instead of a `text` whose brackets, strings, comments or characters are wrong; `None` if
-/// they are not. What is wrong becomes blank, and items that are not closed are closed: in blanks, or behind the end.
-/// Every other byte of `text` stays at its offset, so that a place in the one text is the same place in the other.
+/// Parsable replacement for a `text` with wrong brackets, strings, comments or characters; `None` if there are none.
+/// Wrong bytes become blanks, and open items are closed: in existing blanks, or behind the end. Every other byte of
+/// `text` keeps its offset, so that places in both texts are the same.
 pub fn mended(text: &str) -> Option<String> {
     let is_fine = lexical::scan(FileId(0), text, &mut Diagnostics::default()).is_some();
     if is_fine || text.len() > MAX_BYTES {
@@ -24,8 +24,8 @@ fn repaired(text: &str) -> Option<String> {
     String::from_utf8(mender.bytes).ok()
 }
 
-/// Text that can be parsed instead of one with a comment that begins at `comment` and never ends: nothing of what
-/// stands behind that place is known to be code.
+/// Parsable replacement for a text with a comment that begins at `comment` and never ends. The rest of the text becomes
+/// blank, because no part of it is known to be code.
 pub fn mended_before(text: &str, comment: usize) -> Option<String> {
     let blank = |b: u8| if b == b'\n' { b } else { b' ' };
     let (before, behind) = text.as_bytes().split_at_checked(comment)?;
@@ -33,8 +33,8 @@ pub fn mended_before(text: &str, comment: usize) -> Option<String> {
     repaired(&String::from_utf8(cut).ok()?)
 }
 
-/// Places where `mended` differs from `text`, in ascending order. If something was added behind the end, the end is
-/// such a place: a statement there may be half of one.
+/// Offsets at which `mended` differs from `text`, in ascending order. If something was added behind the end, they
+/// include the end, where a statement may be incomplete.
 pub fn damage(text: &str, mended: &str) -> Vec<usize> {
     let end = (mended.len() > text.len()).then(|| text.trim_end().len());
     let differ = text.bytes().zip(mended.bytes()).enumerate().filter(|(_, (a, b))| a != b);
@@ -47,13 +47,13 @@ struct Mender<'a> {
     text: &'a str,
     bytes: Vec<u8>,
     at: usize,
-    /// The brackets that are open, with their places.
+    /// The open brackets, with their places.
     open: Vec<(u8, usize)>,
-    /// How many `<` are open.
+    /// Number of open `<`.
     angles: usize,
-    /// Behind the last word or sign.
+    /// End of the last token.
     solid: usize,
-    /// Whether a `//` comment without an end of line ends the text.
+    /// `true` if the text ends with a `//` comment without a line end.
     ends_in_comment: bool,
 }
 
@@ -118,7 +118,7 @@ impl Mender<'_> {
         self.rest().find('\n').map_or(self.text.len(), |n| self.at + n)
     }
 
-    /// Makes the next `count` bytes blank.
+    /// Replaces the next `count` bytes by blanks.
     fn blank(&mut self, count: usize) {
         self.bytes[self.at..self.at + count].fill(b' ');
         self.at += count;
@@ -142,7 +142,8 @@ impl Mender<'_> {
         self.blank(2);
     }
 
-    /// A string that does not end with its line is taken for one that is being written.
+    /// Skips a string. The quote of one that does not end in its line becomes a blank: the string is probably
+    /// unfinished.
     fn string(&mut self) {
         let (mut escaped, mut length) = (false, None);
         let line = self.text.as_bytes()[self.at + 1..].iter().take_while(|byte| **byte != b'\n');
@@ -167,7 +168,7 @@ impl Mender<'_> {
         self.at += 1;
     }
 
-    /// What is open inside of the partner was never closed; without a partner, the bracket closes nothing.
+    /// Closes the matching bracket and drops the open ones inside it. Without a match the bracket itself is dropped.
     fn closing(&mut self, byte: u8) {
         let partner = match byte {
             b')' => b'(',
@@ -186,7 +187,7 @@ impl Mender<'_> {
         self.at += 1;
     }
 
-    /// A statement ends: what is open in it was never closed.
+    /// Drops the brackets that are open at the end of a statement.
     fn drop_until_brace(&mut self) {
         while let Some((bracket, at)) = self.open.pop() {
             if bracket == b'{' {
@@ -207,7 +208,7 @@ impl Mender<'_> {
         self.at += length;
     }
 
-    /// An item begins where another one is open: closes that in the blanks before, as far as there is room.
+    /// Closes the items that are open where another one begins, in the blanks before it, as far as there is room.
     fn close_items(&mut self) {
         while let Some((bracket, at)) = self.open.pop() {
             let closer = self.closer(at);
@@ -221,7 +222,7 @@ impl Mender<'_> {
         }
     }
 
-    /// What closes the brace at `at`: that of an import is followed by a semicolon.
+    /// The text that closes the brace at `at`. The brace of an import needs a semicolon.
     fn closer(&self, at: usize) -> &'static [u8] {
         if self.text[..at].trim_end().ends_with("::") { b"};" } else { b"}" }
     }
@@ -248,7 +249,7 @@ mod tests {
         assert_eq!(mended_before("graph A { /* ü\n{", 10).as_deref(), Some("graph A {      \n }"));
     }
 
-    /// Every byte keeps its place or becomes blank, but for closers in blanks; what comes out can be parsed.
+    /// Every byte keeps its place or becomes blank, except for closing brackets in blanks. The result can be parsed.
     #[test]
     fn offsets_are_kept() {
         const PIECES: [&str; 31] = [

@@ -1,4 +1,4 @@
-//! Text → tree. A bad statement does not hide the next.
+//! Parsing: turns a source file into a syntax tree. An incorrect statement does not hide the next one.
 
 mod build;
 mod characters;
@@ -22,7 +22,7 @@ pub use mend::mended;
 use grammar::Grammar;
 pub(crate) use grammar::Rule;
 
-/// The parser that pest makes of the grammar; the rules are documented there.
+/// The parser that pest generates from the grammar, where the rules are documented.
 #[allow(missing_docs)]
 mod grammar {
     #[derive(pest_derive::Parser)]
@@ -30,7 +30,7 @@ mod grammar {
     pub struct Grammar;
 }
 
-/// Parses one text. Always gives a tree; what could not be read is reported and left out.
+/// Parses a source file. Always returns a tree; the parts that cannot be parsed are reported and left out.
 pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::File {
     let broken = || tree::File { broken: true, broken_items: true, ..Default::default() };
     let Some(lexical) = lexical::scan(file, text, diagnostics) else {
@@ -50,12 +50,12 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::F
     }
 }
 
-/// What can be read of a text whose brackets, strings, comments or characters are wrong, which has been reported: it
-/// does not hide the errors elsewhere.
+/// Parses the intact parts of a source file with wrong brackets, strings, comments or characters, so that errors
+/// elsewhere are reported, too. The wrong parts have been reported before.
 fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<tree::File> {
     let mut mended = mend::mended(text)?;
     let mut damage = mend::damage(text, &mended);
-    // Of what stands behind a comment without an end nobody knows whether it is one.
+    // Nothing behind a comment without an end is known to be code.
     if let Some(at) = damage.iter().copied().find(|at| text[*at..].starts_with("/*")) {
         mended = mend::mended_before(text, at)?;
         damage = mend::damage(text, &mended);
@@ -63,13 +63,13 @@ fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Opt
     let lexical = lexical::scan(file, &mended, &mut Diagnostics::default())?;
     let pair = Grammar::parse(Rule::file, &lexical.text).ok()?.next()?;
     let tree = build::Builder::new(file, &lexical.text, damage, diagnostics).until(text.len()).file(pair);
-    // What was added behind the end is no place in the text.
+    // Text that was added behind the end is not a place in the source file.
     let is_inside = |span: &Span| span.file != file || span.end as usize <= text.len();
     diagnostics.retain(|d| d.places().all(|span| is_inside(&span)));
     Some(tree::File { broken: true, comments: lexical.comments, ..tree })
 }
 
-/// Reads a text with all its tokens and comments; nothing if it has errors, which are reported.
+/// Reads a source file with all its tokens and comments; `None` if it has errors, which are reported.
 pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<concrete::Text<'t>> {
     let lexical = lexical::scan(file, text, diagnostics)?;
     let pair = match Grammar::parse(Rule::file, &lexical.text) {
@@ -83,7 +83,7 @@ pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostic
     (!tree.broken && !diagnostics.has_errors()).then(|| concrete::read(text, &lexical, pair))
 }
 
-/// The span of a pair in `file`, as far as it lies before the byte `end`.
+/// The span of a pair in `file`, up to the byte `end`.
 fn span_of(file: FileId, pair: &pest::iterators::Pair<'_, Rule>, end: usize) -> Span {
     let span = pair.as_span();
     let trimmed = span.as_str().trim_end().len();

@@ -1,4 +1,4 @@
-//! What to say about text that fits no rule.
+//! Explanations of text that matches no rule of the grammar.
 
 use super::{
     Grammar, Rule,
@@ -14,7 +14,7 @@ use pest::{
     error::{Error, ErrorVariant, InputLocation},
 };
 
-/// Explains a statement that could not be read: `text` begins at `start` of `file`.
+/// Explains a statement that could not be parsed. `text` begins at `start` of `file`.
 pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
     let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
     let rule = match first {
@@ -28,7 +28,7 @@ pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
     again(rule, file, start, text, "a statement is a port, a `node`, a connection or a `claim`")
 }
 
-/// Explains a statement of a state machine that could not be read.
+/// Explains a statement of a state machine that could not be parsed.
 pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
     let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
     let rule = match first {
@@ -41,7 +41,7 @@ pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
     again(rule, file, start, text, otherwise)
 }
 
-/// Explains a statement of a test that could not be read.
+/// Explains a statement of a test that could not be parsed.
 pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
     let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
     let rule = match first {
@@ -57,7 +57,7 @@ pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
 
 const OUTSIDE: &str = "a text holds `use`, `graph`, `robot`, `fsm` and `test` items";
 
-/// Explains an item that could not be read.
+/// Explains an item that could not be parsed.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
     let first = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(text, |end| &text[..end]);
     let first = if first.is_empty() { text.split_whitespace().next().unwrap_or_default() } else { first };
@@ -91,7 +91,7 @@ fn again(rule: Rule, file: FileId, start: usize, text: &str, otherwise: &str) ->
     }
 }
 
-/// Puts pest's error into words. The text that it is about begins at `start` of the file.
+/// Turns an error of pest into a message. `text` begins at `start` of the file.
 pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> Diagnostic {
     let at = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
@@ -102,7 +102,7 @@ pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> 
     };
     expected.sort_unstable();
     expected.dedup();
-    // A statement that ends with its line lacks the semicolon, whatever else could follow.
+    // A statement that ends with its line needs only the semicolon, whatever else could follow.
     let before = text[..at].trim_end().len();
     let ends = text[before..at].contains('\n') || at >= text.trim_end().len() || text[at..].starts_with('}');
     if ends && expected.contains(&"`;`") {
@@ -117,7 +117,7 @@ pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> 
         [one] => format!("expected {one}"),
         [rest @ .., last] => format!("expected {} or {last}", rest.join(", ")),
     };
-    // What is missing is missing behind the last word; what stands there instead is wrong itself.
+    // A missing token is reported behind the previous one, a wrong token at its own place.
     if ends {
         let behind = Span::new(file, start + before, start + before);
         let error = Diagnostic::error("syntax", behind, message);
@@ -127,7 +127,7 @@ pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> 
     Diagnostic::error("syntax", Span::new(file, at, at + token(&text[at - start..])), message)
 }
 
-/// How long the word or sign at the start of `text` is.
+/// Length of the token at the start of `text`.
 fn token(text: &str) -> usize {
     let word = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
     match text.as_bytes() {
@@ -192,7 +192,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::limits => "`in low..=high`",
         Rule::handed_in => "a type",
         Rule::port_kind => "`in`, `out`, `slot` or `event`",
-        // Modifiers, documentation and operators would only blow up the list.
+        // Modifiers, documentation and operators would make the list too long.
         _ => return None,
     })
 }

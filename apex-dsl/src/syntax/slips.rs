@@ -1,4 +1,4 @@
-//! What people write by mistake, and what they mean by it: better words than "expected …", and the change that mends it.
+//! Common mistakes in statements: explains them better than "expected …" does, and suggests a fix.
 
 use super::words;
 use crate::{
@@ -7,25 +7,25 @@ use crate::{
     units,
 };
 
-/// A place in a statement where the grammar could not go on.
+/// The place in a statement where the grammar does not match.
 pub struct Slip<'a> {
     /// The file.
     pub file: FileId,
-    /// Where the statement begins in it.
+    /// Offset of the statement in the file.
     pub start: usize,
     /// The statement.
     pub text: &'a str,
-    /// The place in the statement.
+    /// Offset of the place in the statement.
     pub at: usize,
-    /// What the grammar would have taken there, in words.
+    /// Names of the tokens that the grammar expects there.
     pub expected: &'a [&'static str],
 }
 
-/// The words that begin a statement of a graph.
+/// Keywords that begin a statement of a graph.
 const STATEMENTS: [&str; 7] = ["node", "in", "out", "slot", "event", "claim", "record"];
 
 impl Slip<'_> {
-    /// What was meant, if it is a slip that many make.
+    /// The explanation of the mistake, if it is a common one.
     pub fn explained(&self) -> Option<Diagnostic> {
         let slips = [
             Self::number,
@@ -47,7 +47,7 @@ impl Slip<'_> {
         &self.text[self.at..]
     }
 
-    /// What stands before the place, without the blanks in between.
+    /// The text before the place, without trailing blanks.
     fn before(&self) -> &str {
         self.text[..self.at].trim_end()
     }
@@ -60,12 +60,12 @@ impl Slip<'_> {
         Span::new(self.file, self.start + from, self.start + to)
     }
 
-    /// The next `length` bytes.
+    /// Span of the next `length` bytes.
     fn here(&self, length: usize) -> Span {
         self.span(self.at, self.at + length)
     }
 
-    /// `.5` and `5.`
+    /// Explains `.5` and `5.`.
     fn number(&self) -> Option<Diagnostic> {
         let digit = |c: char| c.is_ascii_digit();
         let behind = self.rest().strip_prefix('.')?;
@@ -84,7 +84,7 @@ impl Slip<'_> {
         None
     }
 
-    /// `5 m`
+    /// Explains `5 m`.
     fn unit(&self) -> Option<Diagnostic> {
         let before = self.before();
         let word = word(self.rest());
@@ -99,7 +99,7 @@ impl Slip<'_> {
         Some(error.fix("leave the blank out", self.span(before.len(), self.at), ""))
     }
 
-    /// `node in = …`
+    /// Explains `node in = …`.
     fn reserved(&self) -> Option<Diagnostic> {
         let word = word(self.rest());
         if !self.expects("a name") || !words::RESERVED.contains(&word) {
@@ -109,7 +109,7 @@ impl Slip<'_> {
         Some(Diagnostic::error("syntax", self.here(word.len()), message))
     }
 
-    /// `in pose: &Pose2`
+    /// Explains `in pose: &Pose2`.
     fn reference(&self) -> Option<Diagnostic> {
         let behind = self.rest().strip_prefix('&')?;
         if !self.expects("a type") {
@@ -125,7 +125,7 @@ impl Slip<'_> {
         Some(error.note("leave it out: tokens are values, and that a node borrows them is written in Rust alone"))
     }
 
-    /// `in pose: geometry_msgs/Pose`
+    /// Explains `in pose: geometry_msgs/Pose`.
     fn slash(&self) -> Option<Diagnostic> {
         let is_typed = self.expects("`::`") || self.expects("`<`");
         if !is_typed || !self.rest().starts_with('/') || !self.before().contains(':') {
@@ -142,7 +142,7 @@ impl Slip<'_> {
         Some(error.note(note).guess(format!("write `{name}`"), path, name))
     }
 
-    /// `node a Ramp()`, `in x u64`, `in x = u64`, `node a = Ramp;`
+    /// Explains `node a Ramp()`, `in x u64`, `in x = u64`, `node a = Ramp;`.
     fn declaration(&self) -> Option<Diagnostic> {
         let first = word(self.text.trim_start());
         let is_port = matches!(first, "in" | "out" | "slot" | "event");
@@ -172,7 +172,7 @@ impl Slip<'_> {
         })
     }
 
-    /// `a --> b`, `a > b`, `a = b`, `a <- b`, `a -> b, c`, `a = Ramp();`
+    /// Explains `a --> b`, `a > b`, `a = b`, `a <- b`, `a -> b, c`, `a = Ramp();`.
     fn arrow(&self) -> Option<Diagnostic> {
         let signs = |text: &str| text.find(|c: char| !"-=<>~".contains(c)).unwrap_or(text.len());
         let is_chain = !STATEMENTS.contains(&word(self.text.trim_start())) && !word(self.text.trim_start()).is_empty();
@@ -207,7 +207,7 @@ impl Slip<'_> {
         };
         let error = Diagnostic::error("syntax", self.here(length), format!("`{sign}` is no arrow"))
             .note("`->` connects; `=>` connects and lets activity pass");
-        // A sign with a head can only be an arrow; of `a = b` nobody knows whether it goes from left to right.
+        // A sign with a head can only be an arrow, whereas the direction of `a = b` is unknown.
         let title = format!("write `{means}`");
         Some(if sign.ends_with('>') {
             error.fix(title, self.here(length), means)
@@ -216,7 +216,7 @@ impl Slip<'_> {
         })
     }
 
-    /// `Mul(a: 3)`, `Mul(a = 3 b = 4)`, `Mul(a 3)`, `Mul(a = {1, 2})`
+    /// Explains `Mul(a: 3)`, `Mul(a = 3 b = 4)`, `Mul(a 3)`, `Mul(a = {1, 2})`.
     fn argument(&self) -> Option<Diagnostic> {
         if self.expects("a value") && self.rest().starts_with('{') {
             let error = Diagnostic::error("syntax", self.here(1), "expected a value");
@@ -242,7 +242,7 @@ impl Slip<'_> {
         })
     }
 
-    /// `node a = Ramp;`
+    /// Explains `node a = Ramp;`.
     fn parentheses(&self) -> Option<Diagnostic> {
         let is_node = word(self.text.trim_start()) == "node";
         if !is_node || !self.expects("`(`") || !self.rest().starts_with(';') {
@@ -257,7 +257,7 @@ impl Slip<'_> {
         ))
     }
 
-    /// `nod a = Ramp();`
+    /// Explains `nod a = Ramp();`.
     fn keyword(&self) -> Option<Diagnostic> {
         let first = word(self.text);
         let next = word(self.rest());
@@ -280,7 +280,7 @@ impl Slip<'_> {
         Some(error.guess(format!("did you mean `{meant}`?"), self.span(0, first.len()), meant))
     }
 
-    /// `Ramp() evry 20ms`
+    /// Explains `Ramp() evry 20ms`.
     fn modifier(&self) -> Option<Diagnostic> {
         let name = word(self.rest());
         let at = self.before().as_bytes().last();
@@ -307,7 +307,7 @@ impl Slip<'_> {
     }
 }
 
-/// The words that stand behind an instance.
+/// Keywords of modifiers.
 fn modifiers() -> impl Iterator<Item = &'static str> {
     words::words_at(words::Place::Modifier).map(|word| word.text)
 }
@@ -318,7 +318,7 @@ fn word(text: &str) -> &str {
     if text.starts_with(|c: char| c.is_ascii_digit()) { "" } else { &text[..end] }
 }
 
-/// Whether `text` is `Type(…` or `path::Type<…>(…`.
+/// Returns `true` if `text` begins with `Type(…` or `path::Type<…>(…`.
 fn makes_a_node(text: &str) -> bool {
     let path = text.find(|c: char| !c.is_ascii_alphanumeric() && !"_:".contains(c)).unwrap_or(text.len());
     path > 0 && text[path..].trim_start().starts_with(['(', '<'])

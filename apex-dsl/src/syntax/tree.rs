@@ -1,24 +1,24 @@
-//! The syntax tree: what stands in a text, with positions, before any name means anything.
+//! The syntax tree: the contents of a source file with positions, before names are resolved.
 
 use crate::source::Span;
 
-/// A word with its place.
+/// An identifier with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ident {
-    /// The word.
+    /// The identifier.
     pub text: String,
-    /// Its place.
+    /// Place in the source file.
     pub span: Span,
 }
 
-/// A text.
+/// A source file.
 #[derive(Debug, Default)]
 pub struct File {
     /// `//!` lines.
     pub docs: String,
     /// Imports.
     pub uses: Vec<Use>,
-    /// Where one more import can stand: before the first item.
+    /// Offset at which an import can be added: before the first item.
     pub imports_at: Option<usize>,
     /// Graphs and robots.
     pub graphs: Vec<GraphItem>,
@@ -28,9 +28,9 @@ pub struct File {
     pub tests: Vec<TestItem>,
     /// Comments that are not documentation, for the formatter.
     pub comments: Vec<Span>,
-    /// Whether something in it could not be read.
+    /// `true` if some part could not be parsed.
     pub broken: bool,
-    /// Whether that is a whole item, so that names of graphs and imports may be missing.
+    /// `true` if a whole item could not be parsed, so that names of graphs and imports may be missing.
     pub broken_items: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct File {
 pub struct Use {
     /// The segments of the path.
     pub path: Vec<Ident>,
-    /// The name it has here.
+    /// Name in this file.
     pub name: Ident,
 }
 
@@ -48,9 +48,9 @@ pub struct Use {
 pub struct GraphItem {
     /// `///` lines.
     pub docs: String,
-    /// Whether it is a `robot`.
+    /// `true` for a `robot`.
     pub robot: bool,
-    /// Its name.
+    /// Name of the graph.
     pub name: Ident,
     /// Type parameters.
     pub generics: Vec<Ident>,
@@ -64,9 +64,9 @@ pub struct GraphItem {
     pub chains: Vec<Chain>,
     /// Claims.
     pub claims: Vec<Claim>,
-    /// What is said about threads.
+    /// Settings of threads.
     pub threads: Vec<ThreadItem>,
-    /// `record` statements, of which one is right.
+    /// `record` statements. A correct program has at most one.
     pub records: Vec<RecordItem>,
     /// From its documentation to its closing bracket.
     pub extent: Span,
@@ -77,13 +77,13 @@ pub struct GraphItem {
 pub struct ParamItem {
     /// `///` lines.
     pub docs: String,
-    /// Its name.
+    /// Name of the parameter.
     pub name: Ident,
-    /// Its type.
+    /// Type of the parameter.
     pub ty: TypeExpr,
     /// The unit in brackets behind the type.
     pub unit: Option<Ident>,
-    /// Value where none is given.
+    /// Default value.
     pub default: Option<Expr>,
     /// Legal values.
     pub range: Option<RangeExpr>,
@@ -96,7 +96,7 @@ pub struct RangeExpr {
     pub low: Expr,
     /// Largest value.
     pub high: Expr,
-    /// Whether `high` belongs to it.
+    /// `true` if `high` is included.
     pub inclusive: bool,
 }
 
@@ -115,17 +115,18 @@ pub enum PortKind {
 }
 
 impl PortKind {
-    /// Whether tokens leave a node here.
+    /// Returns `true` if tokens leave a node at this port.
     pub fn sends(self) -> bool {
         matches!(self, Self::Output | Self::Event)
     }
 
-    /// Whether it takes part in synchronous data flow.
+    /// Returns `true` if the port takes part in synchronous data flow.
     pub fn is_synchronous(self) -> bool {
         matches!(self, Self::Input | Self::Output)
     }
 
-    /// What a port of a graph is seen from inside: what takes tokens there sends them on, and the other way round.
+    /// The kind of a graph's port as seen from inside: a port that takes tokens outside sends them inside, and vice
+    /// versa.
     pub fn seen_from_inside(self) -> Self {
         match self {
             Self::Input => Self::Output,
@@ -135,12 +136,12 @@ impl PortKind {
         }
     }
 
-    /// What stands before its word.
+    /// Indefinite article of the word.
     pub fn article(self) -> &'static str {
         if self == Self::Slot { "a" } else { "an" }
     }
 
-    /// The word for it.
+    /// Name of the kind.
     pub fn word(self) -> &'static str {
         match self {
             Self::Input => "input",
@@ -158,9 +159,9 @@ pub struct PortItem {
     pub docs: String,
     /// `in`, `out`, `slot` or `event`.
     pub kind: PortKind,
-    /// Its name.
+    /// Name of the port.
     pub name: Ident,
-    /// Type of its tokens; `()` if none is given.
+    /// Type of the tokens; `()` if none is written.
     pub ty: Option<TypeExpr>,
 }
 
@@ -169,18 +170,18 @@ pub struct PortItem {
 pub struct NodeItem {
     /// `///` lines.
     pub docs: String,
-    /// Its name.
+    /// Name of the node.
     pub name: Ident,
-    /// What it is made of.
+    /// Construction of the node.
     pub body: NodeBody,
 }
 
-/// What a node is made of.
+/// Construction of a node.
 #[derive(Debug)]
 pub enum NodeBody {
     /// `= Type(…)`
     Instance(Instance),
-    /// `: Type` — made in Rust and handed in.
+    /// `: Type`: made in Rust and passed to the constructor.
     HandedIn(TypeExpr, Vec<Modifier>),
 }
 
@@ -195,7 +196,7 @@ pub struct Instance {
     pub args: Vec<Arg>,
     /// Modifiers.
     pub modifiers: Vec<Modifier>,
-    /// Everything of it.
+    /// The whole instance.
     pub span: Span,
 }
 
@@ -204,7 +205,7 @@ pub struct Instance {
 pub struct PathExpr {
     /// The segments.
     pub segments: Vec<Ident>,
-    /// All of it.
+    /// The whole path.
     pub span: Span,
 }
 
@@ -224,16 +225,16 @@ pub struct Arg {
     pub value: Expr,
 }
 
-/// A word behind an instance.
+/// A modifier of an instance.
 #[derive(Debug)]
 pub struct Modifier {
-    /// Which.
+    /// Kind of the modifier.
     pub kind: ModifierKind,
-    /// All of it.
+    /// The whole modifier.
     pub span: Span,
 }
 
-/// A word behind an instance.
+/// Kind of a modifier.
 #[derive(Debug)]
 pub enum ModifierKind {
     /// `every 20ms`
@@ -248,9 +249,9 @@ pub enum ModifierKind {
     On(Ident),
     /// `each`, `each par`, `each(port)`
     Each {
-        /// Elements in parallel.
+        /// `true` if the elements run in parallel.
         parallel: bool,
-        /// The list input, where it is not plain.
+        /// The input with the list, if it is written.
         port: Option<Ident>,
     },
     /// `delay`, `delay 0`, `delay [0, 0]`
@@ -264,14 +265,14 @@ pub enum ModifierKind {
 }
 
 impl Modifier {
-    /// The thread group that it names.
+    /// The thread group of `on`.
     pub fn group(&self) -> Option<String> {
         if let ModifierKind::On(group) = &self.kind { Some(group.text.clone()) } else { None }
     }
 }
 
 impl GraphItem {
-    /// All ends of its connections, those in lists one by one.
+    /// All ends of its connections. Lists are resolved into their elements.
     pub fn ends(&self) -> Vec<&Endpoint> {
         fn add<'a>(end: &'a Endpoint, found: &mut Vec<&'a Endpoint>) {
             match end {
@@ -284,7 +285,7 @@ impl GraphItem {
         found
     }
 
-    /// All ports and nodes that its connections and claims name.
+    /// All ports and nodes that its connections and claims refer to.
     pub fn references(&self) -> Vec<&PortRef> {
         let of_chains = self.ends().into_iter().filter_map(|end| match end {
             Endpoint::Port(reference) => Some(reference),
@@ -293,7 +294,7 @@ impl GraphItem {
         of_chains.chain(self.claims.iter().flat_map(|claim| &claim.of)).collect()
     }
 
-    /// The thread groups that stand behind its instances.
+    /// The thread groups that its instances name.
     pub fn groups(&self) -> Vec<&Ident> {
         let of_nodes = self.nodes.iter().map(|node| match &node.body {
             NodeBody::Instance(instance) => &instance.modifiers,
@@ -310,7 +311,7 @@ impl GraphItem {
         named.collect()
     }
 
-    /// All instances in it.
+    /// All instances in the graph.
     pub fn instances(&self) -> Vec<&Instance> {
         let of_nodes = self.nodes.iter().filter_map(|node| match &node.body {
             NodeBody::Instance(instance) => Some(instance),
@@ -325,14 +326,14 @@ impl GraphItem {
 }
 
 impl File {
-    /// The places of its graphs, machines and tests.
+    /// The extents of its graphs, machines and tests.
     pub fn extents(&self) -> impl Iterator<Item = Span> + '_ {
         let graphs = self.graphs.iter().map(|graph| graph.extent);
         let machines = self.machines.iter().map(|machine| machine.extent);
         graphs.chain(machines).chain(self.tests.iter().map(|test| test.extent))
     }
 
-    /// Whether it declares nothing.
+    /// Returns `true` if the file declares nothing.
     pub fn is_empty(&self) -> bool {
         self.graphs.is_empty() && self.machines.is_empty() && self.tests.is_empty()
     }
@@ -343,11 +344,11 @@ impl File {
 pub struct FsmItem {
     /// Documentation.
     pub docs: String,
-    /// Its name.
+    /// Name of the machine.
     pub name: Ident,
-    /// Its slots and events.
+    /// Slots and events.
     pub ports: Vec<PortItem>,
-    /// Its states; it begins in the first.
+    /// States, of which the first is the initial one.
     pub states: Vec<StateItem>,
     /// From its documentation to its closing bracket.
     pub extent: Span,
@@ -358,15 +359,15 @@ pub struct FsmItem {
 pub struct StateItem {
     /// Documentation.
     pub docs: String,
-    /// Its name.
+    /// Name of the state.
     pub name: Ident,
-    /// What is triggered when it is entered.
+    /// Events that are triggered when it is entered.
     pub entry: Vec<Action>,
-    /// What is triggered when it is left.
+    /// Events that are triggered when it is left.
     pub exit: Vec<Action>,
-    /// What it does about tokens, in order.
+    /// Transitions for tokens, in order.
     pub transitions: Vec<Transition>,
-    /// States inside; whoever enters it enters the first of them.
+    /// States inside. The first of them is entered together with this state.
     pub states: Vec<StateItem>,
     /// From its documentation to its closing bracket.
     pub extent: Span,
@@ -377,11 +378,11 @@ pub struct StateItem {
 pub struct Transition {
     /// The slot whose token causes it.
     pub slot: Ident,
-    /// What must hold.
+    /// Condition for the transition.
     pub guard: Option<Expr>,
-    /// Where it leads; nowhere if the state stays the same.
+    /// The new state; `None` if the state remains the same.
     pub target: Option<Ident>,
-    /// What is triggered.
+    /// Events that are triggered.
     pub actions: Vec<Action>,
 }
 
@@ -390,7 +391,7 @@ pub struct Transition {
 pub struct Action {
     /// The event.
     pub event: Ident,
-    /// The token; without it the token that came.
+    /// The token; without it the token of the slot.
     pub value: Option<Expr>,
 }
 
@@ -399,15 +400,15 @@ pub struct Action {
 pub struct TestItem {
     /// Documentation.
     pub docs: String,
-    /// Its name.
+    /// Name of the test.
     pub name: Ident,
-    /// The graph that is tested.
+    /// The graph under test.
     pub graph: PathExpr,
-    /// Values for its parameters.
+    /// Arguments of the graph.
     pub args: Vec<Arg>,
-    /// Nodes that others stand for.
+    /// Nodes that are replaced, with their replacements.
     pub replaced: Vec<(PortRef, Instance)>,
-    /// What is done and expected, in order.
+    /// Inputs and expectations, in order.
     pub steps: Vec<TestStep>,
     /// From its name to its graph.
     pub span: Span,
@@ -430,43 +431,43 @@ pub enum TestStep {
     Never(Condition),
 }
 
-/// Until when something is expected.
+/// Kind of a time limit for an expectation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
-    /// Counted from the start.
+    /// Measured from the start.
     By,
-    /// Counted from the expectation before.
+    /// Measured from the previous step.
     Within,
 }
 
-/// What a test looks at.
+/// Condition of an expectation.
 #[derive(Debug)]
 pub struct Condition {
-    /// A port, or what is to be active.
+    /// A port, or the node or graph that should be active.
     pub of: PortRef,
-    /// `active(…)`
+    /// `true` for `active(…)`.
     pub active: bool,
-    /// How the token is compared with what.
+    /// Comparison of the token: operator and value.
     pub compare: Option<(&'static str, Expr)>,
-    /// All of it.
+    /// The whole condition.
     pub span: Span,
 }
 
 /// `a -> b => c;`
 #[derive(Debug)]
 pub struct Chain {
-    /// What is connected.
+    /// The ends, in order.
     pub ends: Vec<Endpoint>,
-    /// Arrow `i` stands between ends `i` and `i + 1`.
+    /// Arrows; arrow `i` is between ends `i` and `i + 1`.
     pub arrows: Vec<Arrow>,
 }
 
 /// `->` or `=>`
 #[derive(Debug, Clone, Copy)]
 pub struct Arrow {
-    /// `=>`: lets activity pass.
+    /// `true` for `=>`, on which activity passes.
     pub active: bool,
-    /// Its place.
+    /// Place in the source file.
     pub span: Span,
 }
 
@@ -486,7 +487,7 @@ pub enum Endpoint {
 pub struct PortRef {
     /// The parts between the dots.
     pub parts: Vec<Ident>,
-    /// All of it.
+    /// The whole reference.
     pub span: Span,
 }
 
@@ -500,11 +501,11 @@ impl PortRef {
 /// `claim exclusive(a, b);`
 #[derive(Debug)]
 pub struct Claim {
-    /// What is claimed.
+    /// Kind of the claim.
     pub kind: Ident,
-    /// Of what.
+    /// Names that the claim is about.
     pub of: Vec<PortRef>,
-    /// All of it, without the `;`.
+    /// The whole claim without the `;`.
     pub span: Span,
 }
 
@@ -513,7 +514,7 @@ pub struct Claim {
 pub struct ThreadItem {
     /// The thread group.
     pub name: Ident,
-    /// What is set.
+    /// Names and values of the settings.
     pub settings: Vec<(Ident, Expr)>,
 }
 
@@ -524,20 +525,20 @@ pub struct RecordItem {
     pub file: String,
     /// The ports.
     pub ports: Vec<PortRef>,
-    /// The word and the file.
+    /// The keyword and the file.
     pub span: Span,
 }
 
 /// A type as written.
 #[derive(Debug, Clone)]
 pub struct TypeExpr {
-    /// What it is.
+    /// Kind of the type.
     pub kind: TypeKind,
-    /// Its place.
+    /// Place in the source file.
     pub span: Span,
 }
 
-/// A type as written.
+/// Kind of a type.
 #[derive(Debug, Clone)]
 pub enum TypeKind {
     /// `a::B<C>`
@@ -553,18 +554,18 @@ pub enum TypeKind {
 /// A constant expression.
 #[derive(Debug, Clone)]
 pub struct Expr {
-    /// What it is.
+    /// Kind of the expression.
     pub kind: ExprKind,
-    /// Its place.
+    /// Place in the source file.
     pub span: Span,
 }
 
-/// A constant expression.
+/// Kind of an expression.
 #[derive(Debug, Clone)]
 pub enum ExprKind {
     /// Digits and the unit behind them.
     Number(String, Option<String>),
-    /// A string, escapes resolved.
+    /// A string with its escapes resolved.
     Text(String),
     /// `true`, `false`
     Bool(bool),

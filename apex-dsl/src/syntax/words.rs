@@ -1,37 +1,37 @@
-//! The words of the language: what editors complete, explain and colour. The grammars in `editors/` are tested
+//! Keywords of the language, for completion, hover and colours in editors. The grammars in `editors/` are tested
 //! against this list.
 
-/// Where a word can stand.
+/// Position of a keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// It begins an item.
+    /// The beginning of an item.
     Item,
-    /// It begins a statement of a graph.
+    /// The beginning of a statement of a graph.
     Graph,
-    /// It begins a statement of a state machine or of a state.
+    /// The beginning of a statement of a state machine or of a state.
     Machine,
-    /// It begins a statement of a test.
+    /// The beginning of a statement of a test.
     Test,
-    /// Behind an instance.
+    /// A modifier behind an instance.
     Modifier,
-    /// Inside a statement.
+    /// The inside of a statement.
     Inside,
-    /// It is a value.
+    /// A value.
     Value,
-    /// A node that every graph knows, unless it has one of that name.
+    /// A predefined node, which every graph has unless one of its own nodes has that name.
     Node,
-    /// What a claim says.
+    /// The kind of a claim.
     Claim,
 }
 
-/// A word with a meaning of its own.
+/// A keyword.
 #[derive(Debug, Clone, Copy)]
 pub struct Word {
-    /// The word.
+    /// The keyword.
     pub text: &'static str,
-    /// Where it can stand.
+    /// Its position.
     pub place: Place,
-    /// What it does.
+    /// Its documentation.
     pub docs: &'static str,
 }
 
@@ -39,7 +39,7 @@ const fn word(text: &'static str, place: Place, docs: &'static str) -> Word {
     Word { text, place, docs }
 }
 
-/// All of them; a word that can stand in several places comes several times.
+/// All keywords. A keyword with several positions has several entries.
 pub const WORDS: [Word; 53] = [
     word("use", Place::Item, "Imports nodes and types of a crate, or graphs of a text in the same folder."),
     word("graph", Place::Item, "A graph: ports, nodes and connections. It is used as a node is."),
@@ -124,18 +124,18 @@ pub const WORDS: [Word; 53] = [
     word("crate", Place::Inside, "The package that the text belongs to."),
 ];
 
-/// The words that can stand in one place.
+/// The keywords with one position.
 pub fn words_at(place: Place) -> impl Iterator<Item = &'static Word> {
     WORDS.iter().filter(move |w| w.place == place)
 }
 
-/// The words that nothing in a text can be named: the last five are those of Rust that no name can be, not even a raw one.
+/// Words that cannot be names. The last five are words of Rust that cannot even be raw identifiers.
 pub const RESERVED: [&str; 17] = [
     "use", "graph", "robot", "node", "in", "out", "slot", "event", "claim", "record", "true", "false", "self", "Self",
     "super", "crate", "_",
 ];
 
-/// Whether something in a text can be named so.
+/// Returns `true` if `text` can be a name.
 pub fn is_name(text: &str) -> bool {
     let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     begins && text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') && !RESERVED.contains(&text)
@@ -145,7 +145,7 @@ pub fn is_name(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// The words of the grammar are those of the list: each rule that ends in `_kw` and a few others.
+    /// The keywords of the grammar are in the list: those of rules that end in `_kw` and of a few others.
     #[test]
     fn the_grammar_has_these_words() {
         let grammar = include_str!("afg.pest");

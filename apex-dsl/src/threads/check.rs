@@ -1,4 +1,4 @@
-//! What has to run on one thread.
+//! Parts of a graph that have to run on one thread.
 
 use crate::{
     analyse::{Analysis, circles, has_rates},
@@ -7,10 +7,10 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most thread groups of a program: the runtime has a bit for each (`apex_rt::threads::MAX_GROUPS`).
+/// Largest number of thread groups: the runtime has a bit for each (`apex_rt::threads::MAX_GROUPS`).
 const MAX_GROUPS: usize = 64;
 
-/// Reports what is split over several thread groups and cannot be.
+/// Reports parts of the graph that are split over several thread groups but have to run on one thread.
 pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     for node in &graph.nodes {
         if let NodeKind::Each(each) = &node.kind {
@@ -33,7 +33,7 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
     check_sides(graph, diagnostics);
 }
 
-/// The body of an `each` runs where its `each` does.
+/// Reports thread groups in the body of an `each`, which runs on the thread of the `each`.
 fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
     for node in body.nodes.iter().filter(|n| n.modifiers.group.is_some()) {
         let message =
@@ -43,7 +43,8 @@ fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// What is done when a node hangs can be done only by another thread, and somebody has to say what that is.
+/// Reports watchdogs that cannot work: some thread must be watched, and the reaction to a hung node needs another
+/// thread.
 fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
     let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Hung)) else { return };
     if graph.threads.iter().all(|t| t.hang.is_none()) {
@@ -52,6 +53,7 @@ fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
         let note = "say in a `robot` how long a node may run: `thread main { hang = 500ms }`";
         diagnostics.push(error.note(note));
     }
+    // An exit needs no thread: the watchdog itself ends the program.
     let is_called = |c: &&Connection| c.from.node == hung && !matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
     for c in graph.connections.iter().filter(is_called).filter(|_| is_alone) {
         let node = graph.path(c.to.node);
@@ -61,7 +63,7 @@ fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Connections between groups that are part of synchronous data flow.
+/// Synchronous connections between groups.
 fn synchronous(graph: &Graph) -> impl Iterator<Item = &Connection> {
     let crosses = |c: &&Connection| graph.group(c.from.node) != graph.group(c.to.node);
     graph.connections.iter().filter(|c| graph.is_synchronous(c)).filter(crosses)
@@ -72,7 +74,8 @@ fn groups(graph: &Graph, from: NodeId, to: NodeId) -> String {
     format!("`{}` runs on thread `{a}`, `{}` on `{b}`", graph.path(from), graph.path(to))
 }
 
-/// The delays of a loop send when an iteration begins, which one thread has to decide.
+/// Reports loops over several groups: the delays of a loop send when an iteration begins, which one thread has to
+/// decide.
 fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
     let circle = circles(graph);
     for c in synchronous(graph).filter(|c| circle[c.from.node] == circle[c.to.node]) {
@@ -82,8 +85,10 @@ fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The code of a region with several rates neither waits for cells nor fills them.
+/// Reports connections from a region with several rates to another group: its code neither waits for cells nor fills
+/// them.
 fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    // A region may be divided among groups: only the parts with several rates are restricted.
     let part = |node: NodeId| (analysis.regions[node], graph.group(node));
     let parts: BTreeSet<_> = (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(part).collect();
     let is_within = |node: NodeId| parts.contains(&part(node));
@@ -94,7 +99,7 @@ fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
     }
 }
 
-/// `reset` takes all activity away, in one moment.
+/// Reports active nodes outside the group of `reset`, which takes all activity away at once.
 fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     let Some(reset) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Reset)) else { return };
     let own = graph.group(reset);
@@ -109,7 +114,7 @@ fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
     }
 }
 
-/// The inputs of a nested graph are taken together, and its outputs sent together: by one thread.
+/// Reports nested graphs whose inputs (or outputs) belong to several groups: one thread takes (or sends) them together.
 fn check_sides(graph: &Graph, diagnostics: &mut Diagnostics) {
     let mut first: BTreeMap<(ScopeId, bool), NodeId> = BTreeMap::new();
     for c in graph.connections.iter().filter(|c| graph.is_synchronous(c)) {

@@ -1,9 +1,9 @@
-//! Thread groups: a graph whose nodes run on several threads becomes one graph for each group, with cells between them.
+//! Thread groups: a graph whose nodes run on several threads becomes one graph per group, with cells between them.
 //!
-//! Every connection from one group to another leads through a cell: from a [`Sender`](crate::graph::NodeKind::Sender) in
-//! the graph of the one to a [`Receiver`](crate::graph::NodeKind::Receiver) in that of the other. For its sender the cell is a
-//! connection that stays occupied until the other side is done with the token (R4, R6, R7); for its receiver it is an event.
-//! So each group is analysed, and runs, as any graph does.
+//! Every connection between two groups leads through a cell: from a [`Sender`](crate::graph::NodeKind::Sender) in the
+//! graph of one group to a [`Receiver`](crate::graph::NodeKind::Receiver) in the graph of the other. To the sending
+//! group the cell is a connection that stays occupied until the other group is done with the token (R4, R6, R7). To the
+//! receiving group it is an event. Each group is therefore analysed, and runs, like any other graph.
 
 mod check;
 mod split;
@@ -19,9 +19,9 @@ pub use split::{groups, split};
 /// The graphs of all thread groups.
 #[derive(Debug)]
 pub struct Split {
-    /// One for each group, that of the main group first, the others in the order of the text.
+    /// One part per group: the main group first, then the others in the order of the source file.
     pub parts: Vec<Part>,
-    /// What is between them.
+    /// Cells between the parts.
     pub cells: Vec<Cell>,
 }
 
@@ -30,43 +30,44 @@ pub struct Split {
 pub struct Part {
     /// The name of the group.
     pub group: String,
-    /// Its nodes, and the ends of cells.
+    /// Nodes of the group, and the ends of its cells.
     pub graph: Graph,
-    /// What is known about it.
+    /// Analysis of the graph.
     pub analysis: Analysis,
-    /// For each node what it is in the whole graph.
+    /// For each node, its counterpart in the whole graph.
     pub origins: Vec<Origin>,
-    /// For each connection its number in the whole graph, unless it leads to a cell.
+    /// For each connection, its number in the whole graph, unless it leads to a cell or a relay.
     pub connections: Vec<Option<usize>>,
 }
 
-/// What a node of a part is in the whole graph.
+/// Counterpart of a node in the whole graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
     /// A node.
     Node(NodeId),
-    /// Nothing: it passes on the tokens of this port.
+    /// None: the node passes on the tokens of this port.
     Token(End),
 }
 
-/// Room for one token between two thread groups. All connections from a port to nodes of one group share it.
+/// Room for one token between two thread groups. Connections from one port to nodes of one group share a cell, but a
+/// cell is either for synchronous or for asynchronous connections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cell {
-    /// The port in the whole graph whose tokens it takes.
+    /// The port in the whole graph that sends the tokens.
     pub from: End,
-    /// The part that puts tokens in; who watches the threads is none.
+    /// The part that puts tokens in; `None` for the watchdog.
     pub sender: Option<usize>,
-    /// The part that takes them out.
+    /// The part that takes tokens out.
     pub receiver: usize,
 }
 
 impl Part {
-    /// A port of a node in the whole graph, if it has that node.
+    /// The same port in the whole graph, if the node has a counterpart there.
     pub fn node(&self, end: End) -> Option<End> {
         matches!(self.origins[end.node], Origin::Node(_)).then(|| self.origin(end))
     }
 
-    /// A port of a node in the whole graph; for what passes tokens on, the port that they come from.
+    /// The same port in the whole graph. For a node that only passes tokens on: the port that they come from.
     pub fn origin(&self, end: End) -> End {
         match self.origins[end.node] {
             Origin::Node(node) => End { node, port: end.port },

@@ -1,4 +1,4 @@
-//! One graph → one for each thread group.
+//! Splits a graph into one graph per thread group.
 
 use super::{Cell, Origin, Part, Split};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 };
 use std::collections::BTreeMap;
 
-/// Splits a checked graph; `None` if all of it is one group.
+/// Splits a checked graph; `None` if all its nodes are in one group.
 pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Split> {
     let groups = groups(whole);
     if groups.len() < 2 {
@@ -28,6 +28,7 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
         shared: BTreeMap::new(),
         ends: BTreeMap::new(),
     };
+    // The connections that share a cell must be known before it is made: they decide if it carries activity and stamps.
     splitter.gather();
     splitter.place_nodes();
     for index in 0..whole.connections.len() {
@@ -39,7 +40,7 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
     Some(Split { parts, cells })
 }
 
-/// The thread groups of a graph: the main group, then the others in the order of the text.
+/// The thread groups of a graph: the main group, then the others in the order of the source file.
 pub fn groups(graph: &Graph) -> Vec<&str> {
     let mut groups = vec![MAIN_GROUP];
     for node in 0..graph.nodes.len() {
@@ -51,7 +52,7 @@ pub fn groups(graph: &Graph) -> Vec<&str> {
     groups
 }
 
-/// A part that is being made.
+/// A part under construction.
 struct Draft {
     graph: Graph,
     origins: Vec<Origin>,
@@ -61,7 +62,7 @@ struct Draft {
 impl Draft {
     fn new(whole: &Graph, group: &str) -> Self {
         let graph = Graph {
-            // No letter but those of the group: `a_b` and `aB` are two groups.
+            // The name of the group is not changed to camel case: `a_b` and `aB` are different groups.
             name: format!("{}On_{group}", whole.name),
             nodes: vec![],
             connections: vec![],
@@ -83,7 +84,7 @@ impl Draft {
         self.connections.push(number);
     }
 
-    /// What was wrong with the whole graph has been reported.
+    /// Analyses the graph. Its diagnostics are dropped, because those of the whole graph have been reported.
     fn analysed(self, group: &str, catalog: &Catalog) -> Option<Part> {
         let Self { graph, origins, connections } = self;
         let analysis = analyse::analyse(&graph, catalog, &mut Diagnostics::default())?;
@@ -91,23 +92,24 @@ impl Draft {
     }
 }
 
-/// Connections with the same way share a cell: their port, the group of their receivers, and whether these are notified of ⊥.
-/// A slot beside an input has a cell of its own, so that the sender is analysed as one that sends to a slot.
+/// Key of a cell: the port that sends, the group of the receivers, and `true` for synchronous connections, which also
+/// transmit ⊥. Connections with the same key share the cell. A slot beside an input has a cell of its own: the sender
+/// is analysed as a node that sends to a slot.
 type Way = (End, usize, bool);
 
 struct Splitter<'a> {
     whole: &'a Graph,
     analysis: &'a Analysis,
     catalog: &'a Catalog,
-    /// The group of each node; who watches the threads is in none.
+    /// The group of each node; `None` for the watchdog.
     group_of: Vec<Option<usize>>,
     drafts: Vec<Draft>,
     /// The number of each node in its part.
     placed: Vec<NodeId>,
     cells: Vec<Cell>,
-    /// The connections that share a cell.
+    /// The connections that share each cell.
     shared: BTreeMap<Way, Vec<usize>>,
-    /// The far end of each cell.
+    /// The receiving end of each cell.
     ends: BTreeMap<Way, NodeId>,
 }
 
@@ -145,12 +147,13 @@ impl Splitter<'_> {
             self.drafts[receiver].connect(connection, Some(index));
             return;
         }
-        // The program is ended from outside then.
+        // The watchdog itself ends the program then.
         let ends = matches!(self.whole.nodes[c.to.node].kind, NodeKind::Exit(_));
         if sender.is_none() && ends {
             return;
         }
-        // What leaves a nested graph does so in the sender's group, what enters one in the receiver's.
+        // The boundaries that the connection leaves are crossed in the sender's group, those that it enters in the
+        // receiver's.
         let enters =
             c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
         let (leaving, entering) = c.crossings.split_at(enters);
@@ -161,14 +164,14 @@ impl Splitter<'_> {
         let draft = &mut self.drafts[receiver];
         let mut connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
         if !entering.is_empty() && self.whole.is_synchronous(c) {
-            // The inputs of a nested graph are taken together: a node of its own takes the token out of the cell before.
+            // The inputs of a nested graph are taken together: a relay empties the cell before that.
             let outside = Connection { crossings: vec![], ..connection.clone() };
             connection.from = relay(draft, outside, c.from, self.whole.port(c.from));
         }
         draft.connect(connection, Some(index));
     }
 
-    /// Makes a cell for connection `index`, and all others that it serves; gives its end in the receiver's group.
+    /// Makes a cell for connection `index` and all that share it. Returns the receiving end.
     fn add_cell(&mut self, index: usize, receiver: usize, leaving: Vec<Crossing>) -> NodeId {
         let first = self.whole.connections[index].clone();
         let sender = self.group_of[first.from.node];
@@ -184,6 +187,7 @@ impl Splitter<'_> {
         let token = self.whole.port(first.from);
         let active = shared.iter().any(|c| self.whole.connections[*c].active);
         let name = format!("{} to {}", self.whole.end_name(first.from), self.whole.group(first.to.node));
+        // ⊥ passes the ends of a cell only if they are optional.
         let port = |kind, optional| Port { optional, ..Port::new("token", kind, token.ty.clone()) };
         let (input, output) = (port(PortKind::Input, keeps_missing), port(PortKind::Event, keeps_missing));
         let end = |kind, port| node(&self.whole.nodes[first.from.node], &name, kind, vec![port]);
@@ -195,16 +199,17 @@ impl Splitter<'_> {
         let draft = &mut self.drafts[sender];
         let mut connection = Connection { from: from_end, crossings: leaving, active, ..first.clone() };
         if keeps_missing && !connection.crossings.is_empty() {
-            // The outputs of a nested graph are sent together: a node of its own waits for that.
+            // The outputs of a nested graph are sent together: a relay waits for that, and then fills the cell.
             connection.from = relay(draft, connection.clone(), first.from, token);
         }
         let taker = draft.add(from, Origin::Token(first.from));
         let to_cell = End { node: taker, port: 0 };
+        // `relayed` makes the connection to the cell asynchronous even if it comes from an output.
         draft.connect(Connection { to: to_cell, crossings: vec![], relayed: true, ..connection }, None);
         giver
     }
 
-    /// Whether a node at the end of a connection, or further on, asks for stamps.
+    /// Returns `true` if a node at the end of a connection, or downstream of it, needs stamps.
     fn is_stamped(&self, connection: usize) -> bool {
         let (stamps, to) = (&self.analysis.stamps, self.whole.connections[connection].to.node);
         stamps.connections.contains(&connection)
@@ -213,7 +218,7 @@ impl Splitter<'_> {
     }
 }
 
-/// Leads `connection` to a new node that passes on what comes over it; the output of that node.
+/// Ends `connection` at a new relay. Returns the output of the relay.
 fn relay(draft: &mut Draft, connection: Connection, from: End, token: &Port) -> End {
     let beside = &draft.graph.nodes[connection.from.node];
     let ports =
@@ -227,7 +232,7 @@ fn relay(draft: &mut Draft, connection: Connection, from: End, token: &Port) -> 
 fn node(beside: &Node, name: &str, kind: NodeKind, ports: Vec<Port>) -> Node {
     Node {
         name: name.to_owned(),
-        // It stands in no nested graph.
+        // The new node is outside all nested graphs.
         scope: 0,
         kind,
         ports,

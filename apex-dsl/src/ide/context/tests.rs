@@ -1,8 +1,8 @@
-//! What is being written, told from beginnings of texts.
+//! Contexts at the ends of incomplete source files.
 
 use super::*;
 
-/// What would be written at the end of a text.
+/// The context at the end of a text.
 fn at_end(text: &str) -> Context {
     context(text, text.len()).0
 }

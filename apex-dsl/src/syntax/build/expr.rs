@@ -8,8 +8,7 @@ use crate::{
 };
 use pest::iterators::Pair;
 
-/// More operators in one expression than anybody writes, those of the expressions around it included; bounds the
-/// depth of the tree.
+/// Largest number of operators in an expression, including the expressions around it. It limits the depth of the tree.
 const MAX_OPERATORS: usize = 200;
 
 impl Builder<'_> {
@@ -31,7 +30,7 @@ impl Builder<'_> {
         expr
     }
 
-    /// Precedence climbing; operators of one level associate to the left.
+    /// Parses operators by precedence climbing. Operators of the same level associate to the left.
     fn binary<'i>(
         &mut self,
         parts: &mut std::iter::Peekable<impl Iterator<Item = Pair<'i, Rule>>>,
@@ -82,7 +81,7 @@ impl Builder<'_> {
                 ExprKind::List(inner.into_inner().filter(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)).collect())
             }
             Rule::expr => return Expr { span, ..self.expr(inner) },
-            // White space behind a word belongs to its pair.
+            // Pairs include the white space behind a word.
             _ => match inner.as_str().trim_end() {
                 "true" => ExprKind::Bool(true),
                 "false" => ExprKind::Bool(false),

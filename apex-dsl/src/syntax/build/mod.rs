@@ -1,4 +1,4 @@
-//! pest's pairs → tree.
+//! Construction of the syntax tree from the pairs of pest.
 
 mod expr;
 mod machine;
@@ -11,19 +11,19 @@ use crate::{
 };
 use pest::iterators::Pair;
 
-/// Builds the tree of one text.
+/// Builder of the tree of one source file.
 pub struct Builder<'a> {
     file: FileId,
     text: &'a str,
     diagnostics: &'a mut Diagnostics,
     broken: bool,
     broken_items: bool,
-    /// Operators and values of the expressions that are being built, outermost first.
+    /// Number of operators and values in the expressions that are being built.
     open: usize,
-    /// Places in ascending order where the text was changed so that it can be read: what is wrong around them has been
+    /// Places, in ascending order, where the text was changed to make it parsable. Errors around them have been
     /// reported.
     damage: Vec<usize>,
-    /// No place lies behind this byte: what follows it was added so that the text can be read.
+    /// End of the original text. No span goes beyond it, because the rest was added to make the text parsable.
     end: usize,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Builder<'a> {
         Self { file, text, diagnostics, broken: false, broken_items: false, open: 0, damage, end: text.len() }
     }
 
-    /// The same builder for a text of which only the first `end` bytes were written by the user.
+    /// The same builder for a text whose first `end` bytes were written by the user.
     pub fn until(self, end: usize) -> Self {
         Self { end, ..self }
     }
@@ -42,7 +42,7 @@ impl<'a> Builder<'a> {
         span_of(self.file, pair, self.end)
     }
 
-    /// The whole text.
+    /// Builds the tree of the whole source file.
     pub fn file(mut self, pair: Pair<'_, Rule>) -> File {
         let mut file = File::default();
         for pair in pair.into_inner() {
@@ -150,7 +150,7 @@ impl<'a> Builder<'a> {
         graph
     }
 
-    /// Explains text that could not be read, by the words of `explain`.
+    /// Reports text that could not be parsed, as explained by `explain`.
     fn bad(&mut self, explain: fn(FileId, usize, &str) -> Diagnostic, pair: &Pair<'_, Rule>) {
         self.broken = true;
         let (start, end) = (pair.as_span().start(), pair.as_span().end());
@@ -434,7 +434,7 @@ fn push_doc(docs: &mut String, pair: &Pair<'_, Rule>) {
     if !docs.is_empty() {
         docs.push('\n');
     }
-    // Indentation means something in Markdown, but for the blank that all lines begin with.
+    // Indentation matters in Markdown, except for the first blank of each line.
     let line = &pair.as_str()[3..];
     docs.push_str(line.strip_prefix(' ').unwrap_or(line).trim_end());
 }

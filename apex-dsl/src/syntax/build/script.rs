@@ -4,7 +4,7 @@ use super::{Builder, expr::unescape, push_doc};
 use crate::syntax::{Rule, recover, tree::*};
 use pest::iterators::Pair;
 
-/// How an expectation compares a token with a value.
+/// Operators for comparing a token with a value.
 const COMPARISONS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
 
 impl Builder<'_> {
@@ -87,7 +87,7 @@ impl Builder<'_> {
             match part.as_rule() {
                 Rule::port_ref => of = Some(self.port_ref(part)),
                 Rule::active_kw => active = true,
-                // White space behind a sign belongs to its pair.
+                // Pairs include the white space behind an operator.
                 Rule::compare => operator = COMPARISONS.into_iter().find(|c| *c == part.as_str().trim_end()),
                 Rule::expr => value = Some(self.expr(part)),
                 _ => {}
