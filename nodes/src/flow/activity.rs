@@ -3,8 +3,8 @@
 use apex_rt::{Ctx, Event, node};
 use core::marker::PhantomData;
 
-/// Forwards a value while the node is active; ⊥ otherwise. If an active connection (`=>`) starts at the output, exactly
-/// one value is forwarded: the activity leaves with it (thesis fig. 8.1b).
+/// Forwards a value while the node is active; ⊥ otherwise. If an active connection (`=>`) starts at the output,
+/// exactly one value is forwarded: the activity leaves with it (thesis fig. 8.1b).
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct ActivityGate<T> {

@@ -2,8 +2,8 @@
 //! feature `barcode`).
 //!
 //! Pixel coordinates start in the upper left corner: u to the right, v down; the centre of the first pixel is (0, 0).
-//! An image without pixels, or with another size than that of its camera, gives ⊥ or an empty result, as documented for
-//! each node.
+//! An image without pixels, or with another size than that of its camera, gives ⊥ or an empty result, as documented
+//! for each node.
 
 #[cfg(feature = "barcode")]
 mod barcode;

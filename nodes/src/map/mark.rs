@@ -2,8 +2,8 @@ use super::{Grid, Occupancy};
 use crate::scan::{Pose2, Scan};
 use apex_rt::{Out, node};
 
-/// Marks the cells that contain points of a scan as occupied (thesis 4.3.6, the combined map m′). `pose` is the pose of
-/// the scanner in the frame of the map.
+/// Marks the cells that contain points of a scan as occupied (thesis 4.3.6, the combined map m′). `pose` is the pose
+/// of the scanner in the frame of the map.
 ///
 /// Several scanners need several of these nodes in sequence.
 #[node]

@@ -53,8 +53,8 @@ impl ProtectiveField {
 
 /// Slows a robot down before obstacles in its driving direction, and stops it before it touches one (thesis 4.3.6).
 ///
-/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if there is
-/// no scan or if the last one is older than `max_age`, so that a failed scanner is not taken for free space.
+/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if there
+/// is no scan or if the last one is older than `max_age`, so that a failed scanner is not taken for free space.
 #[node]
 #[derive(Debug, Clone)]
 pub struct SafetyField {

@@ -69,8 +69,8 @@ impl std::error::Error for NoPath {}
 ///
 /// The cost of a step is its length times `1 + cost`. This is `g′ = g + m_c` of the thesis (4.3.6) with costs per
 /// metre, so that a path does not depend on the cell size. A diagonal step needs both adjacent cells open: corners are
-/// not cut. The heuristic is the length of the shortest path without obstacles. It is admissible and never below the L₂
-/// norm of the thesis, so that the path is still the shortest one and fewer cells are expanded.
+/// not cut. The heuristic is the length of the shortest path without obstacles. It is admissible and never below the
+/// L₂ norm of the thesis, so that the path is still the shortest one and fewer cells are expanded.
 ///
 /// Keeps its buffers: on a grid of the same size as before, it allocates only if more cells are open than ever before.
 #[derive(Debug, Clone, Default)]

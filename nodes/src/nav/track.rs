@@ -8,8 +8,8 @@ use core::f32::consts::PI;
 ///
 /// `robot` is the pose of the robot in any fixed frame, such as that of odometry. `seen` is the detected pose in the
 /// frame of the robot, and ⊥ between detections. The output is in the frame of the robot. Detections near each other
-/// are averaged; one farther away than `gate` replaces the mean. The output is ⊥ once the last detection is older than
-/// `max_age`.
+/// are averaged; one farther away than `gate` replaces the mean. The output is ⊥ once the last detection is older
+/// than `max_age`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrackPose {

@@ -60,8 +60,8 @@ impl fmt::Display for OtherBeams {
 
 impl core::error::Error for OtherBeams {}
 
-/// Merges two scans from [`MountScan`]: the nearer range in each beam. If one input is ⊥, the result is the other one.
-/// The stamp is the older one.
+/// Merges two scans from [`MountScan`]: the nearer range in each beam. If one input is ⊥, the result is the other
+/// one. The stamp is the older one.
 ///
 /// Fails on scans that do not have the same beams.
 #[node]

@@ -20,8 +20,8 @@ pub struct Edge {
     pub information: Matrix3<f64>,
 }
 
-/// Pose graph: poses in the plane and the measurements between them (Grisetti, Kümmerle, Stachniss, Burgard: A Tutorial
-/// on Graph-Based SLAM, 2010).
+/// Pose graph: poses in the plane and the measurements between them (Grisetti, Kümmerle, Stachniss, Burgard: A
+/// Tutorial on Graph-Based SLAM, 2010).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PoseGraph {
     poses: Vec<Pose>,
@@ -126,12 +126,12 @@ impl PoseGraph {
         self.edges.iter().map(|edge| edge.cost(poses)).sum()
     }
 
-    /// Moves the poses to best agreement with the measurements. Stops when a step changes the cost by less than 10⁻⁶ of
-    /// it (or by 10⁻⁹), or after `max_steps` steps. The first pose is fixed.
+    /// Moves the poses to best agreement with the measurements. Stops when a step changes the cost by less than
+    /// 10⁻⁶ of it (or by 10⁻⁹), or after `max_steps` steps. The first pose is fixed.
     ///
-    /// Steps are those of Gauss–Newton. Stiff measurements turn the path to the optimum into a narrow bend, so the cost
-    /// may rise for a few steps. If it does not fall again, damped steps (Levenberg–Marquardt) continue from the best
-    /// poses.
+    /// Steps are those of Gauss–Newton. Stiff measurements turn the path to the optimum into a narrow bend, so the
+    /// cost may rise for a few steps. If it does not fall again, damped steps (Levenberg–Marquardt) continue from the
+    /// best poses.
     ///
     /// Unconnected poses do not move. If a number is not finite, no pose moves.
     pub fn optimize(&mut self, max_steps: usize) -> Optimized {

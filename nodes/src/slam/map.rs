@@ -12,8 +12,8 @@ const MOST_STEPS: f32 = 1e8;
 /// Selects the scans for a map from `count` scans: the last hundred, every tenth of the hundred before them, and every
 /// hundredth of the eight hundred before these. So the time to build a map is bounded (thesis 4.3.5).
 ///
-/// The intervals are those of the thesis: k ∈ [n − 100, n); k ∈ (n − 200, n − 100) with k ≡ 0 (mod 10); and k ∈ (n −
-/// 1000, n − 200) with k ≡ 0 (mod 100). At most 118 scans are chosen, in ascending order.
+/// The intervals are those of the thesis: k ∈ [n − 100, n); k ∈ (n − 200, n − 100) with k ≡ 0 (mod 10); and
+/// k ∈ (n − 1000, n − 200) with k ≡ 0 (mod 100). At most 118 scans are chosen, in ascending order.
 pub fn selected_scans(count: usize) -> impl Iterator<Item = usize> + Clone {
     // The lower bound of an open interval is excluded, unless the interval would start below 0.
     let between = |low: usize, high: usize| {

@@ -19,7 +19,7 @@ fn search() -> ContainerSearch {
         3,                      // min_wheels
         0,                      // max_missing
         0.0,                    // clearance
-        120.0_f32.to_radians(), // max_view_angle: near wheels are in front, or just hidden behind one another
+        120.0_f32.to_radians(), // max_view_angle: near wheels are in front, or just hidden by each other
         WHEEL_BOXES,
     ))
 }

@@ -10,7 +10,7 @@ pub struct Diary {
     pub now: Time,
     info: &'static Info,
     parts: Parts,
-    /// By part: the number of its active nodes, and the time since when one is active.
+    /// Number of active nodes of each part, and the time since when one is active.
     active: Vec<(u32, Time)>,
     phases: Vec<Phase>,
     failures: Vec<Failure>,

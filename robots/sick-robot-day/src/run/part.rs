@@ -9,7 +9,7 @@ pub struct Parts {
     names: Vec<String>,
     /// Number of the part of each node.
     of_nodes: Vec<usize>,
-    /// By part: `true` if it belongs to the mission.
+    /// `true` for each part that belongs to the mission.
     in_mission: Vec<bool>,
 }
 
