@@ -41,10 +41,10 @@ pub fn not(a: &bool) -> bool {
 #[node]
 #[derive(Debug, Clone)]
 pub struct Hysteresis<T> {
-    /// Lower threshold. Below it the result becomes `false`.
+    /// Lower threshold, below which the result becomes `false`.
     #[param]
     low: T,
-    /// Upper threshold. At or above it the result becomes `true`.
+    /// Upper threshold, from which on the result becomes `true`.
     #[param]
     high: T,
     state: bool,
