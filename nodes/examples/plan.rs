@@ -1,11 +1,11 @@
-//! Plans a path on a map that is a picture, as map servers of ROS have them, and draws it.
+//! Plans a path on a map given as an image, in the format of ROS map servers, and draws it.
 //!
 //! ```text
 //! cargo run --release -p apex-nodes --features image --example plan -- map.pgm 0.1 5,5 30,20 path.png
 //! ```
 //!
-//! The second argument is the size of a pixel in m. Start and goal are in m from the lower left corner. White is free, black is
-//! occupied, and grey is unknown. In the picture that is written, costs are red, and the path is blue.
+//! The second argument is the size of a pixel in m. Start and goal are in m from the lower left corner. White is free,
+//! black is occupied, and grey is unknown. In the output image, costs are red and the path is blue.
 
 use apex_nodes::{
     map::{Cell, DistanceTransform, Grid, Occupancy, Raster, UnknownRegions, grow},
@@ -22,17 +22,17 @@ use std::{
 
 const USAGE: &str = "usage: plan MAP RESOLUTION START_X,START_Y GOAL_X,GOAL_Y PICTURE.png";
 
-/// How far obstacles grow, and the radius around start and goal where they do not, in m.
+/// Distance by which obstacles grow, and radius around start and goal in which they do not, in m.
 const RADIUS: f32 = 0.35;
 const KEPT: f32 = 0.5;
-/// The highest cost, and how far from obstacles there are costs, in m (thesis 4.3.6).
+/// Highest cost, and distance from obstacles at which costs end, in m (thesis 4.3.6).
 const HIGHEST: f32 = 4.0;
 const REACH: f32 = 2.5;
-/// Unknown regions up to this size are filled, in m².
+/// Maximum area of an unknown region that is filled, in m².
 const LARGEST_UNKNOWN: f32 = 0.25;
 const SMOOTHING: Smoothing = Smoothing { spacing: 0.1, rounds: 30 };
 
-/// What the command line asks for.
+/// Arguments of the command line.
 struct Request {
     map: String,
     resolution: f32,
@@ -41,7 +41,7 @@ struct Request {
     picture: String,
 }
 
-/// Why there is no picture: with exit code 1 there is no path, with 2 the command could not be carried out.
+/// Error with its exit code: 1 if there is no path, 2 if the command failed otherwise.
 struct Failure(u8, String);
 
 impl Failure {
@@ -90,7 +90,7 @@ fn parse(words: &[String]) -> Result<Request, Failure> {
     })
 }
 
-/// The map that a picture shows, with the thresholds of the map server of ROS. The first row of a picture is the upper one.
+/// Map of an image, with the thresholds of the ROS map server. The first row of the image is the upper one.
 fn read(picture: &GrayImage, resolution: f32) -> Result<Grid<Occupancy>, Failure> {
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     let raster = Raster { corner: Point2::default(), resolution, width, height };
@@ -143,7 +143,7 @@ fn timed<T>(step: impl FnOnce() -> T) -> (Duration, T) {
     (start.elapsed(), result)
 }
 
-/// The picture with costs in red and the path in blue.
+/// Image with costs in red and the path in blue.
 fn draw(picture: &GrayImage, costs: &Grid<f32>, path: &Path) -> RgbImage {
     let row = |y: usize| picture.height() - 1 - y as u32;
     let mut drawn = RgbImage::from_fn(picture.width(), picture.height(), |x, y| Rgb([picture.get_pixel(x, y)[0]; 3]));
@@ -159,7 +159,7 @@ fn draw(picture: &GrayImage, costs: &Grid<f32>, path: &Path) -> RgbImage {
     drawn
 }
 
-/// Writes a picture where no file is.
+/// Writes an image to a file that does not exist yet.
 fn save(picture: &RgbImage, file: &str) -> Result<(), Failure> {
     let failed = |why: &dyn std::fmt::Display| Failure::command(format!("{file}: {why}"));
     if fs::exists(FilePath::new(file)).map_err(|e| failed(&e))? {

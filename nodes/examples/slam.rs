@@ -1,5 +1,5 @@
-//! Localization and mapping on recordings: `slam FOLDER [OUT]` prints how far the poses are from the reference, and how
-//! long it took. With a second folder it draws each map with the way of the robot in it.
+//! Localization and mapping on recordings: `slam FOLDER [OUT]` prints the deviation of the poses from the reference,
+//! and the computing time. With a second folder it draws each map with the path of the robot.
 
 #[path = "../tests/slam/recordings.rs"]
 mod recordings;
@@ -42,7 +42,7 @@ fn main() {
     }
 }
 
-/// The graph of the Intel Research Lab, against its known optimum.
+/// Optimizes the graph of the Intel Research Lab and compares it with its known optimum.
 fn optimize(folder: &Path) {
     let read = |name: &str| PoseGraph::read_g2o(folder.join(name)).unwrap_or_else(|e| panic!("{e}"));
     let (mut graph, optimum) = (read("input_INTEL.g2o"), read("input_INTEL_optimized.g2o").cost());
@@ -77,7 +77,7 @@ fn run(name: &str, recording: &Recording) -> (Mapper, Vec<Pose>, Duration) {
     (mapper, estimate, slowest)
 }
 
-/// Prints how long the bounded map takes after few scans and after all, and the slowest scan.
+/// Prints the time to build the bounded map after few scans and after all, and the time of the slowest scan.
 fn time_of_map(mapper: &Mapper, slowest: Duration) {
     let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
     let mut time = |count: usize| {
@@ -89,7 +89,7 @@ fn time_of_map(mapper: &Mapper, slowest: Duration) {
     println!("    slowest scan {slowest:.1?}; maps: {}, {}", time(200), time(mapper.scans().len()));
 }
 
-/// Draws the map of all scans, and the way of the robot.
+/// Draws the map of all scans, and the path of the robot.
 fn draw(file: &Path, mapper: &Mapper, way: &[Pose]) -> Result<(), Box<dyn std::error::Error>> {
     let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
     mapper.write_map(0..mapper.scans().len(), Point2::default(), 0.1, &mut builder, &mut map)?;

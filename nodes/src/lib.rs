@@ -1,11 +1,10 @@
-//! The node library of Apex: one module per field.
+//! Node library of Apex, with one module per field.
 //!
-//! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default)
-//! adds `io` (readers, writers and pictures), `map` (grid maps), and of `nav` what plans and follows paths; features of
-//! their own add `image` (camera images), `learn` (networks that learn from examples) and `slam` (localization and
-//! mapping).
+//! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default) adds `io`
+//! (readers, writers and pictures), `map` (grid maps), and path planning and following in `nav`. Further features add
+//! `image` (camera images), `learn` (networks that learn from examples) and `slam` (localization and mapping).
 //!
-//! Units are SI (metres, radians, seconds), axes follow the ROS convention: x forward, y left, angles
+//! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 

@@ -1,5 +1,5 @@
-//! The catalog and rustc cannot drift apart: `library.afg` uses every node of the library as the catalog describes it, and
-//! is compiled here. `APEX_UPDATE_EXPECTATIONS=1` writes it anew.
+//! Agreement of the catalog with rustc: `library.afg` uses every node of the library as described by the catalog, and
+//! is compiled here. `APEX_UPDATE_EXPECTATIONS=1` writes it again.
 
 use apex_dsl::catalog::{Catalog, Signature, Type};
 use apex_host::{Disk, Seen, Workspace};
@@ -10,7 +10,7 @@ mod programs {
     apex_rt::graph!("library.afg");
 }
 
-/// A type as a text would write it; type parameters become `f64`.
+/// Type as spelled in a source file; type parameters become `f64`.
 fn spell(ty: &Type, catalog: &Catalog) -> Option<String> {
     let all =
         |types: &[Type]| types.iter().map(|t| spell(t, catalog)).collect::<Option<Vec<_>>>().map(|t| t.join(", "));
@@ -28,7 +28,7 @@ fn spell(ty: &Type, catalog: &Catalog) -> Option<String> {
     }
 }
 
-/// Some legal value of a parameter that has no default.
+/// A valid value for a parameter without a default.
 fn value(ty: &Type, unit: &str) -> String {
     match ty {
         Type::Ref(inner) if matches!(&**inner, Type::Primitive(name) if name == "str") => "\"file.csv\"".to_owned(),
@@ -46,7 +46,7 @@ fn value(ty: &Type, unit: &str) -> String {
     }
 }
 
-/// A graph whose only node is this one, with all its ports and parameters in use.
+/// A graph with this node only, with all its ports and parameters in use.
 fn graph(number: usize, signature: &Signature, catalog: &Catalog) -> String {
     use apex_dsl::syntax::tree::PortKind;
     let path = signature.path.join("::");

@@ -11,14 +11,14 @@ use std::time::Duration;
 
 graph!("navigation.afg");
 
-/// The radius of the robot, in m.
+/// Radius of the robot, in m.
 const RADIUS: f32 = 0.3;
-/// Where the robot begins, and where it is to go: to the other side of a wall.
+/// Start of the robot, and its goal on the other side of a wall.
 const START: Pose2 = Pose2::new(1.0, 1.0, 0.0);
 const GOAL: Pose2 = Pose2::new(9.0, 1.0, 1.5);
 
-/// A hall of 10 m by 8 m, a wall into its middle, and behind it a pillar that is not on the map. Source of what the
-/// robot sees.
+/// Source of the robot's sensor data: a hall of 10 m by 8 m, with a wall to its middle and a pillar behind it that is
+/// not on the map.
 #[node]
 pub struct Arena {
     #[param(default = 1)]
@@ -54,7 +54,7 @@ impl Default for Hall {
     }
 }
 
-/// The map of the walls, in cells of 10 cm.
+/// Map of the walls, with cells of 10 cm.
 fn draw(world: &World) -> Grid<Occupancy> {
     let raster = Raster { corner: Point2::new(-0.05, -0.05), resolution: 0.1, width: 101, height: 81 };
     let mut map = Grid::new(raster, Occupancy::Free).expect("a small map");
@@ -94,7 +94,7 @@ impl Arena {
         }
     }
 
-    /// Drives so from now on.
+    /// Sets the twist that the robot drives from now on.
     #[slot]
     fn drive(&mut self, twist: &Twist) {
         self.twist = *twist;

@@ -1,6 +1,7 @@
-//! A* on the maps of the MovingAI benchmark, whose shortest lengths are known (Sturtevant 2012).
+//! A* on the maps of the MovingAI benchmark with their known shortest lengths (Sturtevant 2012).
 //!
-//! They are not part of the project: without them the test says so and passes, unless it runs with `CI=true`.
+//! The maps are not part of the project. Without them the test prints a message and passes, unless it runs with
+//! `CI=true`.
 
 use apex_nodes::{
     map::{Cell, Grid, Occupancy, Raster},
@@ -11,7 +12,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The folder of the maps, or `None` (with a message) if they are not there.
+/// Folder of the maps, or `None` (with a message) if it does not exist.
 fn maps() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/planning");
     if folder.is_dir() {
@@ -22,7 +23,7 @@ fn maps() -> Option<PathBuf> {
     None
 }
 
-/// Rows of signs after a head of four lines; `.` is free.
+/// Reads rows of characters after a header of four lines; `.` is free.
 fn read_map(file: &Path) -> Grid<Occupancy> {
     let text = fs::read_to_string(file).expect("the map");
     let rows: Vec<&[u8]> = text.lines().skip(4).map(str::as_bytes).collect();
@@ -36,7 +37,7 @@ fn read_map(file: &Path) -> Grid<Occupancy> {
     map
 }
 
-/// Solves every `step`-th query of a scenario, and gives their number.
+/// Solves every `step`-th query of a scenario and returns their number.
 fn solve(folder: &Path, name: &str, step: usize) -> usize {
     let map = read_map(&folder.join(name));
     let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };

@@ -1,4 +1,4 @@
-//! Trains the classifier of digits of the library on digits that it draws itself, and writes it:
+//! Trains the digit classifier of the library on digits that it draws itself, and writes the model:
 //!
 //! ```text
 //! cargo run --release -p apex-nodes --features image,learn --example train_digits -- FILE [SEED]
@@ -40,7 +40,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// A network that has seen new digits in each epoch; the steps become shorter.
+/// Trains a network on new digits in each epoch, with a decreasing learning rate.
 fn train(seed: u64) -> Model {
     let mut random = Random::new(seed);
     let mut network = Mlp::new(&[GLYPH_SIDE * GLYPH_SIDE, HIDDEN, 10], &mut random);
@@ -50,7 +50,7 @@ fn train(seed: u64) -> Model {
     for epoch in 0..EPOCHS {
         trainer.rate = 2e-3 * 0.05_f32.powf(epoch as f32 / EPOCHS as f32);
         let examples = examples(DIGITS_PER_EPOCH, &mut random);
-        // Measured before they are learned: nothing of it has been seen.
+        // Measured before training on these digits: the network has not seen them.
         let right = share_right(&network, &examples);
         let loss = trainer.epoch(&mut network, &examples);
         println!("{:>6} {loss:>8.4} {:>7.2}%", epoch + 1, 100.0 * right);
@@ -67,7 +67,7 @@ fn examples(count: usize, random: &mut Random) -> Vec<Example> {
     (0..count).filter_map(example).collect()
 }
 
-/// The glyph of a whole image.
+/// Glyph of a whole image.
 fn features(image: &GrayImage) -> Option<Features> {
     let (width, height) = image.size();
     let mut out = Out::new();

@@ -1,4 +1,4 @@
-//! Digits drawn with a pen: strokes of many styles, bent, slanted, thick or thin. No font is needed.
+//! Digits drawn with a pen: strokes of many styles, bent, slanted, thick or thin. Needs no font.
 
 use apex_nodes::{image::GrayImage, math::Random};
 use image::{ImageBuffer, Luma};
@@ -9,7 +9,7 @@ const SIDE: u32 = 36;
 /// Strokes of one digit in a box from (0, 0), upper left, to (1, 1).
 type Strokes = Vec<Vec<[f32; 2]>>;
 
-/// A digit in a random style, as a picture of it.
+/// Draws a digit in a random style.
 pub fn draw(digit: usize, random: &mut Random) -> GrayImage {
     let styles = styles(digit);
     let style = &styles[(random.bits() % styles.len() as u64) as usize];
@@ -18,7 +18,7 @@ pub fn draw(digit: usize, random: &mut Random) -> GrayImage {
     render(&strokes, &hand, random)
 }
 
-/// How something is drawn: what is the same for all its strokes.
+/// Handwriting: properties shared by all strokes of a digit.
 struct Hand {
     /// Width and height of the digit, in pixels.
     size: [f32; 2],
@@ -28,9 +28,9 @@ struct Hand {
     bends: [f32; 4],
     /// Half the width and height of the tip of the pen, in pixels.
     pen: [f32; 2],
-    /// Pixels from full to no ink.
+    /// Width of the transition from full ink to none, in pixels.
     softness: f32,
-    /// How it ends strokes: half the length of a serif, in pixels; 0 for none.
+    /// Half the length of the serifs at the ends of strokes, in pixels; 0 for none.
     serif: f32,
 }
 
@@ -38,7 +38,7 @@ impl Hand {
     fn random(random: &mut Random) -> Self {
         let height = random.uniform(20.0, 28.0);
         let pen = random.uniform(0.025, 0.12) * height;
-        // Printed digits have thin level strokes more often than thick ones.
+        // Printed digits have thin horizontal strokes more often than thick ones.
         let contrast = if random.chance(0.5) { random.uniform(0.35, 1.0) } else { random.uniform(0.85, 1.15) };
         let bend = if random.chance(0.5) { 0.15 } else { 0.03 };
         Self {
@@ -52,7 +52,7 @@ impl Hand {
         }
     }
 
-    /// A point of the unit box on the paper, in pixels from the middle of the digit.
+    /// Transforms a point of the unit box to the paper, in pixels from the middle of the digit.
     fn place(&self, [x, y]: [f32; 2]) -> [f32; 2] {
         let [a, b, c, d] = self.bends;
         let (x, y) = (x - 0.5, y - 0.5);
@@ -63,11 +63,11 @@ impl Hand {
     }
 }
 
-/// Ink where the pen was, some of it lost, on paper that is not clean.
+/// Draws ink along the strokes, with noise, on paper that is not clean.
 fn render(strokes: &Strokes, hand: &Hand, random: &mut Random) -> GrayImage {
     let mut segments: Vec<[[f32; 2]; 2]> = strokes.iter().flat_map(|s| s.windows(2).map(|w| [w[0], w[1]])).collect();
     if hand.serif > 0.0 {
-        // Strokes that end going up or down get a level bar.
+        // Strokes that end almost vertically get a horizontal bar.
         for end in strokes.iter().flat_map(|s| [[s[1], s[0]], [s[s.len() - 2], s[s.len() - 1]]]) {
             let [from, [x, y]] = end;
             if (y - from[1]).abs() > 2.0 * (x - from[0]).abs() {
@@ -89,7 +89,7 @@ fn render(strokes: &Strokes, hand: &Hand, random: &mut Random) -> GrayImage {
     pixels.into()
 }
 
-/// The distance of a point from a segment, where the tip of the pen is the unit.
+/// Distance of a point from a segment, in units of the tip of the pen.
 fn distance(p: [f32; 2], [a, b]: &[[f32; 2]; 2], pen: [f32; 2]) -> f32 {
     let scaled = |from: [f32; 2], to: [f32; 2]| [(to[0] - from[0]) / pen[0], (to[1] - from[1]) / pen[1]];
     let (d, e) = (scaled(*a, *b), scaled(*a, p));
@@ -98,7 +98,7 @@ fn distance(p: [f32; 2], [a, b]: &[[f32; 2]; 2], pen: [f32; 2]) -> f32 {
     (e[0] - part * d[0]).hypot(e[1] - part * d[1])
 }
 
-/// A part of an ellipse, from angle to angle in degrees: 0 is right, 90 down, 180 left, 270 up.
+/// Arc of an ellipse between two angles in degrees: 0 is right, 90 down, 180 left, 270 up.
 fn arc(centre: [f32; 2], radii: [f32; 2], from: f32, to: f32) -> Vec<[f32; 2]> {
     let count = ((to - from).abs() / 20.0).ceil().max(2.0) as usize;
     let point = |i: usize| {
@@ -108,7 +108,7 @@ fn arc(centre: [f32; 2], radii: [f32; 2], from: f32, to: f32) -> Vec<[f32; 2]> {
     (0..=count).map(point).collect()
 }
 
-/// A smooth curve through points (Catmull and Rom 1974).
+/// Smooth curve through points (Catmull and Rom 1974).
 fn curve(points: &[[f32; 2]]) -> Vec<[f32; 2]> {
     let at = |i: usize| points[i.clamp(1, points.len()) - 1];
     let mut smooth = vec![points[0]];
@@ -129,12 +129,12 @@ fn joined(parts: &[Vec<[f32; 2]>]) -> Vec<[f32; 2]> {
     parts.concat()
 }
 
-/// Turned upside down.
+/// Strokes rotated by 180°.
 fn upside_down(strokes: Strokes) -> Strokes {
     strokes.into_iter().map(|s| s.into_iter().map(|[x, y]| [1.0 - x, 1.0 - y]).collect()).collect()
 }
 
-/// The ways to write a digit.
+/// Styles of a digit.
 fn styles(digit: usize) -> Vec<Strokes> {
     match digit {
         0 => zeros(),
@@ -184,7 +184,7 @@ fn twos() -> Vec<Strokes> {
             curve(&[[0.8, 0.45], [0.3, 0.7], [0.04, 1.0]]),
             foot(0.95),
         ])],
-        // With a loop, and with a foot that swings.
+        // With a loop and a curved foot.
         vec![curve(&[
             [0.1, 0.2],
             [0.5, 0.0],

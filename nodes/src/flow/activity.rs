@@ -1,10 +1,10 @@
-//! The few nodes that have to know of activity (thesis 7.1.2); all others just pass it on.
+//! Nodes that depend on activity (thesis 7.1.2). All other nodes only pass it on.
 
 use apex_rt::{Ctx, Event, node};
 use core::marker::PhantomData;
 
-/// Forwards a value while it is active, else ⊥. If an active connection leads on, that is exactly one value: with it
-/// the activity leaves (thesis fig. 8.1b).
+/// Forwards a value while the node is active; ⊥ otherwise. If an active connection (`=>`) starts at the output,
+/// exactly one value is forwarded: the activity leaves with it (thesis fig. 8.1b).
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct ActivityGate<T> {
@@ -17,12 +17,12 @@ impl<T: Clone> ActivityGate<T> {
         ctx.active().then(|| value.clone())
     }
 
-    /// Does nothing but take the activity that the token may carry.
+    /// Receives activity with a token, without any other effect.
     #[slot]
     fn activate(&mut self) {}
 }
 
-/// Passes every token on, and whoever gets it over `=>` is no longer active (thesis eq. 7.3 with the modifier −1).
+/// Passes every token on and deactivates the node that receives it over `=>` (thesis eq. 7.3 with the modifier −1).
 #[node]
 #[deactivates]
 #[derive(Debug, Clone, Default)]
@@ -39,7 +39,8 @@ impl<T: Clone> Deactivate<T> {
     }
 }
 
-/// Takes activity and keeps it: a state in which nothing is done. With `timeout 3s` it is a pause, and `timeout` leads on.
+/// Receives activity and keeps it: a state without action. With `timeout 3s` it is a pause that ends with the event
+/// `timeout`.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Wait<T> {
@@ -48,7 +49,7 @@ pub struct Wait<T> {
 
 #[node]
 impl<T> Wait<T> {
-    /// Does nothing but take the activity that the token may carry.
+    /// Receives activity with a token, without any other effect.
     #[slot]
     fn activate(&mut self, _value: &T) {}
 }

@@ -1,14 +1,14 @@
 use apex_rt::{Out, node};
 use heapless::{Deque, Vec};
 
-/// The most tokens that [`Delay`] and [`Collect`] keep.
+/// Maximum number of tokens in a [`Delay`] or [`Collect`].
 pub const MAX_BATCH: usize = 64;
 
-/// Sends the value that came in `n` values earlier; ⊥ for the first `n`.
+/// Delays a stream by `n` values. The first `n` outputs are ⊥.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Delay<T> {
-    /// By how many values the stream is delayed.
+    /// Length of the delay, in values.
     #[param(default = 1, range = 1..=64)]
     n: usize,
     waiting: Deque<T, MAX_BATCH>,
@@ -17,7 +17,7 @@ pub struct Delay<T> {
 #[node]
 impl<T: Clone> Delay<T> {
     fn process(&mut self, value: &T) -> Option<T> {
-        // Taken out first, so that there is always room for the new one. A loop, because `n` may have become smaller.
+        // Taken out first, so that there is always room for the new value. A loop, because `n` may have become smaller.
         let mut sent = None;
         while self.waiting.len() >= self.n.clamp(1, MAX_BATCH) {
             sent = self.waiting.pop_front();
@@ -27,14 +27,14 @@ impl<T: Clone> Delay<T> {
         sent
     }
 
-    /// Forgets all values that wait.
+    /// Discards all delayed values.
     #[slot]
     fn reset(&mut self) {
         self.waiting.clear();
     }
 }
 
-/// Gathers `n` values and sends them as one list, in the order in which they came; ⊥ in between.
+/// Gathers `n` values and sends them as one list, in order of arrival; ⊥ in between.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Collect<T> {

@@ -1,5 +1,5 @@
-//! Buffers turn events into synchronous flow (thesis 3.6.3). A connection from an event to an input does so too;
-//! buffers are for the case where the flow sets its own pace.
+//! Buffers from events to synchronous flow (thesis 3.6.3). A connection from an event to an input does the same;
+//! buffers serve flow with a rate of its own.
 
 use apex_rt::node;
 
@@ -9,7 +9,7 @@ pub fn constant<T: Clone>(#[param] value: T) -> T {
     value
 }
 
-/// Sends the value it has received last, in every firing; ⊥ before the first (thesis 3.6.3, *latching*).
+/// Sends the last received value in every firing; ⊥ before the first one (thesis 3.6.3, *latching*).
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Latch<T> {
@@ -22,20 +22,20 @@ impl<T: Clone> Latch<T> {
         self.value.clone()
     }
 
-    /// Replaces the value that is sent.
+    /// Replaces the stored value.
     #[slot]
     fn set(&mut self, value: &T) {
         self.value = Some(value.clone());
     }
 
-    /// Sends ⊥ until the next value.
+    /// Discards the stored value: the output is ⊥ until the next one.
     #[slot]
     fn reset(&mut self) {
         self.value = None;
     }
 }
 
-/// Sends the value it has received last, once; ⊥ until there is a new one (thesis 3.6.3).
+/// Sends every received value at most once: the last one since the previous firing, or ⊥ (thesis 3.6.3).
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Latest<T> {
@@ -48,14 +48,14 @@ impl<T: Clone> Latest<T> {
         self.value.take()
     }
 
-    /// Replaces the value that is to be sent.
+    /// Replaces the value to send.
     #[slot]
     fn set(&mut self, value: &T) {
         self.value = Some(value.clone());
     }
 }
 
-/// Fills the gaps of a stream: in place of ⊥ it sends the last value again.
+/// Fills the gaps of a stream: sends the last value again in place of ⊥.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Hold<T> {
@@ -71,7 +71,7 @@ impl<T: Clone> Hold<T> {
         self.value.clone()
     }
 
-    /// Forgets the last value.
+    /// Discards the last value.
     #[slot]
     fn reset(&mut self) {
         self.value = None;

@@ -1,33 +1,33 @@
-//! Signals: from flow to events (emitters, thesis 3.6.3), and from events to events.
+//! Signals: emitters from flow to events (thesis 3.6.3), and nodes from events to events.
 
 use apex_rt::{Event, node};
 use core::marker::PhantomData;
 
-/// Triggers an event with every value that comes in: an emitter (thesis 3.6.3).
+/// Triggers an event with every input value: an emitter (thesis 3.6.3).
 #[node]
 pub fn emit<T: Clone>(value: &T, signal: Event<T>) {
     signal.emit(value.clone());
 }
 
-/// Triggers `equal` or `unequal`, as its two inputs are (thesis fig. 8.1a, *streq*).
+/// Triggers `equal` if its two inputs are equal, and `unequal` otherwise (thesis fig. 8.1a, *streq*).
 #[node]
 pub fn equals<T: PartialEq>(a: &T, b: &T, equal: Event<()>, unequal: Event<()>) {
     if a == b { equal.emit(()) } else { unequal.emit(()) }
 }
 
-/// Triggers `yes` or `no`, as the value is.
+/// Triggers `yes` if the value is `true`, and `no` otherwise.
 #[node]
 pub fn either(value: &bool, yes: Event<()>, no: Event<()>) {
     if *value { yes.emit(()) } else { no.emit(()) }
 }
 
-/// Triggers its event in every firing: with `every` a clock, with `after` an alarm.
+/// Triggers its event in every firing: a clock with `every`, an alarm with `after`.
 #[node]
 pub fn tick(signal: Event<()>) {
     signal.emit(());
 }
 
-/// Passes every token on. While its event is on its way, the slot takes no other (thesis fig. 7.4, *v_b*).
+/// Passes every token on. While its event is in flight, the slot takes no other token (thesis fig. 7.4, *v_b*).
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Relay<T> {
@@ -43,7 +43,7 @@ impl<T: Clone> Relay<T> {
     }
 }
 
-/// Passes on that there was a token, without its value.
+/// Triggers an event for every token, without the token's value.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Signal<T> {
@@ -59,7 +59,7 @@ impl<T> Signal<T> {
     }
 }
 
-/// Counts tokens, and says with each how many there were. Saturates.
+/// Counts tokens and sends the count after each one. Saturates at the maximum of `u64`.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Counter<T> {
@@ -69,21 +69,21 @@ pub struct Counter<T> {
 
 #[node]
 impl<T> Counter<T> {
-    /// One more.
+    /// Adds one to the count.
     #[slot]
     fn put(&mut self, _value: &T, count: Event<u64>) {
         self.count = self.count.saturating_add(1);
         count.emit(self.count);
     }
 
-    /// Starts again at zero.
+    /// Resets the count to zero.
     #[slot]
     fn reset(&mut self) {
         self.count = 0;
     }
 }
 
-/// Triggers `on` and `off` in turn, `on` first: for example to `enable` and `disable` a node with one button.
+/// Triggers `on` and `off` alternately, `on` first: for example to `enable` and `disable` a node with one button.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Toggle {
@@ -92,7 +92,7 @@ pub struct Toggle {
 
 #[node]
 impl Toggle {
-    /// Changes over.
+    /// Switches over and triggers the event of the new state.
     #[slot]
     fn flip(&mut self, on: Event<()>, off: Event<()>) {
         self.is_on = !self.is_on;
@@ -104,7 +104,7 @@ impl Toggle {
 mod tests {
     use super::*;
 
-    /// What `call` triggers its event with.
+    /// Token with which `call` triggers its event.
     fn triggered<T>(call: impl FnOnce(Event<'_, T>)) -> Option<T> {
         let mut token = None;
         call(Event::into_slot(&mut token));

@@ -1,6 +1,6 @@
-//! Where tokens go and when: branching, filtering, counting and buffering (thesis 3.6); signals and activity (7.1).
+//! Routing and timing of tokens: branching, filtering, counting and buffering (thesis 3.6), signals and activity (7.1).
 //!
-//! Nodes without memory are functions, the others are structs.
+//! Nodes without state are functions, the others are structs.
 
 mod activity;
 mod batch;

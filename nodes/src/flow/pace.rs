@@ -1,11 +1,11 @@
 use apex_rt::{Event, node};
 use core::marker::PhantomData;
 
-/// Forwards every `n`-th value, and ⊥ for the `n − 1` before it (thesis 3.6.2).
+/// Forwards every `n`-th value, and sends ⊥ for the `n − 1` values before it (thesis 3.6.2).
 #[node]
 #[derive(Debug, Clone)]
 pub struct Throttle<T> {
-    /// How many values there are for one that is forwarded.
+    /// Number of values per forwarded value.
     #[param(default = 2, range = 1..=1_000_000)]
     n: u32,
     seen: u32,
@@ -23,14 +23,14 @@ impl<T: Clone> Throttle<T> {
         due.then(|| value.clone())
     }
 
-    /// The next value is again the first of `n`.
+    /// Restarts the count: the next value is the first of `n`.
     #[slot]
     fn reset(&mut self) {
         self.seen = 0;
     }
 }
 
-/// The number of values that have come in, the present one included. Saturates.
+/// Number of values received, including the present one. Saturates at the maximum of `u64`.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Count<T> {
@@ -45,14 +45,14 @@ impl<T> Count<T> {
         self.count
     }
 
-    /// Starts again at zero.
+    /// Resets the count to zero.
     #[slot]
     fn reset(&mut self) {
         self.count = 0;
     }
 }
 
-/// Forwards a value if it differs from the one before, else ⊥. The first one always passes.
+/// Forwards a value if it differs from the previous one; ⊥ otherwise. The first value always passes.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Changed<T> {
@@ -70,7 +70,7 @@ impl<T: Clone + PartialEq> Changed<T> {
     }
 }
 
-/// Turns the edges of a boolean into events: an emitter (thesis 3.6.3). Before the first value it is taken as `false`.
+/// Turns the edges of a boolean into events: an emitter (thesis 3.6.3). The state before the first value is `false`.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct Edge {

@@ -1,34 +1,34 @@
 use apex_rt::{Outputs, node};
 
-/// The two ways out of [`switch`]: one carries the value, the other ⊥.
+/// Outputs of [`switch`]: one carries the value, the other ⊥.
 #[derive(Debug, Clone, PartialEq, Eq, Outputs)]
 pub struct Branches<T> {
-    /// The value, if the condition holds.
+    /// The value if the condition is `true`.
     pub on_true: Option<T>,
-    /// The value, if it does not.
+    /// The value if the condition is `false`.
     pub on_false: Option<T>,
 }
 
-/// Sends `value` to one of two outputs, as `condition` says; the other one carries ⊥ (thesis 3.6.1).
+/// Sends `value` to the output selected by `condition`; the other output carries ⊥ (thesis 3.6.1).
 #[node]
 pub fn switch<T: Clone>(value: &T, condition: &bool) -> Branches<T> {
     let value = Some(value.clone());
     if *condition { Branches { on_true: value, on_false: None } } else { Branches { on_true: None, on_false: value } }
 }
 
-/// Lets `value` pass while `open`, else sends ⊥ (thesis 3.6.2).
+/// Forwards `value` while `open` is `true`; ⊥ otherwise (thesis 3.6.2).
 #[node]
 pub fn gate<T: Clone>(value: &T, open: &bool) -> Option<T> {
     open.then(|| value.clone())
 }
 
-/// The value of `first`, or that of `second` where `first` is ⊥: joins what [`switch`] parted.
+/// Value of `first`, or of `second` if `first` is ⊥. Joins the branches of [`switch`].
 #[node]
 pub fn merge<T: Clone>(first: Option<&T>, second: Option<&T>) -> Option<T> {
     first.or(second).cloned()
 }
 
-/// The value of `on_true` or `on_false`, as `condition` says; ⊥ if the chosen one is ⊥.
+/// Value of `on_true` or `on_false`, selected by `condition`; ⊥ if the selected input is ⊥.
 #[node]
 pub fn select<T: Clone>(condition: &bool, on_true: Option<&T>, on_false: Option<&T>) -> Option<T> {
     let chosen = if *condition { on_true } else { on_false };

@@ -7,17 +7,17 @@ use rxing::{
     oned::{MultiFormatOneDReader, OneDReader},
 };
 
-/// A bar code that was read.
+/// A bar code read from an image.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BarCode {
-    /// What it says.
+    /// Encoded text.
     pub text: String,
-    /// How it says it.
+    /// Symbology of the code.
     pub symbology: Symbology,
 }
 
-/// The kinds of bar codes that are read.
+/// Supported kinds of bar codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Symbology {
@@ -25,7 +25,7 @@ pub enum Symbology {
     Code128,
     /// Code 39.
     Code39,
-    /// EAN-13; UPC-A is one that begins with 0.
+    /// EAN-13. UPC-A is an EAN-13 that begins with 0.
     Ean13,
     /// EAN-8.
     Ean8,
@@ -47,27 +47,27 @@ impl Symbology {
     }
 }
 
-/// Directions in which lines are laid through an image, and lines in each: side by side over its diagonal.
+/// Number of directions of the lines through an image, and of parallel lines in each direction, spread over its
+/// diagonal.
 const DIRECTIONS: u16 = 12;
 const LINES: u16 = 100;
 
-/// Values for each pixel of a line: so the widths of narrow bars can be told apart.
+/// Samples per pixel of a line, so that the widths of narrow bars can be distinguished.
 const FINENESS: usize = 3;
 
-/// So many pixels to each side of one decide whether it is black: few where the light changes, many where bars are
-/// wide.
+/// Reach of the local threshold, in pixels to each side: a small one for uneven light, a large one for wide bars.
 const REACHES: [usize; 2] = [10, 24];
 
-/// Less contrast than this, in intensities, is white.
+/// Minimum contrast, in intensities. With less contrast a pixel counts as white.
 const MIN_CONTRAST: u8 = 8;
 
-/// A line with fewer borders between black and white holds no bar code.
+/// Minimum number of transitions between black and white on a line that may hold a bar code.
 const MIN_BORDERS: usize = 20;
 
 /// Reads the bar code of a cube (thesis 4.3.3); ⊥ if there is none that can be read.
 ///
-/// Codes 128 and 39, EAN-13, EAN-8 and ITF, in any direction. What one line through the image says counts as soon as
-/// another line says the same.
+/// Reads Code 128, Code 39, EAN-13, EAN-8 and ITF in any direction. A result counts as soon as two lines through the
+/// image agree on it.
 #[node]
 pub fn bar_code(image: &GrayImage) -> Option<BarCode> {
     if image.pixels.is_empty() {
@@ -88,7 +88,7 @@ pub fn bar_code(image: &GrayImage) -> Option<BarCode> {
     None
 }
 
-/// A place on each line, and its direction: first those that are near the middle of the image.
+/// A point on each line and the direction of the line, in pixels. Lines near the middle of the image come first.
 fn lines((width, height): (u32, u32)) -> impl Iterator<Item = ([f32; 2], [f32; 2])> {
     let middle = [width, height].map(|side| 0.5 * side as f32 - 0.5);
     let spacing = (width as f32).hypot(height as f32) / f32::from(LINES);
@@ -101,22 +101,23 @@ fn lines((width, height): (u32, u32)) -> impl Iterator<Item = ([f32; 2], [f32; 2
     })
 }
 
-/// The intensities along a straight line through an image.
+/// Intensities along a straight line through an image.
 #[derive(Default)]
 struct Line {
     values: Vec<u8>,
-    /// The darkest and the lightest around each.
+    /// Darkest and lightest intensity around each sample.
     extremes: [Vec<u8>; 2],
     spare: Vec<u8>,
 }
 
 impl Line {
-    /// Goes along a line as far as it lies in the image.
+    /// Samples a line as far as it is inside the image.
     fn lay(&mut self, image: &GrayImage, place: [f32; 2], direction: [f32; 2]) {
         let ends = <[u32; 2]>::from(image.size()).map(|side| side as f32 - 1.0);
         let (mut first, mut last) = (f32::MIN, f32::MAX);
         for i in 0..2 {
-            // Infinite along a border; beyond one, both are so on the same side.
+            // If the line is parallel to an axis, both are infinite: with opposite signs inside the image, with equal
+            // signs outside.
             let [a, b] = [0.0, ends[i]].map(|end| (end - place[i]) / direction[i]);
             (first, last) = (first.max(a.min(b)), last.min(a.max(b)));
         }
@@ -129,13 +130,13 @@ impl Line {
         }));
     }
 
-    /// What of it is black: darker than the middle between the darkest and the lightest within `reach` pixels. `None` if
-    /// there are too few borders.
+    /// Black samples: darker than the mean of the darkest and the lightest intensity within `reach` pixels. `None` if
+    /// there are too few transitions.
     fn bits(&mut self, reach: usize) -> Option<BitArray> {
         let margin = reach * FINENESS;
         for (extremes, winner) in self.extremes.iter_mut().zip([u8::min, u8::max]) {
             extremes.clear();
-            // Beyond the ends it goes on as it ends.
+            // Beyond its ends, the line continues with its last values.
             let ends = [self.values.first()?, self.values.last()?].map(|end| std::iter::repeat_n(*end, margin));
             let [before, after] = ends;
             extremes.extend(before.chain(self.values.iter().copied()).chain(after));
@@ -155,7 +156,7 @@ impl Line {
     }
 }
 
-/// The intensity between pixels of an image, at a place that it has.
+/// Interpolated intensity at a place inside the image.
 fn between(image: &GrayImage, x: f32, y: f32) -> u8 {
     let (pixels, width) = (image.pixels.as_raw(), image.size().0 as usize);
     let (left, top) = (x as usize, y as usize);
@@ -166,7 +167,7 @@ fn between(image: &GrayImage, x: f32, y: f32) -> u8 {
     mix(b, mix(a, at(left, top), at(right, top)), mix(a, at(left, below), at(right, below))) as u8
 }
 
-/// Reads the bars along a line.
+/// Reader of the bars along a line.
 struct LineReader {
     reader: MultiFormatOneDReader,
     hints: DecodeHints,
@@ -181,7 +182,7 @@ impl Default for LineReader {
 }
 
 impl LineReader {
-    /// What the bars say, from either end.
+    /// Decodes the bars from either end.
     fn read(&mut self, mut bits: BitArray) -> Option<BarCode> {
         let forward = self.reader.decode_row(0, &bits, &self.hints);
         let result = forward.or_else(|_| {
@@ -200,7 +201,7 @@ mod tests {
     use ::image::{ImageBuffer, Luma, imageops};
     use imageproc::geometric_transformations::{Border, Interpolation, rotate_about_center_no_crop};
 
-    /// EAN-8 "12345670", as its standard draws it: 67 modules.
+    /// EAN-8 "12345670" according to its standard: 67 modules.
     const EAN_8: &str = "1010011001001001101111010100011010101001110101000010001001110010101";
 
     /// The bars along x, with a quiet zone, `module` pixels each.
@@ -219,7 +220,7 @@ mod tests {
         for image in [flat.clone(), imageops::rotate90(&flat), imageops::rotate180(&flat)] {
             assert_eq!(bar_code(&image.into()), expected);
         }
-        // On a page, so that nothing is cut off when it is turned.
+        // On a page, so that nothing is cut off by the rotation.
         let mut page = ImageBuffer::from_pixel(500, 500, Luma([230]));
         imageops::replace(&mut page, &flat, 110, 190);
         for degrees in (0..360).step_by(5) {

@@ -1,28 +1,28 @@
-/// A camera without distortion (pinhole), and where it is mounted on the robot.
+/// Pinhole camera without distortion, and its pose on the robot.
 ///
-/// In the frame of the robot x points forward, y left and z up. Without yaw and pitch the camera looks along x.
+/// In the frame of the robot, x points forward, y left and z up. Without yaw and pitch the camera looks along x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Camera {
-    /// Width of its images, in pixels.
+    /// Width of the images, in pixels.
     pub width: u32,
-    /// Height of its images, in pixels.
+    /// Height of the images, in pixels.
     pub height: u32,
-    /// Distance of the image plane, in pixels.
+    /// Focal length, in pixels.
     pub focal_length: f32,
-    /// The pixel on the optical axis.
+    /// Pixel on the optical axis (u, v).
     pub principal_point: [f32; 2],
-    /// Where it stands, in the frame of the robot, in m.
+    /// Position in the frame of the robot, in m.
     pub position: [f32; 3],
-    /// How far it is turned to the left, in rad.
+    /// Rotation to the left, in rad.
     pub yaw: f32,
-    /// How far it looks down, in rad.
+    /// Rotation downwards, in rad.
     pub pitch: f32,
 }
 
 impl Camera {
-    /// A camera with the axis through the middle of its images, at the origin, that looks along x. Its images show
-    /// `field_of_view` rad from left to right.
+    /// Creates a camera at the origin that looks along x, with the optical axis through the middle of its images.
+    /// `field_of_view` is the horizontal one, in rad.
     pub fn new(width: u32, height: u32, field_of_view: f32) -> Self {
         let middle = |count: u32| 0.5 * (count as f32 - 1.0);
         Self {
@@ -36,13 +36,13 @@ impl Camera {
         }
     }
 
-    /// Whether its images are of this size.
+    /// Returns `true` if the images of the camera have this size.
     pub const fn takes(&self, size: (u32, u32)) -> bool {
         self.width == size.0 && self.height == size.1
     }
 
-    /// The pixel that shows a point of the robot frame, which may lie outside of the image; `None` if the point is
-    /// not in front of the camera, or no number.
+    /// Pixel (u, v) that shows a point of the robot frame. It may be outside the image. `None` if the point is not in
+    /// front of the camera or a coordinate is not finite.
     pub fn project(&self, point: [f32; 3]) -> Option<[f32; 2]> {
         let [forward, left, up] = self.axes();
         let d: [f32; 3] = core::array::from_fn(|i| point[i] - self.position[i]);
@@ -52,7 +52,7 @@ impl Camera {
         (depth > 0.0 && u.is_finite() && v.is_finite()).then_some([u, v])
     }
 
-    /// The direction in which a pixel looks, of length 1, in the frame of the robot.
+    /// Direction of the ray through a pixel, in the frame of the robot, with length 1.
     pub fn ray(&self, u: f32, v: f32) -> [f32; 3] {
         let [forward, left, up] = self.axes();
         let (a, b) = (self.principal_point[0] - u, self.principal_point[1] - v);
@@ -61,14 +61,14 @@ impl Camera {
         ray.map(|x| x / length)
     }
 
-    /// Its directions forward, left and up in the frame of the robot.
+    /// Forward, left and up directions of the camera in the frame of the robot.
     fn axes(&self) -> [[f32; 3]; 3] {
         let ((sin, cos), (down, level)) = (libm::sincosf(self.yaw), libm::sincosf(self.pitch));
         [[cos * level, sin * level, -down], [-sin, cos, 0.0], [cos * down, sin * down, level]]
     }
 }
 
-/// Without images.
+/// A camera without pixels.
 impl Default for Camera {
     fn default() -> Self {
         Self::new(0, 0, 1.0)

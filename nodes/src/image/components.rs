@@ -2,26 +2,27 @@ use super::{GrayImage, Region, light};
 use apex_rt::{Out, node};
 use std::cmp::Reverse;
 
-/// The most regions of one image.
+/// Maximum number of regions of an image.
 pub const MAX_REGIONS: usize = 64;
 
-/// The regions of one image.
+/// Regions of one image.
 pub type Regions = heapless::Vec<Region, MAX_REGIONS>;
 
-/// Finds the things in an image (thesis 4.3.1): connected pixels that are light enough, neighbours by side or corner.
+/// Finds the objects in an image (thesis 4.3.1): connected components of light pixels, with the 8 neighbours of a
+/// pixel.
 ///
-/// The [`MAX_REGIONS`] with the most pixels, in the order of their uppermost pixels; maybe none. What reaches the border
-/// of the image is cut off there, and left out.
+/// At most [`MAX_REGIONS`] regions, those with the most pixels, from top to bottom; the list may be empty. Objects that
+/// touch the border of the image are left out.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Components {
-    /// The least intensity.
+    /// Minimum intensity of a light pixel.
     #[param(default = 40, range = 1..=255)]
     threshold: u8,
-    /// The least width and height, in pixels.
+    /// Minimum width and height, in pixels.
     #[param(default = 20, range = 1..=10_000)]
     min_side: u32,
-    /// The largest width and height, in pixels.
+    /// Maximum width and height, in pixels.
     #[param(default = 500, range = 1..=100_000)]
     max_side: u32,
     things: Things,
@@ -48,21 +49,21 @@ impl Components {
     }
 }
 
-/// Light pixels side by side in a row.
+/// Run of consecutive light pixels in a row.
 #[derive(Debug, Clone, Copy)]
 struct Run {
     first: u32,
     end: u32,
-    /// The thing that they belong to.
+    /// Number of the object that the pixels belong to.
     thing: usize,
 }
 
-/// The things of an image, found row by row.
+/// Objects of an image, found row by row (union-find).
 #[derive(Debug, Clone, Default)]
 struct Things {
-    /// With the number of the thing that it is a part of: an earlier one, or itself.
+    /// Region of each object, with the number of the object that it was merged into: an earlier one, or itself.
     parts: Vec<(usize, Region)>,
-    /// The runs of the row before, and of this one.
+    /// Runs of the previous row, and of the current one.
     above: Vec<Run>,
     row: Vec<Run>,
 }
@@ -72,7 +73,7 @@ impl Things {
         self.parts.clear();
         self.above.clear();
         for (y, row) in light::rows(image) {
-            // Those that end left of a run touch none of the following runs either.
+            // Runs that end left of this run cannot touch any of the following runs either.
             let mut from = 0;
             for (first, end) in light::runs(row, threshold) {
                 from += self.above[from..].iter().take_while(|above| above.end < first).count();
@@ -84,7 +85,7 @@ impl Things {
         }
     }
 
-    /// The thing that a run belongs to: that of the runs above which it touches, even if only at a corner, or a new one.
+    /// Object of a run: that of the touching runs above, including those at a corner, or a new one.
     fn thing(&mut self, first: u32, end: u32, y: u32, from: usize) -> usize {
         let number = self.parts.len();
         self.parts.push((number, Region { left: first, top: y, width: end - first, height: 1, area: end - first }));
@@ -92,7 +93,7 @@ impl Things {
         (from..from + touching).fold(number, |thing, i| self.join(thing, self.above[i].thing))
     }
 
-    /// Makes two things one: the earlier of both.
+    /// Merges two objects into the earlier one.
     fn join(&mut self, a: usize, b: usize) -> usize {
         let (a, b) = (self.root(a), self.root(b));
         let (thing, part) = (a.min(b), a.max(b));
@@ -103,7 +104,7 @@ impl Things {
         thing
     }
 
-    /// The thing that a thing is a part of in the end. The way there becomes shorter for the next time.
+    /// Final object that an object was merged into. Halves the path for the next search.
     fn root(&mut self, mut thing: usize) -> usize {
         while self.parts[thing].0 != thing {
             self.parts[thing].0 = self.parts[self.parts[thing].0].0;
@@ -112,7 +113,7 @@ impl Things {
         thing
     }
 
-    /// Those that are no part of others, in the order of their first pixels, row by row.
+    /// Objects that were not merged into others, in the order of their first pixels, row by row.
     fn whole(&self) -> impl Iterator<Item = Region> {
         self.parts.iter().enumerate().filter(|(i, (root, _))| i == root).map(|(_, (_, region))| *region)
     }
@@ -137,7 +138,7 @@ mod tests {
 
     #[test]
     fn components_are_boxes_around_what_hangs_together() {
-        // A diagonal, a block, a pixel that is too small, and what the border cuts off.
+        // A diagonal, a block, a pixel that is too small, and objects cut off by the border.
         let picture = image(30, 20, |x, y| match (x, y) {
             (2..8, 2..8) if x == y => 90,
             (15..20, 1..12) => 200,

@@ -3,22 +3,22 @@ use ::image::imageops;
 use apex_rt::{Out, node};
 use imageproc::edges::canny;
 
-/// The edges in each region of an image (Canny 1986; thesis 4.3.1): 255 on an edge, all else 0.
+/// Edges in each region of an image (Canny 1986; thesis 4.3.1): 255 on an edge, 0 elsewhere.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Edges {
-    /// An edge begins where the gradient is at least this; from black to white it is about 1000.
+    /// Minimum gradient at which an edge begins. From black to white the gradient is about 1000.
     #[param(default = 150.0, range = 1.0..=1150.0)]
     high: f32,
-    /// It goes on while the gradient is at least this.
+    /// Minimum gradient at which an edge continues.
     #[param(default = 60.0, range = 1.0..=1150.0)]
     low: f32,
-    /// Pixels around each region that belong to it as well.
+    /// Margin added around each region, in pixels.
     #[param(default = 4, range = 0..=1000)]
     margin: u32,
 }
 
-/// Narrower regions have no edges: the filters need a neighbourhood.
+/// Minimum width and height of a region. The filters need a neighbourhood, so smaller regions have no edges.
 const MIN_SIDE: u32 = 8;
 
 #[node]

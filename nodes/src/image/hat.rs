@@ -1,10 +1,10 @@
 use super::{GrayImage, Region, light, window::gather};
 use apex_rt::{Out, node};
 
-/// Shows dark things that are thinner than twice the radius, on light ground (thesis 4.3.1): the morphological closing
-/// by a square, minus the image. Everything else becomes black.
+/// Extracts dark structures on light ground that are thinner than twice the radius (thesis 4.3.1): the morphological
+/// closing by a square, minus the image. All other pixels become black.
 ///
-/// The less of the image is not black, the faster it is.
+/// Faster for images with more black pixels.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BlackHat {
@@ -22,12 +22,13 @@ impl BlackHat {
         let dark = dark.get_mut();
         dark.reset(image.stamp, image.size());
         let Some(bounds) = light::bounds(image) else { return };
-        // As far as light is stretched, and a pixel more: that is black, and so is all that follows.
+        // The dilation reaches `radius` pixels beyond the light part. One more pixel is black, as is everything beyond
+        // it.
         let part = bounds.grown(self.radius as u32 + 1, image.size());
         let width = part.width as usize;
         self.part.clear();
         rows(image, &part).for_each(|row| self.part.extend_from_slice(row));
-        // Light is stretched, then what it swallowed comes back as far as it was large.
+        // The closing: a dilation, then an erosion.
         self.extremes(width, 0, u8::max);
         self.extremes(width, 255, u8::min);
         let whole = image.size().0 as usize;
@@ -38,8 +39,8 @@ impl BlackHat {
         }
     }
 
-    /// Replaces each pixel of the part by the one of the square around it that wins against all others. Beyond the
-    /// border are pixels that lose.
+    /// Replaces each pixel of the part by the winner of all pixels in the square around it. Pixels outside the part
+    /// have the value `loser`.
     fn extremes(&mut self, width: usize, loser: u8, winner: impl Fn(u8, u8) -> u8) {
         let (frame, height) = (self.radius, self.part.len() / width);
         let stride = width + 2 * frame;
@@ -47,7 +48,7 @@ impl BlackHat {
         self.framed.resize(stride * (height + 2 * frame), loser);
         let inner = self.framed.chunks_exact_mut(stride).skip(frame);
         inner.zip(self.part.chunks_exact(width)).for_each(|(to, from)| to[frame..][..width].copy_from_slice(from));
-        // What runs on from one row into the next ends in the frame.
+        // Windows that cross the end of a row begin in the frame, which is not read.
         gather(&mut self.framed, &mut self.spare, 1, 2 * frame + 1, &winner);
         gather(&mut self.framed, &mut self.spare, stride, 2 * frame + 1, &winner);
         let squares = self.framed.chunks_exact(stride);
@@ -55,7 +56,7 @@ impl BlackHat {
     }
 }
 
-/// The rows of a part of an image, which has it.
+/// Rows of a part of an image. The part must be inside the image.
 fn rows<'a>(image: &'a GrayImage, part: &Region) -> impl Iterator<Item = &'a [u8]> + use<'a> {
     let (left, width) = (part.left as usize, part.width as usize);
     let all = image.pixels.as_raw().chunks_exact(image.size().0 as usize);

@@ -4,35 +4,35 @@ use apex_rt::{Out, node};
 use core::f32::consts::PI;
 use std::sync::LazyLock;
 
-/// The most lines of one image.
+/// Maximum number of lines of an image.
 pub const MAX_LINES: usize = 256;
 
-/// The lines of one image, in the order in which they were found.
+/// Lines of one image, in the order of detection.
 pub type Lines = heapless::Vec<Line, MAX_LINES>;
 
-/// A straight line between two pixels.
+/// Straight line segment between two pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Line {
-    /// One end: u and v.
+    /// First end: u and v, in pixels.
     pub from: [f32; 2],
-    /// The other one.
+    /// Second end: u and v, in pixels.
     pub to: [f32; 2],
 }
 
 impl Line {
-    /// From one end to the other.
+    /// Vector from the first end to the second, in pixels.
     pub const fn span(&self) -> [f32; 2] {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Its length, in pixels.
+    /// Length, in pixels.
     pub fn length(&self) -> f32 {
         let [du, dv] = self.span();
         du.hypot(dv)
     }
 
-    /// Where two lines meet, as parts of their lengths from their first ends; `None` if they are parallel.
+    /// Intersection of two lines, as fractions of their lengths from their first ends, or `None` if they are parallel.
     pub fn meets(&self, other: &Self) -> Option<[f32; 2]> {
         let ([a, b], [c, d]) = (self.span(), other.span());
         let [x, y] = [other.from[0] - self.from[0], other.from[1] - self.from[1]];
@@ -40,42 +40,42 @@ impl Line {
         (cross != 0.0).then(|| [(x * d - y * c) / cross, (x * b - y * a) / cross])
     }
 
-    /// The point that lies `part` of its length from its first end.
+    /// Point at the fraction `part` of the length from the first end.
     pub fn at(&self, part: f32) -> [f32; 2] {
         let [du, dv] = self.span();
         [self.from[0] + part * du, self.from[1] + part * dv]
     }
 }
 
-/// Directions that are told apart: steps of 1°.
+/// Number of directions, in steps of 1°.
 const ANGLES: usize = 180;
 
 /// Sine and cosine of the directions.
 static DIRECTIONS: LazyLock<[(f32, f32); ANGLES]> =
     LazyLock::new(|| std::array::from_fn(|angle| (angle as f32 * PI / ANGLES as f32).sin_cos()));
 
-/// An edge that has not voted yet, and one that has; 0 is none.
+/// State of an edge pixel before and after its vote. Other pixels have the state 0.
 const EDGE: u8 = 1;
 const VOTED: u8 = 2;
 
 /// Finds straight lines among edges (progressive probabilistic Hough transform; Matas et al. 2000; thesis 4.3.1).
 ///
-/// Edges are taken in random order and vote for all lines through them. As soon as one has enough votes, it is
-/// followed from there in both directions, one pixel to each side, and what lies on it votes for no other. At most
-/// [`MAX_LINES`] lines.
+/// Edge pixels vote in random order for all lines through them. As soon as a line has enough votes, it is followed in
+/// both directions, with a tolerance of one pixel to each side, and its pixels no longer vote for other lines. Finds at
+/// most [`MAX_LINES`] lines.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ProbabilisticHough {
-    /// So many votes make a line.
+    /// Number of votes that make a line.
     #[param(default = 12, range = 2..=10_000)]
     votes: u16,
-    /// Shorter lines are dropped, in pixels.
+    /// Minimum length of a line, in pixels.
     #[param(default = 15.0, range = 1.0..=10_000.0)]
     min_length: f32,
-    /// The widest hole in a line, in pixels.
+    /// Maximum gap in a line, in pixels.
     #[param(default = 12, range = 0..=1000)]
     max_gap: u32,
-    /// The order of the edges follows from it.
+    /// Seed of the random order of the edge pixels.
     #[param(default = 1)]
     seed: u64,
     field: Field,
@@ -83,7 +83,7 @@ pub struct ProbabilisticHough {
 
 #[node]
 impl ProbabilisticHough {
-    /// The same edges give the same lines, whatever came before.
+    /// Finds the lines. The same edges give the same lines, independent of previous images.
     fn process(&mut self, edges: &GrayImage, lines: &mut Out<Lines>) {
         let lines = lines.get_mut();
         lines.clear();
@@ -108,22 +108,22 @@ impl ProbabilisticHough {
     }
 }
 
-/// The edges of an image and what they voted for.
+/// Edges of an image and their votes.
 #[derive(Debug, Clone, Default)]
 struct Field {
     width: i32,
     height: i32,
     states: Vec<u8>,
-    /// By direction of the normal, then by distance from the origin.
+    /// Votes by direction of the normal, then by distance from the origin.
     votes: Vec<u16>,
-    /// Distances that are told apart.
+    /// Number of bins for the distance.
     distances: usize,
     /// Storage for the order.
     order: Vec<[i32; 2]>,
 }
 
 impl Field {
-    /// Takes over an image, and gives its edges in random order (Fisher and Yates).
+    /// Loads an image and returns its edge pixels in random order (Fisher and Yates).
     fn begin(&mut self, edges: &GrayImage, random: &mut Random) -> Vec<[i32; 2]> {
         (self.width, self.height) = (edges.size().0 as i32, edges.size().1 as i32);
         self.states.clear();
@@ -152,7 +152,7 @@ impl Field {
         self.index(at).map_or(0, |i| self.states[i])
     }
 
-    /// The bins of the lines through a pixel, by the angles of their normals.
+    /// Bins of all lines through a pixel, by the angle of their normals.
     fn bins(&self, [x, y]: [i32; 2]) -> [u32; ANGLES] {
         let (x, y, middle) = (x as f32, y as f32, self.distances as i32 / 2);
         let mut bins = [0; ANGLES];
@@ -162,7 +162,7 @@ impl Field {
         bins
     }
 
-    /// Votes for all lines through a pixel; the votes and the angle of the best.
+    /// Votes for all lines through a pixel. Returns the votes and the angle of the best one.
     fn vote(&mut self, at: [i32; 2]) -> (u16, usize) {
         if let Some(i) = self.index(at) {
             self.states[i] = VOTED;
@@ -178,11 +178,11 @@ impl Field {
         best
     }
 
-    /// The pixels along a line from `at`, each with its two neighbours across.
+    /// Pixels along a line from `at`, each with its two neighbours across the line.
     fn walk(&self, at: [i32; 2], angle: usize, sense: f32) -> impl Iterator<Item = [[i32; 2]; 3]> + use<> {
         let (sin, cos) = DIRECTIONS[angle];
         let flat = sin.abs() > cos.abs();
-        // One pixel at a time along the axis that the line is nearer to.
+        // One pixel at a time along the axis that is closer to the direction of the line.
         let scale = sense / if flat { sin } else { cos };
         let (du, dv) = if flat { (sense, -cos * scale) } else { (-sin * scale, sense) };
         let [x, y] = at.map(|c| c as f32);
@@ -193,7 +193,7 @@ impl Field {
             .map(move |[x, y]| if flat { [[x, y], [x, y - 1], [x, y + 1]] } else { [[x, y], [x - 1, y], [x + 1, y]] })
     }
 
-    /// The last edge on a line before a hole of more than `max_gap` pixels.
+    /// Last edge pixel on a line before a gap of more than `max_gap` pixels.
     fn follow(&self, at: [i32; 2], angle: usize, sense: f32, max_gap: u32) -> [f32; 2] {
         let (mut end, mut gap) = (at, 0);
         for across in self.walk(at, angle, sense) {
@@ -208,7 +208,7 @@ impl Field {
         end.map(|c| c as f32)
     }
 
-    /// Removes the edges on a line up to its end, and if it is `long` their votes as well.
+    /// Removes the edge pixels of a line up to its end, and the votes of a `long` line as well.
     fn take(&mut self, at: [i32; 2], angle: usize, sense: f32, end: [f32; 2], long: bool) {
         for across in self.walk(at, angle, sense) {
             for pixel in across {
@@ -228,7 +228,7 @@ impl Field {
     }
 }
 
-/// The nearest whole number, as `round` gives it, for many numbers at once.
+/// Nearest integer, like `round`, but vectorizable.
 fn rounded(x: f32) -> i32 {
     let whole = x as i32;
     let rest = x - whole as f32;

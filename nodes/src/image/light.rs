@@ -1,11 +1,11 @@
-//! Where images are light. Most of many images is black: that is passed over many pixels at a time.
+//! Search for light pixels. Most pixels of many images are black and are skipped in blocks.
 
 use super::{GrayImage, Region};
 
-/// So many pixels are looked at in one go.
+/// Number of pixels that are compared in one block.
 const BLOCK: usize = 64;
 
-/// The rectangle around all pixels that are not black, with their area left at 0; `None` if all are black.
+/// Bounding rectangle of all pixels that are not black, with an area of 0, or `None` if all are black.
 pub fn bounds(image: &GrayImage) -> Option<Region> {
     let mut columns = vec![0; image.size().0 as usize];
     let mut rows = rows(image).map(|(_, row)| {
@@ -18,12 +18,13 @@ pub fn bounds(image: &GrayImage) -> Option<Region> {
     Some(Region { left, top, width, height, area: 0 })
 }
 
-/// The rows of an image with their numbers; none if it has no columns.
+/// Rows of an image with their indices; none if the image has no columns.
 pub fn rows(image: &GrayImage) -> impl Iterator<Item = (u32, &[u8])> {
     (0..).zip(image.pixels.as_raw().chunks_exact(image.size().0.max(1) as usize))
 }
 
-/// The stretches of a row that are at least as light as this: first pixel, and the one after the last.
+/// Runs of pixels of a row that are at least as light as the threshold: index of the first pixel, and of the one after
+/// the last.
 pub fn runs(row: &[u8], threshold: u8) -> impl Iterator<Item = (u32, u32)> {
     let mut next = 0;
     std::iter::from_fn(move || {
@@ -39,7 +40,7 @@ fn lightest(pixels: &[u8]) -> u8 {
     pixels.iter().fold(0, |lightest, pixel| lightest.max(*pixel))
 }
 
-/// The first one that holds, and how many there are up to the last one that does.
+/// Index of the first `true`, and the number of values from there to the last `true`.
 fn extent(holds: impl Iterator<Item = bool>) -> Option<(u32, u32)> {
     let numbers = (0..).zip(holds).filter_map(|(number, holds)| holds.then_some(number));
     let (first, last) = numbers.fold((None, 0), |(first, _), number| (first.or(Some(number)), number));

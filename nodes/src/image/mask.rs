@@ -2,27 +2,27 @@ use super::{Camera, GrayImage};
 use crate::scan::{Pose2, Scan};
 use apex_rt::{Out, node};
 
-/// Keeps of an image what lies between two heights above the points of a laser scan, and makes the rest black
-/// (thesis 4.3.1, figure 4.3b): on a wall of known height, only the band in which targets or signs hang.
+/// Keeps the part of an image between two heights above the points of a laser scan and blackens the rest (thesis 4.3.1,
+/// figure 4.3b): on a wall of known height, only the band with targets or signs remains.
 ///
-/// Each two neighbouring points that were measured, at both heights, are the corners of a part of the band. ⊥ if the
-/// image is not of the size that the camera has. All black without a measured point in view.
+/// Two neighbouring measured points, at both heights each, are the corners of a part of the band. The output is ⊥ if
+/// the size of the image is not that of the camera. It is black if no measured point is in view.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LaserMask {
-    /// The lower border, above the origin of the robot.
+    /// Lower limit of the band, above the origin of the robot.
     #[param(unit = "m", default = 0.3, range = -10.0..=10.0)]
     low: f32,
-    /// The upper border.
+    /// Upper limit of the band, above the origin of the robot.
     #[param(unit = "m", default = 0.65, range = -10.0..=10.0)]
     high: f32,
-    /// Where the scanner is on the robot: forward.
+    /// Forward position of the scanner in the frame of the robot.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     scanner_x: f32,
-    /// Where the scanner is on the robot: left.
+    /// Position of the scanner to the left.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     scanner_y: f32,
-    /// How far the scanner is turned to the left.
+    /// Rotation of the scanner to the left.
     #[param(unit = "rad", default = 0.0, range = -3.15..=3.15)]
     scanner_yaw: f32,
 }
@@ -57,13 +57,14 @@ fn reveal(image: &GrayImage, masked: &mut GrayImage, corners: &[[f32; 2]; 4]) {
         let columns = pixels(crossings(corners, row as f32), width);
         let start = row as usize * width as usize;
         let span = start + columns.start as usize..start + columns.end as usize;
-        // Few pixels, one by one: faster than as a block.
+        // Few pixels: copied one by one, which is faster than as a block.
         let (to, from) = (&mut masked.pixels.as_mut()[span.clone()], &image.pixels.as_raw()[span]);
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     }
 }
 
-/// Where a row meets the sides of a polygon. Only one that is no longer convex is seen too wide.
+/// Intersections of a row with the sides of a polygon. For a convex polygon their range is exact; otherwise it is too
+/// wide.
 fn crossings(corners: &[[f32; 2]; 4], row: f32) -> impl Iterator<Item = f32> {
     (0..4).filter_map(move |i| {
         let ([u, v], [u_next, v_next]) = (corners[i], corners[(i + 1) % 4]);
@@ -72,10 +73,10 @@ fn crossings(corners: &[[f32; 2]; 4], row: f32) -> impl Iterator<Item = f32> {
     })
 }
 
-/// The pixels from the least to the largest value, as far as there are any.
+/// Pixels from the least to the greatest value, clipped to `0..count`.
 fn pixels(values: impl Iterator<Item = f32>, count: u32) -> std::ops::Range<u32> {
     let (low, high) = values.fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(x), high.max(x)));
-    // Casts round towards zero, and stay in the range of the type.
+    // Casts round towards zero and saturate.
     let end = if high < 0.0 { 0 } else { (high as u32).saturating_add(1).min(count) };
     (low as u32).min(end)..end
 }

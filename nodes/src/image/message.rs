@@ -1,4 +1,4 @@
-//! Images as messages of ROS 2, which Foxglove and Python show.
+//! ROS 2 messages of images, which Foxglove and Python can show.
 
 use super::Image;
 use ::image::{ImageBuffer, Luma, Pixel, Rgb};
@@ -7,10 +7,10 @@ use apex_rt::record::{
     cdr::{Reader, Writer},
 };
 
-/// Types do not say in which frame they are: all are shown in one.
+/// Frame of all images. Types do not name their frame, so all are shown in the same one.
 const FRAME: &str = "camera";
 
-/// Pixels with a name in messages.
+/// Pixel type with an encoding name in messages.
 trait Encoding: Pixel<Subpixel = u8> {
     const NAME: &'static str;
 }
@@ -55,7 +55,7 @@ uint8[] data";
         if encoding != <P as Encoding>::NAME || step != row || row.checked_mul(height)? != count {
             return None;
         }
-        // What a broken file promises is not believed before it is there.
+        // Read byte by byte: a broken file may announce more bytes than it has.
         let bytes: Option<Vec<u8>> = (0..count).map(|_| message.u8()).collect();
         Some(Self { stamp, pixels: ImageBuffer::from_raw(width, height, bytes?)? })
     }

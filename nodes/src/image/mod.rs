@@ -1,8 +1,9 @@
 //! Camera images (feature `image`): the detection of targets by their cross (thesis 4.3.1), and bar codes (4.3.3,
 //! feature `barcode`).
 //!
-//! Pixels are counted from the upper left: u to the right, v down; the centre of the first pixel is (0, 0). An image
-//! without pixels, or of another size than its camera has, gives ⊥ or an empty result, as each node says.
+//! Pixel coordinates start in the upper left corner: u to the right, v down; the centre of the first pixel is (0, 0).
+//! An image without pixels, or with another size than that of its camera, gives ⊥ or an empty result, as documented
+//! for each node.
 
 #[cfg(feature = "barcode")]
 mod barcode;

@@ -2,27 +2,27 @@ use ::image::{ImageBuffer, Luma, Pixel, Rgb};
 use apex_rt::{Out, Time, node};
 use std::fmt;
 
-/// A picture with the time at which it was taken. The default has no pixels.
+/// Image with a time stamp. The default has no pixels.
 pub struct Image<P: Pixel> {
-    /// When it was taken.
+    /// Time of the exposure.
     pub stamp: Time,
-    /// Row by row from the top, each from the left.
+    /// Pixels, row by row from the top, each row from the left.
     pub pixels: ImageBuffer<P, Vec<P::Subpixel>>,
 }
 
-/// Intensities from 0 (black) to 255.
+/// Greyscale image with intensities from 0 (black) to 255 (white).
 pub type GrayImage = Image<Luma<u8>>;
 
-/// Red, green and blue from 0 to 255.
+/// Colour image with red, green and blue from 0 to 255.
 pub type ColorImage = Image<Rgb<u8>>;
 
 impl<P: Pixel> Image<P> {
-    /// Width and height.
+    /// Width and height, in pixels.
     pub fn size(&self) -> (u32, u32) {
         self.pixels.dimensions()
     }
 
-    /// Makes it an image of `width` by `height` zeros (black), in the storage that it has.
+    /// Replaces the content by a black image (all zeros) of this width and height. Reuses the allocated storage.
     pub fn reset(&mut self, stamp: Time, (width, height): (u32, u32)) {
         self.stamp = stamp;
         let mut storage = std::mem::take(&mut self.pixels).into_raw();
@@ -33,7 +33,7 @@ impl<P: Pixel> Image<P> {
     }
 }
 
-/// Keeps its storage when it is overwritten.
+/// `clone_from` reuses the allocated storage.
 impl<P: Pixel> Clone for Image<P> {
     fn clone(&self) -> Self {
         Self { stamp: self.stamp, pixels: self.pixels.clone() }
@@ -45,7 +45,7 @@ impl<P: Pixel> Clone for Image<P> {
     }
 }
 
-/// Without pixels.
+/// An image without pixels.
 impl<P: Pixel> Default for Image<P> {
     fn default() -> Self {
         Self { stamp: Time::ZERO, pixels: ImageBuffer::default() }
@@ -58,7 +58,7 @@ impl<P: Pixel> PartialEq for Image<P> {
     }
 }
 
-/// The size stands for the pixels.
+/// Shows the size instead of the pixels.
 impl<P: Pixel> fmt::Debug for Image<P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (width, height) = self.size();
@@ -72,7 +72,7 @@ impl<P: Pixel> From<ImageBuffer<P, Vec<P::Subpixel>>> for Image<P> {
     }
 }
 
-/// The luminance of a colour image (ITU-R BT.709).
+/// Luminance of a colour image (ITU-R BT.709).
 #[node]
 pub fn to_gray(image: &ColorImage, gray: &mut Out<GrayImage>) {
     let gray = gray.get_mut();

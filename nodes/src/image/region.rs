@@ -2,24 +2,24 @@ use super::{GrayImage, Regions};
 use ::image::{GenericImageView, Luma};
 use apex_rt::{Out, node};
 
-/// An upright rectangle of an image around something.
+/// Region of an image: an upright rectangle around an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Region {
-    /// The first column.
+    /// First column.
     pub left: u32,
-    /// The first row.
+    /// First row.
     pub top: u32,
-    /// Columns.
+    /// Number of columns.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// So many pixels of it belong to the thing.
+    /// Number of pixels that belong to the object.
     pub area: u32,
 }
 
 impl Region {
-    /// The smallest rectangle around both things.
+    /// Smallest rectangle around both objects.
     pub(super) fn joined(&self, other: &Self) -> Self {
         let (left, top) = (self.left.min(other.left), self.top.min(other.top));
         let (right, bottom) = (
@@ -29,7 +29,7 @@ impl Region {
         Self { left, top, width: right - left, height: bottom - top, area: self.area + other.area }
     }
 
-    /// The rectangle with `margin` more pixels to each side, as far as an image of this size has them.
+    /// Rectangle with `margin` more pixels on each side, clipped to an image of this width and height.
     #[must_use]
     pub fn grown(&self, margin: u32, (width, height): (u32, u32)) -> Self {
         let (left, top) = (self.left.saturating_sub(margin).min(width), self.top.saturating_sub(margin).min(height));
@@ -38,37 +38,37 @@ impl Region {
         Self { left, top, width: right.saturating_sub(left), height: bottom.saturating_sub(top), area: self.area }
     }
 
-    /// The place in its middle: u and v.
+    /// Centre of the rectangle: u and v, in pixels.
     pub fn middle(&self) -> [f32; 2] {
         let middle = |first: u32, count: u32| first as f32 + 0.5 * (count as f32 - 1.0);
         [middle(self.left, self.width), middle(self.top, self.height)]
     }
 
-    /// Whether a place in the image lies in it.
+    /// Returns `true` if a point of the image is in the rectangle.
     pub fn contains(&self, [u, v]: [f32; 2]) -> bool {
         let inside = |x: f32, first: u32, count: u32| x >= first as f32 && x < first as f32 + count as f32;
         inside(u, self.left, self.width) && inside(v, self.top, self.height)
     }
 }
 
-/// The region with the most pixels in its rectangle; the first of equal ones. ⊥ without regions.
+/// Region with the largest rectangle; the first one of equals. ⊥ without regions.
 #[node]
 pub fn largest(regions: &Regions) -> Option<Region> {
     let size = |region: &&Region| u64::from(region.width) * u64::from(region.height);
     regions.iter().rev().max_by_key(size).copied()
 }
 
-/// Stretches the intensities in each region so that the darkest becomes black and the lightest white (thesis 4.3.1):
-/// what follows does not depend on the light. The rest of the image stays as it is.
+/// Stretches the intensities in each region, so that the darkest becomes black and the lightest white (thesis 4.3.1):
+/// the following nodes do not depend on the light. The rest of the image is unchanged.
 ///
 /// Where regions overlap, the last one counts.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Normalize {
-    /// Pixels around each region that belong to it as well.
+    /// Margin added around each region, in pixels.
     #[param(default = 4, range = 0..=1000)]
     margin: u32,
-    /// This part of the pixels at each end becomes all black or all white.
+    /// Share of the pixels that becomes completely black, and share that becomes completely white.
     #[param(default = 0.02, range = 0.0..=0.45)]
     tail: f32,
 }
@@ -93,7 +93,7 @@ impl Normalize {
     }
 }
 
-/// The intensities with `tail` of all below and above.
+/// Lower and upper intensity with a share `tail` of all pixels beyond each.
 fn bounds(pixels: impl Iterator<Item = u8>, tail: f32) -> (f32, f32) {
     let mut histogram = [0_u32; 256];
     pixels.for_each(|p| histogram[usize::from(p)] += 1);
@@ -102,7 +102,7 @@ fn bounds(pixels: impl Iterator<Item = u8>, tail: f32) -> (f32, f32) {
     (beyond(bins.clone(), limit).unwrap_or(0.0), beyond(bins.rev(), limit).unwrap_or(255.0))
 }
 
-/// The first level with more than `limit` pixels up to it.
+/// First level with more than `limit` pixels up to and including it.
 fn beyond(bins: impl Iterator<Item = (usize, u32)>, limit: u32) -> Option<f32> {
     let mut sums = bins.scan(0, |sum, (level, count)| {
         *sum += count;

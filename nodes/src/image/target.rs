@@ -2,34 +2,34 @@ use super::{Camera, Line, Lines, Region, Regions};
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::node;
 
-/// A target sign in an image: a cross in rings (thesis 4.3.1).
+/// Target sign in an image: a cross in rings (thesis 4.3.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Target {
-    /// Where its lines cross: u and v, in pixels.
+    /// Intersection of the lines: u and v, in pixels.
     pub centre: [f32; 2],
-    /// What its lines lie in.
+    /// Region that contains the lines.
     pub region: Region,
 }
 
-/// Finds a target by its cross (thesis 4.3.1, figure 4.4): in one region, a line that is almost level and one that is
-/// almost upright, long enough, that meet near the middle of the region at almost 90°. ⊥ without any.
+/// Finds a target by its cross (thesis 4.3.1, figure 4.4): in one region, an almost horizontal and an almost vertical
+/// line that are long enough and intersect near the middle of the region at almost 90°. ⊥ if there is none.
 ///
-/// Both edges of a stroke are lines: the centre is the mean of all crossings in the region. Of several targets, the
-/// one with the largest region counts.
+/// Both edges of a stroke are lines, so the centre is the mean of all intersections in the region. Of several targets,
+/// the one with the largest region is chosen.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TargetLines {
-    /// How far from level and upright the lines may be.
+    /// Maximum deviation of the lines from horizontal and vertical.
     #[param(unit = "rad", default = 0.35, range = 0.0..=0.785)]
     slant: f32,
-    /// How far from a right angle they may meet.
+    /// Maximum deviation of the intersection from a right angle.
     #[param(unit = "rad", default = 0.26, range = 0.0..=0.785)]
     skew: f32,
-    /// The least length, as a part of the width or height of the region.
+    /// Minimum length of a line, as a fraction of the width or height of the region.
     #[param(default = 0.6, range = 0.1..=1.0)]
     share: f32,
-    /// How far from the middle of the region they may meet, as a part of its width and height.
+    /// Maximum distance of the intersection from the middle of the region, as a fraction of its width and height.
     #[param(default = 0.12, range = 0.0..=0.5)]
     offset: f32,
 }
@@ -41,7 +41,7 @@ impl TargetLines {
         targets.max_by_key(|target| u64::from(target.region.width) * u64::from(target.region.height))
     }
 
-    /// The target in a region.
+    /// Target in a region.
     fn target(&self, lines: &[Line], region: &Region) -> Option<Target> {
         let inside = |line: &&Line| region.contains(line.at(0.5));
         let level = |line: &&Line| {
@@ -65,7 +65,7 @@ impl TargetLines {
         (count > 0.0).then_some(Target { centre, region: *region })
     }
 
-    /// Where two lines cross, if they do it as those of a target.
+    /// Intersection of two lines, if it meets the criteria of a target.
     fn crossing(&self, a: &Line, b: &Line, region: &Region) -> Option<[f32; 2]> {
         let ([a_u, a_v], [b_u, b_v]) = (a.span(), b.span());
         let cosine = (a_u * b_u + a_v * b_v) / (a.length() * b.length());
@@ -77,36 +77,37 @@ impl TargetLines {
     }
 }
 
-/// A region as a target with its centre in the middle, so that [`TargetPose`] tells where a number sign is (thesis
+/// Region as a target with its centre in the middle, so that [`TargetPose`] gives the pose of a number sign (thesis
 /// 4.3.2).
 #[node]
 pub fn region_target(region: &Region) -> Target {
     Target { centre: region.middle(), region: *region }
 }
 
-/// Where a target is, in the frame of the robot: on the wall that the laser sees in its direction (thesis 4.3.1).
+/// Pose of a target in the frame of the robot: on the wall that the laser measures in its direction (thesis 4.3.1).
 ///
-/// The x axis of the pose points out of the wall, towards the robot. The wall is a straight line that is fitted to the
-/// points of the scan beside the line of sight (total least squares). ⊥ if there are too few, or they are no line.
+/// The x axis of the pose points out of the wall, towards the robot. The wall is a straight line fitted to the points
+/// of the scan beside the line of sight (total least squares). ⊥ if there are too few points, or if they are not on a
+/// line.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TargetPose {
-    /// Points up to this far from the line of sight belong to the wall.
+    /// Maximum distance of the points of the wall from the line of sight.
     #[param(unit = "m", default = 0.25, range = 0.01..=5.0)]
     reach: f32,
-    /// The fewest points of a wall.
+    /// Minimum number of points of the wall.
     #[param(default = 5, range = 2..=1000)]
     min_points: usize,
-    /// How far they may lie from their line (standard deviation).
+    /// Maximum standard deviation of the points from the line.
     #[param(unit = "m", default = 0.03, range = 0.0..=1.0)]
     roughness: f32,
-    /// Where the scanner is on the robot: forward.
+    /// Forward position of the scanner in the frame of the robot.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     scanner_x: f32,
-    /// Where the scanner is on the robot: left.
+    /// Position of the scanner to the left.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     scanner_y: f32,
-    /// How far the scanner is turned to the left.
+    /// Rotation of the scanner to the left.
     #[param(unit = "rad", default = 0.0, range = -3.15..=3.15)]
     scanner_yaw: f32,
     points: Vec<Point2>,
@@ -132,7 +133,7 @@ impl TargetPose {
         if wall.deviation.is_nan() || wall.deviation > self.roughness {
             return None;
         }
-        // The normal that looks back at the camera.
+        // The normal that points back to the camera.
         let normal = if wall.normal.dot(sight) > 0.0 { wall.normal.scaled(-1.0) } else { wall.normal };
         let distance = (wall.middle - eye).dot(normal) / sight.dot(normal);
         let place = eye + sight.scaled(distance);
@@ -141,17 +142,16 @@ impl TargetPose {
     }
 }
 
-/// A line through points.
+/// Straight line fitted to points.
 struct Wall {
     middle: Point2,
     normal: Point2,
-    /// Standard deviation of the distance of the points.
+    /// Standard deviation of the distances of the points from the line, in m.
     deviation: f32,
 }
 
 impl Wall {
-    /// The line with the least squares of the distances of the points: through their mean, in the direction in which
-    /// they vary most.
+    /// Total least squares: the line through the mean of the points, in the direction of their greatest variance.
     fn fit(points: &[Point2]) -> Self {
         let share = 1.0 / points.len() as f32;
         let middle = points.iter().fold(Point2::default(), |sum, p| sum + *p).scaled(share);
@@ -176,7 +176,7 @@ mod tests {
         Camera { position: [0.1, 0.0, 0.4], ..Camera::new(640, 480, 1.0) }
     }
 
-    /// Poses in front of the robot, up to 2 m away, the wall turned up to 25°.
+    /// Poses in front of the robot, up to 2 m away, with the wall rotated by up to 25°.
     fn poses() -> impl Iterator<Item = Pose2> {
         let mut random = Random::new(5);
         (0..12).map(move |_| {
@@ -198,7 +198,7 @@ mod tests {
             let found = node.process(&target, &camera(), &scan).expect("a wall");
             let error = found.relative_to(&pose);
             assert!(error.position().norm() < 2e-3 && error.theta.abs() < 2e-3, "{pose:?}: {error:?}");
-            // Too rough a wall, and none at all.
+            // A wall that is too rough, and none at all.
             scan.ranges.iter_mut().step_by(2).for_each(|r| *r += 0.2);
             assert_eq!(node.process(&target, &camera(), &scan), None);
             assert_eq!(node.process(&target, &camera(), &Scan::default()), None);

@@ -1,10 +1,9 @@
-//! The lightest or darkest of many neighbouring pixels.
+//! Sliding minimum and maximum over pixels.
 
-/// Replaces each pixel by the winner of `count` pixels: itself and those that follow in these steps, as far as there
-/// are any.
+/// Replaces each pixel by the winner of `count` pixels: itself and those that follow it at distances of `step`, as far
+/// as they exist.
 ///
-/// What is known of few pixels gives that of twice as many, so that many pixels are compared at once. `spare` is
-/// storage.
+/// The winners of n pixels give those of 2n pixels, so that few passes compare many pixels at once. `spare` is storage.
 pub fn gather(pixels: &mut Vec<u8>, spare: &mut Vec<u8>, step: usize, count: usize, winner: impl Fn(u8, u8) -> u8) {
     let mut known = 1;
     while known < count {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// Reads rows of numbers from a comma-separated file (`.csv`, `.csv.gz`).
 ///
-/// An empty cell is NaN. Quotes are not understood: this is for tables of numbers.
+/// An empty cell is NaN. Quotes are not supported, as the format is for tables of numbers.
 #[derive(Debug)]
 pub struct CsvReader {
     lines: Lines,
@@ -14,7 +14,7 @@ impl CsvReader {
     /// Opens a file. With `header`, its first line is skipped.
     ///
     /// # Errors
-    /// If it cannot be opened, or the header cannot be read.
+    /// If the file cannot be opened, or its header cannot be read.
     pub fn open(path: impl AsRef<Path>, header: bool) -> Result<Self, ReadError> {
         let mut lines = Lines::open(path.as_ref())?;
         if header {
@@ -23,10 +23,10 @@ impl CsvReader {
         Ok(Self { lines })
     }
 
-    /// Replaces `row` by the next one; `false` at the end of the file.
+    /// Replaces `row` by the next one. Returns `false` at the end of the file.
     ///
     /// # Errors
-    /// If a cell is no number, or the file cannot be read on. The next call goes on behind the error.
+    /// If a cell is not a number, or the file cannot be read further. The next call continues after the error.
     pub fn read(&mut self, row: &mut Vec<f64>) -> Result<bool, ReadError> {
         row.clear();
         if self.lines.next()?.is_none() {
@@ -43,15 +43,15 @@ impl CsvReader {
     }
 }
 
-/// Sends the rows of a comma-separated file of numbers, one per firing (see [`CsvReader`]). After the last it
+/// Sends the rows of a comma-separated file of numbers, one per firing (see [`CsvReader`]). After the last row it
 /// triggers `done` and sends ⊥.
 #[node]
 #[derive(Debug)]
 pub struct CsvLog {
-    /// The file.
+    /// Path of the file.
     #[param]
     path: &'static str,
-    /// Whether the first line is a heading.
+    /// `true` if the first line is a header.
     #[param(default = false)]
     header: bool,
     reader: Option<CsvReader>,
@@ -84,7 +84,7 @@ impl CsvLog {
         Ok(())
     }
 
-    /// Whether all rows have been sent, or the file could not be opened.
+    /// Returns `true` if all rows have been sent, or if the file could not be opened.
     pub fn finished(&self) -> bool {
         self.finished
     }

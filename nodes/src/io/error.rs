@@ -3,14 +3,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Why a file, or one line of it, could not be read.
+/// Error of a file, or of one line of it, that cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadError {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The line, counted from 1; `None` if the file could not be opened.
+    /// Line number, counted from 1, or `None` if the file could not be opened.
     pub line: Option<usize>,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
 }
 
@@ -32,12 +32,12 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// Why a file could not be written.
+/// Error of a file that cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WriteError {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
 }
 

@@ -3,22 +3,23 @@ use crate::scan::{Container, Point2, Pose2, Scan, Segments};
 use plotters::{chart::ChartContext, coord::types::RangedCoordf32, drawing::DrawingAreaErrorKind, prelude::*};
 use std::{f32::consts::PI, ops::Range, path::Path};
 
-/// A picture of a scan: points, segments, wheel boxes and poses, seen from above, in the frame of the scanner.
+/// Drawing of a scan: points, segments, wheel boxes and poses, seen from above, in the frame of the scanner.
 #[derive(Debug, Clone, Copy)]
 pub struct ScanFigure<'a> {
-    /// Heading.
+    /// Title of the drawing.
     pub title: &'a str,
-    /// Its points are drawn in grey.
+    /// Scan. Its points are drawn in grey.
     pub scan: &'a Scan,
-    /// Their points are drawn in colours.
+    /// Segments. Their points are drawn in colours.
     pub segments: &'a Segments,
-    /// What was found.
+    /// Detected container.
     pub container: Option<&'a Container>,
-    /// The wheels of the model, drawn where `container` is (see [`ContainerSearch`](crate::scan::ContainerSearch)).
+    /// Wheel boxes of the model, drawn at the pose of `container` (see
+    /// [`ContainerSearch`](crate::scan::ContainerSearch)).
     pub boxes: &'a [[f32; 4]],
-    /// Where the container really is, if that is known.
+    /// True pose of the container, if known.
     pub truth: Option<&'a Pose2>,
-    /// Points farther away than this are left out, in m.
+    /// Maximum distance of the drawn points, in m.
     pub reach: f32,
 }
 
@@ -31,7 +32,7 @@ const HEIGHT: u32 = 720;
 const POINT: RGBColor = RGBColor(150, 150, 150);
 const FOUND: RGBColor = RGBColor(200, 30, 30);
 const TRUTH: RGBColor = RGBColor(20, 130, 60);
-/// Colours of neighbouring segments.
+/// Colours of segments, used in turn.
 const SEGMENTS: [RGBColor; 6] = [
     RGBColor(31, 119, 180),
     RGBColor(255, 127, 14),
@@ -40,11 +41,11 @@ const SEGMENTS: [RGBColor; 6] = [
     RGBColor(140, 86, 75),
     RGBColor(227, 119, 194),
 ];
-/// Length of the arrow of a pose, in m.
+/// Length of the arrow at a pose, in m.
 const ARROW: f32 = 0.6;
 
 impl ScanFigure<'_> {
-    /// Writes the picture as SVG.
+    /// Writes the drawing as SVG.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -115,7 +116,7 @@ impl ScanFigure<'_> {
             chart.draw_series(outlines)?;
             let is_symmetric = is_symmetric(self.boxes);
             let (ends, label) = match is_symmetric {
-                // Which end is the front cannot be told.
+                // The front end is unknown.
                 true => {
                     (vec![container.pose, turned(&container.pose)], "found container (either end may be its front)")
                 }
@@ -127,12 +128,12 @@ impl ScanFigure<'_> {
         Ok(())
     }
 
-    /// The points that are near enough, with their beams.
+    /// Points within the maximum distance, with the indices of their beams.
     fn visible(&self) -> impl Iterator<Item = (usize, Point2)> + '_ {
         self.scan.points().filter(|(_, p)| p.norm() <= self.reach)
     }
 
-    /// The ranges of both axes: all that is drawn, with a margin, and as long on paper in x as in y.
+    /// Ranges of both axes: all drawn points with a margin, on the same scale in x and y.
     fn view(&self) -> (Range<f32>, Range<f32>) {
         let poses = self.truth.into_iter().chain(self.container.map(|c| &c.pose)).map(Pose2::position);
         let all = self.visible().map(|(_, p)| p).chain(poses).filter(|p| p.x.is_finite() && p.y.is_finite());
@@ -156,7 +157,7 @@ fn line((x, y): (i32, i32), colour: RGBColor) -> PathElement<(i32, i32)> {
     PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(3))
 }
 
-/// Whether the wheels of a container stand where they stood when it is turned by half a turn.
+/// Returns `true` if the wheels of a container coincide with themselves after a rotation by 180°.
 fn is_symmetric(boxes: &[[f32; 4]]) -> bool {
     let is_same = |a: &[f32; 4], b: &[f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-3);
     !boxes.is_empty()
@@ -166,19 +167,19 @@ fn is_symmetric(boxes: &[[f32; 4]]) -> bool {
         })
 }
 
-/// A pose that looks the other way.
+/// Pose rotated by 180°.
 fn turned(pose: &Pose2) -> Pose2 {
     Pose2 { theta: pose.theta + PI, ..*pose }
 }
 
-/// An arrow from the centre of a pose along its heading.
+/// Arrow from the position of a pose along its heading.
 fn arrow(pose: &Pose2, style: ShapeStyle) -> PathElement<(f32, f32)> {
     let head = 0.2 * ARROW;
     let path = [(0.0, 0.0), (ARROW, 0.0), (ARROW - head, 0.6 * head), (ARROW, 0.0), (ARROW - head, -0.6 * head)];
     PathElement::new(path.map(|(x, y)| outer(pose, x, y)), style)
 }
 
-/// The outline of a wheel box of a container at `pose`.
+/// Outline of a wheel box of a container at `pose`.
 fn outline(pose: &Pose2, &[x, y, length, width]: &[f32; 4]) -> PathElement<(f32, f32)> {
     let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5)];
     PathElement::new(corners.map(|(a, b)| outer(pose, x + a * length, y + b * width)), FOUND.stroke_width(2))

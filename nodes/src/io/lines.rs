@@ -7,10 +7,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The longest line that is read, in bytes: a file without line ends must not fill the memory.
+/// Maximum length of a line, in bytes: a file without line breaks must not fill the memory.
 const MAX_LINE: u64 = 1 << 20;
 
-/// Reads a text file line by line; one whose name ends in `.gz` is unpacked on the way.
+/// Reads a text file line by line. Files whose names end in `.gz` are decompressed.
 pub(crate) struct Lines {
     path: PathBuf,
     reader: Box<dyn BufRead + Send>,
@@ -30,9 +30,9 @@ impl Lines {
         Ok(Self { path: path.into(), reader, line: String::new(), number: 0, broken: false })
     }
 
-    /// Reads the next line that is not blank; `None` at the end of the file.
+    /// Reads the next line that is not blank. Returns `None` at the end of the file.
     ///
-    /// After an error of the file itself (not of what a line says) there is nothing more to read.
+    /// After an error of the file itself (not of the content of a line), nothing more is read.
     pub fn next(&mut self) -> Result<Option<&str>, ReadError> {
         while !self.broken {
             self.line.clear();
@@ -54,12 +54,12 @@ impl Lines {
         Ok(None)
     }
 
-    /// The line read last.
+    /// The last line read.
     pub fn current(&self) -> &str {
         self.line.trim()
     }
 
-    /// An error of the line read last.
+    /// Creates an error at the last line read.
     pub fn error(&self, message: impl fmt::Display) -> ReadError {
         ReadError { path: self.path.clone(), line: Some(self.number), message: message.to_string() }
     }

@@ -1,7 +1,7 @@
-//! Readers of recorded data, and pictures (feature `std`).
+//! Readers of recorded data, and drawings of scans (feature `std`).
 //!
-//! Readers stream: they hold one line in memory. Wrong data is an error with file and line, after which reading
-//! goes on with the next line.
+//! Readers stream: they hold one line in memory. Invalid data gives an error with file and line, and reading continues
+//! with the next line.
 
 mod csv;
 mod error;

@@ -3,29 +3,29 @@ use crate::scan::{Container, Pose2, Scan, Segments};
 use apex_rt::node;
 use std::path::Path;
 
-/// Writes pictures of scans and of what was found in them, as `0001.svg`, `0002.svg`, … in a directory (see
-/// [`ScanFigure`]).
+/// Writes drawings of scans with their segments and detected containers as `0001.svg`, `0002.svg`, … into a directory
+/// (see [`ScanFigure`]). `truth` is the true pose of the container, if known.
 ///
 /// Fails if a file cannot be written.
 #[node]
 #[derive(Debug)]
 pub struct ScanPicture {
-    /// The directory; made if it does not exist.
+    /// Directory of the drawings. Created if it does not exist.
     #[param]
     directory: &'static str,
-    /// Heading of the pictures.
+    /// Title of the drawings.
     #[param(default = "Container detection")]
     title: &'static str,
-    /// Of so many scans one is drawn.
+    /// Number of scans per drawing.
     #[param(default = 1, range = 1..=1_000_000)]
     every: u32,
-    /// So many pictures at most.
+    /// Maximum number of drawings.
     #[param(default = 100, range = 0..=1_000_000)]
     limit: u32,
-    /// Points farther away than this are left out.
+    /// Maximum distance of the drawn points.
     #[param(unit = "m", default = 6.0, range = 0.1..=1000.0)]
     reach: f32,
-    /// The wheels of the model: rows of `[x, y, length, width]` in metres, in the frame of the container.
+    /// Wheels of the model: rows of `[x, y, length, width]` in metres, in the frame of the container.
     #[param(unit = "m")]
     boxes: &'static [[f32; 4]],
     seen: u32,

@@ -4,27 +4,27 @@ use apex_rt::{Ctx, Event, Out, Time, node};
 use core::f32::consts::PI;
 use std::path::Path;
 
-/// What a table of ranges does not say about the scanner.
+/// Geometry of a scanner, which a table of ranges does not contain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LogGeometry {
     /// Direction of beam 0, in rad. Not used for CARMEN logs.
     pub angle_min: f32,
-    /// Angle from beam to beam, in rad. Not used for CARMEN logs.
+    /// Angle between consecutive beams, in rad. Not used for CARMEN logs.
     pub angle_increment: f32,
-    /// The shortest range that counts as measured, in m.
+    /// Minimum range that counts as measured, in m.
     pub range_min: f32,
-    /// The longest range that counts as measured, in m.
+    /// Maximum range that counts as measured, in m.
     pub range_max: f32,
 }
 
-/// What a log says about a scan besides its ranges.
+/// Information of a log about a scan besides its ranges.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LogEntry {
-    /// Its number: the first column of a table; counted from 0 in a CARMEN log.
+    /// Number of the scan: the first column of a table, or counted from 0 in a CARMEN log.
     pub id: u64,
-    /// The pose of the scanner, if the log has it.
+    /// Pose of the scanner, if the log contains it.
     pub pose: Option<Pose2>,
-    /// When it was taken, since the zero of the recording's clock, if the log has it.
+    /// Time of the scan since the zero of the recording's clock, if the log contains it.
     pub time: Option<Time>,
 }
 
@@ -32,12 +32,12 @@ pub struct LogEntry {
 enum Format {
     /// Rows of number, source number, ranges.
     Table,
-    /// Lines `FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ time host logger_time`; others are skipped.
+    /// Lines `FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ time host logger_time`; other lines are skipped.
     Carmen,
 }
 
 impl Format {
-    /// The format by the ending of the name, `.gz` aside.
+    /// Determines the format from the file extension, without `.gz`.
     fn of(path: &Path) -> Result<Self, ReadError> {
         let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
         match name.strip_suffix(".gz").unwrap_or(name).rsplit_once('.').map(|(_, ending)| ending) {
@@ -49,7 +49,7 @@ impl Format {
 }
 
 /// Reads laser scans from a table of ranges (`.csv`: number, source number, ranges in m) or from the FLASER lines of a
-/// CARMEN log (`.log`, `.clf`), packed (`.gz`) or not.
+/// CARMEN log (`.log`, `.clf`), optionally compressed (`.gz`).
 #[derive(Debug)]
 pub struct ScanLogReader {
     lines: Lines,
@@ -62,17 +62,17 @@ impl ScanLogReader {
     /// Opens a log.
     ///
     /// # Errors
-    /// If its name has none of the known endings, or it cannot be opened.
+    /// If the extension of its name is unknown, or the file cannot be opened.
     pub fn open(path: impl AsRef<Path>, geometry: LogGeometry) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let format = Format::of(path)?;
         Ok(Self { lines: Lines::open(path)?, format, geometry, next_id: 0 })
     }
 
-    /// Reads the next scan into `scan`, which keeps its stamp unless the log has one; `None` at the end.
+    /// Reads the next scan into `scan`, which keeps its stamp unless the log contains one. Returns `None` at the end.
     ///
     /// # Errors
-    /// If a line is no scan, or the file cannot be read on. The next call goes on behind the error.
+    /// If a line is not a scan, or the file cannot be read further. The next call continues after the error.
     pub fn read(&mut self, scan: &mut Scan) -> Result<Option<LogEntry>, ReadError> {
         while let Some(line) = self.lines.next()? {
             if self.format == Format::Carmen && line.split_whitespace().next() != Some("FLASER") {
@@ -101,7 +101,7 @@ impl ScanLogReader {
         Ok(LogEntry { id, ..LogEntry::default() })
     }
 
-    /// The beams of FLASER cover 180° about the x axis; an odd number of them includes both ends.
+    /// Reads a FLASER line. Its beams cover 180° about the x axis; an odd number of beams includes both ends.
     fn flaser(&mut self, scan: &mut Scan) -> Result<LogEntry, String> {
         let mut words = self.lines.current().split_whitespace().skip(1);
         let beams: usize = parse(words.next(), "number of beams")?;
@@ -127,7 +127,7 @@ impl ScanLogReader {
     }
 }
 
-/// The number in a cell.
+/// Parses the number in a cell.
 fn parse<T: std::str::FromStr>(cell: Option<&str>, name: &str) -> Result<T, String> {
     let cell = cell.ok_or_else(|| format!("{name} is missing"))?.trim();
     cell.parse().map_err(|_| format!("{name}: `{cell}` is no valid number"))
@@ -143,27 +143,27 @@ fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(),
     Ok(())
 }
 
-/// Sends the scans of a log, one per firing (formats: see [`ScanLogReader`]). After the last it triggers `done` and
-/// sends ⊥.
+/// Sends the scans of a log, one per firing (for the formats see [`ScanLogReader`]). After the last scan it triggers
+/// `done` and sends ⊥.
 ///
-/// Fails on a line that is no scan, and goes on with the next one. Scans of a table are stamped with the time of
+/// Fails on a line that is not a scan, and continues with the next line. Scans of a table are stamped with the time of
 /// the firing.
 #[node]
 #[derive(Debug)]
 pub struct ScanLog {
-    /// The file; its ending tells the format.
+    /// Path of the file. Its extension determines the format.
     #[param]
     path: String,
-    /// Direction of beam 0. CARMEN logs have their own.
+    /// Direction of beam 0. CARMEN logs have a fixed one.
     #[param(unit = "rad", default = -0.5 * PI, range = -6.4..=6.4)]
     angle_min: f32,
-    /// Angle from beam to beam. CARMEN logs have their own.
+    /// Angle between consecutive beams. CARMEN logs have their own.
     #[param(unit = "rad", default = PI / 360.0, range = -0.5..=0.5)]
     angle_increment: f32,
-    /// The shortest range that counts as measured.
+    /// Minimum range that counts as measured.
     #[param(unit = "m", default = 0.02, range = 0.0..=100.0)]
     range_min: f32,
-    /// The longest range that counts as measured.
+    /// Maximum range that counts as measured.
     #[param(unit = "m", default = 80.0, range = 0.0..=1000.0)]
     range_max: f32,
     reader: Option<ScanLogReader>,
@@ -172,7 +172,7 @@ pub struct ScanLog {
 
 #[node]
 impl ScanLog {
-    /// A node whose log is open already: tells at once if it cannot be opened.
+    /// Creates a node with an open log, so that errors are found before the program runs.
     ///
     /// # Errors
     /// Those of [`ScanLogReader::open`].
@@ -195,7 +195,7 @@ impl ScanLog {
             return Ok(());
         }
         if self.reader.is_none() {
-            // Should it not open, then it is over; a successful `open` starts with `finished: false`.
+            // If opening fails, the node stays finished; a successful `open` returns a node with `finished: false`.
             self.finished = true;
             *self = Self::open(&self.path, self.geometry())?;
         }
@@ -217,7 +217,7 @@ impl ScanLog {
         Ok(())
     }
 
-    /// Whether all scans have been sent, or the log could not be opened.
+    /// Returns `true` if all scans have been sent, or if the log could not be opened.
     pub fn finished(&self) -> bool {
         self.finished
     }

@@ -1,27 +1,27 @@
 use super::{Activity, BadModel, Features, Model};
 use apex_rt::{Out, node};
 
-/// What something was taken for.
+/// Result of a classification.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Class {
-    /// The number of the class.
+    /// Number of the class.
     pub number: u32,
-    /// How likely it is, from 0 to 1.
+    /// Probability of the class, from 0 to 1.
     pub confidence: f32,
 }
 
-/// Tells the class of something from its features, by a multilayer perceptron (thesis 4.3.2, 4.3.3).
+/// Classifies features by a multilayer perceptron (thesis 4.3.2, 4.3.3).
 ///
-/// ⊥ if no class is likely enough, or there are not as many features as the network has inputs, or one is no number.
-/// Fails if the model cannot be read.
+/// ⊥ if no class is probable enough, if the number of features is not the number of inputs of the network, or if a
+/// feature is not a number. Fails if the model cannot be read.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Classifier {
-    /// The bytes of the [`Model`]: a constant such as [`DIGITS`](super::DIGITS), or `include_bytes!` of a file.
+    /// Bytes of the [`Model`]: a constant such as [`DIGITS`](super::DIGITS), or `include_bytes!` of a file.
     #[param]
     model: &'static [u8],
-    /// The least confidence.
+    /// Minimum confidence.
     #[param(default = 0.5, range = 0.0..=1.0)]
     threshold: f32,
     loaded: Option<Model>,
@@ -53,7 +53,7 @@ mod tests {
     use crate::{learn::Mlp, math::Random};
     use apex_rt::Construct;
 
-    /// A network that takes input 1 for class 1 and input 0 for class 0.
+    /// A network that maps input 1 to class 1 and input 0 to class 0.
     fn model() -> &'static [u8] {
         let mut network = Mlp::new(&[1, 2], &mut Random::new(1));
         network.layers_mut()[0].weights = vec![-4.0, 4.0];

@@ -2,20 +2,20 @@ use super::Features;
 use crate::image::{GrayImage, Region};
 use apex_rt::{Out, node};
 
-/// Rows and columns of a glyph.
+/// Number of rows and columns of a glyph.
 pub const GLYPH_SIDE: usize = 20;
 
-/// The longer side of what is drawn in it; the rest is a margin.
+/// Longer side of the drawn part of a glyph; the rest is a margin.
 const INK_SIDE: f32 = 16.0;
 
-/// Less contrast than this, in intensities, is no glyph.
+/// Minimum contrast of a glyph, in intensities.
 const MIN_CONTRAST: f32 = 16.0;
 
-/// The glyph in a region of an image, as features of a [`Classifier`](super::Classifier): 20 rows of 20 values from 0
-/// (ground) to 1 (ink), where the ink is 16 high or wide, in the middle, dark on light or light on dark (thesis
-/// 4.3.2).
+/// Features of the glyph in a region of an image, for a [`Classifier`](super::Classifier) (thesis 4.3.2): 20 rows of 20
+/// values from 0 (ground) to 1 (ink).
 ///
-/// ⊥ if the region has no pixels, or all are of about the same intensity.
+/// The ink is scaled to 16 rows or columns, whichever is longer, and centred. It may be dark on light or light on dark.
+/// ⊥ if the region has no pixels, or if all have about the same intensity.
 #[node]
 pub fn glyph_features(image: &GrayImage, region: &Region, features: &mut Out<Features>) {
     if let Some(ink) = Ink::find(image, region) {
@@ -25,13 +25,13 @@ pub fn glyph_features(image: &GrayImage, region: &Region, features: &mut Out<Fea
     }
 }
 
-/// Where in an image there is ink.
+/// Ink in an image.
 struct Ink<'a> {
     image: &'a GrayImage,
-    /// Intensity of the paper, and of the ink minus that.
+    /// Intensity of the ground, and that of the ink minus it.
     ground: f32,
     contrast: f32,
-    /// The box around the ink: first and last column, first and last row.
+    /// Bounding box of the ink: first and last column, first and last row.
     columns: [u32; 2],
     rows: [u32; 2],
 }
@@ -49,7 +49,7 @@ impl<'a> Ink<'a> {
             border[level] += u32::from(x == left || x == right || y == top || y == bottom);
         }
         let ground = quantile(&border, 0.5);
-        // A few pixels may be lighter or darker than the ink is.
+        // Quantiles, as a few pixels may be lighter or darker than the ink.
         let (dark, light) = (quantile(&all, 0.02) - ground, quantile(&all, 0.98) - ground);
         let contrast = if dark.abs() > light.abs() { dark } else { light };
         if contrast.abs() < MIN_CONTRAST {
@@ -63,14 +63,14 @@ impl<'a> Ink<'a> {
         (ink.columns[0] <= ink.columns[1]).then_some(ink)
     }
 
-    /// How much ink a pixel has, from 0 to 1.
+    /// Amount of ink in a pixel, from 0 to 1.
     fn at(&self, x: i64, y: i64) -> f32 {
         let pixel = u32::try_from(x).ok().zip(u32::try_from(y).ok());
         let pixel = pixel.and_then(|(x, y)| self.image.pixels.get_pixel_checked(x, y));
         pixel.map_or(0.0, |p| ((f32::from(p.0[0]) - self.ground) / self.contrast).clamp(0.0, 1.0))
     }
 
-    /// The mean ink in a cell of the glyph.
+    /// Mean amount of ink in a cell of the glyph.
     fn cell(&self, column: usize, row: usize) -> f32 {
         const SAMPLES: u8 = 4;
         let length = |ends: [u32; 2]| (ends[1] - ends[0] + 1) as f32;
@@ -86,7 +86,7 @@ impl<'a> Ink<'a> {
         sum / f32::from(SAMPLES * SAMPLES)
     }
 
-    /// The ink between pixels, and none outside of the box.
+    /// Interpolated amount of ink between pixels; 0 outside the bounding box.
     fn between(&self, x: f32, y: f32) -> f32 {
         let outside = |at: f32, ends: [u32; 2]| at < ends[0] as f32 - 1.0 || at > ends[1] as f32 + 1.0;
         if outside(x, self.columns) || outside(y, self.rows) {
@@ -99,7 +99,7 @@ impl<'a> Ink<'a> {
     }
 }
 
-/// The level below which this part of the pixels lies.
+/// First level with more than the share `part` of the pixels up to and including it.
 fn quantile(histogram: &[u32; 256], part: f32) -> f32 {
     let limit = histogram.iter().sum::<u32>() as f32 * part;
     let mut sum = 0;

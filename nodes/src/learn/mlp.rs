@@ -1,48 +1,48 @@
 use crate::math::Random;
 use serde::{Deserialize, Serialize};
 
-/// The most inputs of a network.
+/// Maximum number of inputs of a network.
 pub const MAX_FEATURES: usize = 1024;
 
-/// What a classifier looks at.
+/// Input values of a classifier.
 pub type Features = heapless::Vec<f32, MAX_FEATURES>;
 
-/// A multilayer perceptron: tanh in the hidden layers, softmax at the end, so that its outputs are the probabilities of
-/// the classes.
+/// Multilayer perceptron: tanh in the hidden layers and softmax in the last one, so that its outputs are the
+/// probabilities of the classes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mlp {
     layers: Vec<Layer>,
 }
 
-/// One layer: `outputs = bias + weights · inputs`.
+/// Layer of a network: `outputs = bias + weights · inputs`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Layer {
-    /// By output.
+    /// Bias by output.
     pub bias: Vec<f32>,
-    /// By input, and for each by output.
+    /// Weights by input, and for each input by output.
     pub weights: Vec<f32>,
 }
 
-/// What the neurons of a network send, by layer; the storage for one input at a time.
+/// Outputs of all layers of a network for one input. Reused as storage.
 #[derive(Debug, Clone, Default)]
 pub struct Activity {
     layers: Vec<Vec<f32>>,
 }
 
 impl Activity {
-    /// What layer number `layer` sent.
+    /// Outputs of a layer.
     pub fn layer(&self, layer: usize) -> &[f32] {
         self.layers.get(layer).map_or(&[], Vec::as_slice)
     }
 }
 
 impl Layer {
-    /// How many values it takes.
+    /// Number of inputs.
     pub fn inputs(&self) -> usize {
         self.weights.len().checked_div(self.bias.len()).unwrap_or(0)
     }
 
-    /// Weights that neither drown nor saturate what comes in (Glorot and Bengio 2010).
+    /// Random weights of a size that neither weakens nor saturates the signal (Glorot and Bengio 2010).
     fn random(inputs: usize, outputs: usize, random: &mut Random) -> Self {
         let limit = (6.0 / (inputs + outputs) as f32).sqrt();
         let weights = (0..inputs * outputs).map(|_| random.uniform(-limit, limit)).collect();
@@ -60,32 +60,32 @@ impl Layer {
 }
 
 impl Mlp {
-    /// A network with so many neurons in each layer, inputs first, that has learned nothing yet.
+    /// Creates an untrained network with these numbers of neurons in each layer, inputs first.
     pub fn new(sizes: &[usize], random: &mut Random) -> Self {
         Self { layers: sizes.windows(2).map(|w| Layer::random(w[0], w[1], random)).collect() }
     }
 
-    /// How many inputs it takes.
+    /// Number of inputs.
     pub fn inputs(&self) -> usize {
         self.layers.first().map_or(0, Layer::inputs)
     }
 
-    /// How many classes it tells apart.
+    /// Number of classes.
     pub fn classes(&self) -> usize {
         self.layers.last().map_or(0, |layer| layer.bias.len())
     }
 
-    /// Its layers, the first one first.
+    /// Layers, from input to output.
     pub fn layers(&self) -> &[Layer] {
         &self.layers
     }
 
-    /// Its layers, to be changed; their sizes have to stay.
+    /// Layers for modification. Their sizes must not change.
     pub fn layers_mut(&mut self) -> &mut [Layer] {
         &mut self.layers
     }
 
-    /// Whether all layers fit to each other and all weights are finite.
+    /// Returns `true` if the sizes of all layers are consistent and all weights are finite.
     pub fn is_sound(&self) -> bool {
         let whole = |l: &Layer| l.inputs() > 0 && l.inputs() * l.bias.len() == l.weights.len();
         let finite = |l: &Layer| l.bias.iter().chain(&l.weights).all(|w| w.is_finite());
@@ -95,7 +95,7 @@ impl Mlp {
             && self.layers.iter().all(|l| whole(l) && finite(l))
     }
 
-    /// The probabilities of the classes. Missing inputs count as 0, further ones are ignored.
+    /// Probabilities of the classes. Missing inputs count as 0; excess inputs are ignored.
     pub fn run<'a>(&self, inputs: &[f32], activity: &'a mut Activity) -> &'a [f32] {
         activity.layers.resize_with(self.layers.len(), Vec::new);
         for (number, layer) in self.layers.iter().enumerate() {
@@ -111,9 +111,9 @@ impl Mlp {
     }
 }
 
-/// Makes values probabilities, the larger the likelier.
+/// Turns values into probabilities by the softmax function.
 fn softmax(values: &mut [f32]) {
-    // Without the largest, none overflows.
+    // The largest value is subtracted, so that nothing overflows.
     let largest = values.iter().copied().fold(f32::MIN, f32::max);
     values.iter_mut().for_each(|x| *x = libm::expf(*x - largest));
     let sum: f32 = values.iter().sum();

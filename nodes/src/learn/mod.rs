@@ -1,7 +1,6 @@
-//! What learns from examples (feature `learn`): multilayer perceptrons and the classifiers made of them (thesis 4.3.2,
-//! 4.3.3).
+//! Learning from examples (feature `learn`): multilayer perceptrons and classifiers (thesis 4.3.2, 4.3.3).
 //!
-//! With the feature `image` as well, images give the features.
+//! With the feature `image` in addition, features can be taken from images.
 
 mod classifier;
 #[cfg(feature = "image")]
@@ -21,6 +20,6 @@ pub use model::{BadModel, Model};
 pub use patch::{PATCH_SIDE, deviation, patch_features};
 pub use train::{Example, Trainer};
 
-/// Reads the digits 0 to 9 from a [`glyph_features`]; class and digit are the same. Made by the example `train_digits`, from
-/// digits that it draws itself.
+/// Model that classifies the digits 0 to 9 from [`glyph_features`]; the class number is the digit. Trained by the
+/// example `train_digits` on digits that it draws itself.
 pub const DIGITS: &[u8] = include_bytes!("digits.mlp");

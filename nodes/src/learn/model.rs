@@ -2,28 +2,28 @@ use super::Mlp;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// What each file of a model begins with: what it is, and the version of its format.
+/// First bytes of each model file: its type and the version of its format.
 const MAGIC: &[u8] = b"apex-mlp 1\n";
 
-/// A trained network, and where it comes from.
+/// Trained network with its provenance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Model {
-    /// What it was trained on, and by which program.
+    /// Training data and program of the training.
     pub provenance: String,
-    /// The seed of that training.
+    /// Seed of the training.
     pub seed: u64,
-    /// The network.
+    /// Trained network.
     pub network: Mlp,
 }
 
-/// Bytes that are no model.
+/// Error of bytes that are not a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BadModel {
-    /// They do not begin as a model does.
+    /// The bytes do not begin like a model.
     Magic,
-    /// They end too early, or are damaged.
+    /// The bytes end too early, or are damaged.
     Content,
-    /// The layers do not fit to each other, or a weight is no finite number.
+    /// The sizes of the layers are inconsistent, or a weight is not finite.
     Network,
 }
 
@@ -40,16 +40,16 @@ impl fmt::Display for BadModel {
 impl std::error::Error for BadModel {}
 
 impl Model {
-    /// The model as the bytes of a file.
+    /// Serializes the model to the bytes of a file.
     pub fn to_bytes(&self) -> Vec<u8> {
-        // A `Vec` takes all that there is.
+        // Writing to a `Vec` cannot fail.
         postcard::to_extend(self, MAGIC.to_vec()).unwrap_or_default()
     }
 
-    /// Reads what [`to_bytes`](Self::to_bytes) wrote.
+    /// Reads a model written by [`to_bytes`](Self::to_bytes).
     ///
     /// # Errors
-    /// If the bytes are anything else.
+    /// If the bytes are not a valid model.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, BadModel> {
         let content = bytes.strip_prefix(MAGIC).ok_or(BadModel::Magic)?;
         let (model, rest) = postcard::take_from_bytes::<Self>(content).map_err(|_| BadModel::Content)?;

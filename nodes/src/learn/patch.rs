@@ -2,13 +2,13 @@ use super::Features;
 use crate::image::GrayImage;
 use apex_rt::{Out, node};
 
-/// Rows and columns of a patch.
+/// Number of rows and columns of a patch.
 pub const PATCH_SIDE: usize = 10;
 
-/// The intensities of an image as 100 features of a [`Classifier`](super::Classifier): 10 rows of 10 means over a part
-/// each, with mean 0 and standard deviation 1, so that they do not depend on the light (thesis 4.3.3).
+/// Intensities of an image as 100 features for a [`Classifier`](super::Classifier) (thesis 4.3.3): the mean intensities
+/// of 10 rows of 10 parts. They are scaled to mean 0 and standard deviation 1, so that they do not depend on the light.
 ///
-/// An image of one intensity gives zeros; ⊥ if there are less than 10 rows or columns.
+/// An image of uniform intensity gives zeros; ⊥ if it has fewer than 10 rows or columns.
 #[node]
 pub fn patch_features(image: &GrayImage, features: &mut Out<Features>) {
     let (width, height) = (image.size().0 as usize, image.size().1 as usize);
@@ -23,15 +23,15 @@ pub fn patch_features(image: &GrayImage, features: &mut Out<Features>) {
         let count = columns.len() * rows.len();
         let row = |y: usize| &image.pixels.as_raw()[y * width + columns.start..y * width + columns.end];
         let sum: u64 = rows.flat_map(row).map(|p| u64::from(*p)).sum();
-        // There is room: a patch is smaller than the most features.
+        // Cannot fail: a patch has fewer values than `MAX_FEATURES`.
         let _ = features.push(sum as f32 / count as f32);
     }
     let (mean, deviation) = moments(features.iter().copied());
     features.iter_mut().for_each(|x| *x = if deviation > 0.5 { (*x - mean) / deviation } else { 0.0 });
 }
 
-/// The standard deviation of the intensities of an image: high where something lies in a black hopper (thesis 4.3.3,
-/// with [`above`](crate::math::above)). ⊥ without pixels.
+/// Standard deviation of the intensities of an image: high if an object is in a black hopper (thesis 4.3.3, with
+/// [`above`](crate::math::above)). ⊥ without pixels.
 #[node]
 pub fn deviation(image: &GrayImage) -> Option<f32> {
     (!image.pixels.is_empty()).then(|| moments(image.pixels.iter().map(|p| f32::from(*p))).1)
@@ -39,7 +39,7 @@ pub fn deviation(image: &GrayImage) -> Option<f32> {
 
 /// Mean and standard deviation.
 fn moments(values: impl Iterator<Item = f32> + Clone) -> (f32, f32) {
-    // In double precision: an image has many pixels.
+    // In double precision, as an image has many pixels.
     let values = values.map(f64::from);
     let middle = mean(values.clone());
     let variance = mean(values.map(|x| (x - middle) * (x - middle)));
@@ -66,7 +66,7 @@ mod tests {
         out.get().cloned()
     }
 
-    /// A hopper with a pattern of squares at its ground, and maybe a cube with a bar code in it, in some light.
+    /// A hopper with a pattern of squares on its ground, possibly with a bar-coded cube in it, in random light.
     fn hopper(full: bool, random: &mut Random) -> GrayImage {
         let (gain, offset) = (random.uniform(0.15, 1.0), random.uniform(0.0, 60.0));
         let (slope_x, slope_y) = (random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3));

@@ -1,36 +1,38 @@
 use super::{Activity, Layer, Mlp};
 use crate::math::Random;
 
-/// What a network shall say to an input.
+/// Training example.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Example {
-    /// As many values as the network has inputs.
+    /// Input values, as many as the network has inputs.
     pub input: Vec<f32>,
-    /// The number of its class.
+    /// Number of the class.
     pub class: usize,
 }
 
-/// Trains a network by gradient descent in small batches, each step as long as past gradients suggest (Adam; Kingma
-/// and Ba 2015). The loss is the cross-entropy.
+/// Trains a network by gradient descent in mini-batches, with step sizes adapted to past gradients (Adam; Kingma and Ba
+/// 2015). The loss is the cross-entropy.
 #[derive(Debug, Clone)]
 pub struct Trainer {
-    /// Length of a step; 0.001 is common.
+    /// Learning rate; 0.001 is common.
     pub rate: f32,
-    /// Examples per step.
+    /// Number of examples per step.
     pub batch: usize,
-    /// Part of each weight that a step takes away (Loshchilov and Hutter 2019), which keeps weights small.
+    /// Weight decay: the share of each weight that is subtracted, multiplied by the learning rate, in each step
+    /// (Loshchilov and Hutter 2019).
     pub decay: f32,
     random: Random,
     steps: i32,
     /// Gradient, its mean, and the mean of its square, by layer.
     layers: Vec<[Layer; 3]>,
     activity: Activity,
-    /// Derivative of the loss by what the neurons of a layer, and of the one before it, take in.
+    /// Derivatives of the loss with respect to the inputs of the neurons of a layer, and of those of the previous
+    /// layer.
     errors: [Vec<f32>; 2],
 }
 
 impl Trainer {
-    /// A trainer for networks of the sizes of this one.
+    /// Creates a trainer for networks with the layer sizes of this one.
     pub fn new(network: &Mlp, seed: u64) -> Self {
         let zero = |layer: &Layer| Layer { bias: vec![0.0; layer.bias.len()], weights: vec![0.0; layer.weights.len()] };
         Self {
@@ -45,8 +47,8 @@ impl Trainer {
         }
     }
 
-    /// Shows all examples once, in random order; the mean loss while doing it. Examples of classes that the network
-    /// does not have are left out.
+    /// Trains on all examples once, in random order, and returns the mean loss. Examples of classes that the network
+    /// does not have are skipped.
     pub fn epoch(&mut self, network: &mut Mlp, examples: &[Example]) -> f32 {
         let mut order: Vec<usize> = (0..examples.len()).filter(|&i| examples[i].class < network.classes()).collect();
         for i in (1..order.len()).rev() {
@@ -60,7 +62,7 @@ impl Trainer {
         loss / order.len().max(1) as f32
     }
 
-    /// Adds the gradient of one example; its loss.
+    /// Adds the gradient of one example and returns its loss.
     fn show(&mut self, network: &Mlp, example: &Example) -> f32 {
         let outputs = network.run(&example.input, &mut self.activity);
         let loss = -outputs[example.class].max(f32::MIN_POSITIVE).ln();
@@ -88,12 +90,12 @@ impl Trainer {
         loss
     }
 
-    /// Moves the weights against the gradient of a batch, and forgets it.
+    /// Moves the weights against the mean gradient of a batch and resets the gradient.
     fn step(&mut self, network: &mut Mlp, batch: usize) {
         const MEAN: f32 = 0.9;
         const SQUARE: f32 = 0.999;
         self.steps = self.steps.saturating_add(1);
-        // Both means begin at 0, which has to be made good for at first.
+        // Both means start at 0; this corrects their bias in the first steps.
         let rate = self.rate * (1.0 - SQUARE.powi(self.steps)).sqrt() / (1.0 - MEAN.powi(self.steps));
         let (share, keep) = (1.0 / batch as f32, 1.0 - self.rate * self.decay);
         let update = |values: &mut [f32], gradient: &mut [f32], mean: &mut [f32], square: &mut [f32], keep: f32| {

@@ -1,7 +1,7 @@
 use super::Grid;
 
-/// Computes how far each cell of a grid is from the nearest obstacle (Felzenszwalb and Huttenlocher 2012, *Distance
-/// Transforms of Sampled Functions*): exact, and linear in the number of cells. Keeps its buffers.
+/// Computes the distance of each cell of a grid from the nearest obstacle (Felzenszwalb and Huttenlocher 2012,
+/// *Distance Transforms of Sampled Functions*). Exact, and linear in the number of cells. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct DistanceTransform {
     /// Distances within the columns of one row, in cells.
@@ -9,20 +9,20 @@ pub struct DistanceTransform {
     envelope: Vec<Parabola>,
 }
 
-/// A part of the lower envelope of the parabolas over a row.
+/// Part of the lower envelope of the parabolas over a row.
 #[derive(Debug, Clone, Copy)]
 struct Parabola {
-    /// Where its lowest point is.
+    /// Position of the vertex, in cells.
     x: f64,
-    /// The square of the distance there.
+    /// Height of the vertex: the square of the distance within the column.
     height: f64,
-    /// Where it begins to be the lowest of all.
+    /// Position from which on this parabola is the lowest.
     from: f64,
 }
 
 impl DistanceTransform {
-    /// Writes the distance from the centre of each cell of `map` to the centre of the nearest obstacle, in m: 0 on
-    /// obstacles, infinite if there is none.
+    /// Writes the distance from the centre of each cell of `map` to the centre of the nearest obstacle, in m. It is 0
+    /// on obstacles, and infinite if there are none.
     pub fn run<T>(&mut self, map: &Grid<T>, is_obstacle: impl Fn(&T) -> bool, distances: &mut Grid<f32>) {
         distances.reset_like(map, f32::INFINITY);
         let (width, resolution) = (map.raster().width, map.raster().resolution);
@@ -40,7 +40,7 @@ impl DistanceTransform {
         }
     }
 
-    /// From distances within columns, in cells, to distances in the plane, in m.
+    /// Turns distances within columns, in cells, into distances in the plane, in m.
     fn along_row(&mut self, row: &mut [f32], resolution: f32) {
         self.columns.clear();
         self.columns.extend_from_slice(row);
@@ -75,13 +75,13 @@ impl DistanceTransform {
     }
 }
 
-/// Where two parabolas meet; `right` is the lower one from there on.
+/// Position at which two parabolas intersect. From there on `right` is lower.
 fn crossing(left: &Parabola, right: &Parabola) -> f64 {
     let of = |p: &Parabola| p.height + p.x * p.x;
     (of(right) - of(left)) / (2.0 * (right.x - left.x))
 }
 
-/// From 0 at obstacles and infinity elsewhere to the distance to the nearest one in the same column, in cells.
+/// Turns cells of 0 (obstacle) and infinity into distances to the nearest obstacle in the same column, in cells.
 fn along_columns(cells: &mut [f32], width: usize) {
     for i in width..cells.len() {
         cells[i] = cells[i].min(cells[i - width] + 1.0);
@@ -101,7 +101,7 @@ mod tests {
         Raster { resolution: 0.5, width, height, ..Raster::default() }
     }
 
-    /// The definition, word by word.
+    /// Distances by definition: the minimum over all obstacles.
     fn by_trying_all(map: &Grid<bool>) -> Vec<f32> {
         let obstacles: Vec<_> = map.iter().filter(|(_, taken)| **taken).map(|(cell, _)| cell).collect();
         map.iter()

@@ -1,51 +1,51 @@
 use crate::scan::Point2;
 use core::fmt;
 
-/// The most cells of a [`Grid`]: 400 m by 400 m at 5 cm.
+/// Maximum number of cells of a [`Grid`]: 400 m by 400 m at 5 cm.
 pub const MAX_CELLS: usize = 1 << 26;
 
-/// How a rectangle of the plane is divided into square cells. Its sides are parallel to the axes of its frame.
+/// Division of a rectangle of the plane into square cells. Its sides are parallel to the axes of its frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Raster {
-    /// The corner with the least x and y, in m.
+    /// Corner with the least x and y, in m.
     pub corner: Point2,
-    /// The side of a cell, in m.
+    /// Side of a cell, in m.
     pub resolution: f32,
-    /// Cells along x.
+    /// Number of cells along x.
     pub width: usize,
-    /// Cells along y.
+    /// Number of cells along y.
     pub height: usize,
 }
 
-/// The place of a cell: its column (along x) and its row (along y).
+/// Indices of a cell: its column (along x) and its row (along y).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Cell {
-    /// Counted from the corner along x.
+    /// Column, counted from the corner along x.
     pub x: usize,
-    /// Counted from the corner along y.
+    /// Row, counted from the corner along y.
     pub y: usize,
 }
 
-/// A value for each cell of a raster, row by row from the least y.
+/// Grid map: a value for each cell of a raster, row by row from the least y.
 #[derive(Debug, PartialEq)]
 pub struct Grid<T> {
     raster: Raster,
     cells: Vec<T>,
 }
 
-/// What is known of a cell of a map.
+/// State of a cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Occupancy {
-    /// Nothing.
+    /// No knowledge of the cell.
     #[default]
     Unknown,
-    /// Nothing is there.
+    /// No obstacle in the cell.
     Free,
-    /// Something is there.
+    /// An obstacle in the cell.
     Occupied,
 }
 
-/// A raster that is too large, or has no size.
+/// Error of a raster that has too many cells, or cells without a positive size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TooManyCells(pub Raster);
 
@@ -60,15 +60,15 @@ impl fmt::Display for TooManyCells {
 impl std::error::Error for TooManyCells {}
 
 impl Cell {
-    /// The cell in column `x` and row `y`.
+    /// Creates the indices of the cell in column `x` and row `y`.
     pub const fn new(x: usize, y: usize) -> Self {
         Self { x, y }
     }
 }
 
 impl Raster {
-    /// The smallest raster of cells of `resolution` m that covers all of `points` with `margin` m around them. Its
-    /// corner is a multiple of the resolution, so that cells of two rasters of one resolution lie on each other.
+    /// Creates the smallest raster with cells of `resolution` m that covers all `points` with a margin of `margin` m.
+    /// Its corner is a multiple of the resolution, so that the cells of two rasters of the same resolution coincide.
     pub fn around(points: impl IntoIterator<Item = Point2>, margin: f32, resolution: f32) -> Self {
         let (mut low, mut high) = (Point2::new(f32::MAX, f32::MAX), Point2::new(f32::MIN, f32::MIN));
         for p in points {
@@ -80,7 +80,7 @@ impl Raster {
         }
         let first = |low: f32| ((low - margin) / resolution).floor();
         let (x, y) = (first(low.x), first(low.y));
-        // Casts of what is too large give the largest number, which no grid has room for.
+        // Casts of too large numbers saturate; no grid has that many cells.
         let count =
             |high: f32, first: f32| ((((high + margin) / resolution).floor() - first) as usize).saturating_add(1);
         Self {
@@ -91,7 +91,7 @@ impl Raster {
         }
     }
 
-    /// The cell that contains a point; `None` outside.
+    /// Cell that contains a point, or `None` if the point is outside.
     #[inline]
     pub fn cell(&self, point: Point2) -> Option<Cell> {
         let d = point - self.corner;
@@ -101,19 +101,19 @@ impl Raster {
         inside.then_some(Cell::new(x as usize, y as usize))
     }
 
-    /// The centre of a cell, in m.
+    /// Centre of a cell, in m.
     #[inline]
     pub fn centre(&self, cell: Cell) -> Point2 {
         self.corner + Point2::new(cell.x as f32 + 0.5, cell.y as f32 + 0.5).scaled(self.resolution)
     }
 
-    /// Whether there is such a cell.
+    /// Returns `true` if the raster has this cell.
     #[inline]
     pub const fn contains(&self, cell: Cell) -> bool {
         cell.x < self.width && cell.y < self.height
     }
 
-    /// The cells along a line, ends included (Bresenham 1965). The first one is that of `from`.
+    /// Cells along a line, including both ends, starting with `from` (Bresenham 1965).
     pub fn line(from: Cell, to: Cell) -> impl Iterator<Item = Cell> {
         let (dx, dy) = (from.x.abs_diff(to.x) as i64, from.y.abs_diff(to.y) as i64);
         let (mut at, mut error) = (from, dx - dy);
@@ -133,7 +133,7 @@ impl Raster {
     }
 }
 
-/// No cells.
+/// A raster without cells.
 impl Default for Raster {
     fn default() -> Self {
         Self { corner: Point2::default(), resolution: 1.0, width: 0, height: 0 }
@@ -141,22 +141,22 @@ impl Default for Raster {
 }
 
 impl<T: Clone> Grid<T> {
-    /// A grid with the same value in all cells.
+    /// Creates a grid with the same value in all cells.
     ///
     /// # Errors
-    /// There would be more than [`MAX_CELLS`] cells, or they would have no size.
+    /// If there would be more than [`MAX_CELLS`] cells, or if their size is not positive and finite.
     pub fn new(raster: Raster, value: T) -> Result<Self, TooManyCells> {
         let mut grid = Self::default();
         grid.reset(raster, value)?;
         Ok(grid)
     }
 
-    /// As [`new`](Self::new), in the storage that it has.
+    /// Same as [`new`](Self::new), but reuses the allocated storage.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the grid stays as it is.
+    /// Those of [`new`](Self::new). The grid is then unchanged.
     pub fn reset(&mut self, raster: Raster, value: T) -> Result<(), TooManyCells> {
-        // One of them may be zero.
+        // One of the sides may be zero, so both are checked.
         let longer = raster.width.max(raster.height);
         let count = raster.width.checked_mul(raster.height).filter(|&count| count.max(longer) <= MAX_CELLS);
         let sized = raster.resolution.is_finite() && raster.resolution > 0.0;
@@ -167,7 +167,7 @@ impl<T: Clone> Grid<T> {
         Ok(())
     }
 
-    /// Takes on the raster of another grid, with the same value in all cells, in the storage that it has.
+    /// Adopts the raster of another grid, with the same value in all cells. Reuses the allocated storage.
     pub fn reset_like<U>(&mut self, other: &Grid<U>, value: T) {
         self.raster = other.raster;
         self.cells.clear();
@@ -176,35 +176,35 @@ impl<T: Clone> Grid<T> {
 }
 
 impl<T> Grid<T> {
-    /// Where its cells lie.
+    /// Raster of the cells.
     #[inline]
     pub const fn raster(&self) -> &Raster {
         &self.raster
     }
 
-    /// The values, row by row from the least y.
+    /// Values, row by row from the least y.
     pub fn cells(&self) -> &[T] {
         &self.cells
     }
 
-    /// The values, to be changed.
+    /// Values for modification, row by row from the least y.
     pub fn cells_mut(&mut self) -> &mut [T] {
         &mut self.cells
     }
 
-    /// The value of a cell; `None` if there is no such cell.
+    /// Value of a cell, or `None` if the raster does not have it.
     #[inline]
     pub fn get(&self, cell: Cell) -> Option<&T> {
         if self.raster.contains(cell) { self.cells.get(cell.y * self.raster.width + cell.x) } else { None }
     }
 
-    /// The value of a cell, to be changed.
+    /// Value of a cell for modification, or `None` if the raster does not have it.
     #[inline]
     pub fn get_mut(&mut self, cell: Cell) -> Option<&mut T> {
         if self.raster.contains(cell) { self.cells.get_mut(cell.y * self.raster.width + cell.x) } else { None }
     }
 
-    /// The value at a point; `None` outside.
+    /// Value at a point, or `None` if the point is outside.
     #[inline]
     pub fn at(&self, point: Point2) -> Option<&T> {
         self.raster.cell(point).and_then(|cell| self.get(cell))
@@ -222,14 +222,14 @@ impl<T: Clone> Clone for Grid<T> {
         Self { raster: self.raster, cells: self.cells.clone() }
     }
 
-    /// As [`clone`](Self::clone), in the storage that it has.
+    /// Same as [`clone`](Self::clone), but reuses the allocated storage.
     fn clone_from(&mut self, other: &Self) {
         self.raster = other.raster;
         self.cells.clone_from(&other.cells);
     }
 }
 
-/// Without cells.
+/// A grid without cells.
 impl<T> Default for Grid<T> {
     fn default() -> Self {
         Self { raster: Raster::default(), cells: Vec::new() }

@@ -2,10 +2,10 @@ use super::{Grid, Occupancy};
 use crate::scan::{Pose2, Scan};
 use apex_rt::{Out, node};
 
-/// Marks the cells as occupied in which the points of a scan lie (thesis 4.3.6, the combined map m′). `pose` is where
-/// the scanner is in the frame of the map.
+/// Marks the cells that contain points of a scan as occupied (thesis 4.3.6, the combined map m′). `pose` is the pose
+/// of the scanner in the frame of the map.
 ///
-/// For more than one scanner several of these nodes stand in a row.
+/// Several scanners need several of these nodes in sequence.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct MarkScan;

@@ -1,4 +1,4 @@
-//! Maps as messages of ROS 2 and of Foxglove, which Foxglove and Python show.
+//! ROS 2 and Foxglove messages of maps, which Foxglove and Python can show.
 
 use super::{Grid, Occupancy, Raster};
 use crate::scan::{
@@ -13,7 +13,7 @@ use apex_rt::{
     },
 };
 
-/// What a cell of an occupancy grid says: −1 if nothing is known, and else how likely something is there, in %.
+/// Values of the cells of an occupancy grid: −1 if unknown, otherwise the probability of an obstacle in %.
 const UNKNOWN: i8 = -1;
 const FREE: i8 = 0;
 const OCCUPIED: i8 = 100;
@@ -38,7 +38,7 @@ geometry_msgs/Pose origin",
     fn write(&self, message: &mut Writer<'_>) {
         let Raster { resolution, width, height, .. } = *self.raster();
         message.header(Time::ZERO, FRAME);
-        // It was not loaded.
+        // The load time is not used.
         message.i32(0);
         message.u32(0);
         message.f32(resolution);
@@ -71,9 +71,9 @@ geometry_msgs/Pose origin",
     }
 }
 
-/// Bytes of a cell of a map of numbers.
+/// Number of bytes per cell of a map of numbers.
 const STRIDE: u32 = 4;
-/// The kind of number in it.
+/// Number type of the cells.
 const FLOAT32: u8 = 7;
 
 impl Message for Grid<f32> {
@@ -116,13 +116,13 @@ uint8 type",
 
     fn write(&self, message: &mut Writer<'_>) {
         let Raster { resolution, width, height, .. } = *self.raster();
-        // A time and a frame: the same bytes as a header.
+        // Time and frame have the same bytes as a header.
         message.header(Time::ZERO, FRAME);
         write_pose(&origin(self.raster()), message);
         message.u32(width as u32);
         message.f64(f64::from(resolution));
         message.f64(f64::from(resolution));
-        // The message counts the rows by their bytes. Where they have none, their number stands here.
+        // The message stores the row stride in bytes. Without columns, the number of rows is stored in its place.
         message.u32(if width == 0 { height as u32 } else { STRIDE * width as u32 });
         message.u32(STRIDE);
         message.u32(1);
@@ -149,7 +149,7 @@ uint8 type",
     }
 }
 
-/// Where the corner of a raster lies: its sides are parallel to the axes.
+/// Pose of the corner of a raster. Its sides are parallel to the axes.
 fn origin(raster: &Raster) -> Pose2 {
     Pose2::new(raster.corner.x, raster.corner.y, 0.0)
 }
@@ -158,7 +158,7 @@ fn raster(origin: &Pose2, resolution: f32, width: u32, height: u32) -> Raster {
     Raster { corner: origin.position(), resolution, width: width as usize, height: height as usize }
 }
 
-/// The grid with these cells, if they fill its raster.
+/// Grid with these cells, or `None` if their number is not that of the raster.
 fn grid<T: Copy + Default>(raster: Raster, cells: Vec<T>) -> Option<Grid<T>> {
     if raster.width.checked_mul(raster.height)? != cells.len() {
         return None;

@@ -1,4 +1,4 @@
-//! Grid maps of the plane, what is found in them, and what is done to them before a path is planned; maps of signs
+//! Grid maps of the plane, the detection of objects in them and their preparation for path planning; maps of signs
 //! (feature `std`).
 
 mod distance;

@@ -2,9 +2,9 @@ use super::{Cell, DistanceTransform, Grid, Occupancy, Raster};
 use crate::scan::{Point2, Pose2};
 use apex_rt::{Out, node};
 
-/// Marks every cell as occupied whose centre is within `radius` m of the centre of an occupied one, but for those
-/// within `kept` m of one of `around`. Their `distances` to the nearest occupied cell are as [`DistanceTransform`]
-/// writes them.
+/// Marks every cell as occupied whose centre is within `radius` m of the centre of an occupied cell. Cells within
+/// `kept` m of a point of `around` are unchanged. `distances` are those to the nearest occupied cell, as written by
+/// [`DistanceTransform`].
 pub fn grow(map: &mut Grid<Occupancy>, distances: &Grid<f32>, radius: f32, around: &[Point2], kept: f32) {
     let raster = *map.raster();
     let is_kept = |i: usize| {
@@ -18,14 +18,14 @@ pub fn grow(map: &mut Grid<Occupancy>, distances: &Grid<f32>, radius: f32, aroun
     }
 }
 
-/// Fills small unknown regions with what most of the cells around them are. Keeps its buffers.
+/// Fills small unknown regions with the state of most of the cells around them. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct UnknownRegions {
     visited: Vec<bool>,
     region: Vec<usize>,
 }
 
-/// What is around a region of unknown cells.
+/// Boundary of a region of unknown cells.
 #[derive(Debug, Default)]
 struct Rim {
     free: usize,
@@ -34,11 +34,12 @@ struct Rim {
 }
 
 impl UnknownRegions {
-    /// Fills the regions of unknown cells, connected by their sides, that are no larger than `largest_area` m² and do
-    /// not reach the border of the map: with what most of the sides around them belong to, in doubt occupied.
+    /// Fills regions of unknown cells that are not larger than `largest_area` m² and do not touch the border of the
+    /// map. Cells of a region are connected by their sides. The region gets the state of most sides around it; in a
+    /// tie, it becomes occupied.
     pub fn close(&mut self, map: &mut Grid<Occupancy>, largest_area: f32) {
         let raster = *map.raster();
-        // A cast of NaN gives 0, and one of too much the most.
+        // Casts of NaN give 0; casts of too large numbers saturate.
         let largest = (largest_area / (raster.resolution * raster.resolution) + 1e-3) as usize;
         self.visited.clear();
         self.visited.resize(map.cells().len(), false);
@@ -54,7 +55,7 @@ impl UnknownRegions {
         }
     }
 
-    /// Collects the region of an unknown cell.
+    /// Collects the region of an unknown cell and returns its boundary.
     fn explore(&mut self, map: &Grid<Occupancy>, first: usize) -> Rim {
         let mut rim = Rim::default();
         self.region.clear();
@@ -81,7 +82,7 @@ impl UnknownRegions {
     }
 }
 
-/// The cells at the four sides of a cell; `None` outside of the raster.
+/// Cells at the four sides of a cell; `None` outside the raster.
 fn sides(raster: &Raster, i: usize) -> [Option<usize>; 4] {
     let (x, y, width) = (i % raster.width, i / raster.width, raster.width);
     [
@@ -92,11 +93,11 @@ fn sides(raster: &Raster, i: usize) -> [Option<usize>; 4] {
     ]
 }
 
-/// Fills small unknown regions inside of a map with what most of the cells around them are (thesis 4.3.6).
+/// Fills small unknown regions inside a map with the state of most of the cells around them (thesis 4.3.6).
 #[node]
 #[derive(Debug, Clone)]
 pub struct CloseUnknown {
-    /// The largest region that is filled.
+    /// Maximum area of a region that is filled.
     #[param(unit = "m^2", default = 0.25, range = 0.0..=100.0)]
     largest_area: f32,
     regions: UnknownRegions,
@@ -111,16 +112,17 @@ impl CloseUnknown {
     }
 }
 
-/// Grows obstacles, so that paths may be planned as if the robot were a point (thesis 4.3.6).
+/// Grows obstacles, so that paths can be planned for a point instead of a robot (thesis 4.3.6).
 ///
-/// Discs around start and goal stay as they are, so that a path may begin and end close to obstacles.
+/// Discs around `start` and `goal` are unchanged, so that a path may begin and end close to obstacles. Both are in the
+/// frame of the map.
 #[node]
 #[derive(Debug, Clone)]
 pub struct GrowObstacles {
-    /// How far obstacles grow: the radius of the robot.
+    /// Distance by which obstacles grow: the radius of the robot.
     #[param(unit = "m", default = 0.35, range = 0.0..=10.0)]
     radius: f32,
-    /// The radius of the discs that stay as they are.
+    /// Radius of the discs that are unchanged.
     #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
     kept: f32,
     transform: DistanceTransform,
@@ -150,7 +152,7 @@ mod tests {
     use super::*;
     use apex_rt::Construct;
 
-    /// A map of cells of 1 m, the row of the least y first: `.` free, `#` occupied, `?` unknown.
+    /// A map with cells of 1 m, starting with the row of the least y: `.` free, `#` occupied, `?` unknown.
     fn map(rows: &[&str]) -> Grid<Occupancy> {
         let raster = Raster { width: rows[0].len(), height: rows.len(), ..Raster::default() };
         let mut map = Grid::new(raster, Occupancy::Unknown).expect("small");
@@ -185,7 +187,7 @@ mod tests {
             CloseUnknown::construct((largest_area,)).process(&open, &mut out);
             out.get().expect("a map").clone()
         };
-        // That on the right touches the border.
+        // The region on the right touches the border.
         assert_eq!(closed(5.0), map(&["?.......", "......##", "......#?", "......##", "........"]));
         assert_eq!(closed(4.9), map(&["?.......", "...??.##", "...???#?", "......##", "........"]));
         assert_eq!(closed(f32::NAN), closed(0.0));

@@ -1,16 +1,16 @@
 use super::{Cell, Grid, Occupancy, Raster, TooManyCells};
 use crate::scan::Point2;
 
-/// What rays of a scanner have met in a cell.
+/// Statistics of the rays of a scanner in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RayCount {
-    /// Rays that reached the cell: those that ended in it, and those that went on.
+    /// Number of rays that reached the cell, including those that ended in it.
     pub passes: u32,
-    /// Rays that ended in it.
+    /// Number of rays that ended in the cell.
     pub hits: u32,
 }
 
-/// Builds an occupancy grid from the rays of a scanner, by counting (as Karto does).
+/// Builds an occupancy grid from the rays of a scanner by counting, like Karto.
 ///
 /// Keeps its storage from one map to the next.
 #[derive(Debug, Clone)]
@@ -21,8 +21,8 @@ pub struct OccupancyBuilder {
 }
 
 impl OccupancyBuilder {
-    /// A builder of maps in which a cell is known once `least_passes` rays have reached it, and occupied if at least
-    /// `least_share` of them ended there (0 … 1).
+    /// Creates a builder. A cell is known once `least_passes` rays have reached it, and occupied if at least the share
+    /// `least_share` of them (0 to 1) ended in it.
     pub fn new(least_passes: u32, least_share: f32) -> Self {
         Self { least_passes: least_passes.max(1), least_share, counts: Grid::default() }
     }
@@ -30,13 +30,13 @@ impl OccupancyBuilder {
     /// Begins a new map.
     ///
     /// # Errors
-    /// The raster is too large, or has no size; the map stays as it is.
+    /// If the raster has too many cells or no positive size. The map is then unchanged.
     pub fn reset(&mut self, raster: Raster) -> Result<(), TooManyCells> {
         self.counts.reset(raster, RayCount::default())
     }
 
-    /// Adds a ray that starts at `from` and ended at `to`, in the frame of the map. A ray that ends outside counts as
-    /// far as the border; one that starts outside is left out, and so is one that is no number.
+    /// Adds a ray from `from` to `to`, in the frame of the map. A ray that ends outside the map counts up to the
+    /// border. A ray that starts outside or is not finite is ignored.
     pub fn add(&mut self, from: Point2, to: Point2) {
         let raster = *self.counts.raster();
         let (Some(start), Some(end)) = (raster.cell(from), inside(&raster, from, to)) else { return };
@@ -50,14 +50,14 @@ impl OccupancyBuilder {
         }
     }
 
-    /// What was counted.
+    /// Statistics of all cells.
     pub fn counts(&self) -> &Grid<RayCount> {
         &self.counts
     }
 
-    /// Writes what is known of each cell.
+    /// Writes the state of each cell.
     pub fn write(&self, map: &mut Grid<Occupancy>) {
-        // A grid of this raster was possible before.
+        // Cannot fail: the builder has a grid of the same raster.
         if map.reset(*self.counts.raster(), Occupancy::Unknown).is_err() {
             return;
         }
@@ -77,20 +77,20 @@ impl OccupancyBuilder {
     }
 }
 
-/// A cell is known after 2 rays, and occupied if a tenth of them ended there: as Karto has it.
+/// The parameters of Karto: a cell is known after 2 rays, and occupied if a tenth of them ended in it.
 impl Default for OccupancyBuilder {
     fn default() -> Self {
         Self::new(2, 0.1)
     }
 }
 
-/// The last cell of the line between two points that is inside of a raster; the first point is.
+/// Last cell inside a raster on the line between two points. The first point is inside.
 fn inside(raster: &Raster, from: Point2, to: Point2) -> Option<Cell> {
     if let Some(cell) = raster.cell(to) {
         return Some(cell);
     }
     let (corner, d) = (raster.corner, to - from);
-    // The share of the way to the border, along one axis, and half a cell less.
+    // Fraction of the line up to half a cell before the border, along one axis.
     let share = |from: f32, d: f32, low: f32, cells: usize| {
         let border =
             if d > 0.0 { low + (cells as f32 - 0.5) * raster.resolution } else { low + 0.5 * raster.resolution };

@@ -6,26 +6,26 @@ use crate::{
 use apex_rt::{Out, node};
 use core::f32::consts::FRAC_PI_4;
 
-/// Half a side as a part of the apothem: the tangent of 22.5°.
+/// Half of a side divided by the apothem: the tangent of 22.5°.
 const HALF_SIDE: f32 = 0.414_213_57;
 
-/// The most distances of cells from octagons that a search computes, which takes about a second.
+/// Maximum number of computed distances between cells and octagons in a search, which takes about a second.
 const MOST_DISTANCES: usize = 20_000_000;
 
-/// A regular octagon in the plane: the island in the middle of an arena (thesis 4.3.4).
+/// Regular octagon in the plane: the island in the middle of an arena (thesis 4.3.4).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Octagon {
-    /// Its middle, in m.
+    /// Centre, in m.
     pub centre: Point2,
-    /// Distance of each side from the middle, in m.
+    /// Distance of each side from the centre, in m.
     pub apothem: f32,
-    /// Direction in which side 0 lies, in rad; the others follow counter-clockwise.
+    /// Direction of side 0 from the centre, in rad; the other sides follow counter-clockwise.
     pub theta: f32,
 }
 
 impl Octagon {
-    /// The octagon with a side from `a` to `b`, on the side of that line where `inside` is.
+    /// Creates the octagon with a side from `a` to `b` that is on the same side of this line as `inside`.
     pub fn over_side(a: Point2, b: Point2, inside: Point2) -> Self {
         let (middle, side) = ((a + b).scaled(0.5), b - a);
         let apothem = 0.5 * side.norm() / HALF_SIDE;
@@ -34,56 +34,59 @@ impl Octagon {
         Self { centre: middle + inwards.scaled(apothem), apothem, theta: inwards.scaled(-1.0).angle() }
     }
 
-    /// The length of a side, in m.
+    /// Length of a side, in m.
     pub fn side(&self) -> f32 {
         2.0 * HALF_SIDE * self.apothem
     }
 
-    /// The middle of side number `side`, x pointing outwards.
+    /// Pose at the middle of a side, with x pointing outwards.
     pub fn side_pose(&self, side: usize) -> Pose2 {
         let theta = self.theta + FRAC_PI_4 * (side % 8) as f32;
         let middle = self.centre + Point2::polar(self.apothem, theta);
         Pose2::new(middle.x, middle.y, libm::remainderf(theta, core::f32::consts::TAU))
     }
 
-    /// How far a point lies from the nearest side, in m.
+    /// Distance of a point from the nearest side, in m.
     pub fn distance(&self, point: Point2) -> f32 {
         let d = point - self.centre;
-        // Seen from the side in whose direction the point lies.
+        // Angle from the normal of the side in the direction of the point.
         let from_middle = libm::remainderf(d.angle() - self.theta, FRAC_PI_4);
         (d.norm() * libm::cosf(from_middle) - self.apothem).abs()
     }
 }
 
-/// Finds the octagon in the middle of a map by RANSAC (thesis 4.3.4): two occupied cells are taken for the ends of a
-/// side, which is extended to an octagon towards the centroid of the map; the one with the most cells on it wins.
+/// Finds the octagon in the middle of a map by RANSAC (thesis 4.3.4): two occupied cells are taken as the ends of a
+/// side, which is extended to an octagon towards the centroid of the map. The octagon with the most cells on its sides
+/// wins.
 ///
-/// ⊥ if there is none with enough cells, or cells on too few of its sides.
+/// ⊥ if no octagon has enough cells on enough sides. The result is in the frame of the map.
 #[node]
 #[derive(Debug, Clone)]
 pub struct OctagonSearch {
-    /// Occupied cells this near to the centroid of all belong to the middle, the others to the border.
+    /// Maximum distance of the middle's occupied cells from the centroid of all. Cells farther away belong to the
+    /// border.
     #[param(unit = "m", default = 3.0, range = 0.1..=1000.0)]
     radius: f32,
-    /// The shortest side.
+    /// Minimum length of a side.
     #[param(unit = "m", default = 0.5, range = 0.01..=1000.0)]
     min_side: f32,
-    /// The longest side.
+    /// Maximum length of a side.
     #[param(unit = "m", default = 2.0, range = 0.01..=1000.0)]
     max_side: f32,
-    /// Cells this near to a side lie on it.
+    /// Maximum distance of a cell from the side that it lies on.
     #[param(unit = "m", default = 0.08, range = 0.001..=10.0)]
     tolerance: f32,
-    /// This part of the cells in the middle has to lie on the octagon.
+    /// Minimum share of the cells in the middle that lie on the octagon.
     #[param(default = 0.6, range = 0.0..=1.0)]
     min_share: f32,
-    /// Cells have to lie on so many of its sides: who comes from one direction sees three or four.
+    /// Minimum number of sides with cells on them. From one viewpoint, three or four are visible.
     #[param(default = 6, range = 1..=8)]
     min_sides: usize,
-    /// So many pairs are tried; fewer on a map with so many cells in the middle that it would take more than a second.
+    /// Number of tested pairs of cells. It is reduced if the middle has so many cells that the search would take more
+    /// than a second.
     #[param(default = 20_000, range = 1..=10_000_000)]
     tries: u32,
-    /// The pairs follow from it.
+    /// Seed of the random pairs.
     #[param(default = 1)]
     seed: u64,
     cells: Vec<Point2>,
@@ -91,7 +94,7 @@ pub struct OctagonSearch {
 
 #[node]
 impl OctagonSearch {
-    /// The same map gives the same octagon, whatever came before.
+    /// Searches the octagon. The same map gives the same octagon, independent of previous maps.
     fn process(&mut self, map: &Grid<Occupancy>) -> Option<Octagon> {
         let centroid = self.middle_cells(map)?;
         let mut random = Random::new(self.seed);
@@ -113,7 +116,7 @@ impl OctagonSearch {
         best.map(|(_, octagon)| octagon).filter(|octagon| self.holds(octagon))
     }
 
-    /// Collects the cells in the middle; the centroid of all that are occupied.
+    /// Collects the cells in the middle and returns the centroid of all occupied cells.
     fn middle_cells(&mut self, map: &Grid<Occupancy>) -> Option<Point2> {
         let occupied = || {
             let cells = map.iter().filter(|(_, state)| **state == Occupancy::Occupied);
@@ -126,13 +129,13 @@ impl OctagonSearch {
         (!self.cells.is_empty()).then_some(centroid)
     }
 
-    /// More for each cell on the octagon, the nearer the better (MSAC; Torr and Zisserman 2000).
+    /// Score: cells on the octagon count, nearer ones more (MSAC; Torr and Zisserman 2000).
     fn score(&self, octagon: &Octagon) -> f32 {
         let each = |p: &Point2| 1.0 - (octagon.distance(*p) / self.tolerance).powi(2);
         self.cells.iter().map(|p| each(p).max(0.0)).sum()
     }
 
-    /// Whether enough cells lie on it, and on enough of its sides: a straight wall is none.
+    /// Returns `true` if enough cells are on the octagon, and on enough of its sides: a straight wall does not suffice.
     fn holds(&self, octagon: &Octagon) -> bool {
         let on = |p: &&Point2| octagon.distance(**p) <= self.tolerance;
         let mut sides = [false; 8];
@@ -147,40 +150,42 @@ impl OctagonSearch {
     }
 }
 
-/// A filling station at a side of the octagon.
+/// Filling station at a side of the octagon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Station {
-    /// The middle of the side, x pointing to where a robot stands.
+    /// Middle of the side, with x pointing to the place of a robot.
     pub pose: Pose2,
-    /// Whether nothing stands before it.
+    /// `true` if nothing is in front of the station.
     pub free: bool,
 }
 
-/// The filling stations of an octagon: on the side that faces the start, and on every second one from there (thesis
-/// 4.3.4), counter-clockwise, and whether each is free: in a box before it the scan has hardly a point.
+/// Filling stations of an octagon and their availability (thesis 4.3.4). They are on the side that faces the start and
+/// on every second side from there, counter-clockwise. A station is free if the scan has fewer than `min_points` points
+/// in a box in front of it.
 ///
-/// What the scan does not see counts as free.
+/// A station out of view counts as free. The poses are in the frame of the octagon.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Stations {
-    /// How far the box reaches from the wall.
+    /// Distance of the far end of the box from the wall.
     #[param(unit = "m", default = 1.0, range = 0.0..=100.0)]
     depth: f32,
-    /// Where the box begins: nearer points are of the wall.
+    /// Distance of the near end of the box from the wall. Nearer points belong to the wall.
     #[param(unit = "m", default = 0.15, range = 0.0..=100.0)]
     margin: f32,
-    /// The box is this part of a side wide.
+    /// Width of the box, as a fraction of the side.
     #[param(default = 0.9, range = 0.0..=2.0)]
     share: f32,
-    /// So many points in the box and the station is in use.
+    /// Number of points in the box from which on the station is occupied.
     #[param(default = 3, range = 1..=1000)]
     min_points: usize,
 }
 
 #[node]
 impl Stations {
-    /// `start` is where the robot started and `scanner` where the scanner is, both in the frame of the octagon.
+    /// Finds the stations. `start` is the start pose of the robot and `scanner` the pose of the scanner, both in the
+    /// frame of the octagon.
     fn process(
         &mut self,
         octagon: &Octagon,
@@ -215,7 +220,7 @@ mod tests {
 
     const TRUTH: Octagon = Octagon { centre: Point2::new(0.4, -0.3), apothem: 1.2, theta: 0.3 };
 
-    /// An arena with a round border and an island, and some cells that are wrong.
+    /// An arena with a round border and an island, and some wrong cells.
     fn arena(island: &Octagon, wrong: usize) -> Grid<Occupancy> {
         let raster = Raster { corner: Point2::new(-7.0, -7.0), resolution: 0.05, width: 280, height: 280 };
         let mut map = Grid::new(raster, Occupancy::Free).expect("a map");

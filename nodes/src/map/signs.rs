@@ -1,37 +1,37 @@
 use crate::scan::{Point2, Pose2};
 use apex_rt::{Event, Out, node};
 
-/// The most signs of a map.
+/// Maximum number of signs of a map.
 pub const MAX_SIGNS: usize = 64;
 
-/// The signs of a map, in the order in which they were first seen.
+/// Signs of a map, in the order of their first sightings.
 pub type Signs = heapless::Vec<Sign, MAX_SIGNS>;
 
-/// Where a sign is taken to be: a Gaussian over its position and a von Mises distribution over its orientation
-/// (thesis 4.3.2).
+/// Estimated pose of a sign: a Gaussian over its position and a von Mises distribution over its orientation (thesis
+/// 4.3.2).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sign {
-    /// What it shows.
+    /// Class of the sign.
     pub class: u32,
-    /// How often it was seen.
+    /// Number of sightings.
     pub count: u32,
     /// Mean of the positions, in m, in the frame of the map.
     pub mean: Point2,
-    /// Sums of the squares of the deviations from the mean: along x, along y, and their products, in m².
+    /// Sums of the squared deviations from the mean along x and along y, and of their products, in m².
     scatter: [f32; 3],
     /// Sums of the cosines and sines of the orientations.
     directions: Point2,
 }
 
 impl Sign {
-    /// One that was seen once.
+    /// Creates a sign with one sighting.
     pub fn new(class: u32, pose: &Pose2) -> Self {
         let directions = Point2::polar(1.0, pose.theta);
         Self { class, count: 1, mean: pose.position(), scatter: [0.0; 3], directions }
     }
 
-    /// Takes in another sighting (Welford 1962).
+    /// Adds a sighting (Welford 1962).
     pub fn add(&mut self, pose: &Pose2) {
         self.count = self.count.saturating_add(1);
         let before = pose.position() - self.mean;
@@ -47,30 +47,30 @@ impl Sign {
         Pose2::new(self.mean.x, self.mean.y, self.directions.angle())
     }
 
-    /// The covariance of the position along x, along y, and between both, in m²; zeros until it was seen twice.
+    /// Covariance of the position: along x, along y, and between both, in m². Zeros before the second sighting.
     pub fn covariance(&self) -> [f32; 3] {
         self.scatter.map(|sum| sum / self.count.saturating_sub(1).max(1) as f32)
     }
 
-    /// How much the orientations agree: 1 if all are the same, 0 if they cancel out. The concentration of the von
-    /// Mises distribution grows with it.
+    /// Agreement of the orientations: 1 if all are equal, 0 if they cancel out. The concentration of the von Mises
+    /// distribution grows with it.
     pub fn agreement(&self) -> f32 {
         self.directions.norm() / self.count as f32
     }
 }
 
-/// Maps the signs that a robot sees (thesis 4.3.2), robust to false detections: each sighting belongs to the nearest
-/// sign of its class, if that is near enough and looks in about the same direction, and is a new sign otherwise.
+/// Maps the signs that a robot sees (thesis 4.3.2), robust to false detections. A sighting belongs to the nearest sign
+/// of its class within `gate` and `turn`; otherwise it is a new sign.
 ///
-/// Sends the whole map after each sighting. A map that is full forgets the sign that was seen least for a new one.
-/// A sighting that is no number is left out.
+/// Sends the whole map after each sighting. In a full map, a new sign replaces the one with the fewest sightings. A
+/// sighting that is not finite is ignored.
 #[node]
 #[derive(Debug, Clone)]
 pub struct SignMap {
-    /// Sightings of one sign are at most this far from its mean.
+    /// Maximum distance of a sighting from the mean of its sign.
     #[param(unit = "m", default = 0.75, range = 0.0..=100.0)]
     gate: f32,
-    /// And turned by at most this much.
+    /// Maximum rotation of a sighting relative to its sign.
     #[param(unit = "rad", default = 0.8, range = 0.0..=3.15)]
     turn: f32,
     signs: Signs,
@@ -78,7 +78,8 @@ pub struct SignMap {
 
 #[node]
 impl SignMap {
-    /// `sign` is the pose of the sign in the frame of the robot, `robot` that of the robot in the map.
+    /// Adds a sighting. `sign` is the pose of the sign in the frame of the robot, `robot` the pose of the robot in the
+    /// frame of the map.
     fn process(&mut self, class: &u32, sign: &Pose2, robot: &Pose2, signs: &mut Out<Signs>) {
         let pose = robot.compose(sign);
         if [pose.x, pose.y, pose.theta].iter().all(|x| x.is_finite()) {
@@ -100,24 +101,24 @@ impl SignMap {
                     let weakest = (0..self.signs.len()).min_by_key(|i| self.signs[*i].count);
                     weakest.map(|i| self.signs.remove(i));
                 }
-                // There is room now.
+                // Cannot fail: there is room now.
                 let _ = self.signs.push(Sign::new(class, pose));
             }
         }
     }
 }
 
-/// Looks up where the sign of a class is (thesis 8.1.1): the one that was seen most. ⊥, and `unknown` with the class,
-/// if none was seen often enough.
+/// Looks up the pose of the sign of a class in a map (thesis 8.1.1): the one with the most sightings. If no sign has
+/// enough sightings, or without a map, the output is ⊥, and `unknown` gives the class.
 ///
-/// Without a map nothing is known. Signs may be misread: where another class was seen more often at the same place, there is no sign of this one.
+/// Signs may be misclassified: a sign does not count if another sign at the same place has more sightings.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MapLookup {
-    /// A sign that was seen less often may be a false detection.
+    /// Minimum number of sightings. A sign with fewer may be a false detection.
     #[param(default = 3, range = 1..=1_000_000)]
     min_count: u32,
-    /// Signs that are this near to each other are at the same place.
+    /// Maximum distance between two signs at the same place.
     #[param(unit = "m", default = 0.75, range = 0.0..=100.0)]
     place: f32,
 }
@@ -129,7 +130,7 @@ impl MapLookup {
         let known = signs.iter().filter(|sign| sign.class == *class && sign.count >= self.min_count);
         let is_other = |a: &Sign, b: &Sign| (a.mean - b.mean).norm() <= self.place && b.count > a.count;
         let right = known.filter(|sign| !signs.iter().any(|other| is_other(sign, other)));
-        // Of equal ones the first.
+        // The first one of equals.
         let best = right.rev().max_by_key(|sign| sign.count).map(Sign::pose);
         if best.is_none() {
             unknown.emit(*class);
@@ -151,7 +152,7 @@ mod tests {
         (pose, unknown)
     }
 
-    /// Sightings from random places, with noise, and every fifth one false.
+    /// Sightings from random places, with noise; every fifth one is false.
     fn explore(map: &mut SignMap, truth: &[(u32, Pose2)], random: &mut Random) -> Signs {
         let mut out = Out::new();
         for i in 0..200 {
@@ -168,7 +169,7 @@ mod tests {
 
     #[test]
     fn signs_are_found_among_false_detections() {
-        // One of them looks along −x, where angles wrap.
+        // One of them faces along −x, where angles wrap.
         let truth = [(1, Pose2::new(5.0, 0.0, PI)), (2, Pose2::new(0.0, 5.0, -1.6)), (3, Pose2::new(-5.0, 1.0, 0.1))];
         let signs = explore(&mut SignMap::construct((0.75, 0.8)), &truth, &mut Random::new(4));
         for (class, expected) in truth {

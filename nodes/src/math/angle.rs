@@ -13,40 +13,40 @@ pub fn cos<T: Float>(angle: &T) -> T {
     angle.cos()
 }
 
-/// The direction of the vector (`x`, `y`) in (−π, π] rad.
+/// Direction of the vector (`x`, `y`) in (−π, π] rad.
 #[node]
 pub fn atan2<T: Float>(y: &T, x: &T) -> T {
     y.atan2(*x)
 }
 
-/// The length of the vector (`x`, `y`).
+/// Length of the vector (`x`, `y`).
 #[node]
 pub fn hypot<T: Float>(x: &T, y: &T) -> T {
     x.hypot(*y)
 }
 
-/// The same angle in [−π, π) rad.
+/// Angle normalized to [−π, π) rad.
 #[node]
 pub fn normalize_angle<T: Float + FloatConst>(angle: &T) -> T {
     let turn = T::TAU();
-    // The remainder keeps the sign of the angle; the second step lifts negative ones.
+    // The remainder keeps the sign of the angle; the second step makes negative ones positive.
     let positive = ((*angle + T::PI()) % turn + turn) % turn;
     positive - T::PI()
 }
 
-/// The smallest turn that leads from `from` to `to`, in [−π, π) rad.
+/// Smallest rotation from `from` to `to`, in [−π, π) rad.
 #[node]
 pub fn angle_difference<T: Float + FloatConst>(from: &T, to: &T) -> T {
     normalize_angle(&(*to - *from))
 }
 
-/// An angle in degrees, from rad.
+/// Angle in degrees, from rad.
 #[node]
 pub fn degrees<T: Float>(angle: &T) -> T {
     angle.to_degrees()
 }
 
-/// An angle in rad, from degrees.
+/// Angle in rad, from degrees.
 #[node]
 pub fn radians<T: Float>(angle: &T) -> T {
     angle.to_radians()

@@ -19,43 +19,43 @@ pub fn mul<T: Float>(a: &T, b: &T) -> T {
     *a * *b
 }
 
-/// Quotient: `a / b`; by zero it is ±∞ or NaN.
+/// Quotient: `a / b`. A division by zero gives ±∞ or NaN.
 #[node]
 pub fn div<T: Float>(a: &T, b: &T) -> T {
     *a / *b
 }
 
-/// The value with its sign turned.
+/// Negated value: `−x`.
 #[node]
 pub fn neg<T: Float>(x: &T) -> T {
     -*x
 }
 
-/// The value without its sign.
+/// Absolute value.
 #[node]
 pub fn abs<T: Float>(x: &T) -> T {
     x.abs()
 }
 
-/// Square root; NaN below zero.
+/// Square root; NaN for negative values.
 #[node]
 pub fn sqrt<T: Float>(x: &T) -> T {
     x.sqrt()
 }
 
-/// The smaller of two values; a number wins against NaN.
+/// Smaller of two values. If one is NaN, the other one.
 #[node]
 pub fn min<T: Float>(a: &T, b: &T) -> T {
     a.min(*b)
 }
 
-/// The larger of two values; a number wins against NaN.
+/// Larger of two values. If one is NaN, the other one.
 #[node]
 pub fn max<T: Float>(a: &T, b: &T) -> T {
     a.max(*b)
 }
 
-/// The value, or the bound that it exceeds. If the bounds are crossed, `upper` wins.
+/// Value limited to the range from `lower` to `upper`. If `lower` exceeds `upper`, the result is at most `upper`.
 #[node]
 pub fn clamp<T: Float>(x: &T, #[param] lower: T, #[param] upper: T) -> T {
     if *x > upper {
@@ -67,13 +67,13 @@ pub fn clamp<T: Float>(x: &T, #[param] lower: T, #[param] upper: T) -> T {
     }
 }
 
-/// A straight line: `factor · x + offset`.
+/// Linear function: `factor · x + offset`.
 #[node]
 pub fn scale<T: Float>(x: &T, #[param] factor: T, #[param(default = T::zero())] offset: T) -> T {
     *x * factor + offset
 }
 
-/// Linear interpolation: `a` at `t = 0`, `b` at `t = 1`, extrapolates outside.
+/// Linear interpolation: `a` at `t = 0`, `b` at `t = 1`. Extrapolates outside this range.
 #[node]
 pub fn lerp<T: Float>(a: &T, b: &T, t: &T) -> T {
     *a + (*b - *a) * *t

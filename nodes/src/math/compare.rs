@@ -1,50 +1,50 @@
 use apex_rt::node;
 use num_traits::Float;
 
-/// Whether the value has reached `level`. NaN has not.
+/// `true` if the value is at least `level`; `false` for NaN.
 #[node]
 pub fn above<T: Float>(x: &T, #[param] level: T) -> bool {
     *x >= level
 }
 
-/// Whether the value is less than `level`. NaN is not.
+/// `true` if the value is less than `level`; `false` for NaN.
 #[node]
 pub fn below<T: Float>(x: &T, #[param] level: T) -> bool {
     *x < level
 }
 
-/// Whether the value lies between the bounds, both included. NaN does not.
+/// `true` if the value is between the bounds, both included; `false` for NaN.
 #[node]
 pub fn within<T: Float>(x: &T, #[param] lower: T, #[param] upper: T) -> bool {
     *x >= lower && *x <= upper
 }
 
-/// Both hold.
+/// Logical and: `true` if both inputs are `true`.
 #[node]
 pub fn and(a: &bool, b: &bool) -> bool {
     *a && *b
 }
 
-/// At least one holds.
+/// Logical or: `true` if at least one input is `true`.
 #[node]
 pub fn or(a: &bool, b: &bool) -> bool {
     *a || *b
 }
 
-/// It does not hold.
+/// Logical negation.
 #[node]
 pub fn not(a: &bool) -> bool {
     !*a
 }
 
-/// A threshold that does not flicker: `true` from `high` on, `false` again below `low`. Starts as `false`.
+/// Threshold with hysteresis: `true` from `high` on, `false` again below `low`. Starts as `false`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Hysteresis<T> {
-    /// Below it the result becomes `false`.
+    /// Lower threshold, below which the result becomes `false`.
     #[param]
     low: T,
-    /// From it on the result becomes `true`.
+    /// Upper threshold, from which on the result becomes `true`.
     #[param]
     high: T,
     state: bool,

@@ -2,14 +2,14 @@ use apex_rt::{Ctx, Time, node};
 use heapless::Deque;
 use num_traits::Float;
 
-/// The longest window of a [`MovingAverage`].
+/// Maximum window of a [`MovingAverage`].
 pub const MAX_WINDOW: usize = 64;
 
-/// The mean of the last `window` values (of all, while there are fewer).
+/// Mean of the last `window` values, or of all values while there are fewer.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MovingAverage<T> {
-    /// How many values are averaged.
+    /// Number of averaged values.
     #[param(default = 8, range = 1..=64)]
     window: usize,
     values: Deque<T, MAX_WINDOW>,
@@ -23,23 +23,23 @@ impl<T: Float> MovingAverage<T> {
         }
         let full = self.values.push_back(*x);
         debug_assert!(full.is_ok(), "there is room for a value after one was taken out");
-        // Summed anew each time: a running sum would drift, and keep a NaN for ever.
+        // Summed again each time: a running sum would drift, and keep a NaN forever.
         let (sum, count) = self.values.iter().fold((T::zero(), T::zero()), |(s, n), x| (s + *x, n + T::one()));
         sum / count
     }
 
-    /// Forgets all values.
+    /// Discards all values.
     #[slot]
     fn reset(&mut self) {
         self.values.clear();
     }
 }
 
-/// Exponential smoothing: `y ← y + weight · (x − y)`; starts at the first value.
+/// Exponential smoothing: `y ← y + weight · (x − y)`. The first output is the first value.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LowPass {
-    /// Weight of the new value: 1 does not smooth, values near 0 smooth much.
+    /// Weight of the new value: 1 does not smooth; values near 0 smooth strongly.
     #[param(range = 0.0..=1.0)]
     weight: f64,
     state: Option<f64>,
@@ -53,18 +53,18 @@ impl LowPass {
         y
     }
 
-    /// Starts again at the next value.
+    /// Restarts the filter at the next value.
     #[slot]
     fn reset(&mut self) {
         self.state = None;
     }
 }
 
-/// Follows a value with a limited rate of change, for example a velocity with a limited acceleration.
+/// Limits the rate of change of a value, for example of a velocity to a limited acceleration.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RateLimit {
-    /// Largest change per second, in units of the value.
+    /// Maximum change per second, in units of the value.
     #[param(range = 0.0..)]
     rate: f64,
     last: Option<(Time, f64)>,

@@ -1,7 +1,7 @@
 //! Arithmetic, comparison, angles, filters of one signal, and pseudo-random numbers.
 //!
-//! Floating point throughout, `f32` or `f64` as the connections decide: no value of an input can make a node panic,
-//! and NaN goes through as IEEE 754 has it.
+//! All numbers are floating-point: `f32` or `f64`, as determined by the connections. No input value makes a node panic;
+//! NaN propagates according to IEEE 754.
 
 mod angle;
 mod arithmetic;

@@ -1,20 +1,20 @@
 use core::f64::consts::TAU;
 
-/// A stream of pseudo-random numbers (SplitMix64; Steele, Lea, Flood 2014). Not for secrets.
+/// Stream of pseudo-random numbers (SplitMix64; Steele, Lea, Flood 2014). Not for cryptography.
 ///
-/// Written out here, so that neither a new version of a library nor the platform can change what follows from a seed.
+/// Implemented here, so that the stream of a seed never changes with the version of a library or with the platform.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Random {
     state: u64,
 }
 
 impl Random {
-    /// The stream that belongs to `seed`.
+    /// Creates the stream of a seed.
     pub const fn new(seed: u64) -> Self {
         Self { state: seed }
     }
 
-    /// The next 64 bits.
+    /// Next 64 random bits.
     pub const fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
@@ -23,25 +23,25 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform in [0, 1).
+    /// Random number, uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
-        // The upper 53 bits: as many as a double holds.
+        // The upper 53 bits: the precision of an `f64`.
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Uniform in [`low`, `high`).
+    /// Random number, uniform in [`low`, `high`).
     pub fn uniform(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.unit() as f32
     }
 
-    /// Normally distributed with mean 0 and the given standard deviation (Box and Muller 1958).
+    /// Random number, normally distributed with mean 0 and the given standard deviation (Box and Muller 1958).
     pub fn normal(&mut self, sigma: f32) -> f32 {
-        // 1 − u lies in (0, 1], so that its logarithm is finite.
+        // 1 − u is in (0, 1], so that its logarithm is finite.
         let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit()));
         sigma * (radius * libm::cos(TAU * self.unit())) as f32
     }
 
-    /// `true` with the given probability.
+    /// Returns `true` with the given probability.
     pub fn chance(&mut self, probability: f32) -> bool {
         self.unit() < f64::from(probability)
     }

@@ -1,26 +1,28 @@
 use crate::map::{DistanceTransform, Grid, Occupancy};
 use apex_rt::{Out, node};
 
-/// Writes costs that are `highest` at distance 0 and fall evenly to 0 at `reach` m (thesis 4.3.6), from `distances` to
-/// the nearest obstacle in m.
+/// Writes costs that fall linearly from `highest` at distance 0 to 0 at `reach` m (thesis 4.3.6). `distances` are those
+/// to the nearest obstacle, in m.
 pub fn write_costs(distances: &Grid<f32>, highest: f32, reach: f32, costs: &mut Grid<f32>) {
     costs.reset_like(distances, 0.0);
     for (cost, distance) in costs.cells_mut().iter_mut().zip(distances.cells()) {
-        // A reach of 0 divides by 0: what is farther away than that costs nothing either.
+        // The comparison also avoids the division by a reach of 0.
         *cost = if *distance < reach { highest * (1.0 - distance / reach) } else { 0.0 };
     }
 }
 
-/// Costs that keep paths away from obstacles: highest at obstacles, and 0 from a distance on (thesis 4.3.6, *m_c*).
+/// Costs that keep paths away from obstacles: highest at obstacles, falling linearly to 0 at a distance (thesis 4.3.6,
+/// *m_c*).
 ///
-/// A cost is what each metre through a cell counts in addition: with 2, a metre counts as much as three without costs.
+/// A cost is added to each metre through a cell: with a cost of 2, a metre counts as much as three metres without
+/// costs.
 #[node]
 #[derive(Debug, Clone)]
 pub struct CostMap {
-    /// The cost at obstacles.
+    /// Cost at obstacles.
     #[param(default = 4.0, range = 0.0..=1000.0)]
     highest: f32,
-    /// The distance from obstacles at which there are no more costs.
+    /// Distance from obstacles beyond which there are no costs.
     #[param(unit = "m", default = 2.5, range = 0.0..=100.0)]
     reach: f32,
     transform: DistanceTransform,

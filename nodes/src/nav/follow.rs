@@ -4,82 +4,84 @@ use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::remainderf;
 
-/// Less than this is no way that was made, in m.
+/// Minimum progress along the path, in m. A smaller change does not count as progress.
 const PROGRESS: f32 = 0.02;
-/// So much way is a turn at the goal, in m/rad.
+/// Weight of a heading error in the distance left to go, in m/rad.
 const TURN: f32 = 0.1;
 
 /// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
 ///
-/// A path begins it anew; `pose` is in the frame of the path, and ⊥ while no pose is known. The scan is in the frame of the
-/// robot; without one, nothing is in the way. It sends twists while it has a path, and drops it when it
+/// A new path replaces the current one. `pose` is in the frame of the path; it is ⊥ while no pose is known. `scan` is
+/// in the frame of the robot; before the first one, no obstacle is known. The node sends twists while it has a path,
+/// and drops the path when the robot
 /// * has `reached` the goal,
-/// * is `blocked`: something stands on the path ahead, or the robot has made no way, for longer than its patience,
-/// * is `off_path`: too far away from it,
-/// * is no longer active.
+/// * is `blocked`: for longer than `patience`, an obstacle stands on the path ahead or the robot makes no progress,
+/// * is `off_path`: farther than `max_offset` from the path,
+/// * is deactivated: the node is no longer active.
 ///
-/// What stands around the goal is not on the path, as a goal may be close to a wall.
+/// Obstacles around the goal do not count as standing on the path, as a goal may be close to a wall.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PathFollower {
-    /// How fast the offset from the path decays along it (k).
+    /// Decay rate of the offset from the path, per metre of path (k).
     #[param(unit = "1/m", default = 2.0, range = 0.0..=100.0)]
     convergence: f32,
-    /// The speed on a straight path far from everything (v_n).
+    /// Nominal speed on a straight path far from obstacles and the goal (v_n).
     #[param(unit = "m/s", default = 1.0, range = 0.0..=10.0)]
     speed: f32,
-    /// The speed that it always keeps.
+    /// Minimum speed on the path.
     #[param(unit = "m/s", default = 0.05, range = 0.001..=1.0)]
     slowest: f32,
-    /// How much curves ahead slow it down (K_κ).
+    /// Gain of the slowdown by curves ahead (K_κ).
     #[param(unit = "1/rad", default = 0.5, range = 0.0..=100.0)]
     turning_gain: f32,
-    /// How much its own rotation slows it down (K_ω).
+    /// Gain of the slowdown by the robot's own rotation (K_ω).
     #[param(unit = "s/rad", default = 0.2, range = 0.0..=100.0)]
     rotation_gain: f32,
-    /// How much obstacles slow it down (K_o).
+    /// Gain of the slowdown by near obstacles (K_o).
     #[param(unit = "m", default = 0.1, range = 0.0..=100.0)]
     obstacle_gain: f32,
-    /// How much the goal slows it down (K_g).
+    /// Gain of the slowdown near the goal (K_g).
     #[param(unit = "m", default = 0.2, range = 0.0..=100.0)]
     goal_gain: f32,
-    /// How far ahead it looks for curves, and for obstacles on the path.
+    /// Length of the path ahead that is examined for curves and for obstacles.
     #[param(unit = "m", default = 1.5, range = 0.0..=100.0)]
     look_ahead: f32,
-    /// How fast its velocity changes.
+    /// Maximum acceleration.
     #[param(unit = "m/s^2", default = 1.0, range = 0.01..=100.0)]
     acceleration: f32,
-    /// How fast its rotation changes.
+    /// Maximum angular acceleration.
     #[param(unit = "rad/s^2", default = 3.0, range = 0.01..=100.0)]
     rotation_acceleration: f32,
-    /// The fastest rotation.
+    /// Maximum angular velocity.
     #[param(unit = "rad/s", default = 1.5, range = 0.0..=20.0)]
     max_rotation: f32,
-    /// Rotation per error of the heading.
+    /// Proportional gain of the heading controller: angular velocity per heading error.
     #[param(unit = "1/s", default = 2.0, range = 0.0..=100.0)]
     proportional: f32,
-    /// Rotation per error of the heading and second.
+    /// Integral gain of the heading controller.
     #[param(unit = "1/s^2", default = 0.0, range = 0.0..=100.0)]
     integral: f32,
-    /// Rotation per change of the error.
+    /// Derivative gain of the heading controller.
     #[param(default = 0.0, range = 0.0..=100.0)]
     derivative: f32,
-    /// How long before the goal it turns to the heading of the goal; before that it looks along the path.
+    /// Remaining length of the path at which the robot starts to turn to the goal heading. Before, it faces along the
+    /// path.
     #[param(unit = "m", default = 1.0, range = 0.0..=1000.0)]
     turn_within: f32,
-    /// How near to the goal is at the goal.
+    /// Tolerance of the position at the goal.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     tolerance: f32,
-    /// How near to the heading of the goal is right.
+    /// Tolerance of the heading at the goal.
     #[param(unit = "rad", default = 0.05, range = 0.001..=3.2)]
     heading_tolerance: f32,
-    /// Farther away from the path than this it gives up.
+    /// Maximum offset from the path. Beyond it the robot gives up with `off_path`.
     #[param(unit = "m", default = 1.0, range = 0.01..=100.0)]
     max_offset: f32,
-    /// What is this near to the path stands on it.
+    /// Required free distance on both sides of the path. A nearer scan point is an obstacle on the path.
     #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
     clearance: f32,
-    /// How long something may stand on the path, and how long it may take to make some way.
+    /// Time that an obstacle may stand on the path, and time that the robot may go without progress.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
     patience: f32,
     path: Path,
@@ -87,29 +89,29 @@ pub struct PathFollower {
     motion: Motion,
 }
 
-/// How far a robot has come on its path.
+/// Progress of a robot on its path.
 #[derive(Debug, Clone, Default)]
 struct Progress {
     segment: usize,
-    /// The least that was left to do, in m, and since when.
+    /// Smallest distance that was left to go, in m, and the time when it was reached.
     least: Option<(f32, Time)>,
     obstructed_since: Option<Time>,
-    /// The distance to the nearest obstacle, in m.
+    /// Distance to the nearest obstacle, in m.
     obstacle: Option<f32>,
 }
 
-/// How a robot moves just now.
+/// Present motion of a robot.
 #[derive(Debug, Clone, Default)]
 struct Motion {
     at: Option<Time>,
-    /// In the frame of the path, in m/s.
+    /// Velocity in the frame of the path, in m/s.
     velocity: Point2,
-    /// In rad/s.
+    /// Angular velocity, in rad/s.
     rotation: f32,
     heading: Pid,
 }
 
-/// How a drive ends.
+/// Outcome of a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum End {
     Reached,
@@ -135,7 +137,7 @@ impl PathFollower {
         }
         let (pose, goal) = (pose?, self.path.goal()?);
         let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
-        // What is no number tells nothing: it waits for a better pose.
+        // A pose or a projection that is not finite is useless: the robot waits for a better one.
         let Some(projection) = projection.filter(|_| pose.is_finite()) else { return Some(Twist::ZERO) };
         self.progress.segment = projection.segment;
         if let Some(scan) = scan {
@@ -168,12 +170,12 @@ impl PathFollower {
         self.motion.heading.reset();
     }
 
-    /// How much of the path the projection is searched on, in m: a robot does not come farther between two poses.
+    /// Length of the path on which the projection is searched, in m. A robot moves less than that between two poses.
     fn reach(&self) -> f32 {
         self.max_offset + self.look_ahead
     }
 
-    /// Where the last piece of the path begins, on which it drives straight to the goal.
+    /// Returns `true` on the last piece of the path, where the robot drives straight to the goal.
     fn is_arriving(&self, projection: &Projection) -> bool {
         projection.remaining <= 2.0 * self.tolerance
     }
@@ -190,6 +192,8 @@ impl PathFollower {
         }
     }
 
+    /// Returns `true` if a point is nearer to the path ahead than the clearance, except on the last piece before the
+    /// goal.
     fn stands_on_path(&self, point: Point2, projection: &Projection) -> bool {
         let until = self.look_ahead.min(projection.remaining - 2.0 * self.clearance);
         let mut passed = 0.0;
@@ -242,7 +246,7 @@ impl PathFollower {
         Twist::of(velocity, self.motion.rotation)
     }
 
-    /// The rotation that the error of the heading asks for.
+    /// Angular velocity that corrects an error of the heading, in rad/s.
     fn rotation(&mut self, error: f32, dt: f32) -> f32 {
         let pid = &mut self.motion.heading;
         (pid.proportional, pid.integral, pid.derivative) = (self.proportional, self.integral, self.derivative);
@@ -250,7 +254,7 @@ impl PathFollower {
         pid.step(error, dt)
     }
 
-    /// The velocity that is wanted, in the frame of the path.
+    /// Desired velocity in the frame of the path, in m/s.
     fn velocity(&self, pose: &Pose2, goal: Point2, projection: &Projection) -> Point2 {
         let to_goal = goal - pose.position();
         let turning = self.path.turning(projection, self.look_ahead);
@@ -261,7 +265,7 @@ impl PathFollower {
             return Point2::polar(speed, law.direction(projection));
         }
         let distance = to_goal.norm();
-        // There already: the rest is turning.
+        // At the goal already: only the turn is left.
         if distance <= 0.5 * self.tolerance {
             return Point2::default();
         }
@@ -306,7 +310,7 @@ mod tests {
         Path { points: points.iter().map(|&(x, y)| Point2::new(x, y)).collect(), heading }
     }
 
-    /// A robot that does at once what it is told, 50 times a second.
+    /// A robot that carries out each twist at once, 50 times per second.
     struct Robot {
         node: PathFollower,
         pose: Pose2,
@@ -512,7 +516,7 @@ mod tests {
         }
     }
 
-    /// The centre line of a race track in a scale of 1:50, or `None` (with a message) if it is not there.
+    /// Centre line of a race track on a scale of 1:50, or `None` (with a message) if its file is missing.
     fn track(name: &str) -> Option<Path> {
         let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/paths");
         if !folder.is_dir() {

@@ -2,29 +2,29 @@ use super::Twist;
 use crate::scan::Pose2;
 use apex_rt::{Ctx, Time, node};
 
-/// Stops a robot whose wheels say that it stands while it is told to move: an odometer that has frozen, or wheels that do
-/// not turn. Who drives on would not know where.
+/// Stops a robot whose odometry does not change while the robot is commanded to move: the odometry is frozen, or the
+/// wheels do not turn. Such a robot would no longer know its position.
 ///
-/// It tries again after a while, for a short time, and goes on when the odometry moves.
+/// After a pause the robot may move again for a short time. It goes on if the odometry changes.
 #[node]
 #[derive(Debug, Clone)]
 pub struct OdometryGuard {
-    /// How long the robot may be told to move before its odometry does.
+    /// Time that the odometry may stay unchanged while the robot is commanded to move.
     #[param(unit = "s", default = 0.4, range = 0.0..=60.0)]
     patience: f32,
-    /// How long it stands before it tries again.
+    /// Length of a stop, after which the robot tries again.
     #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
     pause: f32,
-    /// Slower than this is standing.
+    /// Commanded speed up to which the robot counts as standing.
     #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
     slowest: f32,
-    /// The odometry that has been the same since then, while the robot was told to move.
+    /// Last odometry, and the time since which it has not changed while the robot was commanded to move.
     frozen: Option<(Pose2, Time)>,
 }
 
 #[node]
 impl OdometryGuard {
-    /// Nothing is known without odometry: then it stops at once.
+    /// Stops the robot at once if there is no odometry.
     fn process(&mut self, ctx: &Ctx, twist: &Twist, odometry: Option<&Pose2>) -> Twist {
         let Some(odometry) = odometry else { return Twist::ZERO };
         let is_moving = twist.velocity().norm() > self.slowest;
@@ -49,7 +49,7 @@ mod tests {
 
     const AHEAD: Twist = Twist::new(1.0, 0.0, 0.0);
 
-    /// Whether it lets the robot move, each 100 ms, while the odometry says these places.
+    /// For each of these positions, 100 ms apart: `true` if the robot may move.
     fn moves(places: impl IntoIterator<Item = f32>, twist: Twist) -> Vec<bool> {
         let mut node = OdometryGuard::construct((0.4, 1.0, 0.05));
         let step = |(i, x): (usize, f32)| {

@@ -1,37 +1,38 @@
 use super::Projection;
 use libm::{atanf, expf, fmaxf};
 
-/// How an omnidirectional robot follows a path by its orthogonal projection (thesis 4.3.6, after Mojaev and Zell 2004).
+/// Control law by which an omnidirectional robot follows a path by its orthogonal projection (thesis 4.3.6, after
+/// Mojaev and Zell 2004).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowingLaw {
-    /// How fast the offset from the path decays along it, in 1/m (k).
+    /// Decay rate of the offset from the path, in 1/m (k).
     pub convergence: f32,
-    /// The speed on a straight path far from everything, in m/s (v_n).
+    /// Nominal speed on a straight path far from obstacles and the goal, in m/s (v_n).
     pub speed: f32,
-    /// The speed that is always kept, in m/s: without one the goal would never be reached.
+    /// Minimum speed, in m/s. Without it, the robot would never reach the goal.
     pub slowest: f32,
-    /// How much curves slow it down, in 1/rad (K_κ).
+    /// Gain of the slowdown by curves, in 1/rad (K_κ).
     pub turning_gain: f32,
-    /// How much its own rotation slows it down, in s/rad (K_ω).
+    /// Gain of the slowdown by the robot's own rotation, in s/rad (K_ω).
     pub rotation_gain: f32,
-    /// How much obstacles slow it down, in m (K_o).
+    /// Gain of the slowdown by near obstacles, in m (K_o).
     pub obstacle_gain: f32,
-    /// How much the goal slows it down, in m (K_g).
+    /// Gain of the slowdown near the goal, in m (K_g).
     pub goal_gain: f32,
 }
 
 impl FollowingLaw {
-    /// The driving direction in the frame of the path, in rad (α of eq. 4.4).
+    /// Driving direction in the frame of the path, in rad (α of eq. 4.4).
     ///
-    /// With it the offset decays as x_n = x_n0·exp(−k·x_t) (eq. 4.2), whose slope is −k·x_n. So the angle φ_c is
-    /// atan(−k·x_n), as Mojaev and Zell have it; equation 4.3 of the thesis is printed with x_t.
+    /// The offset then decays as x_n = x_n0·exp(−k·x_t) (eq. 4.2), whose slope is −k·x_n. So the angle φ_c is
+    /// atan(−k·x_n), as in Mojaev and Zell; equation 4.3 of the thesis is printed with x_t.
     pub fn direction(&self, projection: &Projection) -> f32 {
         projection.tangent + atanf(-self.convergence * projection.offset)
     }
 
-    /// The speed, in m/s (eq. 4.5). `turning` is how much the path turns ahead, in rad: the sum of its curvatures, each
-    /// times the part of the path it stands for, so that the number of points does not matter. `rotation` is in rad/s,
-    /// and the distances to the nearest obstacle and to the goal in m.
+    /// Speed, in m/s (eq. 4.5). `turning` is the total turning of the path ahead, in rad: the sum of its curvatures,
+    /// each multiplied by the length of path it stands for, so that the number of points does not matter. `rotation` is
+    /// in rad/s; the distances to the nearest obstacle and to the goal are in m.
     pub fn speed(&self, turning: f32, rotation: f32, obstacle: f32, goal: f32) -> f32 {
         let near = |gain: f32, distance: f32| if gain > 0.0 { gain / fmaxf(distance, 0.0) } else { 0.0 };
         let brake = self.turning_gain * turning

@@ -1,4 +1,4 @@
-//! Paths and twists as messages of ROS 2, which Foxglove and Python show.
+//! ROS 2 messages of paths and twists, which Foxglove and Python can show.
 
 use super::{Path, Twist};
 use crate::scan::{
@@ -13,7 +13,7 @@ use apex_rt::{
     },
 };
 
-/// The poses look along the path. One more stands at the goal, with the heading there.
+/// The poses face along the path. One more pose is at the goal and has the goal heading.
 impl Message for Path {
     const NAME: &'static str = "nav_msgs/msg/Path";
     const DEFINITION: &'static str = concat!(
@@ -33,7 +33,7 @@ geometry_msgs/Pose pose",
         for (i, point) in self.points.iter().enumerate() {
             Pose2::new(point.x, point.y, self.direction(i)).write(message);
         }
-        // Nothing is shown of a goal that is nowhere.
+        // The goal of an empty path is NaN, which viewers do not show.
         let goal = self.goal().unwrap_or(Point2::new(f32::NAN, f32::NAN));
         Pose2::new(goal.x, goal.y, self.heading).write(message);
     }
@@ -47,7 +47,7 @@ geometry_msgs/Pose pose",
 }
 
 impl Path {
-    /// Where the segment after a point leads, or that before the last one, in rad.
+    /// Direction of the segment after a point, in rad; for the last point, of the segment before it.
     fn direction(&self, i: usize) -> f32 {
         let first = i.min(self.points.len().saturating_sub(2));
         match self.points.get(first..first + 2) {

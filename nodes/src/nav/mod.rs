@@ -1,9 +1,10 @@
-//! Navigation of omnidirectional robots: planning on grid maps, following of paths, and movements on sight (thesis
-//! 4.3.6 and 8.1.1).
+//! Navigation of omnidirectional robots: path planning on grid maps, path following, and motion relative to sensor data
+//! without a map (thesis 4.3.6 and 8.1.1).
 //!
-//! Planning and following keep paths of any length, so they need the feature `std`; movements on sight do not.
+//! Planning and following keep paths of any length and need the feature `std`. Motion without a map does not.
 //!
-//! A node that drives sends a [`Twist`] while it drives, the last of which is zero, and ⊥ else.
+//! A node that moves the robot sends a [`Twist`] in each firing while it moves, a twist of zero at the end, and ⊥
+//! otherwise.
 
 #[cfg(feature = "std")]
 mod costs;

@@ -1,4 +1,4 @@
-//! Movements on sight, without a map (thesis 8.1.1). These nodes move the robot while they are active.
+//! Motion relative to sensor data, without a map (thesis 8.1.1). These nodes move the robot while they are active.
 
 use super::Twist;
 use crate::scan::{Point2, Pose2, Scan};
@@ -6,32 +6,34 @@ use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::{remainderf, sqrtf};
 
-/// Slower than this is no movement, in m/s.
+/// Minimum speed before a stop, in m/s.
 const SLOWEST: f32 = 0.02;
-/// How a heading is kept: rotation per error, in 1/s.
+/// Proportional gain of the heading controller: angular velocity per heading error, in 1/s.
 const TURN_GAIN: f32 = 2.0;
 
-/// The speed at `distance` m before a stop, in m/s, if the robot brakes evenly; never so slow that it does not arrive.
+/// Speed at `distance` m before a stop under constant deceleration, in m/s. It stays above a minimum, so that the robot
+/// arrives.
 fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
     sqrtf(2.0 * deceleration * distance.max(0.0)).clamp(SLOWEST.min(speed), speed)
 }
 
-/// Moves a robot a distance in a direction, both seen from where it became active, and keeps its heading (thesis 8.1.1).
+/// Moves a robot by a distance in a direction, relative to its pose at activation, and keeps its heading (thesis
+/// 8.1.1).
 ///
-/// `pose` is in any frame that stays where it is, as that of odometry. `done` comes with a twist of zero.
+/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveRobot {
-    /// How far it moves.
+    /// Distance to move.
     #[param(unit = "m", range = 0.0..=1000.0)]
     distance: f32,
-    /// In which direction, counter-clockwise from straight ahead.
+    /// Direction of the movement, counter-clockwise from straight ahead.
     #[param(unit = "rad", default = 0.0, range = -6.3..=6.3)]
     direction: f32,
-    /// How fast it moves.
+    /// Maximum speed.
     #[param(unit = "m/s", default = 0.5, range = 0.001..=10.0)]
     speed: f32,
-    /// How it speeds up and brakes.
+    /// Acceleration and deceleration.
     #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
     acceleration: f32,
     start: Option<Pose2>,
@@ -52,7 +54,7 @@ impl MoveRobot {
             done.emit(());
             return Some(Twist::ZERO);
         }
-        // As if it had begun a little earlier: where it stands still it could not begin at all.
+        // Counted from a little before the start, so that the robot starts faster than at the minimum speed.
         let travelled = self.distance - remaining;
         let least = travelled.min(remaining) + SLOWEST * SLOWEST / self.acceleration;
         let speed = braking_speed(least, self.speed, self.acceleration);
@@ -61,33 +63,35 @@ impl MoveRobot {
         Some(Twist::of(to_goal.scaled(speed / to_goal.norm()), omega))
     }
 
-    /// The next movement begins where the robot is then.
+    /// Discards the start pose: the next movement begins at the pose of the robot at that time.
     #[on_activate]
     fn forget(&mut self) {
         self.start = None;
     }
 }
 
-/// Drives straight ahead until something is near (thesis 8.1.1, to a station of 4.3.7). `done` comes with a twist of zero.
+/// Drives straight ahead until an obstacle is near (thesis 8.1.1; stations in 4.3.7). `done` comes with a twist of
+/// zero.
 ///
-/// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still: it would not know
-/// where to stop. A safety field behind this node needs a margin below `distance`, or the robot never gets there.
+/// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still, as the distance to
+/// stop at is unknown. A `SafetyField` behind this node needs a margin below `distance`; otherwise the robot never gets
+/// there.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveToObstacle {
-    /// How near is near, measured from the front of the robot.
+    /// Distance between the front of the robot and the obstacle at the end.
     #[param(unit = "m", default = 0.05, range = 0.0..=100.0)]
     distance: f32,
-    /// How far before the origin of its frame the front of the robot is.
+    /// Distance of the robot's front from the origin of its frame.
     #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
     front: f32,
-    /// Half of the width that counts as ahead.
+    /// Half of the width of the strip that counts as ahead.
     #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
     half_width: f32,
-    /// How fast it drives.
+    /// Maximum speed.
     #[param(unit = "m/s", default = 0.2, range = 0.001..=10.0)]
     speed: f32,
-    /// How it brakes.
+    /// Deceleration before the obstacle.
     #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
     deceleration: f32,
 }
@@ -109,33 +113,33 @@ impl MoveToObstacle {
     }
 }
 
-/// Centres a robot before a target, facing it (thesis 8.1.1).
+/// Centres a robot in front of a target, facing it (thesis 8.1.1).
 ///
-/// `target` is the pose of the target in the frame of the robot; the x axis of the target points out of it, to whoever looks
-/// at it. It may be ⊥: then the robot stands still, and `lost` comes once it has not been seen for too long. `positioned`
-/// comes with a twist of zero.
+/// `target` is the pose of the target in the frame of the robot; the x axis of the target points out of it, towards the
+/// viewer. While it is ⊥, the robot stands still; `lost` comes once the target has not been seen for longer than
+/// `patience`. `positioned` comes with a twist of zero.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PositionToTarget {
-    /// How far before the target the robot stops.
+    /// Distance between the origin of the robot's frame and the target at the end.
     #[param(unit = "m", default = 0.5, range = 0.0..=100.0)]
     distance: f32,
-    /// The highest speed.
+    /// Maximum speed.
     #[param(unit = "m/s", default = 0.3, range = 0.001..=10.0)]
     speed: f32,
-    /// The fastest rotation.
+    /// Maximum angular velocity.
     #[param(unit = "rad/s", default = 0.8, range = 0.001..=20.0)]
     max_rotation: f32,
-    /// Speed per distance to go.
+    /// Proportional gain: speed per distance to go, and angular velocity per heading error.
     #[param(unit = "1/s", default = 1.0, range = 0.001..=100.0)]
     gain: f32,
-    /// How near is near enough.
+    /// Tolerance of the position.
     #[param(unit = "m", default = 0.02, range = 0.0001..=1.0)]
     tolerance: f32,
-    /// How near to the heading is near enough.
+    /// Tolerance of the heading.
     #[param(unit = "rad", default = 0.03, range = 0.0001..=3.2)]
     heading_tolerance: f32,
-    /// How long the target may be out of sight.
+    /// Time that the target may be out of sight.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
     patience: f32,
     seen: Option<Time>,
@@ -167,7 +171,7 @@ impl PositionToTarget {
         Some(Twist::of(place.position().scaled(factor), omega))
     }
 
-    /// From now on the target may be out of sight for a while.
+    /// Restarts the time that the target may be out of sight.
     #[on_activate]
     fn forget(&mut self) {
         self.seen = None;
@@ -204,7 +208,7 @@ mod tests {
                     break;
                 }
                 last = speed;
-                // Something turns it a little.
+                // A disturbance turns the robot a little.
                 pose = drive(&pose, Twist { omega: twist.omega + 0.1, ..twist });
             }
             let missed = pose.position() - start.to_outer(Point2::polar(distance, direction));
@@ -229,7 +233,7 @@ mod tests {
         let mut node = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5));
         let (mut x, mut done) = (0.0, None);
         for step in 0..1000 {
-            // A wall at 2 m, and something beside the robot.
+            // A wall at 2 m, and an object beside the robot.
             let mut scan = Scan { angle_min: -0.5, angle_increment: 0.05, range_max: 10.0, ..Scan::default() };
             scan.ranges.extend((0..21).map(|i| (2.0 - x) / libm::cosf(-0.5 + 0.05 * i as f32)));
             scan.ranges[20] = 0.7;
@@ -247,7 +251,7 @@ mod tests {
 
     #[test]
     fn a_robot_is_centred_before_its_target() {
-        // The target looks along −x of the world: at a robot that comes from there.
+        // The target faces along −x of the world, towards a robot that comes from there.
         let target = Pose2::new(3.0, 1.0, PI);
         let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
         let (mut pose, mut positioned) = (Pose2::new(1.5, 0.3, -0.6), None);

@@ -5,42 +5,42 @@ use libm::{fabsf, remainderf};
 #[derive(Debug, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Path {
-    /// Where it leads along, from the start to the goal, in m.
+    /// Points from the start to the goal, in m.
     pub points: Vec<Point2>,
-    /// The heading at the goal, in rad.
+    /// Heading at the goal, in rad.
     pub heading: f32,
 }
 
-/// The orthogonal projection of a position onto a path (thesis fig. 4.8).
+/// Orthogonal projection of a position onto a path (thesis fig. 4.8).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projection {
-    /// The segment it lies on: that from this point of the path to the next one.
+    /// Segment that contains the projection: index of the point of the path at which it begins.
     pub segment: usize,
-    /// Where it lies, in m.
+    /// Projected point, in m.
     pub point: Point2,
-    /// The direction of the path there, in rad (θ_t).
+    /// Direction of the path at the projection, in rad (θ_t).
     pub tangent: f32,
-    /// How far to the left of the path the position is, in m (x_n).
+    /// Signed distance of the position from the path, in m, positive to the left (x_n).
     pub offset: f32,
-    /// From here to the goal along the path, in m.
+    /// Length of the path from the projection to the goal, in m.
     pub remaining: f32,
 }
 
 impl Path {
-    /// The last point; `None` of an empty path.
+    /// The last point, or `None` if the path is empty.
     pub fn goal(&self) -> Option<Point2> {
         self.points.last().copied()
     }
 
-    /// From the start to the goal along the path, in m.
+    /// Length of the path from the start to the goal, in m.
     pub fn length(&self) -> f32 {
         length(&self.points)
     }
 
-    /// The point of the path that is nearest to a position, searched on `reach` m of the path from point `from` on:
-    /// where a path comes back to itself, a robot stays on the part it is on.
+    /// Projects a position onto the nearest point of the path, searched on `reach` m of the path from the point with
+    /// the index `from` on. So a robot stays on its part of a path that comes back to itself.
     ///
-    /// `None` if the path has no points from there on, or something is not finite.
+    /// Returns `None` if the path has no points there, or if a coordinate is not finite.
     pub fn project(&self, position: Point2, from: usize, reach: f32) -> Option<Projection> {
         let from = from.min(self.points.len().saturating_sub(2));
         let mut nearest: Option<(f32, usize, Point2)> = None;
@@ -65,8 +65,8 @@ impl Path {
         remaining.is_finite().then_some(Projection { segment, point, tangent: along.angle(), offset, remaining })
     }
 
-    /// How much the path turns within `reach` m after a projection, to whichever side, in rad: the sum over the
-    /// curvatures of its points, each times the part of the path that it stands for.
+    /// Total turning of the path within `reach` m after a projection, in rad, regardless of the side: the sum over the
+    /// curvatures of its points, each multiplied by the length of path that the point stands for.
     pub fn turning(&self, projection: &Projection, reach: f32) -> f32 {
         let mut passed = 0.0;
         let mut turning = 0.0;
@@ -82,8 +82,8 @@ impl Path {
         turning
     }
 
-    /// The curvature at a point, in rad/m, positive to the left: the angle between the segments before and after it,
-    /// divided by the part of the path that it stands for. 0 at both ends, and where points lie on each other.
+    /// Curvature at a point, in rad/m, positive to the left: the angle between the segments before and after it,
+    /// divided by the length of path that the point stands for. It is 0 at both ends and where points coincide.
     pub fn curvature(&self, i: usize) -> f32 {
         let around = i.checked_sub(1).and_then(|first| self.points.get(first..)).and_then(|rest| rest.first_chunk());
         let Some([before, at, after]) = around else { return 0.0 };
@@ -94,7 +94,7 @@ impl Path {
         remainderf(b.angle() - a.angle(), core::f32::consts::TAU) / self.share(i)
     }
 
-    /// Half of the two segments at a point, in m.
+    /// Length of path that a point stands for, in m: half of the two segments at the point.
     fn share(&self, i: usize) -> f32 {
         0.5 * length(&self.points[i.saturating_sub(1)..(i + 2).min(self.points.len())])
     }
@@ -105,7 +105,7 @@ impl Clone for Path {
         Self { points: self.points.clone(), heading: self.heading }
     }
 
-    /// As [`clone`](Self::clone), in the storage that it has.
+    /// Same as [`clone`](Self::clone), but reuses the allocated storage.
     fn clone_from(&mut self, other: &Self) {
         self.points.clone_from(&other.points);
         self.heading = other.heading;
@@ -116,11 +116,11 @@ fn length(points: &[Point2]) -> f32 {
     points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
 }
 
-/// The point of the line from `a` to `b` that is nearest to a position.
+/// Point of the segment from `a` to `b` that is nearest to a position.
 pub(super) fn nearest_on(a: Point2, b: Point2, position: Point2) -> Point2 {
     let along = b - a;
     let t = (position - a).dot(along) / along.norm_squared();
-    // NaN where both ends are one.
+    // NaN if both ends coincide.
     if t.is_nan() { a } else { a + along.scaled(t.clamp(0.0, 1.0)) }
 }
 

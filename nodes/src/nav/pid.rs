@@ -1,26 +1,26 @@
-/// A controller with a proportional, an integral and a derivative part, and a limited output.
+/// PID controller: a proportional, an integral and a derivative part, and a limited output.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pid {
-    /// Output per error.
+    /// Proportional gain: output per error.
     pub proportional: f32,
-    /// Output per error and second.
+    /// Integral gain: output per error and second.
     pub integral: f32,
-    /// Output per error by second.
+    /// Derivative gain: output per change of the error per second.
     pub derivative: f32,
-    /// The most that comes out, to both sides; at least 0.
+    /// Limit of the output on both sides, at least 0.
     pub limit: f32,
     sum: f32,
     last: Option<f32>,
 }
 
 impl Pid {
-    /// A controller with these gains.
+    /// Creates a controller with these gains.
     pub const fn new(proportional: f32, integral: f32, derivative: f32, limit: f32) -> Self {
         Self { proportional, integral, derivative, limit, sum: 0.0, last: None }
     }
 
-    /// The output for an error that is there for `dt` s since the last one. An error that is not finite gives 0 and
-    /// is forgotten.
+    /// Output for an error, `dt` s after the previous one. An error that is not finite gives 0 and does not change the
+    /// state.
     pub fn step(&mut self, error: f32, dt: f32) -> f32 {
         if !error.is_finite() {
             return 0.0;
@@ -31,14 +31,14 @@ impl Pid {
         };
         let output = self.proportional * error + self.integral * (self.sum + error * dt) + self.derivative * slope;
         let limited = output.max(-self.limit).min(self.limit);
-        // What the limit cuts off is not summed up: it would have to be undone later.
+        // Anti-windup: the part cut off by the limit is not summed up, as it would have to be undone later.
         if limited == output || (output > 0.0) != (error > 0.0) {
             self.sum += error * dt;
         }
         limited
     }
 
-    /// Forgets all errors.
+    /// Resets the integral and the previous error.
     pub const fn reset(&mut self) {
         self.sum = 0.0;
         self.last = None;
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_constant_load_is_overcome() {
-        // A value that falls by 0.3 a second by itself is to be 1.
+        // A value that falls by 0.3 per second by itself has to reach 1.
         let (mut pid, mut value) = (Pid::new(2.0, 1.0, 0.0, 5.0), 0.0);
         for _ in 0..3000 {
             value += 0.01 * (pid.step(1.0 - value, 0.01) - 0.3);

@@ -5,16 +5,16 @@ use crate::{
 };
 use apex_rt::{Event, Out, node};
 
-/// How fine and how smooth a path becomes.
+/// Resolution and smoothness of a planned path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smoothing {
-    /// The distance between points of the path, about, in m.
+    /// Approximate distance between points of the path, in m.
     pub spacing: f32,
-    /// How often the path is smoothed.
+    /// Number of smoothing rounds.
     pub rounds: usize,
 }
 
-/// Plans paths: searches, simplifies, adds points and smooths (thesis 4.3.6). Keeps its buffers.
+/// Path planner in four steps: search, simplification, subdivision and smoothing (thesis 4.3.6). Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct Planner {
     search: Search,
@@ -24,10 +24,10 @@ pub struct Planner {
 }
 
 impl Planner {
-    /// Writes a path from `start` to `goal` into `path`. All cells that it touches are open.
+    /// Writes a path from `start` to `goal` into `path`. All cells that the path touches are open.
     ///
     /// # Errors
-    /// There is no such path. Then `path` has no points.
+    /// There is no such path. `path` is then empty.
     pub fn plan(
         &mut self,
         terrain: &Terrain<'_>,
@@ -42,7 +42,7 @@ impl Planner {
         let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
         let to = raster.cell(goal.position()).ok_or(NoPath::GoalOutside)?;
         self.search.run(terrain, from, to, &mut self.cells)?;
-        // The ends are where they were asked for, not in the middle of their cells.
+        // The path ends at the given positions, not at the centres of their cells.
         let inner = self.cells.get(1..self.cells.len().saturating_sub(1)).unwrap_or_default();
         self.rough.clear();
         self.rough.push(start.position());
@@ -55,21 +55,21 @@ impl Planner {
     }
 }
 
-/// Plans a path for an omnidirectional robot with A* on a grid map (thesis 4.3.6). `start`, `goal` and the path are in
-/// the frame of the map; the map has its obstacles grown, and `costs` are those of `CostMap`. Without costs the path is
-/// the shortest one.
+/// Plans a path for an omnidirectional robot with A* on a grid map (thesis 4.3.6).
 ///
-/// If there is no path, it sends ⊥ and says why over `no_path`.
+/// `start`, `goal` and the path are in the frame of the map. The obstacles of the map must be grown by the radius of
+/// the robot. `costs` are those of `CostMap`; without them the path is the shortest one. If there is no path, the
+/// output is ⊥ and `no_path` gives the reason.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PathPlanner {
-    /// Whether paths may lead through unknown cells.
+    /// Permission for paths through unknown cells.
     #[param(default = false)]
     unknown_is_open: bool,
-    /// The distance between points of the path.
+    /// Approximate distance between points of the path.
     #[param(unit = "m", default = 0.1, range = 0.01..=10.0)]
     spacing: f32,
-    /// How often the path is smoothed; less often if it has very many points.
+    /// Number of smoothing rounds; fewer if the path has very many points.
     #[param(default = 30, range = 0..=1000)]
     rounds: usize,
     planner: Planner,

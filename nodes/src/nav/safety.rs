@@ -3,22 +3,23 @@ use crate::scan::{Point2, Scan};
 use apex_rt::{Ctx, Time, node};
 use libm::{fmaxf, sqrtf};
 
-/// The strip before a round robot that has to be free: as wide as the robot, and as long as it takes to stop.
+/// Strip before a round robot that has to be free: as wide as the robot, and as long as its stopping distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProtectiveField {
-    /// The radius of the robot, in m.
+    /// Radius of the robot, in m.
     pub radius: f32,
-    /// How far away from obstacles it has to come to a stand, in m.
+    /// Minimum distance from obstacles at a stop, in m.
     pub margin: f32,
-    /// How it brakes, in m/s².
+    /// Deceleration of the robot, in m/s².
     pub deceleration: f32,
-    /// How long it goes on before it brakes, in s.
+    /// Delay before the robot begins to brake, in s.
     pub latency: f32,
 }
 
 impl ProtectiveField {
-    /// How far the robot can go in a direction before an obstacle is within its margin, in m: infinite if none ever
-    /// is, and 0 if one is there already. What is beside or behind does not count.
+    /// Distance that the robot can move in a direction before an obstacle is within its margin, in m. It is infinite if
+    /// there is no such obstacle, and 0 if one is within the margin already. Points beside or behind the robot do not
+    /// count. The direction and the points are in the frame of the robot.
     pub fn gap(&self, direction: Point2, points: impl Iterator<Item = Point2>) -> f32 {
         let reach = self.radius + self.margin;
         let unit = direction.scaled(1.0 / direction.norm());
@@ -30,13 +31,13 @@ impl ProtectiveField {
         gaps.fold(f32::INFINITY, f32::min)
     }
 
-    /// The highest speed from which the robot still stops within `gap` m, in m/s: v²/2a + v·t is the gap.
+    /// Maximum speed from which the robot still stops within `gap` m, in m/s: the solution of v²/2a + v·t = gap.
     pub fn highest_speed(&self, gap: f32) -> f32 {
         let (a, t) = (self.deceleration, self.latency);
         a * (sqrtf(t * t + 2.0 * gap / a) - t)
     }
 
-    /// The twist, slowed down as far as the obstacles ask for. A turn on the spot needs no room.
+    /// The twist, slowed down as far as the obstacles require. Rotation is not limited.
     pub fn limit(&self, twist: &Twist, points: impl Iterator<Item = Point2>) -> Twist {
         let velocity = twist.velocity();
         let speed = velocity.norm();
@@ -44,7 +45,7 @@ impl ProtectiveField {
             return *twist;
         }
         let highest = self.highest_speed(self.gap(velocity, points));
-        // Not a number if a parameter is none: then it stands still.
+        // NaN if a parameter is NaN: the robot then stands still.
         let factor = if highest >= speed { 1.0 } else { fmaxf(highest / speed, 0.0) };
         Twist::of(velocity.scaled(factor), twist.omega)
     }
@@ -52,24 +53,24 @@ impl ProtectiveField {
 
 /// Slows a robot down before obstacles in its driving direction, and stops it before it touches one (thesis 4.3.6).
 ///
-/// The scan is in the frame of the robot. It may be ⊥, as scans come less often than twists; but if the last one is too
-/// old, the robot stops: a scanner that fails must not be taken for free space.
+/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if there
+/// is no scan or if the last one is older than `max_age`, so that a failed scanner is not taken for free space.
 #[node]
 #[derive(Debug, Clone)]
 pub struct SafetyField {
-    /// The radius of the robot.
+    /// Radius of the robot.
     #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
     radius: f32,
-    /// How far away from obstacles it stops.
+    /// Minimum distance from obstacles at a stop.
     #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
     margin: f32,
-    /// How it brakes.
+    /// Deceleration of the robot.
     #[param(unit = "m/s^2", default = 1.0, range = 0.01..=100.0)]
     deceleration: f32,
-    /// How long it goes on before it brakes.
+    /// Delay before the robot begins to brake.
     #[param(unit = "s", default = 0.1, range = 0.0..=10.0)]
     latency: f32,
-    /// How old a scan may be.
+    /// Maximum age of a scan.
     #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
     max_age: f32,
     last: Option<(Time, Scan)>,

@@ -2,20 +2,20 @@ use crate::map::{Cell, Grid, Occupancy, Raster};
 use core::{cmp::Ordering, f64::consts::SQRT_2, fmt};
 use std::collections::BinaryHeap;
 
-/// Where a robot may go, and what that costs.
+/// Traversable cells of a map and their costs.
 #[derive(Debug, Clone, Copy)]
 pub struct Terrain<'a> {
-    /// Occupied cells are closed.
+    /// Map. Occupied cells are closed.
     pub map: &'a Grid<Occupancy>,
-    /// What each metre through a cell counts in addition, over the same raster. Without them only lengths count;
-    /// negative ones and NaN are 0.
+    /// Additional cost of each metre through a cell, on the same raster. Without costs only lengths count. Negative
+    /// costs and NaN count as 0.
     pub costs: Option<&'a Grid<f32>>,
-    /// Whether unknown cells are open.
+    /// `true` if unknown cells are open.
     pub unknown_is_open: bool,
 }
 
 impl Terrain<'_> {
-    /// Whether a robot may be in a cell.
+    /// Returns `true` if a robot may be in a cell.
     #[inline]
     pub fn is_open(&self, cell: Cell) -> bool {
         match self.map.get(cell) {
@@ -25,28 +25,28 @@ impl Terrain<'_> {
         }
     }
 
-    /// What a metre through a cell costs in addition to its length.
+    /// Cost of a metre through a cell, in addition to its length.
     #[inline]
     pub fn cost(&self, cell: Cell) -> f32 {
         self.costs.and_then(|costs| costs.get(cell)).map_or(0.0, |cost| cost.max(0.0))
     }
 }
 
-/// Why there is no path.
+/// Reason why there is no path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum NoPath {
-    /// The start is outside of the map.
+    /// The start is outside the map.
     StartOutside,
-    /// The goal is outside of the map.
+    /// The goal is outside the map.
     GoalOutside,
-    /// A robot cannot be at the start.
+    /// The start is in a cell that is not open.
     StartBlocked,
-    /// A robot cannot be at the goal.
+    /// The goal is in a cell that is not open.
     GoalBlocked,
-    /// Nothing leads from the start to the goal.
+    /// No path connects the start and the goal.
     Unreachable,
-    /// The costs lie on another raster than the map.
+    /// The raster of the costs differs from that of the map.
     OtherRaster,
 }
 
@@ -65,17 +65,17 @@ impl fmt::Display for NoPath {
 
 impl std::error::Error for NoPath {}
 
-/// The shortest paths on a grid: A* (Hart, Nilsson and Raphael 1968) with steps to the 8 cells around.
+/// Shortest paths on a grid: A* (Hart, Nilsson and Raphael 1968) with steps to the 8 neighbours.
 ///
-/// A step from cell to cell counts its length times `1 + cost`. That is `g′ = g + m_c` of the thesis (4.3.6) with costs
-/// per metre, so that a path does not depend on the size of cells. A diagonal step needs both cells at its sides open:
-/// no corner is cut. The heuristic is the length of the shortest path without obstacles, which is never less than the
-/// L₂ norm of the thesis and never too long, so that the path found is the shortest one with fewer cells looked at.
+/// The cost of a step is its length times `1 + cost`. This is `g′ = g + m_c` of the thesis (4.3.6) with costs per
+/// metre, so that a path does not depend on the cell size. A diagonal step needs both adjacent cells open: corners are
+/// not cut. The heuristic is the length of the shortest path without obstacles. It is admissible and never below the
+/// L₂ norm of the thesis, so that the path is still the shortest one and fewer cells are expanded.
 ///
-/// Keeps its buffers: on a grid of the size it knows it allocates nothing but room for more open cells than ever before.
+/// Keeps its buffers: on a grid of the same size as before, it allocates only if more cells are open than ever before.
 #[derive(Debug, Clone, Default)]
 pub struct Search {
-    /// By cell, valid if it has the number of this round.
+    /// Nodes by cell index, valid if they have the number of this round.
     nodes: Vec<Node>,
     open: BinaryHeap<Open>,
     round: u32,
@@ -83,9 +83,9 @@ pub struct Search {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Node {
-    /// The length of the shortest path to it that is known.
+    /// Length of the shortest known path to the cell, in cells, with costs.
     length: f64,
-    /// The index of the cell before it.
+    /// Index of the previous cell on that path.
     before: u32,
     round: u32,
     closed: bool,
@@ -93,7 +93,7 @@ struct Node {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Open {
-    /// Length so far plus heuristic.
+    /// Length to the cell plus heuristic.
     estimate: f64,
     length: f64,
     cell: u32,
@@ -101,7 +101,8 @@ struct Open {
 
 impl Eq for Open {}
 
-/// The greatest is what comes next: that of the least estimate, then the farthest one, then the cell of the least index.
+/// The greatest entry is expanded next: the one with the least estimate, then with the greatest length, then with the
+/// least index.
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
         other
@@ -119,10 +120,11 @@ impl PartialOrd for Open {
 }
 
 impl Search {
-    /// Writes the cells of the shortest path into `path`, start and goal included, and gives its length with costs, in m.
+    /// Writes the cells of the shortest path, including start and goal, into `path` and returns its length with costs,
+    /// in m.
     ///
     /// # Errors
-    /// There is no such path. Then `path` is empty.
+    /// There is no such path. `path` is then empty.
     pub fn run(&mut self, terrain: &Terrain<'_>, start: Cell, goal: Cell, path: &mut Vec<Cell>) -> Result<f64, NoPath> {
         path.clear();
         check(terrain, start, goal)?;
@@ -130,7 +132,7 @@ impl Search {
         self.begin(terrain.map.cells().len());
         self.reach(index(&raster, start), index(&raster, start), 0.0, octile(start, goal));
         while let Some(Open { cell: at, length, .. }) = self.open.pop() {
-            // Reached again on a shorter way since: that entry came first.
+            // A stale entry: the cell was reached by a shorter path since, and that entry came first.
             if core::mem::replace(&mut self.nodes[at as usize].closed, true) {
                 continue;
             }
@@ -168,7 +170,7 @@ impl Search {
         }
     }
 
-    /// Collects the cells back to the start.
+    /// Collects the cells from the goal back to the start, and reverses them.
     fn trace(&self, raster: &Raster, goal: u32, path: &mut Vec<Cell>) {
         let mut at = goal;
         path.push(cell(raster, at));
@@ -197,26 +199,26 @@ fn check(terrain: &Terrain<'_>, start: Cell, goal: Cell) -> Result<(), NoPath> {
     if terrain.is_open(goal) { Ok(()) } else { Err(NoPath::GoalBlocked) }
 }
 
-/// The open cells around a cell with the lengths of the steps there, in cells.
+/// Open neighbours of a cell with the lengths of the steps to them, in cells.
 fn neighbours(terrain: &Terrain<'_>, cell: Cell) -> impl Iterator<Item = (Cell, f64)> {
-    // What is left of 0 becomes the greatest number, which no raster contains.
+    // A neighbour left of or below 0 wraps to the greatest number, which no raster contains.
     let at = |dx: isize, dy: isize| Cell::new(cell.x.wrapping_add_signed(dx), cell.y.wrapping_add_signed(dy));
     let sides = [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(dx, dy)| at(dx, dy));
     let open = sides.map(|side| terrain.is_open(side));
     let corners = [(1, 1), (-1, 1), (-1, -1), (1, -1)].map(|(dx, dy)| at(dx, dy));
-    // A corner lies between the side of its number and the next one.
+    // Corner `i` is between the sides `i` and `i + 1`.
     let reachable: [bool; 4] = core::array::from_fn(|i| open[i] && open[(i + 1) % 4] && terrain.is_open(corners[i]));
     let straight = sides.into_iter().zip(open).filter_map(|(cell, open)| open.then_some((cell, 1.0)));
     straight.chain(corners.into_iter().zip(reachable).filter_map(|(cell, open)| open.then_some((cell, SQRT_2))))
 }
 
-/// The length of the shortest path without obstacles, in cells.
+/// Length of the shortest path without obstacles, in cells.
 fn octile(a: Cell, b: Cell) -> f64 {
     let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
     (SQRT_2 - 1.0) * dx.min(dy) as f64 + dx.max(dy) as f64
 }
 
-/// Grids have far fewer cells than there are numbers.
+/// Index of a cell. Grids have far fewer cells than a `u32` has values.
 fn index(raster: &Raster, cell: Cell) -> u32 {
     (cell.y * raster.width + cell.x) as u32
 }
@@ -229,7 +231,7 @@ fn cell(raster: &Raster, index: u32) -> Cell {
 mod tests {
     use super::*;
 
-    /// Cells of 1 m, `#` occupied, `?` unknown.
+    /// Map with cells of 1 m: `#` is occupied, `?` unknown.
     fn map(rows: &[&str]) -> Grid<Occupancy> {
         let raster = Raster { width: rows[0].len(), height: rows.len(), ..Raster::default() };
         let mut map = Grid::new(raster, Occupancy::Free).expect("small");

@@ -4,19 +4,19 @@ use crate::{
     scan::Point2,
 };
 
-/// Whether all cells are open that a straight line touches.
+/// Returns `true` if all cells that a straight line touches are open.
 pub fn is_clear(terrain: &Terrain<'_>, from: Point2, to: Point2) -> bool {
     all_along(terrain.map.raster(), from, to, |cell| terrain.is_open(cell))
 }
 
-/// Writes the points of a path into `simple` without those that lead around nothing: where a straight line is open and
-/// without costs, only its ends are left, and else both halves are looked at (thesis 4.3.6).
+/// Writes the points of a path into `simple`, without needless detours (thesis 4.3.6). Where the straight line between
+/// two points is open and free of costs, only its ends remain; otherwise both halves are simplified recursively.
 pub fn simplify(terrain: &Terrain<'_>, points: &[Point2], simple: &mut Vec<Point2>) {
     simple.clear();
     simple.extend(points.first());
     let raster = terrain.map.raster();
     let is_free = |cell| terrain.is_open(cell) && terrain.cost(cell) == 0.0;
-    // Not by recursion: the stack has to be enough for any path.
+    // An explicit stack instead of recursion: the call stack has to suffice for any path.
     let mut parts = vec![(0, points.len().saturating_sub(1))];
     while let Some((first, last)) = parts.pop() {
         if last <= first {
@@ -31,13 +31,13 @@ pub fn simplify(terrain: &Terrain<'_>, points: &[Point2], simple: &mut Vec<Point
     }
 }
 
-/// The inner point that is farthest from the line between both ends; that in the middle if all lie on it.
+/// The inner point farthest from the line through both ends, or the middle point if all are on it.
 fn farthest(points: &[Point2]) -> usize {
     let normal = (points[points.len() - 1] - points[0]).perpendicular();
     let mut best = (0.0, points.len() / 2);
     for (i, point) in points.iter().enumerate().take(points.len() - 1).skip(1) {
         let distance = normal.dot(*point - points[0]).abs();
-        // More than rounding makes of a straight line.
+        // More than the rounding error of a straight line.
         if distance > best.0 + 1e-4 * normal.norm_squared() {
             best = (distance, i);
         }
@@ -45,8 +45,8 @@ fn farthest(points: &[Point2]) -> usize {
     best.1
 }
 
-/// Writes `points` into `fine` with others between them, so that none is farther than `spacing` m from the next one.
-/// A spacing that is no positive number adds none.
+/// Writes `points` into `fine` with others between them, so that consecutive points are at most about `spacing` m
+/// apart. A spacing that is not positive or not a number adds no points.
 pub fn subdivide(points: &[Point2], spacing: f32, fine: &mut Vec<Point2>) {
     fine.clear();
     fine.extend(points.first());
@@ -59,11 +59,11 @@ pub fn subdivide(points: &[Point2], spacing: f32, fine: &mut Vec<Point2>) {
     }
 }
 
-/// How often points of a path are moved at most, which takes less than half a second.
+/// Maximum number of moved points per path, which takes less than half a second.
 const MOST_MOVES: usize = 4_000_000;
 
-/// Moves each inner point `rounds` times halfway towards the middle of its neighbours, where the way stays clear. Fewer
-/// times on a path of so many points that they would be moved more than four million times.
+/// Moves each inner point `rounds` times halfway towards the middle of its neighbours, where the path stays clear.
+/// There are fewer rounds if the path has so many points that they would be moved more than four million times.
 pub fn smooth(terrain: &Terrain<'_>, points: &mut [Point2], rounds: usize) {
     for _ in 0..rounds.min(MOST_MOVES / points.len().max(1)) {
         for i in 1..points.len().saturating_sub(1) {
@@ -76,13 +76,15 @@ pub fn smooth(terrain: &Terrain<'_>, points: &mut [Point2], rounds: usize) {
     }
 }
 
-/// Whether `test` holds for all cells that a straight line touches (Amanatides and Woo 1987); not if it leaves the raster.
+/// Returns `true` if `test` holds for all cells that a straight line touches (Amanatides and Woo 1987). Returns `false`
+/// if the line leaves the raster.
 fn all_along(raster: &Raster, from: Point2, to: Point2, mut test: impl FnMut(Cell) -> bool) -> bool {
     let (Some(mut at), Some(end)) = (raster.cell(from), raster.cell(to)) else { return false };
     let in_cells = |p: f32, corner: f32| f64::from(p - corner) / f64::from(raster.resolution);
     let start = [in_cells(from.x, raster.corner.x), in_cells(from.y, raster.corner.y)];
     let along = [in_cells(to.x, raster.corner.x) - start[0], in_cells(to.y, raster.corner.y) - start[1]];
-    // How far along the line it leaves the cell at an axis: never on one in whose last column or row it is already.
+    // Position along the line (0 to 1) at which it leaves the cell at an axis. It is infinite once the cell is in the
+    // last column or row of the line.
     let leaves = |at: usize, end: usize, axis: usize| {
         let border = if end > at { at + 1 } else { at };
         if at == end { f64::INFINITY } else { (border as f64 - start[axis]) / along[axis] }
@@ -96,7 +98,7 @@ fn all_along(raster: &Raster, from: Point2, to: Point2, mut test: impl FnMut(Cel
         let next = |at: usize, end: usize| if end > at { at + 1 } else { at - 1 };
         let aside = || Cell::new(next(at.x, end.x), at.y);
         let ahead = || Cell::new(at.x, next(at.y, end.y));
-        // Through a corner, as far as points are exact: the cells on both sides count.
+        // The line passes through a corner, within rounding: the cells on both sides count.
         if (x - y).abs() < corner && !(test(aside()) && test(ahead())) {
             return false;
         }
@@ -132,7 +134,7 @@ mod tests {
                 true
             }));
             for i in 0..=1000 {
-                // Points near a border may be rounded over it.
+                // Points near a cell boundary may be rounded across it.
                 let p = from + (to - from).scaled(i as f32 / 1000.0);
                 let inside = [p.x, p.y].iter().all(|v| (v - v.round()).abs() > 1e-4);
                 assert!(!inside || map.raster().cell(p).is_some_and(|cell| touched.contains(&cell)));
@@ -199,7 +201,7 @@ mod tests {
         let open = corner(&map);
         assert_eq!((open[0], open[16]), (at(0.5, 0.5), at(8.5, 8.5)));
         assert!((open[8] - at(8.5, 0.5)).norm() > 1.0);
-        // All within the corner is taken.
+        // All cells inside the corner are occupied.
         for (i, cell) in map.cells_mut().iter_mut().enumerate() {
             if i % 10 < 8 && i / 10 > 0 {
                 *cell = Occupancy::Occupied;

@@ -1,27 +1,28 @@
-//! Poses of things that do not move, seen by a robot that does.
+//! Poses of stationary objects seen from a moving robot.
 
 use crate::{math::normalize_angle, scan::Pose2};
 use apex_rt::{Ctx, Time, node};
 use core::f32::consts::PI;
 
-/// Where something that stays where it is stands, seen from the robot as it moves on (thesis 8.1.1: a filter of the target).
+/// Tracks the pose of a stationary object relative to the moving robot (thesis 8.1.1: a filter of the target).
 ///
-/// `robot` is the pose of the robot in any frame that stays, as that of odometry; `seen` is what a detector sees, in the
-/// frame of the robot, and ⊥ in between. Sightings near to each other are averaged, another one replaces them. ⊥ once the
-/// last one is too old.
+/// `robot` is the pose of the robot in any fixed frame, such as that of odometry. `seen` is the detected pose in the
+/// frame of the robot, and ⊥ between detections. The output is in the frame of the robot. Detections near each other
+/// are averaged; one farther away than `gate` replaces the mean. The output is ⊥ once the last detection is older
+/// than `max_age`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrackPose {
-    /// How long it is known without being seen.
+    /// Time for which the pose stays known without a detection.
     #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
     max_age: f32,
-    /// How much of the mean a new sighting is.
+    /// Weight of a new detection in the mean.
     #[param(default = 0.4, range = 0.01..=1.0)]
     share: f32,
-    /// Sightings farther away than this from the mean are of something else.
+    /// Maximum distance from the mean. A detection farther away belongs to another object.
     #[param(unit = "m", default = 0.3, range = 0.0..=100.0)]
     gate: f32,
-    /// The mean in the frame of `robot`, and when it was seen last.
+    /// Mean in the frame of `robot`, and the time of the last detection.
     known: Option<(Pose2, Time)>,
 }
 
@@ -49,14 +50,15 @@ impl TrackPose {
         Pose2::new(place.x, place.y, normalize_angle(&(mean.theta + self.share * turn)))
     }
 
-    /// Forgets what was seen.
+    /// Forgets the tracked object.
     #[slot]
     fn reset(&mut self) {
         self.known = None;
     }
 }
 
-/// The pose of someone who stands so far before something, and looks at it.
+/// Pose at a distance before an object, facing it. `pose` is the pose of the object, whose x axis points towards the
+/// viewer.
 #[node]
 pub fn stand_before(pose: &Pose2, #[param(unit = "m", default = 1.0, range = 0.0..=100.0)] distance: f32) -> Pose2 {
     pose.compose(&Pose2::new(distance, 0.0, PI))

@@ -1,37 +1,37 @@
 use super::{Point2, Pose2, Scan};
 use core::ops::Range;
 
-/// How well points agree with a box model at a pose (thesis 6.6.1).
+/// Agreement of points with a box model at a pose (thesis 6.6.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Consensus {
-    /// Points in a wheel box: |I|.
+    /// Number of points in wheel boxes: |I|.
     pub inliers: u16,
-    /// Points in the footprint, but in no wheel box: |O|.
+    /// Number of points in the footprint, but in no wheel box: |O|.
     pub outliers: u16,
 }
 
-/// What is to be seen of the wheels of a model at a pose.
+/// Visibility of the wheels of a model at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Sighting {
-    /// Wheel boxes that hold a point.
+    /// Number of wheel boxes that contain a point.
     pub seen: usize,
-    /// Wheel boxes that hold none although nothing stands before them.
+    /// Number of wheel boxes that contain no point although nothing hides them.
     pub missing: usize,
 }
 
-/// The box model of a container: footprint and wheels, in m, in the frame of the container.
+/// Box model of a container: footprint and wheels, in m, in the frame of the container.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BoxModel {
     pub length: f32,
     pub width: f32,
-    /// Rows of x and y of the centre, length along x and width along y.
+    /// Wheel boxes: rows of x and y of the centre, length along x and width along y.
     pub wheels: &'static [[f32; 4]],
-    /// Length of the strip before the container that has to be free as well.
+    /// Length of the strip before the container that also has to be free.
     pub clearance: f32,
 }
 
 impl BoxModel {
-    /// Counts inliers and outliers. Stops counting at `max_outliers`: the hypothesis has failed by then.
+    /// Counts inliers and outliers. Stops at `max_outliers`, as the hypothesis has then failed.
     pub fn consensus(&self, pose: &Pose2, points: &[Point2], max_outliers: u16) -> Consensus {
         let mut count = Consensus::default();
         for p in self.nearby(pose, points) {
@@ -47,7 +47,8 @@ impl BoxModel {
         count
     }
 
-    /// Looks for each wheel among the points of segments that could be one: those of a wall would fill a box, too.
+    /// Counts the seen and missing wheels. Only points of segments that could be wheels count, as the points of a wall
+    /// would also fill a wheel box.
     pub fn sighting(&self, pose: &Pose2, candidates: &[Point2], scan: &Scan) -> Sighting {
         let mut sighting = Sighting::default();
         for wheel in self.wheels {
@@ -60,7 +61,7 @@ impl BoxModel {
         sighting
     }
 
-    /// The beams that can hit the model at `pose`: those between its two outermost lines of sight.
+    /// Beams that can hit the model at `pose`: those between its two outermost lines of sight.
     pub fn beams(&self, pose: &Pose2, scan: &Scan) -> Range<usize> {
         let all = 0..scan.ranges.len();
         let (distance, reach) = (pose.position().norm(), libm::sqrtf(self.reach_squared()));
@@ -70,15 +71,15 @@ impl BoxModel {
         let (bearing, half) = (pose.position().angle(), libm::asinf(reach / distance));
         match (scan.beam_towards(bearing - half), scan.beam_towards(bearing + half)) {
             (Some(a), Some(b)) if (a <= b) == (scan.angle_increment > 0.0) => {
-                // One more to each side, as both are rounded.
+                // One more on each side, as both are rounded.
                 a.min(b).saturating_sub(1)..(a.max(b) + 2).min(all.end)
             }
-            // It reaches out of the field of view, or over the seam of a full turn.
+            // The model reaches out of the field of view, or across the seam of a full turn.
             _ => all,
         }
     }
 
-    /// The points that can lie in the model at all, in its frame. NaN is dropped.
+    /// Points that may be inside the model, in its frame. NaN is dropped.
     fn nearby<'a>(&self, pose: &Pose2, points: &'a [Point2]) -> impl Iterator<Item = Point2> + use<'a> {
         let reach = self.reach_squared();
         let (sin, cos) = libm::sincosf(pose.theta);
@@ -89,19 +90,20 @@ impl BoxModel {
         })
     }
 
-    /// What only wheels may stand in: the container and the strip before it.
+    /// Box in which only wheels may stand: the container and the strip before it.
     fn footprint(&self) -> [f32; 4] {
         [-0.5 * self.clearance, 0.0, self.length + self.clearance, self.width]
     }
 
-    /// Square of the radius around the centre beyond which nothing of the model lies.
+    /// Square of the radius around the centre that contains the whole model.
     fn reach_squared(&self) -> f32 {
         let corner = |b: &[f32; 4]| Point2::new(b[0].abs() + 0.5 * b[2], b[1].abs() + 0.5 * b[3]).norm_squared();
         self.wheels.iter().map(corner).fold(corner(&self.footprint()), f32::max)
     }
 }
 
-/// Whether the beam towards `point`, and its neighbours, went past it. Beams that measured nothing do not tell.
+/// Returns `true` if the beam towards `point` and its neighbours measured beyond it. A beam without a measurement
+/// counts as hidden.
 fn in_plain_view(point: Point2, scan: &Scan) -> bool {
     let distance = point.norm();
     scan.beam_towards(point.angle()).is_some_and(|beam| {
@@ -109,7 +111,7 @@ fn in_plain_view(point: Point2, scan: &Scan) -> bool {
     })
 }
 
-/// Whether a point lies in a box of centre, length and width; the border belongs to it.
+/// Returns `true` if a point is in a box of centre, length and width, including its boundary.
 #[inline]
 fn in_box(p: Point2, &[x, y, length, width]: &[f32; 4]) -> bool {
     (p.x - x).abs() <= 0.5 * length && (p.y - y).abs() <= 0.5 * width
@@ -129,7 +131,7 @@ mod tests {
 
     #[test]
     fn points_are_inliers_outliers_or_elsewhere() {
-        // The container stands at (3, 1) and faces left: its x axis is the y axis of the scanner.
+        // The container is at (3, 1) and faces left: its x axis is the y axis of the scanner.
         let pose = Pose2::new(3.0, 1.0, FRAC_PI_2);
         let inner = [(-0.9, 0.4), (-0.85, -0.45), (0.0, 0.0), (0.9, 0.45), (0.0, 0.6), (1.5, 0.0), (5.0, 0.0)];
         let points = inner.map(|(x, y)| pose.to_outer(Point2::new(x, y)));
@@ -178,7 +180,7 @@ mod tests {
             scan.ranges.extend([1.0; 720]);
             scan
         };
-        // Half a turn, half a turn clockwise, and a full turn, whose seam is behind.
+        // Half a turn, half a turn clockwise, and a full turn with the seam behind the scanner.
         let (half, full) = (core::f32::consts::PI / 719.0, core::f32::consts::TAU / 720.0);
         for scan in [scanner(-FRAC_PI_2, half), scanner(FRAC_PI_2, -half), scanner(-2.0 * FRAC_PI_2, full)] {
             for bearing in [-3.1, -1.5, -0.4, 0.0, 0.9, 1.5, 3.1] {

@@ -6,91 +6,95 @@ use apex_rt::node;
 use core::f32::consts::PI;
 use heapless::Vec;
 
-/// A container that was found in a scan.
+/// Container detected in a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Container {
-    /// Its centre and heading in the frame of the scanner. The heading leads from its near wheels to its far ones.
+    /// Centre and heading in the frame of the scanner. The heading points from the near wheels to the far ones.
     pub pose: Pose2,
-    /// Squared deviation of the distance of the near wheels, in m² (ε, thesis eq. 6.18).
+    /// Squared deviation of the distance between the near wheels, in m² (ε, thesis eq. 6.18).
     pub error: f32,
-    /// Points in wheel boxes (|I|).
+    /// Number of points in wheel boxes (|I|).
     pub inliers: u16,
-    /// Points in the footprint, but in no wheel box (|O|).
+    /// Number of points in the footprint, but in no wheel box (|O|).
     pub outliers: u16,
-    /// Wheel boxes that hold a point.
+    /// Number of wheel boxes that contain a point.
     pub wheels: usize,
 }
 
 impl Container {
-    /// Shows more wheels; where equally many, fits the near wheels better (thesis eq. 6.18).
+    /// Returns `true` if this container shows more wheels or, with equally many, fits the near wheels better (thesis
+    /// eq. 6.18).
     fn is_better_than(&self, other: &Self) -> bool {
         self.wheels > other.wheels || (self.wheels == other.wheels && self.error < other.error)
     }
 }
 
-/// Finds a container by two of its wheels (thesis 6.6.1).
+/// Detects a container by two of its wheels (thesis 6.6.1).
 ///
-/// Every ordered pair of segments is taken as the two near wheels. Pairs at the wrong distance are dropped (δ_w);
-/// the others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model (eq. 6.17).
-/// ⊥ if no pose does.
+/// Every ordered pair of segments is a hypothesis for the two near wheels. Pairs at the wrong distance are dropped
+/// (δ_w); the others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model (eq.
+/// 6.17). The output is ⊥ if no pose agrees. The pose is in the frame of the scanner.
 ///
-/// What the thesis does not have: of the poses that agree, the one with the most wheels in view wins, and ε (eq.
-/// 6.18) decides between equals, for ε alone often prefers a chance pair in clutter; a number of wheel boxes must
-/// hold a point; those that hold none must be hidden; a strip before the container may be required to be free; and
-/// the model may be limited to be seen from the front. The defaults are for a container on four castors. A pallet
-/// on nine feet differs in numbers only.
+/// Extensions of the thesis:
+/// * Of the poses that agree, the one with the most visible wheels wins, and ε (eq. 6.18) decides between equals,
+///   because ε alone often prefers a chance pair in clutter.
+/// * A minimum number of wheel boxes must contain a point, and the empty ones must be hidden.
+/// * A strip before the container may be required to be free.
+/// * The container may be required to be seen from the front.
+///
+/// The defaults are for a container on four castors. A pallet on nine feet differs in numbers only.
 ///
 /// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates
 /// nothing.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ContainerSearch {
-    /// Distance of the outer sides of the wheels, across (w).
+    /// Distance across between the outer sides of the wheels (w).
     #[param(unit = "m", default = 0.68, range = 0.05..=10.0)]
     width: f32,
-    /// Distance of the outer sides of the wheels, along (l).
+    /// Distance lengthwise between the outer sides of the wheels (l).
     #[param(unit = "m", default = 1.2, range = 0.05..=10.0)]
     length: f32,
     /// Size of a wheel across (w_w).
     #[param(unit = "m", default = 0.04, range = 0.0..=1.0)]
     wheel_width: f32,
-    /// Size of a wheel along (w_l).
+    /// Size of a wheel lengthwise (w_l).
     #[param(unit = "m", default = 0.125, range = 0.0..=1.0)]
     wheel_length: f32,
-    /// How much the width of a hypothesis may differ from `width` (δ_w).
+    /// Maximum deviation of a hypothesis from `width` (δ_w).
     #[param(unit = "m", default = 0.15, range = 0.0..=2.0)]
     width_tolerance: f32,
-    /// Fewest points of a segment that is taken as a near wheel. Far wheels may have fewer.
+    /// Minimum number of points of a segment used as a near wheel. Far wheels may have fewer.
     #[param(default = 1, range = 1..=1000)]
     min_points: u16,
-    /// Fewest points in wheel boxes (d_I).
+    /// Minimum number of points in wheel boxes (d_I).
     #[param(default = 4, range = 0..=10_000)]
     min_inliers: u16,
-    /// So many points in the footprint beside the wheels refute the hypothesis (d_O). The more, the longer each takes.
+    /// Number of points in the footprint beside the wheels that refutes a hypothesis (d_O). A greater number makes each
+    /// hypothesis slower to test.
     #[param(default = 3, range = 1..=100)]
     max_outliers: u16,
-    /// Fewest wheel boxes that must hold a point. Two always do, by construction.
+    /// Minimum number of wheel boxes that contain a point. Two always do, by construction.
     #[param(default = 3, range = 0..=100)]
     min_wheels: usize,
-    /// Most wheel boxes that may hold none although the beams towards them go past.
+    /// Maximum number of wheel boxes that contain no point although the beams towards them pass by.
     #[param(default = 0, range = 0..=100)]
     max_missing: usize,
-    /// Length of a strip before the near wheels that belongs to the footprint.
+    /// Length of the strip before the near wheels that belongs to the footprint.
     #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
     clearance: f32,
-    /// Largest angle between the line of sight to the centre and the heading: how much from the side it may be
-    /// seen. With π it may be anywhere, also around the scanner, and the far wheels of a symmetric container may
-    /// pass for the near ones.
+    /// Maximum angle between the line of sight to the centre and the heading: the obliqueness of the view. With π any
+    /// pose is allowed, even around the scanner, and the far wheels of a symmetric container may be taken for the near
+    /// ones.
     #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     max_view_angle: f32,
-    /// The wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its
-    /// centre.
+    /// Wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its centre.
     #[param(unit = "m")]
     boxes: &'static [[f32; 4]],
-    /// The points of the scan by beam; NaN where nothing was measured.
+    /// Points of the scan by beam; NaN where nothing was measured.
     points: Vec<Point2, MAX_BEAMS>,
-    /// Those of them that belong to segments; NaN elsewhere.
+    /// Points that belong to segments, by beam; NaN elsewhere.
     candidates: Vec<Point2, MAX_BEAMS>,
 }
 
@@ -128,7 +132,7 @@ impl ContainerSearch {
         }
     }
 
-    /// The containers that have their near wheels at the two segments, in one order or the other.
+    /// Containers whose near wheels are the two segments, in both orders.
     fn hypotheses(&self, scan: &Scan, pair: [&Segment; 2]) -> [Option<Container>; 2] {
         let [a, b] = pair.map(Segment::mid_range);
         let deviation = (self.width - self.wheel_width).abs() - (b - a).norm();
@@ -139,8 +143,8 @@ impl ContainerSearch {
         [(a, b), (b, a)].map(|(a, b)| self.pose(a, b).and_then(|pose| self.verify(scan, pose, error)))
     }
 
-    /// The pose of a container with its near wheels at `a` and `b` (thesis eqs. 6.12–6.16); `None` if it cannot be
-    /// seen so.
+    /// Pose of a container with its near wheels at `a` and `b` (thesis eqs. 6.12–6.16), or `None` if the view is too
+    /// oblique.
     fn pose(&self, a: Point2, b: Point2) -> Option<Pose2> {
         let u = b - a;
         let across = u.norm();
@@ -153,7 +157,7 @@ impl ContainerSearch {
         (faces || self.max_view_angle >= PI).then(|| Pose2::new(centre.x, centre.y, v.angle()))
     }
 
-    /// The container at `pose`; `None` if the scan does not agree with that.
+    /// The container at `pose`, or `None` if the scan does not agree with it.
     fn verify(&self, scan: &Scan, pose: Pose2, error: f32) -> Option<Container> {
         let model = BoxModel { length: self.length, width: self.width, wheels: self.boxes, clearance: self.clearance };
         let beams = model.beams(&pose, scan);
@@ -201,7 +205,7 @@ mod tests {
         }
     }
 
-    /// A scan of discs of 4 cm radius before a wall at 8 m, half a turn wide.
+    /// A scan of discs of 4 cm radius before a wall at 8 m, with a field of view of 180°.
     fn scan(discs: &[Point2]) -> Scan {
         let mut scan = Scan { angle_min: -0.5 * PI, angle_increment: PI / 720.0, ..Scan::default() };
         for beam in 0..=720 {
@@ -244,7 +248,7 @@ mod tests {
 
     #[test]
     fn the_heading_leads_away_when_seen_from_the_front_only() {
-        // Turned by half a turn, the same wheels stand there: the near ones are those at the scanner.
+        // Rotated by 180°, the same wheels are there: the near ones are those at the scanner.
         let pose = Pose2::new(2.5, 0.0, PI);
         let found = search(node(), &wheels(&pose)).expect("a container");
         assert!(found.pose.theta.abs() < 0.02);
@@ -273,7 +277,7 @@ mod tests {
 
     #[test]
     fn a_container_around_the_scanner_is_found_if_it_may_be_anywhere() {
-        // Two wheels in front, the others outside of the field of view.
+        // Two wheels in front, the others outside the field of view.
         let pose = Pose2::new(0.1, 0.0, PI);
         assert_eq!(search(node(), &wheels(&pose)), None);
         let found = search(ContainerSearch { max_view_angle: PI, min_wheels: 2, ..node() }, &wheels(&pose));
@@ -291,7 +295,7 @@ mod tests {
     fn a_wall_is_no_wheel() {
         let pose = Pose2::new(2.5, 0.0, 0.2);
         let [a, b, far, _] = wheels(&pose);
-        // A row of posts, so close to each other that they are one segment, through the place of the far wheel.
+        // A row of posts through the place of the far wheel, so close to each other that they are one segment.
         let wall: std::vec::Vec<Point2> = (-12..=12).map(|i| far + Point2::new(0.0, 0.06 * i as f32)).collect();
         let node = || ContainerSearch { max_outliers: 100, max_missing: 1, ..node() };
         assert!(search(node(), &[a, b, far]).is_some());

@@ -2,17 +2,17 @@ use super::{Point2, Scan, Segments};
 use apex_rt::{Out, node};
 use heapless::Vec;
 
-/// Marks as not measured (NaN) what is no number, zero, infinite, or outside of the ranges of the scanner and of
-/// this node.
+/// Marks invalid ranges as not measured (NaN): NaN, zero, infinite, or outside the limits of the scanner or of this
+/// node.
 ///
-/// Beams keep their place, so that their angles stay right.
+/// Beams keep their index, so that their angles stay right.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RangeFilter {
-    /// Shortest range that is kept.
+    /// Minimum range that is kept.
     #[param(unit = "m", default = 0.05, range = 0.0..=100.0)]
     min: f32,
-    /// Longest range that is kept.
+    /// Maximum range that is kept.
     #[param(unit = "m", default = 30.0, range = 0.0..=1000.0)]
     max: f32,
 }
@@ -30,14 +30,15 @@ impl RangeFilter {
     }
 }
 
-/// Marks as not measured (NaN) the beams of segments whose ends lie less than `min_length` apart (thesis 4.3.5).
+/// Marks the beams of short segments as not measured (NaN): those whose ends are less than `min_length` apart (thesis
+/// 4.3.5).
 ///
-/// What is left are walls: after `JumpDistance`, this takes other robots out of a scan, so that they do not get into
-/// a map. The segments have to be those of the scan.
+/// Walls remain. After `JumpDistance`, this removes other robots from a scan, so that they do not enter a map. The
+/// segments must be those of the same scan.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ShortSegmentFilter {
-    /// Shortest distance between the first and the last point of a segment that is kept (S_min).
+    /// Minimum distance between the first and the last point of a segment that is kept (S_min).
     #[param(unit = "m", default = 1.2, range = 0.0..=100.0)]
     min_length: f32,
 }
@@ -58,12 +59,12 @@ impl ShortSegmentFilter {
     }
 }
 
-/// Passes a scan in which enough beams have measured something; ⊥ else: a scanner that is covered or broken must not be taken
-/// for free space.
+/// Passes a scan in which enough beams have measured something; ⊥ otherwise. So a covered or broken scanner is not
+/// taken for free space.
 #[node]
 #[derive(Debug, Clone)]
 pub struct EnoughBeams {
-    /// The least share of the beams.
+    /// Minimum share of beams with a measurement.
     #[param(default = 0.3, range = 0.0..=1.0)]
     min_share: f32,
 }
@@ -78,17 +79,17 @@ impl EnoughBeams {
     }
 }
 
-/// The widest window of a [`MedianFilter`].
+/// Maximum window of a [`MedianFilter`], in beams.
 const MAX_WINDOW: usize = 15;
 
-/// Replaces each measured range by the median of those measured in a window of beams around it.
+/// Replaces each measured range by the median of the measured ranges in a window of beams around it.
 ///
-/// Removes single wrong beams and keeps edges; what was not measured stays so. With an even number of ranges in
-/// the window the lower one in the middle is taken, so that no range is invented.
+/// Removes single wrong beams and keeps edges. Beams without a measurement stay without one. With an even number of
+/// ranges in the window, the lower of the two middle ones is taken, so that every range is a measured one.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MedianFilter {
-    /// Beams to each side that take part: 1 is a window of 3.
+    /// Number of beams on each side in the window: 1 gives a window of 3.
     #[param(default = 1, range = 0..=7)]
     reach: usize,
 }
@@ -109,7 +110,7 @@ impl MedianFilter {
     }
 }
 
-/// The lower median of at most [`MAX_WINDOW`] values; `None` without values.
+/// Lower median of at most [`MAX_WINDOW`] values, or `None` without values.
 fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
     let mut sorted: Vec<f32, MAX_WINDOW> = values.take(MAX_WINDOW).collect();
     sorted.sort_unstable_by(f32::total_cmp);
@@ -190,7 +191,7 @@ mod tests {
     #[test]
     fn short_segments_are_not_measured() {
         use super::super::JumpDistance;
-        // A wall at x = 2 m, and a robot of 40 cm before it.
+        // A wall at x = 2 m, and a robot 40 cm wide before it.
         let mut wall = Scan { angle_min: -0.6, angle_increment: 0.05, ..Scan::default() };
         for beam in 0..25 {
             let distance = if (9..=15).contains(&beam) { 1.2 } else { 2.0 };

@@ -3,23 +3,23 @@ use core::{
     ops::{Add, Sub},
 };
 
-/// A point or vector in the plane, in metres.
+/// Point or vector in the plane, in m.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Point2 {
-    /// Forward.
+    /// Forward coordinate, in m.
     pub x: f32,
-    /// Left.
+    /// Coordinate to the left, in m.
     pub y: f32,
 }
 
 impl Point2 {
-    /// The point (`x`, `y`).
+    /// Creates the point (`x`, `y`).
     pub const fn new(x: f32, y: f32) -> Self {
         Self { x, y }
     }
 
-    /// The point at `range` m in the direction `angle` rad.
+    /// Creates the point at `range` m in the direction `angle` rad.
     pub fn polar(range: f32, angle: f32) -> Self {
         Self::new(range * libm::cosf(angle), range * libm::sinf(angle))
     }
@@ -47,14 +47,14 @@ impl Point2 {
         self.x * other.x + self.y * other.y
     }
 
-    /// The vector times `factor`.
+    /// Vector multiplied by `factor`.
     #[inline]
     #[must_use]
     pub const fn scaled(self, factor: f32) -> Self {
         Self::new(self.x * factor, self.y * factor)
     }
 
-    /// The vector turned by 90° counter-clockwise.
+    /// Vector rotated by 90° counter-clockwise.
     #[inline]
     #[must_use]
     pub const fn perpendicular(self) -> Self {
@@ -78,55 +78,55 @@ impl Sub for Point2 {
     }
 }
 
-/// A pose in the plane: where a frame lies in another one.
+/// Pose in the plane: position and orientation of a frame in an outer frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose2 {
-    /// Forward, in m.
+    /// Forward position, in m.
     pub x: f32,
-    /// Left, in m.
+    /// Position to the left, in m.
     pub y: f32,
     /// Heading, counter-clockwise from the x axis, in rad.
     pub theta: f32,
 }
 
 impl Pose2 {
-    /// The pose (`x`, `y`, `theta`).
+    /// Creates the pose (`x`, `y`, `theta`).
     pub const fn new(x: f32, y: f32, theta: f32) -> Self {
         Self { x, y, theta }
     }
 
-    /// The origin of the frame.
+    /// Position: the origin of the frame.
     pub const fn position(&self) -> Point2 {
         Point2::new(self.x, self.y)
     }
 
-    /// Whether all is finite.
+    /// Returns `true` if all components are finite.
     pub const fn is_finite(&self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.theta.is_finite()
     }
 
-    /// A point given in this frame, in the outer frame.
+    /// Transforms a point from this frame to the outer frame.
     pub fn to_outer(&self, point: Point2) -> Point2 {
         let (sin, cos) = libm::sincosf(self.theta);
         self.position() + Point2::new(cos * point.x - sin * point.y, sin * point.x + cos * point.y)
     }
 
-    /// A point given in the outer frame, in this frame (thesis eq. 6.17).
+    /// Transforms a point from the outer frame to this frame (thesis eq. 6.17).
     pub fn to_inner(&self, point: Point2) -> Point2 {
         let (sin, cos) = libm::sincosf(self.theta);
         let d = point - self.position();
         Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x)
     }
 
-    /// The pose of a frame that is given in this frame, in the outer frame.
+    /// Transforms a pose from this frame to the outer frame.
     #[must_use]
     pub fn compose(&self, inner: &Self) -> Self {
         let position = self.to_outer(inner.position());
         Self::new(position.x, position.y, wrap_angle(self.theta + inner.theta))
     }
 
-    /// This pose, seen from the frame `reference`, both given in the same frame.
+    /// This pose relative to the frame `reference`. Both are given in the same outer frame.
     #[must_use]
     pub fn relative_to(&self, reference: &Self) -> Self {
         let position = reference.to_inner(self.position());
@@ -134,7 +134,7 @@ impl Pose2 {
     }
 }
 
-/// The same angle in [−π, π] rad.
+/// Angle wrapped to [−π, π] rad.
 fn wrap_angle(angle: f32) -> f32 {
     let wrapped = libm::remainderf(angle, TAU);
     wrapped.clamp(-PI, PI)

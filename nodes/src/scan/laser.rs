@@ -2,7 +2,8 @@ use super::Point2;
 use apex_rt::Time;
 use heapless::Vec;
 
-/// The most beams of a [`Scan`]: a full turn at 0.25° fits (1440), and so do the 1081 of common 270° scanners.
+/// Maximum number of beams of a [`Scan`]. Holds a full turn at 0.25° (1440 beams) and common 270° scanners (1081
+/// beams).
 pub const MAX_BEAMS: usize = 1536;
 
 /// One sweep of a plane laser scanner, in the frame of the scanner.
@@ -10,52 +11,52 @@ pub const MAX_BEAMS: usize = 1536;
 pub struct Scan {
     /// Direction of beam 0, in rad, counter-clockwise from the x axis.
     pub angle_min: f32,
-    /// Angle from one beam to the next, in rad.
+    /// Angle between consecutive beams, in rad; negative for a clockwise scan.
     pub angle_increment: f32,
-    /// The shortest range that counts as measured, in m.
+    /// Minimum range that counts as measured, in m.
     pub range_min: f32,
-    /// The longest range that counts as measured, in m.
+    /// Maximum range that counts as measured, in m.
     pub range_max: f32,
-    /// When it was taken.
+    /// Time of the measurement.
     pub stamp: Time,
-    /// Measured ranges in m, by beam. NaN, infinite, or outside of `range_min..=range_max`: nothing was measured.
+    /// Ranges in m, by beam. NaN, infinite, or outside `range_min..=range_max` means that nothing was measured.
     pub ranges: Vec<f32, MAX_BEAMS>,
 }
 
 impl Scan {
-    /// The range of a beam; `None` where nothing was measured.
+    /// Range of a beam in m, or `None` if nothing was measured.
     #[inline]
     pub fn range(&self, beam: usize) -> Option<f32> {
         self.ranges.get(beam).copied().filter(|&r| self.is_measured(r))
     }
 
-    /// Whether a range is finite and between `range_min` and `range_max`.
+    /// Returns `true` if a range is finite and between `range_min` and `range_max`.
     #[inline]
     pub fn is_measured(&self, range: f32) -> bool {
         // False for NaN.
         range.is_finite() && range >= self.range_min && range <= self.range_max
     }
 
-    /// The direction of a beam, in rad.
+    /// Direction of a beam, in rad.
     pub fn angle(&self, beam: usize) -> f32 {
         self.angle_min + beam as f32 * self.angle_increment
     }
 
-    /// The beam nearest to a direction in rad; `None` outside of the field of view.
+    /// Index of the beam nearest to a direction in rad, or `None` outside the field of view.
     pub fn beam_towards(&self, angle: f32) -> Option<usize> {
         let turn = core::f32::consts::TAU;
-        // Counted from the middle of the field of view, so that it does not matter in which turn `angle` is.
+        // Relative to the middle of the field of view, so that multiples of a full turn in `angle` do not matter.
         let middle = self.angle(self.ranges.len()) * 0.5 + self.angle_min * 0.5;
         let beam = (middle + libm::remainderf(angle - middle, turn) - self.angle_min) / self.angle_increment;
         let beam = libm::roundf(beam);
-        // False for NaN, which an empty or flat scan gives.
+        // False for NaN, which results from a scan without beams or without an angle increment.
         (beam >= 0.0 && beam < self.ranges.len() as f32).then_some(beam as usize)
     }
 
-    /// The measured points with their beams, in the frame of the scanner, in order.
+    /// Measured points in the frame of the scanner with the indices of their beams, in order.
     ///
-    /// Turns one direction on from beam to beam (in double precision: after a full turn it is off by less than
-    /// 10⁻¹² rad), which is several times faster than two trigonometric functions a beam.
+    /// Rotates one direction vector from beam to beam, which is several times faster than two trigonometric functions
+    /// per beam. In double precision, the error after a full turn is below 10⁻¹² rad.
     pub fn points(&self) -> impl Iterator<Item = (usize, Point2)> + '_ {
         let (sin, cos) = libm::sincos(f64::from(self.angle_min));
         let (step_sin, step_cos) = libm::sincos(f64::from(self.angle_increment));
@@ -68,7 +69,7 @@ impl Scan {
     }
 }
 
-/// A scan without beams; any positive finite range counts as measured.
+/// A scan without beams. Any positive finite range counts as measured.
 impl Default for Scan {
     fn default() -> Self {
         Self {

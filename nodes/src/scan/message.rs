@@ -1,4 +1,4 @@
-//! Scans and poses as messages of ROS 2, which Foxglove and Python show.
+//! ROS 2 messages of scans and poses, which Foxglove and Python can show.
 
 use super::{Point2, Pose2, Scan};
 use apex_rt::{
@@ -9,10 +9,10 @@ use apex_rt::{
     },
 };
 
-/// Types do not say in which frame they are: all are shown in one.
+/// Frame of all messages. Types do not name their frame, so all are shown in the same one.
 pub(crate) const FRAME: &str = "robot";
 
-/// What a `geometry_msgs/Pose` is, and what is in it, at the end of a definition.
+/// Definitions of `geometry_msgs/Pose` and of its parts, for the end of a message definition.
 macro_rules! pose_definition {
     () => {
         "
@@ -54,7 +54,7 @@ float32[] intensities";
         message.f32(self.angle_min);
         message.f32(self.angle(self.ranges.len().saturating_sub(1)));
         message.f32(self.angle_increment);
-        // All beams at once, and nobody knows how long until the next scan.
+        // The beams have no time offsets, and the time until the next scan is unknown.
         message.f32(0.0);
         message.f32(0.0);
         message.f32(self.range_min);
@@ -102,7 +102,7 @@ impl Message for Pose2 {
 pub(crate) fn write_pose(pose: &Pose2, message: &mut Writer<'_>) {
     pose.position().write(message);
     let (z, w) = libm::sincos(0.5 * f64::from(pose.theta));
-    // More than a turn, or no angle at all: a quaternion cannot hold that, and is none.
+    // A quaternion cannot hold more than a turn or NaN. Such an angle is stored in x, with z = w = 0.
     let (x, z, w) =
         if angle(z, w).to_bits() == pose.theta.to_bits() { (0.0, z, w) } else { (f64::from(pose.theta), 0.0, 0.0) };
     [x, 0.0, z, w].into_iter().for_each(|number| message.f64(number));
@@ -116,7 +116,7 @@ pub(crate) fn read_pose(message: &mut Reader<'_>) -> Option<Pose2> {
     Some(Pose2::new(position.x, position.y, theta))
 }
 
-/// The angle of a turn about the vertical axis: in double precision exact enough that the nearest `f32` is the right one.
+/// Angle of a rotation about the vertical axis, in rad. Double precision makes the rounded `f32` exact.
 fn angle(z: f64, w: f64) -> f32 {
     (2.0 * libm::atan2(z, w)) as f32
 }
@@ -141,14 +141,14 @@ pub(crate) mod tests {
     use core::f32::consts::{PI, TAU};
     use std::vec::Vec;
 
-    /// A token as a message.
+    /// Message that contains a token.
     pub(crate) fn bytes(token: &impl Message) -> Vec<u8> {
         let mut bytes = Vec::new();
         token.write(&mut Writer::new(&mut bytes));
         bytes
     }
 
-    /// The token of a message.
+    /// Token of a message.
     pub(crate) fn again<T: Message>(bytes: &[u8]) -> Option<T> {
         T::read(&mut Reader::new(bytes)?)
     }

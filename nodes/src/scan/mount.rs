@@ -5,23 +5,24 @@ use core::{
     fmt,
 };
 
-/// The beams of a scan around a robot: one each half degree.
+/// Number of beams of a scan around a robot: one per half degree.
 const BEAMS: usize = 720;
 
-/// A scan as a scanner at the origin of the robot would see it, that looks all around: what it measures in a beam is the
-/// nearest point there. So scans of several scanners can be merged.
+/// Transforms a scan into one of a virtual scanner at the origin of the robot, so that scans of several scanners can be
+/// merged.
 ///
-/// In the frame of the robot, from −π on, 720 beams.
+/// The result is in the frame of the robot and covers a full turn from −π on, with 720 beams. The range of a beam is
+/// the distance to the nearest point in its direction.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MountScan {
-    /// How far before the origin of the robot the scanner is.
+    /// Forward position of the scanner in the frame of the robot.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     x: f32,
-    /// How far to the left.
+    /// Position of the scanner to the left.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     y: f32,
-    /// Where its x axis points to, counter-clockwise from straight ahead.
+    /// Direction of the scanner's x axis, counter-clockwise from straight ahead.
     #[param(unit = "rad", default = 0.0, range = -6.3..=6.3)]
     heading: f32,
 }
@@ -41,13 +42,13 @@ impl MountScan {
         for (_, point) in scan.points() {
             let point = mount.to_outer(point);
             let beam = libm::roundf((point.angle() + PI) / mounted.angle_increment) as usize % BEAMS;
-            // What is no number yet gives way.
+            // `min` ignores the NaN of a beam without a point.
             mounted.ranges[beam] = mounted.ranges[beam].min(point.norm());
         }
     }
 }
 
-/// Two scans do not have the same beams.
+/// Error of two scans with different beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OtherBeams;
 
@@ -59,7 +60,8 @@ impl fmt::Display for OtherBeams {
 
 impl core::error::Error for OtherBeams {}
 
-/// The nearer range of two scans in each beam, as from [`MountScan`]. If one is ⊥, it is the other; the stamp is the older one.
+/// Merges two scans from [`MountScan`]: the nearer range in each beam. If one input is ⊥, the result is the other
+/// one. The stamp is the older one.
 ///
 /// Fails on scans that do not have the same beams.
 #[node]
@@ -100,7 +102,7 @@ mod tests {
         out.get().expect("a scan").clone()
     }
 
-    /// Half a turn of a scanner that measures the same range everywhere.
+    /// A scan of 180° with the same range in all beams.
     fn half_turn(range: f32) -> Scan {
         let mut scan = Scan { angle_min: -0.5 * PI, angle_increment: PI / 720.0, ..Scan::default() };
         scan.ranges.extend([range; 721]);
@@ -140,7 +142,7 @@ mod tests {
         };
         let both = merge(Some(&front), Some(&rear)).expect("the same beams").expect("a scan");
         let towards = |degree: usize| both.range(2 * (degree + 180)).map(libm::roundf);
-        // Forward, to the left, and to the right; behind on the right is nothing.
+        // Forward, to the left, and to the right; nothing behind on the right.
         assert_eq!([towards(0), both.range(180).map(libm::roundf)], [Some(1.0), Some(2.0)]);
         assert_eq!((towards(90), both.range(90), both.stamp), (Some(1.0), None, Time::from_secs(1)));
         assert_eq!(merge(None, None), Ok(None));

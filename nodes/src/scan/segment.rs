@@ -3,30 +3,30 @@ use apex_rt::{Out, node};
 use core::fmt;
 use heapless::Vec;
 
-/// The most segments of one scan.
+/// Maximum number of segments of a scan.
 pub const MAX_SEGMENTS: usize = 512;
 
-/// The segments of one scan, in the order of their beams.
+/// Segments of one scan, in the order of their beams.
 pub type Segments = Vec<Segment, MAX_SEGMENTS>;
 
-/// Neighbouring points of a scan that belong together: a range of beams and the box around their points.
+/// Segment of a scan: neighbouring points that belong together, with the range of their beams and their bounding box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Segment {
-    /// Its first beam.
+    /// First beam.
     pub first: u16,
-    /// Its last beam, included.
+    /// Last beam, included.
     pub last: u16,
-    /// How many of these beams measured something.
+    /// Number of these beams with a measurement.
     pub points: u16,
-    /// Smallest coordinates of its points, in m, in the frame of the scanner.
+    /// Smallest coordinates of the points, in m, in the frame of the scanner.
     pub min: Point2,
-    /// Largest coordinates of its points.
+    /// Largest coordinates of the points, in m, in the frame of the scanner.
     pub max: Point2,
 }
 
 impl Segment {
-    /// The segment of one point.
+    /// Creates the segment of one point.
     fn of(beam: u16, point: Point2) -> Self {
         Self { first: beam, last: beam, points: 1, min: point, max: point }
     }
@@ -39,22 +39,22 @@ impl Segment {
         self.max = Point2::new(self.max.x.max(point.x), self.max.y.max(point.y));
     }
 
-    /// The mid-range of its points (thesis eq. 6.11).
+    /// Mid-range of the points: the centre of their bounding box (thesis eq. 6.11).
     ///
-    /// The equation is printed with a minus between maximum and minimum, which would be half the extent; the text
-    /// calls it the mid-range, which is half the sum.
+    /// The equation is printed with a minus between maximum and minimum, which would be half the extent; the text calls
+    /// it the mid-range, which is half the sum.
     #[inline]
     pub fn mid_range(&self) -> Point2 {
         (self.min + self.max).scaled(0.5)
     }
 
-    /// Diagonal of the box around its points, in m.
+    /// Diagonal of the bounding box, in m.
     pub fn size(&self) -> f32 {
         (self.max - self.min).norm()
     }
 }
 
-/// A scan fell into more than [`MAX_SEGMENTS`] segments.
+/// Error of a scan with more than [`MAX_SEGMENTS`] segments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooManySegments;
 
@@ -66,16 +66,16 @@ impl fmt::Display for TooManySegments {
 
 impl core::error::Error for TooManySegments {}
 
-/// Splits a scan where neighbouring ranges jump (thesis 6.6.1).
+/// Splits a scan into segments where neighbouring ranges jump (thesis 6.6.1).
 ///
 /// Fails on a scan of more than [`MAX_SEGMENTS`] segments.
 #[node]
 #[derive(Debug, Clone)]
 pub struct JumpDistance {
-    /// Ranges that differ by this or more belong to different segments (δ_s).
+    /// Minimum difference of neighbouring ranges that begins a new segment (δ_s).
     #[param(unit = "m", default = 0.15, range = 0.0..=2.0)]
     gap: f32,
-    /// So many beams without a measurement may lie inside a segment.
+    /// Maximum number of consecutive beams without a measurement inside a segment.
     #[param(default = 1, range = 0..=100)]
     bridge: usize,
 }
@@ -105,17 +105,17 @@ impl JumpDistance {
     }
 }
 
-/// Keeps the segments that could be a wheel: neither too large, nor too far away, nor of too few points (thesis 6.6.1).
+/// Keeps the segments that could be a wheel: small, near and with enough points (thesis 6.6.1).
 #[node]
 #[derive(Debug, Clone)]
 pub struct SegmentFilter {
-    /// Largest diagonal of the box around a segment.
+    /// Maximum diagonal of the bounding box of a segment.
     #[param(unit = "m", default = 0.3, range = 0.0..=100.0)]
     max_size: f32,
-    /// Largest distance of its mid-range from the scanner.
+    /// Maximum distance of the mid-range from the scanner.
     #[param(unit = "m", default = 6.0, range = 0.0..=1000.0)]
     max_distance: f32,
-    /// Fewest points.
+    /// Minimum number of points of a segment.
     #[param(default = 2, range = 1..=1000)]
     min_points: u16,
 }

@@ -4,12 +4,12 @@ use nalgebra::Matrix3;
 use std::{collections::BTreeMap, path::Path, str::SplitWhitespace};
 
 impl PoseGraph {
-    /// Reads the lines `VERTEX_SE2 id x y θ` and `EDGE_SE2 from to x y θ I₁₁ I₁₂ I₁₃ I₂₂ I₂₃ I₃₃` of a file as the
-    /// program g2o writes it, in metres and radians; comments (`#`) and `FIX` are skipped. Poses get numbers in the
-    /// order of their lines, whatever their id.
+    /// Reads the lines `VERTEX_SE2 id x y θ` and `EDGE_SE2 from to x y θ I₁₁ I₁₂ I₁₃ I₂₂ I₂₃ I₃₃` of a file in the
+    /// format of the program g2o, in metres and radians. Comments (`#`) and `FIX` are skipped. Poses are numbered in
+    /// the order of their lines, independent of their ids.
     ///
     /// # Errors
-    /// The file cannot be read, or a line says something else.
+    /// If the file cannot be read, or a line has another content.
     pub fn read_g2o(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let mut lines = Lines::open(path.as_ref())?;
         let (mut graph, mut numbers) = (Self::default(), BTreeMap::new());
@@ -55,7 +55,7 @@ fn id(words: &mut SplitWhitespace<'_>) -> Result<u64, String> {
     word.parse().map_err(|_| format!("`{word}` is not the id of a vertex"))
 }
 
-/// The numbers up to the end of the line, which have to be so many.
+/// The numbers up to the end of the line, of which there must be exactly `N`.
 fn values<const N: usize>(words: &mut SplitWhitespace<'_>) -> Result<[f64; N], String> {
     let mut values = [0.0; N];
     for (i, value) in values.iter_mut().enumerate() {

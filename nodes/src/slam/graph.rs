@@ -1,34 +1,34 @@
 use super::{Pose, heading, pose, sparse::BlockMatrix};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-/// Added to the diagonal, so that what is not connected does no harm.
+/// Added to the diagonal, so that unconnected poses do not make the matrix singular.
 const LEAST_DAMPING: f64 = 1e-9;
-/// So many steps may raise the cost before it has to be lower again.
+/// Maximum number of consecutive steps that do not lower the cost.
 const MAX_RISEN: usize = 6;
 
-/// A measurement of where one pose lies, seen from another.
+/// Edge of a pose graph: the measured pose of one pose relative to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Edge {
-    /// The pose that it was seen from.
+    /// Number of the pose from which the measurement was taken.
     pub from: usize,
-    /// The pose that was seen.
+    /// Number of the measured pose.
     pub to: usize,
-    /// The pose `to` in the frame of the pose `from`.
+    /// Measured pose `to` in the frame of the pose `from`.
     pub measured: Pose,
-    /// The inverse of the covariance of x, y (in m) and heading (in rad) of the measurement, along the axes of the
-    /// frame of the pose `to`.
+    /// Inverse of the covariance of x, y (in m) and heading (in rad) of the measurement, along the axes of the frame of
+    /// the pose `to`.
     pub information: Matrix3<f64>,
 }
 
-/// Poses in the plane and what was measured between them (Grisetti, Kümmerle, Stachniss, Burgard: A Tutorial on
-/// Graph-Based SLAM, 2010).
+/// Pose graph: poses in the plane and the measurements between them (Grisetti, Kümmerle, Stachniss, Burgard: A
+/// Tutorial on Graph-Based SLAM, 2010).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PoseGraph {
     poses: Vec<Pose>,
     edges: Vec<Edge>,
 }
 
-/// What a step moves.
+/// Variables that a step changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Part {
     All,
@@ -36,16 +36,16 @@ enum Part {
     Positions,
 }
 
-/// How an optimization went.
+/// Result of an optimization.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Optimized {
-    /// Steps that were tried.
+    /// Number of steps that were tried.
     pub steps: usize,
-    /// The cost at the end: see [`PoseGraph::cost`].
+    /// Final cost: see [`PoseGraph::cost`].
     pub cost: f64,
 }
 
-/// An edge between poses that the graph does not have.
+/// Error of an edge to a pose that the graph does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NoSuchPose(pub usize);
 
@@ -58,19 +58,19 @@ impl std::fmt::Display for NoSuchPose {
 impl std::error::Error for NoSuchPose {}
 
 impl Edge {
-    /// eᵀ Ω e, with the error e and the information Ω: χ² of what was measured, if the poses are right.
+    /// eᵀ Ω e with the error e and the information Ω: χ² of the measurement if the poses are right.
     pub(super) fn cost(&self, poses: &[Pose]) -> f64 {
         let error = self.error(&poses[self.from], &poses[self.to]);
         error.dot(&(self.information * error))
     }
 
-    /// How far what was measured is from the poses, in the frame of the pose that was seen: x, y and heading.
+    /// Deviation of the measurement from the poses, in the frame of the measured pose: x, y and heading.
     fn error(&self, from: &Pose, to: &Pose) -> Vector3<f64> {
         let difference = from.inv_mul(to).inv_mul(&self.measured);
         Vector3::new(difference.translation.x, difference.translation.y, heading(&difference))
     }
 
-    /// The derivatives of the error by x, y and heading of the two poses.
+    /// Derivatives of the error with respect to x, y and heading of the two poses.
     fn jacobians(&self, from: &Pose, to: &Pose) -> (Matrix3<f64>, Matrix3<f64>) {
         let error = self.error(from, to);
         let back = to.rotation.inverse();
@@ -87,16 +87,16 @@ impl Edge {
 }
 
 impl PoseGraph {
-    /// Appends a pose, and gives its number.
+    /// Appends a pose and returns its number.
     pub fn add_pose(&mut self, pose: Pose) -> usize {
         self.poses.push(pose);
         self.poses.len() - 1
     }
 
-    /// Adds what was measured between two poses.
+    /// Adds a measurement between two poses.
     ///
     /// # Errors
-    /// One of the poses does not exist.
+    /// If one of the poses does not exist.
     pub fn add_edge(&mut self, edge: Edge) -> Result<(), NoSuchPose> {
         match [edge.from, edge.to].into_iter().find(|&end| end >= self.poses.len()) {
             Some(end) => Err(NoSuchPose(end)),
@@ -107,17 +107,17 @@ impl PoseGraph {
         }
     }
 
-    /// The poses, by number.
+    /// Poses, by number.
     pub fn poses(&self) -> &[Pose] {
         &self.poses
     }
 
-    /// What was measured.
+    /// Measurements between the poses.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
-    /// Σ eᵀ Ω e over all edges, with the error e of an edge and its information Ω.
+    /// Sum of eᵀ Ω e over all edges, with the error e of an edge and its information Ω.
     pub fn cost(&self) -> f64 {
         self.cost_at(&self.poses)
     }
@@ -126,13 +126,14 @@ impl PoseGraph {
         self.edges.iter().map(|edge| edge.cost(poses)).sum()
     }
 
-    /// Moves the poses to where they agree best with what was measured: until a step lowers the cost by less than
-    /// 10⁻⁶ of it (or by 10⁻⁹), or `max_steps` were tried. The first pose stays where it is.
+    /// Moves the poses to best agreement with the measurements. Stops when a step changes the cost by less than
+    /// 10⁻⁶ of it (or by 10⁻⁹), or after `max_steps` steps. The first pose is fixed.
     ///
-    /// Steps are those of Gauss–Newton. As stiff measurements make the way to the optimum a narrow bend, the cost may
-    /// rise for a few steps; if it does not fall again, damped steps (Levenberg–Marquardt) go on from the best poses.
+    /// Steps are those of Gauss–Newton. Stiff measurements turn the path to the optimum into a narrow bend, so the
+    /// cost may rise for a few steps. If it does not fall again, damped steps (Levenberg–Marquardt) continue from the
+    /// best poses.
     ///
-    /// Poses that nothing connects stay where they are, and so does everything if some number is not finite.
+    /// Unconnected poses do not move. If a number is not finite, no pose moves.
     pub fn optimize(&mut self, max_steps: usize) -> Optimized {
         let mut matrix = BlockMatrix::new(self.poses.len(), self.edges.iter().map(|e| (e.from, e.to)));
         let (mut poses, mut cost) = (self.poses.clone(), self.cost());
@@ -163,7 +164,7 @@ impl PoseGraph {
         Optimized { steps: max_steps, cost }
     }
 
-    /// Moves the last pose alone to where it agrees best with the edges that were added last and end there.
+    /// Moves only the last pose, to best agreement with the most recently added edges that end there.
     pub(super) fn settle_last(&mut self) {
         let Some(last) = self.poses.len().checked_sub(1) else { return };
         let (mut curvature, mut gradient) = (Matrix3::zeros(), Vector3::zeros());
@@ -178,15 +179,15 @@ impl PoseGraph {
         }
     }
 
-    /// The poses after two steps: one of the headings and one of the positions, for each of which the errors are linear. This helps
-    /// out of a start that is so wrong that a step of all leads astray (Carlone et al.: A Fast and Accurate
+    /// Poses after two steps, one of the headings and one of the positions. The errors are linear in each of them. This
+    /// helps with a start so wrong that a step of all variables leads astray (Carlone et al.: A Fast and Accurate
     /// Approximation for Planar Pose Graph Optimization, 2014).
     fn headings_first(&self, matrix: &mut BlockMatrix, damping: f64) -> Option<Vec<Pose>> {
         let turned = self.step(&self.poses, matrix, damping, Part::Headings)?;
         self.step(&turned, matrix, damping, Part::Positions)
     }
 
-    /// The poses after one damped Gauss–Newton step from `poses`; `None` if there is none.
+    /// Poses after one damped Gauss–Newton step from `poses`, or `None` if the step cannot be computed.
     fn step(&self, poses: &[Pose], matrix: &mut BlockMatrix, damping: f64, part: Part) -> Option<Vec<Pose>> {
         if poses.is_empty() {
             return None;
@@ -212,9 +213,9 @@ impl PoseGraph {
             gradient[edge.from] -= a.tr_mul(&error);
             gradient[edge.to] -= b.tr_mul(&error);
         }
-        // Not a share of the diagonal: stiff measurements would hold what is soft.
+        // Not a share of the diagonal: stiff measurements would also hold soft variables.
         matrix.damp(damping);
-        // The graph as a whole can be moved at no cost: hold its first pose.
+        // The graph as a whole can be moved at no cost, so its first pose is held.
         matrix.add_diagonal(0, &Matrix3::identity());
         matrix.factorize()?;
         matrix.solve(&mut gradient);
@@ -223,7 +224,7 @@ impl PoseGraph {
     }
 }
 
-/// A pose after a step of x, y and heading.
+/// Pose after a step of x, y and heading.
 fn moved(from: &Pose, step: &Vector3<f64>) -> Pose {
     pose(from.translation.x + step.x, from.translation.y + step.y, heading(from) + step.z)
 }

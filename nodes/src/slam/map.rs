@@ -4,18 +4,18 @@ use crate::{
     scan::Point2,
 };
 
-/// Free space around what a map has to show, in m.
+/// Margin of a map around its contents, in m.
 const MARGIN: f32 = 0.5;
-/// The most cells that the rays of a map pass, which takes about half a second.
+/// Maximum number of cells traversed by the rays of a map, which takes about half a second.
 const MOST_STEPS: f32 = 1e8;
 
-/// The scans of which a map is made when there are `count`: the last hundred, of the hundred before them each
-/// tenth, and of the eight hundred before these each hundredth. So the time for a map is bounded (thesis 4.3.5).
+/// Selects the scans for a map from `count` scans: the last hundred, every tenth of the hundred before them, and every
+/// hundredth of the eight hundred before these. So the time to build a map is bounded (thesis 4.3.5).
 ///
 /// The intervals are those of the thesis: k ∈ [n − 100, n); k ∈ (n − 200, n − 100) with k ≡ 0 (mod 10); and
 /// k ∈ (n − 1000, n − 200) with k ≡ 0 (mod 100). At most 118 scans are chosen, in ascending order.
 pub fn selected_scans(count: usize) -> impl Iterator<Item = usize> + Clone {
-    // From behind the lower border of an open interval, which does not exist below 0, up to the upper one.
+    // The lower bound of an open interval is excluded, unless the interval would start below 0.
     let between = |low: usize, high: usize| {
         let first = if count >= low { count - low + 1 } else { 0 };
         first..count.saturating_sub(high)
@@ -26,12 +26,14 @@ pub fn selected_scans(count: usize) -> impl Iterator<Item = usize> + Clone {
 }
 
 impl Mapper {
-    /// Makes a map of some of the kept scans, with cells of `resolution` m; `scanner` is where the scanner stands in
-    /// the frame of the robot. Its frame is that of [`locate`](Self::locate). Where its rays would pass too many cells,
-    /// only every second one is drawn, or every third, and so on: the time for a map is bounded, however fine it is.
+    /// Builds a map of some of the kept scans, with cells of `resolution` m. `scanner` is the position of the scanner
+    /// in the frame of the robot. The frame of the map is that of [`locate`](Self::locate).
+    ///
+    /// If the rays would traverse too many cells, only every second ray is drawn, or every third, and so on: the time
+    /// to build a map is bounded for any resolution.
     ///
     /// # Errors
-    /// It would have too many cells; then nothing is written.
+    /// If the map would have too many cells. Nothing is written then.
     pub fn write_map(
         &self,
         scans: impl Iterator<Item = usize> + Clone,
@@ -56,13 +58,13 @@ impl Mapper {
     }
 }
 
-/// Of how many rays one is drawn, if all pass so many cells.
+/// Number of rays per drawn ray if all rays together traverse this number of cells.
 fn thinned(steps: f32) -> usize {
     // A cast of NaN gives 0.
     (steps / MOST_STEPS).ceil().max(1.0) as usize
 }
 
-/// A point of the frame `pose`, in the frame of the map.
+/// Transforms a point from the frame `pose` to the frame of the map.
 fn place(pose: &Pose, point: Point2) -> Point2 {
     let p = pose * nalgebra::Point2::new(f64::from(point.x), f64::from(point.y));
     Point2::new(p.x as f32, p.y as f32)

@@ -7,43 +7,43 @@ use crate::scan::Point2;
 use nalgebra::{Matrix3, Vector3};
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-/// Scans to each side of the nearest one that a loop is searched among.
+/// Number of scans on each side of the nearest one in which a loop is searched.
 const CHAIN: usize = 10;
-/// A turn of 1 rad adds as much drift as so many metres.
+/// Distance with the same drift as a turn of 1 rad, in m.
 const TURN_LENGTH: f64 = 0.5;
-/// A closed loop adds as much drift as at most so many metres.
+/// Maximum distance that a loop edge contributes to the drift, in m.
 const LOOP_LENGTH: f64 = 0.5;
-/// A loop contradicts the graph if its χ² is greater than this, which is its mean for a right measurement of a pose.
+/// χ² above which a loop contradicts the graph: the mean for a correct measurement of a pose.
 const CONTRADICTION: f64 = 3.0;
-/// On whole cells a scan fits to at least this share of what it does between them.
+/// Minimum ratio of the response on whole cells to the interpolated response.
 const BETWEEN_CELLS: f64 = 0.9;
-/// Steps of the optimizer after a loop that contradicts the graph.
+/// Maximum number of steps of the optimizer after a loop that contradicts the graph.
 const STEPS: usize = 10;
 
-/// When a scan is kept, and what it is compared with.
+/// Settings of a [`Mapper`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// A scan is kept when the robot has moved so far since the last one, in m …
+    /// Distance after which a new scan is kept, in m.
     pub travel: f64,
-    /// … or turned so far, in rad.
+    /// Rotation after which a new scan is kept, in rad.
     pub turn: f64,
-    /// Points farther away than this are left out, in m.
+    /// Maximum distance of the used points, in m.
     pub reach: f64,
-    /// The side of the cells in which scans are compared, in m.
+    /// Side of the cells for the comparison of scans, in m.
     pub resolution: f64,
-    /// The standard deviation of the distance between two sights of the same thing, in m.
+    /// Standard deviation of the distance between two measurements of the same object, in m.
     pub smear: f64,
-    /// A scan is compared with so many before it.
+    /// Number of previous scans that a scan is compared with.
     pub running: usize,
-    /// How wrong odometry can be from one kept scan to the next.
+    /// Maximum error of odometry between two kept scans.
     pub window: Window,
-    /// Below this response odometry is believed, and not the comparison.
+    /// Minimum response of a comparison. Below it, odometry is used instead.
     pub least_response: f64,
-    /// How far a pose drifts per metre of the way, in m.
+    /// Drift of a pose per metre of the path, in m.
     pub drift: f64,
-    /// The greatest drift that is searched for a loop, in m.
+    /// Maximum drift that is searched for a loop, in m.
     pub loop_distance: f64,
-    /// A loop is closed from this response on.
+    /// Minimum response that closes a loop.
     pub loop_response: f64,
 }
 
@@ -65,27 +65,27 @@ impl Default for Settings {
     }
 }
 
-/// Localization and mapping with a graph of poses, in the manner of Karto (Vincent, Limketkai, Eriksen: Comparison of
+/// Localization and mapping with a pose graph, in the manner of Karto (Vincent, Limketkai, Eriksen: Comparison of
 /// Indoor Robot Localization Techniques in the Absence of GPS, 2010; thesis 4.3.5).
 ///
-/// Keeps a scan whenever the robot has moved a little, finds its pose by comparison with the scans before it, and
-/// adds it to the graph. When the robot comes back to a place, a comparison with the scans that it took there closes
-/// a loop. The time for this hardly grows with the number of scans:
+/// Keeps a scan whenever the robot has moved a little, finds its pose by comparison with the previous scans, and adds
+/// it to the graph. When the robot comes back to a place, a comparison with the scans taken there closes a loop. The
+/// time for this hardly grows with the number of scans:
 ///
-/// - A loop is only searched with scans from which the new one has drifted: that are far away along the graph, where
-///   a closed loop is a short cut. So loops are closed every few metres of the way, and not at each scan, however
-///   often the robot was at a place before.
-/// - The whole graph is optimized only if a loop contradicts it. Else the new pose alone is moved to where
-///   it agrees best with the loop and with the scans before it.
+/// - A loop is only searched among scans that are far away along the graph, from which the new scan may have drifted
+///   and where a loop is a short cut. So loops are closed every few metres instead of at each scan, however often the
+///   robot has been at a place.
+/// - The whole graph is optimized only if a loop contradicts it. Otherwise, only the new pose is moved to best
+///   agreement with the loop and with the previous scans.
 #[derive(Debug, Clone)]
 pub struct Mapper {
     settings: Settings,
     graph: PoseGraph,
-    /// The points of the kept scans in the frame of the robot.
+    /// Points of the kept scans in the frame of the robot, in m.
     scans: Vec<Vec<Point2>>,
-    /// The odometry of the scan that was kept last.
+    /// Odometry at the last kept scan.
     odometry: Pose,
-    /// Along each edge of the graph, by pose: the pose at its other end, and its length with turns.
+    /// Edges of the graph, by pose: the pose at the other end, and the length including turns.
     neighbours: Vec<Vec<(usize, f64)>>,
     loops: usize,
     table: Table,
@@ -93,7 +93,7 @@ pub struct Mapper {
 }
 
 impl Mapper {
-    /// A mapper that knows nothing yet.
+    /// Creates an empty mapper.
     pub fn new(settings: Settings) -> Self {
         Self {
             graph: PoseGraph::default(),
@@ -107,28 +107,28 @@ impl Mapper {
         }
     }
 
-    /// The poses at which scans were kept, and what was measured between them.
+    /// Poses of the kept scans and the measurements between them.
     pub fn graph(&self) -> &PoseGraph {
         &self.graph
     }
 
-    /// The points of the kept scans in the frame of the robot, in m; those of a pose have its number.
+    /// Points of the kept scans in the frame of the robot, in m, by number of the pose.
     pub fn scans(&self) -> &[Vec<Point2>] {
         &self.scans
     }
 
-    /// How many loops were closed.
+    /// Number of closed loops.
     pub fn loops(&self) -> usize {
         self.loops
     }
 
-    /// The pose of the robot in the frame of the map, by odometry since the scan that was kept last. The map begins
-    /// where odometry did when the first scan was kept.
+    /// Pose of the robot in the frame of the map, by odometry since the last kept scan. The frame of the map is that of
+    /// odometry at the first kept scan.
     pub fn locate(&self, odometry: &Pose) -> Pose {
         self.graph.poses().last().map_or(*odometry, |last| last * self.odometry.inv_mul(odometry))
     }
 
-    /// Whether a scan at this odometry has to be kept.
+    /// Returns `true` if a scan at this odometry has to be kept.
     pub fn is_due(&self, odometry: &Pose) -> bool {
         let moved = self.odometry.inv_mul(odometry);
         self.scans.is_empty()
@@ -162,7 +162,7 @@ impl Mapper {
         self.neighbours.push(Vec::new());
     }
 
-    /// Finds where points fit among some of the kept scans, if at least to a share of `least`.
+    /// Finds the pose at which points match some of the kept scans, with a response of at least `least`.
     fn compare(
         &mut self,
         points: &[Point2],
@@ -180,17 +180,17 @@ impl Mapper {
         found.filter(|m| m.response >= least)
     }
 
-    /// Adds an edge, which adds drift as one of at most `longest` m.
+    /// Adds an edge. It contributes to the drift with at most `longest` m.
     fn connect(&mut self, from: usize, to: usize, pose: &Pose, information: Matrix3<f64>, longest: f64) {
         let measured = self.graph.poses()[from].inv_mul(pose);
         let length = measured.translation.vector.norm() + TURN_LENGTH * heading(&measured).abs();
         self.neighbours[from].push((to, length.min(longest)));
         self.neighbours[to].push((from, length.min(longest)));
-        // Both are poses of the graph.
+        // Cannot fail: both poses are in the graph.
         let _ = self.graph.add_edge(Edge { from, to, measured, information });
     }
 
-    /// Compares the scan that was kept last with those of other times around it.
+    /// Compares the last kept scan with earlier scans around it.
     fn close_loops(&mut self) {
         let new = self.scans.len() - 1;
         let points = std::mem::take(&mut self.scans[new]);
@@ -218,8 +218,8 @@ impl Mapper {
         }
     }
 
-    /// For each chain of scans that is near the scan `new`, but far away along the way that connects them: its scan
-    /// that is nearest, and the length of the way.
+    /// Chains of consecutive scans that are near the scan `new`, but far away along the graph: for each of them the
+    /// nearest scan, and the length of the path to it.
     fn loop_candidates(&self, new: usize) -> Vec<(usize, f64)> {
         let Settings { travel, running, drift, loop_distance, .. } = self.settings;
         let ways = self.ways(new);
@@ -248,11 +248,11 @@ impl Mapper {
         candidates
     }
 
-    /// The length of the shortest way along the graph from one pose to each, in m, turns included (Dijkstra 1959).
+    /// Lengths of the shortest paths along the graph from one pose to each, in m, including turns (Dijkstra 1959).
     fn ways(&self, from: usize) -> Vec<f64> {
         let mut ways = vec![f64::INFINITY; self.scans.len()];
         ways[from] = 0.0;
-        // Positive numbers have the order of their bits.
+        // The bits of positive floating-point numbers have the same order as the numbers.
         let mut open = BinaryHeap::from([(Reverse(0_u64), from)]);
         while let Some((Reverse(bits), at)) = open.pop() {
             if f64::from_bits(bits) > ways[at] {
@@ -270,14 +270,14 @@ impl Mapper {
     }
 }
 
-/// What odometry says about a short way: a tenth of it is uncertain, and a tenth of the turn.
+/// Information of odometry on a short path: a tenth of the distance and a tenth of the turn are uncertain.
 fn odometry_information(moved: &Pose) -> Matrix3<f64> {
     let (way, turn) = (moved.translation.vector.norm(), heading(moved).abs());
     let (distance, angle) = (0.02 + 0.1 * way, 0.02 + 0.1 * turn + 0.05 * way);
     Matrix3::from_diagonal(&Vector3::new(distance.powi(-2), distance.powi(-2), angle.powi(-2)))
 }
 
-/// Whether the points decide where a scan lies, in all directions: to 10 cm.
+/// Returns `true` if the points determine the position in all directions, to 10 cm.
 fn is_certain(found: &Match) -> bool {
     let position = found.information.try_inverse().map(|c| c.fixed_view::<2, 2>(0, 0).into_owned());
     position.is_some_and(|p| p.symmetric_eigenvalues().max() < 0.01)

@@ -5,73 +5,73 @@ use super::{
 use crate::{scan::Point2, slam::table::Placement};
 use nalgebra::{Matrix3, Vector3};
 
-/// The standard deviation of a match is at least so many cells.
+/// Minimum standard deviation of the position of a match, in cells.
 const LEAST_SPREAD: f64 = 0.5;
-/// The standard deviation of the heading of a match is at least this, in rad.
+/// Minimum standard deviation of the heading of a match, in rad.
 const LEAST_TURN: f64 = 0.005;
-/// How much the prediction weighs against the points where the match is refined: only where they do not decide.
+/// Weight of the prediction against the points in the refinement: decisive only where the points are not.
 const PREDICTION: f64 = 0.01;
 
-/// How far around a prediction a match is searched.
+/// Search window around a prediction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
-    /// To each side along x and y, in m.
+    /// Half of the width along x and y, in m.
     pub distance: f64,
-    /// To each side, in rad.
+    /// Half of the range of the heading, in rad.
     pub angle: f64,
 }
 
-/// Where a scan fits best.
+/// Best match of a scan.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Match {
-    /// The frame of the points of the scan.
+    /// Frame of the points of the scan.
     pub pose: Pose,
-    /// The mean value at the points of the scan: 1 if all lie where points were seen before.
+    /// Mean value at the points of the scan: 1 if all are where points were seen before.
     pub response: f64,
-    /// The inverse of the covariance of x, y and heading, along the axes of the frame of the scan.
+    /// Inverse of the covariance of x, y and heading, along the axes of the frame of the scan.
     pub information: Matrix3<f64>,
 }
 
-/// A block of offsets from the prediction.
+/// Block of offsets from the prediction.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
-    /// What no offset in it exceeds.
+    /// Upper bound of the score of all offsets in the block.
     score: f64,
-    /// Steps of the heading.
+    /// Offset of the heading, in steps.
     turn: i32,
-    /// Cells of the first offset in it.
+    /// First offset of the block, in cells.
     x: i32,
     y: i32,
 }
 
-/// Finds where a scan fits: over all offsets in a window by branch and bound, then between the cells.
+/// Correlative scan matcher: branch and bound over all offsets in a window, then a refinement between the cells.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Matcher {
-    /// The cells of all points, turn by turn.
+    /// Cells of all points for each heading, one heading after the other.
     cells: Vec<(i32, i32)>,
     candidates: Vec<Candidate>,
 }
 
-/// One search.
+/// State of one search.
 struct Search<'a> {
     table: &'a Table,
-    /// The cells of all points, turn by turn.
+    /// Cells of all points for each heading, one heading after the other.
     cells: &'a [(i32, i32)],
     points: usize,
-    /// What fits less is out of the question.
+    /// Minimum response. Offsets with less are rejected.
     least: f64,
-    /// The widest offsets, in cells and in steps of the heading.
+    /// Maximum offsets, in cells and in steps of the heading.
     shifts: i32,
     turns: i32,
     best: Candidate,
 }
 
 impl Matcher {
-    /// Where points that were seen from about `prediction` fit best into a table that surrounds them by more than
-    /// the window; `None` without points, or if less than `least` of them fit anywhere (0 … 1).
+    /// Finds the pose near `prediction` at which points match a table best. The table must surround the points by more
+    /// than the window. Returns `None` without points, or if the response is below `least` (0 to 1) everywhere.
     ///
-    /// What lies at the border of the window has to fit better than the prediction, by a factor of 1.6 along one
-    /// axis.
+    /// Offsets are weighted by their distance from the prediction: at the border of the window along one axis, the
+    /// response has to be 1.6 times greater than at the prediction.
     pub fn search(
         &mut self,
         table: &Table,
@@ -121,7 +121,7 @@ impl Search<'_> {
         }
     }
 
-    /// Searches a block that is better than the best so far.
+    /// Searches a block whose bound exceeds the best score.
     fn descend(&mut self, level: usize, at: &Candidate) {
         let Some(finer) = level.checked_sub(1) else {
             self.best = *at;
@@ -160,13 +160,13 @@ impl Search<'_> {
     }
 }
 
-/// The derivatives of the response.
+/// Derivatives of the response.
 struct Slope {
-    /// The mean value.
+    /// Mean value.
     response: f64,
-    /// The mean square of what is missing to 1.
+    /// Mean of (1 − value)².
     missing: f64,
-    /// Σ J Jᵀ over the derivatives J of the value at a point by x, y and heading of the scan.
+    /// Σ J Jᵀ over the derivatives J of the value at a point with respect to x, y and heading of the scan.
     curvature: Matrix3<f64>,
     /// Σ (1 − value) J.
     gradient: Vector3<f64>,
@@ -189,7 +189,7 @@ fn slope(table: &Table, points: &[Point2], at: &Pose) -> Slope {
     slope
 }
 
-/// Goes on from the best cell by Gauss–Newton, as far as less is missing (Kohlbrecher et al.: A Flexible and
+/// Refines the best cell by Gauss–Newton steps, as long as the mismatch decreases (Kohlbrecher et al.: A Flexible and
 /// Scalable SLAM System with Full 3D Motion Estimation, 2011, section IV-B).
 fn refine(table: &Table, points: &[Point2], prediction: &Pose, window: &Window, start: &Pose) -> Match {
     let weight = |width: f64| PREDICTION * points.len() as f64 / (width * width).max(1e-6);
@@ -214,17 +214,17 @@ fn refine(table: &Table, points: &[Point2], prediction: &Pose, window: &Window, 
     Match { pose: at, response: here.response, information }
 }
 
-/// The inverse of the covariance of a match, from the curvature of the response.
+/// Inverse of the covariance of a match, from the curvature of the response.
 fn information(table: &Table, slope: &Slope, at: &Pose) -> Matrix3<f64> {
     let least = LEAST_SPREAD * table.resolution;
     let least = Matrix3::from_diagonal(&Vector3::new(least * least, least * least, LEAST_TURN * LEAST_TURN));
-    // 1 km and 100 rad: where the scan says nothing at all.
+    // Standard deviations of 1 km and 100 rad, where the scan gives no information.
     let nothing = Matrix3::from_diagonal(&Vector3::new(1e-6, 1e-6, 1e-4));
     let known = slope.curvature / slope.missing.max(0.01) + nothing;
     let covariance = known.try_inverse().map_or(least, |spread| spread + least);
     let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), heading(at)).into_inner();
     let information = turn.transpose() * covariance.try_inverse().unwrap_or(nothing) * turn;
-    // Rounding must not make it unsymmetric.
+    // Symmetrized, as rounding may break the symmetry.
     (information + information.transpose()) * 0.5
 }
 
@@ -232,7 +232,7 @@ fn information(table: &Table, slope: &Slope, at: &Pose) -> Matrix3<f64> {
 mod tests {
     use super::*;
 
-    /// What is seen of a room of 6 m × 4 m from `at`, which its walls surround.
+    /// Points that a scanner at `at` sees of a room of 6 m × 4 m around it.
     fn room(at: &Pose) -> Vec<Point2> {
         let wall = |i: i32| {
             let s = f64::from(i) * 0.05;

@@ -6,68 +6,69 @@ use crate::{
 use apex_rt::{Out, node};
 use core::f32::consts::PI;
 
-/// Odometry farther away from its beginning than this is none, in m.
+/// Maximum magnitude of valid odometry, in m and rad.
 const FARTHEST: f32 = 1e6;
 
-/// Where the robot is, and a map of where it was: localization and mapping with a graph of poses, in the manner of
-/// Karto, with bounded map building (thesis 4.3.5; see [`Mapper`] and [`selected_scans`]).
+/// Simultaneous localization and mapping with a pose graph, in the manner of Karto, with bounded map building (thesis
+/// 4.3.5; see [`Mapper`] and [`selected_scans`]).
 ///
-/// `odometry` is the pose of the robot in any frame that does not jump, taken when the scan was. `pose` is the
-/// corrected one in the frame of the map, which begins where odometry did; it is sent for every scan. `map` is sent
-/// for the first scan that is kept and then for each `map_every`-th one, else it is ⊥. Odometry that is no number or
-/// more than 1000 km away gives ⊥, and its scan is not used.
+/// `odometry` is the pose of the robot at the time of the scan, in any frame without jumps. `pose` is the corrected
+/// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `map` is sent
+/// for the first kept scan and then for every `map_every`-th one; otherwise it is ⊥. If odometry is not a number or
+/// more than 1000 km away, both outputs are ⊥ and the scan is not used.
 ///
-/// Scans should show what stays where it is: leave other robots out with [`ShortSegmentFilter`].
+/// Scans should show stationary objects only: remove other robots with [`ShortSegmentFilter`].
 ///
-/// Fails if the map would have too many cells; it then goes on without this map.
+/// Fails if the map would have too many cells, and then continues without this map.
 ///
 /// [`ShortSegmentFilter`]: crate::scan::ShortSegmentFilter
 #[node]
 #[derive(Debug)]
 pub struct GraphSlam {
-    /// Where the scanner stands in the frame of the robot: forward.
+    /// Forward position of the scanner in the frame of the robot.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     mount_x: f32,
-    /// Where the scanner stands: left.
+    /// Position of the scanner to the left.
     #[param(unit = "m", default = 0.0, range = -10.0..=10.0)]
     mount_y: f32,
-    /// Where the scanner looks.
+    /// Direction of the scanner's x axis, counter-clockwise from straight ahead.
     #[param(unit = "rad", default = 0.0, range = -PI..=PI)]
     mount_theta: f32,
-    /// A scan is kept when the robot has moved so far since the last one …
+    /// Distance after which a new scan is kept.
     #[param(unit = "m", default = 0.3, range = 0.01..=10.0)]
     travel: f32,
-    /// … or turned so far.
+    /// Rotation after which a new scan is kept.
     #[param(unit = "rad", default = 0.35, range = 0.01..=3.2)]
     turn: f32,
-    /// Points farther away from the robot than this are left out.
+    /// Maximum distance of the used points from the robot.
     #[param(unit = "m", default = 20.0, range = 1.0..=100.0)]
     reach: f32,
-    /// How wrong odometry can be from one kept scan to the next, along x and y.
+    /// Maximum error of odometry between two kept scans, along x and y.
     #[param(unit = "m", default = 0.4, range = 0.05..=2.0)]
     slip: f32,
-    /// How wrong its heading can be.
+    /// Maximum error of the heading of odometry between two kept scans.
     #[param(unit = "rad", default = 0.35, range = 0.01..=1.0)]
     skid: f32,
-    /// The standard deviation of the distance between two sights of the same thing: with a good scanner in small rooms less.
+    /// Standard deviation of the distance between two measurements of the same object; smaller with a good scanner in
+    /// small rooms.
     #[param(unit = "m", default = 0.06, range = 0.005..=1.0)]
     smear: f32,
-    /// A scan is compared with so many before it.
+    /// Number of previous scans that a scan is compared with.
     #[param(default = 20, range = 1..=1000)]
     running: usize,
-    /// How far a pose drifts per metre of the way: loops are searched so much farther.
+    /// Drift of a pose per metre of the path. The search for loops is extended by the accumulated drift.
     #[param(default = 0.04, range = 0.0..=1.0)]
     drift: f32,
-    /// The greatest drift that is searched for a loop. The time for it grows with its square.
+    /// Maximum drift that is searched for a loop. The computing time grows with its square.
     #[param(unit = "m", default = 4.0, range = 0.0..=10.0)]
     loop_distance: f32,
-    /// A loop is closed if a scan lies on older ones to this share.
+    /// Minimum response that closes a loop: 1 if all points of a scan are where earlier scans have points.
     #[param(default = 0.6, range = 0.0..=1.0)]
     loop_response: f32,
-    /// The side of a cell of the map.
+    /// Side of a cell of the map.
     #[param(unit = "m", default = 0.05, range = 0.01..=1.0)]
     resolution: f32,
-    /// A map is made after so many kept scans.
+    /// Number of kept scans per map.
     #[param(default = 5, range = 1..=1000)]
     map_every: u32,
     mapper: Option<Mapper>,
@@ -105,7 +106,7 @@ impl GraphSlam {
         Ok(())
     }
 
-    /// Forgets everything, and begins a new map where odometry is next.
+    /// Discards map and poses, and begins a new map at the next odometry.
     #[slot]
     fn reset(&mut self) {
         self.mapper = None;
@@ -127,7 +128,7 @@ impl GraphSlam {
     }
 }
 
-/// Odometry in double precision; `None` if it is no number, or too large for one.
+/// Odometry in double precision, or `None` if it is NaN or out of range.
 fn usable(odometry: &Pose2) -> Option<Pose> {
     let near = odometry.x.abs() <= FARTHEST && odometry.y.abs() <= FARTHEST && odometry.theta.abs() <= FARTHEST;
     near.then(|| pose(odometry.x.into(), odometry.y.into(), odometry.theta.into()))
@@ -146,7 +147,7 @@ mod tests {
         GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, 0.1, map_every))
     }
 
-    /// What a scanner sees in a room of 8 m × 6 m with its centre at the origin, in which a pillar stands.
+    /// A scan of a room of 8 m × 6 m with its centre at the origin, and with a pillar in it.
     fn scan(robot: &Pose2) -> Scan {
         let at = robot.compose(&MOUNT);
         let mut scan = Scan { angle_min: -2.0, angle_increment: 0.02, ..Scan::default() };
@@ -164,8 +165,8 @@ mod tests {
         scan
     }
 
-    /// Drives rounds in the room with odometry that turns too little, and gives the largest error in m of the
-    /// corrected pose and of odometry, and the maps that were sent.
+    /// Drives rounds in the room with odometry that turns too little. Returns the largest errors in m of the corrected
+    /// pose and of odometry, and the maps that were sent.
     fn drive(node: &mut GraphSlam, steps: usize) -> (f32, f32, Vec<Grid<Occupancy>>) {
         let step = Pose2::new(0.1, 0.0, 0.05);
         let start = Pose2::new(0.0, -2.0, 0.0);

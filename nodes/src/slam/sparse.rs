@@ -1,22 +1,23 @@
 use nalgebra::{Matrix3, Vector3};
 
-/// A symmetric positive definite matrix of 3×3 blocks with few that are not zero, and its Cholesky factor.
+/// Sparse symmetric positive definite matrix of 3×3 blocks, and its Cholesky factor.
 ///
-/// Variables are eliminated in the order of least degree, which also gives the structure of the factor.
+/// Variables are eliminated in the order of minimum degree, which also determines the structure of the factor.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BlockMatrix {
-    /// When a variable is eliminated, by variable.
+    /// Elimination step of each variable.
     step: Vec<usize>,
-    /// Where the column of a step begins in `rows` and `lower`; one entry more than there are steps.
+    /// Start of the column of each step in `rows` and `lower`, with one more entry at the end.
     starts: Vec<usize>,
-    /// The rows (as steps) of the blocks below the diagonal, ascending in each column.
+    /// Rows (as steps) of the blocks below the diagonal, ascending in each column.
     rows: Vec<usize>,
     lower: Vec<Matrix3<f64>>,
     diagonal: Vec<Matrix3<f64>>,
 }
 
 impl BlockMatrix {
-    /// The zero matrix that has room for the blocks of these pairs of variables, and for those that the factor adds.
+    /// Creates a zero matrix with storage for the blocks of these pairs of variables, and for the fill-in of the
+    /// factor.
     pub fn new(variables: usize, pairs: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut neighbours = vec![Vec::new(); variables];
         for (a, b) in pairs.filter(|(a, b)| a != b) {
@@ -54,7 +55,7 @@ impl BlockMatrix {
 
     /// Adds to the block in the row of one variable and the column of another, and to its mirror image.
     ///
-    /// Only what [`new`](Self::new) was told of has room.
+    /// Only pairs that were passed to [`new`](Self::new) have storage.
     pub fn add(&mut self, row: usize, column: usize, block: &Matrix3<f64>) {
         let (row, column) = (self.step[row], self.step[column]);
         if row > column {
@@ -73,7 +74,7 @@ impl BlockMatrix {
         }
     }
 
-    /// Replaces the matrix A by its factor L, with L Lᵀ = A; `None` if it is not positive definite.
+    /// Replaces the matrix A by its factor L with L Lᵀ = A. Returns `None` if A is not positive definite.
     pub fn factorize(&mut self) -> Option<()> {
         for k in 0..self.diagonal.len() {
             let factor = self.diagonal[k].cholesky()?.l();
@@ -90,13 +91,13 @@ impl BlockMatrix {
         Some(())
     }
 
-    /// Subtracts L_ik L_jkᵀ from the column j, for all rows i at `from..end` of column k, the first of which is j.
+    /// Subtracts L_ik L_jkᵀ from column j, for all rows i at `from..end` of column k, the first of which is j.
     fn subtract_from_column(&mut self, j: usize, from: usize, end: usize) {
         let transposed = self.lower[from].transpose();
         self.diagonal[j] -= self.lower[from] * transposed;
         let mut target = self.starts[j];
         for at in from + 1..end {
-            // Both columns ascend, and all rows of this one are in the other.
+            // The rows of both columns ascend, and all rows of this column exist in the other.
             while self.rows[target] != self.rows[at] {
                 target += 1;
             }
@@ -132,8 +133,9 @@ impl BlockMatrix {
     }
 }
 
-/// Takes the variables out of the graph of a matrix, always one with the fewest neighbours, which then become
-/// neighbours of each other. Gives the order, and leaves with each variable those that it had when it was taken.
+/// Minimum-degree elimination: removes the variables from the graph of a matrix, always one with the fewest neighbours,
+/// which then become neighbours of each other. Returns the order. Afterwards, `neighbours` contains the neighbours of
+/// each variable at its removal.
 fn eliminate(neighbours: &mut [Vec<usize>]) -> Vec<usize> {
     let mut left: std::collections::BTreeSet<(usize, usize)> =
         neighbours.iter().enumerate().map(|(variable, list)| (list.len(), variable)).collect();
@@ -152,7 +154,7 @@ fn eliminate(neighbours: &mut [Vec<usize>]) -> Vec<usize> {
     order
 }
 
-/// The union of two ascending lists.
+/// Union of two ascending lists.
 fn merge<'a>(a: &'a [usize], b: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
     let (mut a, mut b) = (a.iter().copied().peekable(), b.iter().copied().peekable());
     std::iter::from_fn(move || match (a.peek(), b.peek()) {

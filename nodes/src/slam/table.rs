@@ -1,44 +1,44 @@
 use super::Pose;
 use crate::scan::Point2;
 
-/// Side of a cell of a level, in cells of the level before: a power of two.
+/// Side of a cell of a level in cells of the next finer level, as a power of two.
 const SHIFT: u32 = 2;
-/// Tables of a local map: cells, blocks of 4 × 4, and blocks of 16 × 16.
+/// Number of levels: cells, blocks of 4 × 4, and blocks of 16 × 16.
 pub(super) const LEVELS: usize = 3;
-/// How many standard deviations a point is smeared.
+/// Radius of a smeared point, in standard deviations.
 const REACH: f64 = 3.0;
-/// A point is added if it raises the value of its cell by more than this.
+/// Minimum increase of the value of its cell for which a point is added.
 const ENOUGH: u8 = 25;
-/// Where a point lies in its cell is known to so many parts along x and y.
+/// Resolution of the position of a point in its cell, in parts along x and y.
 const PARTS: i32 = 8;
 
-/// Where points were seen before, smeared, so that a scan can be compared with it by looking up its points (Olson:
-/// Real-Time Correlative Scan Matching, 2009).
+/// Smeared points of earlier scans. A scan is compared with them by looking up its points (Olson: Real-Time Correlative
+/// Scan Matching, 2009).
 ///
 /// A value is 255 exp(−d² / 2σ²) for the distance d of the centre of a cell from the nearest point. Coarser levels
-/// hold the greatest value that a point can reach if it is moved by up to the side of a block.
+/// contain the greatest value that a point can reach if it is moved by up to the side of a block.
 #[derive(Debug, Clone)]
 pub(super) struct Table {
-    /// The side of a cell, in m.
+    /// Side of a cell, in m.
     pub resolution: f64,
-    /// The corner with the least x and y, in m.
+    /// Corner with the least x and y, in m.
     corner: [f64; 2],
-    /// Cells of the finest level along x and along y.
+    /// Number of cells of the finest level along x and along y.
     side: usize,
     levels: [Vec<u8>; LEVELS],
     /// exp(−d² / 2σ²) by the distance d along one axis, in parts of a cell.
     kernel: Vec<f32>,
-    /// Cells after which nothing is left of it.
+    /// Radius of the kernel, in cells.
     reach: usize,
 }
 
-/// The side of a block of a level, in cells.
+/// Side of a block of a level, in cells.
 pub(super) const fn block(level: usize) -> i32 {
     1 << (SHIFT * level as u32)
 }
 
 impl Table {
-    /// An empty table with cells of `resolution` m, that smears points with a standard deviation of `smear` m.
+    /// Creates an empty table with cells of `resolution` m, which smears points with a standard deviation of `smear` m.
     pub fn new(resolution: f64, smear: f64) -> Self {
         let reach = (REACH * smear / resolution).ceil() as usize;
         let value = |i: usize| (-0.5 * (i as f64 / f64::from(PARTS) * resolution / smear).powi(2)).exp() as f32;
@@ -46,9 +46,9 @@ impl Table {
         Self { resolution, corner: [0.0; 2], side: 0, levels: Default::default(), kernel, reach }
     }
 
-    /// Makes it an empty square that reaches `radius` m to each side of a point.
+    /// Clears the table and makes it a square that extends `radius` m to each side of a point.
     pub fn reset(&mut self, centre: &Pose, radius: f64) {
-        // Whole blocks of the coarsest level, and two more on each side: what is looked up is never outside.
+        // Whole blocks of the coarsest level, and two more on each side: no lookup is outside.
         let coarsest = block(LEVELS - 1) as usize;
         let blocks = (2.0 * radius / self.resolution) as usize / coarsest + 5;
         self.side = blocks * coarsest;
@@ -60,7 +60,7 @@ impl Table {
         }
     }
 
-    /// Adds the points of a scan that was taken at `pose`; those outside of the square are left out.
+    /// Adds the points of a scan taken at `pose`. Points outside the square are skipped.
     pub fn add(&mut self, pose: &Pose, points: &[Point2]) {
         let (place, margin) = (Placement::new(self, pose), self.reach as i32 + 2 * block(LEVELS - 1));
         let inside = margin..self.side as i32 - margin;
@@ -72,15 +72,16 @@ impl Table {
             }
             let parts = |cells: f64| (cells * f64::from(PARTS)) as i32;
             let (x, y) = (parts(x), parts(y));
-            // Most points are seen by many scans: a little nearer to the centre of the cell is not worth the time.
+            // Most points are seen by many scans: a position slightly nearer to the centre of the cell is not worth the
+            // time.
             if self.fine(column, row).saturating_add(ENOUGH) < self.value(x, y, (column, row), 0) {
                 (0..LEVELS).for_each(|level| self.stamp(level, x, y));
             }
         }
     }
 
-    /// The value that a point gives to cells: to the nearest one of a square that begins at `first` and has `more`
-    /// cells more along x and y.
+    /// Value that a point gives to the nearest cell of a square. The square begins at `first` and has `more` additional
+    /// cells along x and y.
     fn value(&self, x: i32, y: i32, first: (i32, i32), more: i32) -> u8 {
         let outside = |at: i32, first: i32| {
             let centre = |cell: i32| cell * PARTS + PARTS / 2;
@@ -94,7 +95,8 @@ impl Table {
     fn stamp(&mut self, level: usize, x: i32, y: i32) {
         let (reach, shift) = (self.reach as i32, SHIFT * level as u32);
         let width = self.side >> shift;
-        // A point in any cell of a block, moved by less than its side, reaches cells up to here behind its first one.
+        // A point in any cell of a block, moved by less than the side of the block, reaches cells up to here behind its
+        // first one.
         let last = 2 * block(level) - 2;
         let blocks = |at: i32| (at / PARTS - reach - last) >> shift..=(at / PARTS + reach) >> shift;
         for row in blocks(y) {
@@ -106,7 +108,7 @@ impl Table {
         }
     }
 
-    /// The sum of the values at cells moved by (`x`, `y`) cells, or more on a coarser level.
+    /// Sum of the values at cells moved by (`x`, `y`) cells. On a coarser level it is an upper bound.
     pub fn sum(&self, level: usize, cells: &[(i32, i32)], x: i32, y: i32) -> u32 {
         let (shift, table) = (SHIFT * level as u32, &self.levels[level]);
         let width = (self.side >> shift) as i32;
@@ -117,8 +119,8 @@ impl Table {
         cells.iter().map(value).sum()
     }
 
-    /// The value at a point of the frame of the map, in 0 … 1, between the centres of cells; and its derivatives by
-    /// x and y, in 1/m.
+    /// Interpolated value at a point of the frame of the map, from 0 to 1, and its derivatives with respect to x and y,
+    /// in 1/m.
     pub fn at(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         let (x, y) = ((x - self.corner[0]) / self.resolution - 0.5, (y - self.corner[1]) / self.resolution - 0.5);
         let (column, row) = (x.floor(), y.floor());
@@ -138,7 +140,7 @@ impl Table {
     }
 }
 
-/// Turns points of a frame into cells of a table.
+/// Transformation of points of a frame into cells of a table.
 pub(super) struct Placement {
     cos: f64,
     sin: f64,
@@ -147,7 +149,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// For points of the frame `pose`.
+    /// Creates the transformation for points of the frame `pose`.
     pub fn new(table: &Table, pose: &Pose) -> Self {
         let (cos, sin) = (pose.rotation.re / table.resolution, pose.rotation.im / table.resolution);
         let cells = |position: f64, corner: f64| (position - corner) / table.resolution;
@@ -155,13 +157,13 @@ impl Placement {
         Self { cos, sin, x: cells(t.x, table.corner[0]), y: cells(t.y, table.corner[1]) }
     }
 
-    /// Where a point lies, in cells from the corner.
+    /// Position of a point, in cells from the corner.
     fn position(&self, point: &Point2) -> (f64, f64) {
         let (x, y) = (f64::from(point.x), f64::from(point.y));
         (self.x + self.cos * x - self.sin * y, self.y + self.sin * x + self.cos * y)
     }
 
-    /// The cell of a point.
+    /// Cell of a point.
     pub fn cell(&self, point: &Point2) -> (i32, i32) {
         let (x, y) = self.position(point);
         (x.floor() as i32, y.floor() as i32)

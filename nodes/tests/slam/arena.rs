@@ -1,4 +1,4 @@
-//! An arena that looks nearly the same after a turn (thesis 4.3.5): a border of 20 sides around an octagon.
+//! An arena that looks nearly the same after a rotation (thesis 4.3.5): a border of 20 sides around an octagon.
 
 use apex_nodes::scan::{Point2, Pose2, Scan};
 use apex_rt::Time;
@@ -10,14 +10,14 @@ mod programs {
     apex_rt::graph!("hall.afg");
 }
 
-/// From one scan to the next, in s.
+/// Time between two scans, in s.
 const STEP: f32 = 0.04;
-/// How far from the middle of the island the robot drives around it, in m.
+/// Mean distance of the robot from the middle of the island, in m.
 const RADIUS: f32 = 3.8;
-/// How fast it drives around the island, in rad/s.
+/// Angular velocity of the robot around the island, in rad/s.
 const SPEED: f32 = 0.25;
 
-/// A border that is 12 m wide and an island with sides of 1.2 m.
+/// A border 12 m wide, and an island with sides of 1.2 m.
 fn arena() -> World {
     let mut world = World::default();
     for (sides, radius) in [(20_u8, 6.07), (8, 1.57)] {
@@ -27,15 +27,15 @@ fn arena() -> World {
     world
 }
 
-/// Where the robot is after so many seconds: it drives around the island, and nearer to it and farther from it.
+/// True pose of the robot after a time: it circles the island at a varying distance.
 fn truth(seconds: f32) -> Pose2 {
     let around = SPEED * seconds;
     let place = Point2::polar(RADIUS + 0.6 * (3.0 * around).sin(), around);
     Pose2::new(place.x, place.y, around + TAU / 4.0 - 0.4 * (3.0 * around).cos())
 }
 
-/// The largest errors in m after a minute, of where the robot says that it is and of its odometry, among so many
-/// other robots that drive around the island, too.
+/// Largest errors in m of the estimated pose and of odometry during a minute, among this number of other robots that
+/// also circle the island.
 fn drive(others: u8) -> (f32, f32) {
     let (mut robot, mut world) = (programs::LocalizeInHall::new(), arena());
     let (mut wheels, mut random) = (Odometry::new(OdometryNoise::PIONEER, 3), Random::new(4));

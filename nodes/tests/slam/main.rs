@@ -1,6 +1,7 @@
 //! Localization and mapping on recordings.
 //!
-//! The recordings are not part of the project: without them the tests say so and pass, unless they run with `CI=true`.
+//! The recordings are not part of the project. Without them the tests print a message and pass, unless they run with
+//! `CI=true`.
 
 mod arena;
 mod recordings;
@@ -19,7 +20,7 @@ mod programs {
     apex_rt::graph!("localize.afg");
 }
 
-/// A recording, or `None` (with a message) if it is not there.
+/// A recording, or `None` (with a message) if it does not exist.
 fn recording(name: &str) -> Option<PathBuf> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/slam2d").join(name);
     if file.is_file() {
@@ -30,7 +31,7 @@ fn recording(name: &str) -> Option<PathBuf> {
     None
 }
 
-/// The graph of the Intel Research Lab, beside its known optimum.
+/// The graph of the Intel Research Lab, compared with its known optimum.
 #[test]
 fn a_known_graph_is_optimized_as_well_as_it_can_be() {
     let (Some(raw), Some(optimum)) = (recording("input_INTEL.g2o"), recording("input_INTEL_optimized.g2o")) else {
@@ -45,7 +46,7 @@ fn a_known_graph_is_optimized_as_well_as_it_can_be() {
     assert!(before > 2.0 * optimum && (after.cost / optimum - 1.0).abs() < 0.001);
 }
 
-/// The largest and the median error of the poses that a mapper finds, in m.
+/// Largest and median error of the poses that a mapper finds, in m.
 fn error(recording: &Recording) -> (f64, f64) {
     let (mapper, estimate, slowest) = play(recording, Settings::default());
     let errors = errors(&estimate, &recording.reference);
@@ -66,7 +67,7 @@ fn wheels_of_the_intel_lab_are_corrected() {
     assert!(recording.reference.len() > 100 && median < 0.25 && worst < 0.7);
 }
 
-/// The first part of the building, with odometry made worse.
+/// The first part of the building, with additional noise on its odometry.
 #[test]
 fn noisy_odometry_of_freiburg_079_is_corrected() {
     let Some(file) = recording("fr079.log.gz") else { return };
@@ -77,7 +78,7 @@ fn noisy_odometry_of_freiburg_079_is_corrected() {
     assert!(median < 0.15 && worst < 0.7);
 }
 
-/// A scan in a room of 8 m × 6 m around the origin, in which another robot of 60 cm stands at (2, 1).
+/// A scan in a room of 8 m × 6 m around the origin, with another robot of 60 cm at (2, 1).
 fn room(at: &Pose2) -> Scan {
     let mut scan = Scan { angle_min: -2.0, angle_increment: 0.01, ..Scan::default() };
     for beam in 0..400 {

@@ -1,4 +1,4 @@
-//! Recordings of robots in buildings, and how well a mapper does on them.
+//! Recordings of robots in buildings, and the accuracy of a mapper on them.
 
 use apex_nodes::{
     scan::{Point2, Pose2},
@@ -13,15 +13,15 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// What a robot recorded.
+/// Recording of a robot.
 pub struct Recording {
     /// Odometry and the points of each scan, in the frame of the robot.
     pub scans: Vec<(Pose, Vec<Point2>)>,
-    /// Where some of the scans were taken, by their number.
+    /// Reference poses of some of the scans, by their number.
     pub reference: BTreeMap<usize, Pose>,
 }
 
-/// The Intel Research Lab with the odometry of the wheels; the reference has each fourth scan or so of the later ones.
+/// The Intel Research Lab with wheel odometry. The reference has about every fourth of the later scans.
 pub fn intel(folder: &Path) -> Recording {
     let mut at = Pose::identity();
     let mut scans = Vec::new();
@@ -36,8 +36,9 @@ pub fn intel(folder: &Path) -> Recording {
     Recording { scans, reference: rows.map(|row| (row[0] as usize, pose(row[2], row[3], row[4]))).collect() }
 }
 
-/// Building 079 in Freiburg. Its odometry are the measurements from scan to scan, which are good; `noise` makes them
-/// worse: 1 is a standard deviation of 10 % of the way and of 0.02 rad per step, and 1 % of the way to the left.
+/// Building 079 in Freiburg. Its odometry was computed from scan to scan and is accurate; `noise` makes it worse: 1 is
+/// a standard deviation of 10 % of the distance and of 0.02 rad per step, and a drift to the left of 1 % of the
+/// distance.
 pub fn fr079(folder: &Path, noise: f64) -> Recording {
     let (mut scans, mut reference) = (Vec::new(), BTreeMap::new());
     let mut steps = BTreeMap::new();
@@ -65,8 +66,7 @@ pub fn fr079(folder: &Path, noise: f64) -> Recording {
     Recording { scans, reference }
 }
 
-/// Plays a recording, and gives the poses of all scans as they are known at the end, and the longest time that one
-/// scan took.
+/// Plays a recording. Returns the final estimates of the poses of all scans, and the longest computing time of a scan.
 pub fn play(recording: &Recording, settings: Settings) -> (Mapper, Vec<Pose>, Duration) {
     let mut mapper = Mapper::new(settings);
     let (mut seen, mut slowest) = (Vec::new(), Duration::ZERO);
@@ -83,7 +83,7 @@ pub fn play(recording: &Recording, settings: Settings) -> (Mapper, Vec<Pose>, Du
     (mapper, estimate, slowest)
 }
 
-/// How far the estimated poses are from the reference after the best rigid alignment (Umeyama 1991), in m, ascending.
+/// Distances of the estimated poses from the reference after the best rigid alignment (Umeyama 1991), in m, ascending.
 pub fn errors(estimate: &[Pose], reference: &BTreeMap<usize, Pose>) -> Vec<f64> {
     let place = |p: &Pose| Pose2::new(p.translation.x as f32, p.translation.y as f32, heading(p) as f32).position();
     let pairs: Vec<(Point2, Point2)> = reference.iter().map(|(&i, r)| (place(&estimate[i]), place(r))).collect();
@@ -99,7 +99,7 @@ pub fn errors(estimate: &[Pose], reference: &BTreeMap<usize, Pose>) -> Vec<f64> 
     errors
 }
 
-/// The text of a file, unpacked if need be.
+/// Text of a file, decompressed if necessary.
 fn text(path: &Path) -> String {
     let mut text = String::new();
     let read = File::open(path).and_then(|mut file| {
@@ -113,12 +113,12 @@ fn text(path: &Path) -> String {
     text
 }
 
-/// The words of a line as numbers; those that are none are 0.
+/// Words of a line as numbers. Other words become 0.
 fn numbers(line: &str, separator: char) -> Vec<f64> {
     line.split(separator).map(|word| word.trim().parse().unwrap_or(0.0)).collect()
 }
 
-/// The points of the ranges below `longest` m.
+/// Points of the ranges below `longest` m.
 fn points(ranges: &[f64], first: f64, step: f64, longest: f64) -> Vec<Point2> {
     let point = |(beam, range): (usize, &f64)| {
         let measured = *range > 0.05 && *range < longest;
@@ -131,7 +131,7 @@ fn points(ranges: &[f64], first: f64, step: f64, longest: f64) -> Vec<Point2> {
 struct Random(u64);
 
 impl Random {
-    /// Uniform in (0, 1].
+    /// Random number, uniform in (0, 1].
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -140,7 +140,7 @@ impl Random {
         (((z ^ (z >> 31)) >> 11) + 1) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Normally distributed with mean 0 and standard deviation 1 (Box and Muller 1958).
+    /// Random number, normally distributed with mean 0 and standard deviation 1 (Box and Muller 1958).
     fn normal(&mut self) -> f64 {
         (-2.0 * self.unit().ln()).sqrt() * (std::f64::consts::TAU * self.unit()).cos()
     }

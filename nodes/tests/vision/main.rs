@@ -1,6 +1,7 @@
-//! Vision as a robot uses it (thesis 4.3.2, 4.3.3): number signs, digits and bar codes, drawn and real ones.
+//! Vision of a robot (thesis 4.3.2, 4.3.3): number signs, digits and bar codes, drawn and real ones.
 //!
-//! The real images are not part of the project: without them the tests say so and pass, unless they run with `CI=true`.
+//! The real images are not part of the project. Without them the tests print a message and pass, unless they run with
+//! `CI=true`.
 
 use apex_nodes::{
     image::{BlackHat, Components, GrayImage, Region, bar_code, largest},
@@ -18,7 +19,7 @@ use std::{
 #[path = "../../examples/train_digits/pen.rs"]
 mod pen;
 
-/// A folder of the data, or `None` (with a message) if it is not there.
+/// Folder of the data, or `None` (with a message) if it does not exist.
 fn data(name: &str) -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data").join(name);
     if folder.is_dir() {
@@ -68,7 +69,7 @@ fn best(outputs: &[f32]) -> Option<usize> {
     (0..outputs.len()).max_by(|a, b| outputs[*a].total_cmp(&outputs[*b]))
 }
 
-/// How many of the examples the network takes for what they are.
+/// Number of examples that the network classifies correctly.
 fn right(network: &Mlp, examples: &[Example]) -> usize {
     let mut activity = Activity::default();
     examples.iter().filter(|e| best(network.run(&e.input, &mut activity)) == Some(e.class)).count()
@@ -98,7 +99,7 @@ fn handwritten_digits_are_learned() {
         seen.push(example(image));
         seen.extend((0..8).map(|_| example(&slanted(image, &mut random))));
     }
-    // It knows how digits are drawn already.
+    // The network already knows drawn digits.
     let mut network = Model::from_bytes(DIGITS).expect("the model of the library").network;
     let before = right(&network, &unseen) as f32 / unseen.len() as f32;
     let mut trainer = Trainer::new(&network, 1);
@@ -111,7 +112,7 @@ fn handwritten_digits_are_learned() {
     assert!(share >= 0.92);
 }
 
-/// The same digit, as somebody else might have written it.
+/// The same digit in a different handwriting.
 fn slanted(image: &GrayImage, random: &mut Random) -> GrayImage {
     use imageproc::geometric_transformations::{Border, Interpolation, Projection, warp};
     let (slant, turn) = (random.normal(0.15), random.normal(0.1));
@@ -128,7 +129,7 @@ fn unpacked(path: PathBuf) -> Vec<u8> {
     bytes
 }
 
-/// The classifier of the library was trained on digits that were drawn by strokes, and has seen none of these fonts.
+/// The classifier of the library was trained on digits drawn by strokes, without any of these fonts.
 #[test]
 fn printed_digits_are_read() {
     let Some(folder) = data("digits") else { return };
@@ -165,7 +166,7 @@ fn sign(digit: usize, random: &mut Random) -> GrayImage {
     pixels.into()
 }
 
-/// From the image to the number (thesis 4.3.2, figure 4.5): the digit is the largest dark thing on light ground.
+/// From the image to the number (thesis 4.3.2, figure 4.5): the digit is the largest dark object on light ground.
 fn read_sign(image: &GrayImage, classifier: &mut Classifier) -> Option<u32> {
     let (mut hat, mut regions, mut features, mut class) = (Out::new(), Out::new(), Out::new(), Out::new());
     BlackHat::construct((25,)).process(image, &mut hat);
@@ -175,7 +176,7 @@ fn read_sign(image: &GrayImage, classifier: &mut Classifier) -> Option<u32> {
     class.get().map(|class| class.number)
 }
 
-/// The signs are drawn by the program that drew those for the training, but from another seed.
+/// The signs are drawn by the program that drew the training data, but with another seed.
 #[test]
 fn number_signs_are_read_in_images() {
     let mut random = Random::new(1_000_001);

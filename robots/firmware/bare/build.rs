@@ -1,4 +1,4 @@
-//! Has the program linked without what stands around a `main` otherwise.
+//! Links the program without the startup code of a hosted `main`.
 
 fn main() {
     for argument in ["-nostartfiles", "-nostdlib", "-static", "-no-pie"] {

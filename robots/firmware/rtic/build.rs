@@ -1,4 +1,4 @@
-//! Has the program linked for the memory of the machine.
+//! Links the program for the memory layout of the machine.
 
 use std::{env, fs, path::PathBuf};
 

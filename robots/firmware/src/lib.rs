@@ -1,4 +1,4 @@
-//! The cart and its nodes. What drives it is a package of its own for each machine: `bare` and `rtic` in
+//! The cart and its nodes. Each machine has a package of its own with the driver: `bare` and `rtic` in
 //! `robots/firmware` of the repository of Apex.
 #![no_std]
 
@@ -10,13 +10,13 @@ use apex_rt::prelude::*;
 
 graph!("../firmware.afg");
 
-/// A motor that gets as fast as its power says, with some delay. Stands in for an encoder and a motor driver.
+/// Simulated motor with a delayed response to its voltage. Takes the place of an encoder and a motor driver.
 #[node]
 pub struct Motor {
-    /// How fast the cart is in the end with a power of 1 V.
+    /// Final speed of the cart at a voltage of 1 V.
     #[param(unit = "m/s", default = 0.1, range = 0.0..=1.0)]
     gain: f64,
-    /// Part of the way to this speed that is made in one period.
+    /// Share of the speed difference that is made up in one period.
     #[param(default = 0.2, range = 0.0..=1.0)]
     share: f64,
     power: f64,
@@ -25,29 +25,29 @@ pub struct Motor {
 
 #[node]
 impl Motor {
-    /// Sends how fast the cart is.
+    /// Sends the speed of the cart.
     fn process(&mut self) -> f64 {
         self.speed += self.share * (self.gain * self.power - self.speed);
         self.speed
     }
 
-    /// Sets the power, in volts.
+    /// Sets the voltage of the motor, in V.
     #[slot]
     fn drive(&mut self, power: &f64) {
         self.power = *power;
     }
 }
 
-/// A PI controller of the speed. It takes the wanted speed to be 0 until it is told to go.
+/// PI controller of the speed. The desired speed is 0 until the slot `go` receives a token.
 #[node]
 pub struct SpeedControl {
-    /// The wanted speed.
+    /// Desired speed.
     #[param(unit = "m/s", range = 0.0..=2.0)]
     speed: f64,
-    /// Volts for an error of 1 m/s.
+    /// Proportional gain, in V per m/s.
     #[param(default = 4.0, range = 0.0..)]
     proportional: f64,
-    /// Volts more for each second of it.
+    /// Integral gain, in V/s per m/s.
     #[param(default = 40.0, range = 0.0..)]
     integral: f64,
     goes: bool,
@@ -60,14 +60,14 @@ impl SpeedControl {
     fn process(&mut self, measured: &f64, ctx: &Ctx) -> f64 {
         let wanted = if self.goes { self.speed } else { 0.0 };
         let error = wanted - measured;
-        // A multiplication: where numbers have no unit of their own, a division takes 900 bytes.
+        // A multiplication: without a floating-point unit, a division takes 900 bytes.
         let elapsed = self.last.map_or(0.0, |last| (ctx.now().as_nanos() - last.as_nanos()) as f64 * 1e-9);
         self.last = Some(ctx.now());
         self.sum += self.integral * error * elapsed;
         self.proportional * error + self.sum
     }
 
-    /// Drives at the wanted speed.
+    /// Drives at the desired speed.
     #[slot]
     fn go(&mut self) {
         self.goes = true;
@@ -81,7 +81,7 @@ impl SpeedControl {
     }
 }
 
-/// Writes what happened, and twice a second how fast the cart is.
+/// Writes the events, and twice per second the speed of the cart.
 pub fn tell(cart: &mut Cart, now: Time, write: fn(&[u8])) {
     let milliseconds = (now.as_nanos() / 1_000_000) as u32;
     let line = || Line::new().number(milliseconds).text(" ms: ");

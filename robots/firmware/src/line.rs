@@ -1,6 +1,6 @@
-//! Lines of text, without what `core::fmt` needs.
+//! Lines of text, formatted without `core::fmt`.
 
-/// A line that is being made. What does not fit is left out.
+/// Line of text under construction. Text that does not fit is cut off.
 pub struct Line {
     bytes: [u8; 64],
     length: usize,
@@ -13,7 +13,7 @@ impl Default for Line {
 }
 
 impl Line {
-    /// An empty line.
+    /// Creates an empty line.
     pub const fn new() -> Self {
         Self { bytes: [0; 64], length: 0 }
     }
@@ -24,14 +24,14 @@ impl Line {
         self
     }
 
-    /// Adds a number, in decimal.
+    /// Adds a decimal number.
     pub fn number(mut self, number: u32) -> Self {
         let digits = number.checked_ilog10().unwrap_or(0);
         (0..=digits).rev().for_each(|digit| self.push(b'0' + (number / 10_u32.pow(digit) % 10) as u8));
         self
     }
 
-    /// Writes it, with its end.
+    /// Writes the line with a line break.
     pub fn write(mut self, write: fn(&[u8])) {
         self.push(b'\n');
         write(self.bytes.get(..self.length).unwrap_or_default());

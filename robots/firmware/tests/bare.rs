@@ -1,4 +1,4 @@
-//! The cart without the standard library, libc and heap: it is built, it runs, it is small.
+//! The cart without the standard library, libc and a heap: it builds, it runs, and it is small.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
@@ -9,13 +9,13 @@ use std::{
     sync::OnceLock,
 };
 
-/// The file of the program, which is built once.
+/// Path of the program, which is built once.
 fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("bare");
         let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
-        // The versions of the workspace: those are there.
+        // The versions of the workspace, which are already downloaded.
         if !package.join("Cargo.lock").exists() {
             fs::copy(package.join("../../../Cargo.lock"), package.join("Cargo.lock")).unwrap();
         }

@@ -1,5 +1,5 @@
-//! The cart on a Cortex-M3 with RTIC: it is built, it is small, and it runs in QEMU. Skipped with a message where the
-//! target `thumbv7m-none-eabi` or QEMU is not installed.
+//! The cart on a Cortex-M3 with RTIC: it builds, it is small, and it runs in QEMU. Skipped with a message if the target
+//! `thumbv7m-none-eabi` or QEMU is not installed.
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 use std::{
@@ -15,15 +15,15 @@ fn package() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("rtic")
 }
 
-/// Where cargo builds it: beside the one for this computer, so that both share the compiler.
+/// Build directory: the same as for the host, so that both share compiled dependencies.
 fn target() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware")
 }
 
-/// Cargo, for this package.
+/// Cargo command for this package.
 fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    // The settings of the package are found from its folder.
+    // Cargo finds the settings of the package from its folder.
     command
         .args(arguments)
         .arg("--quiet")
@@ -34,7 +34,7 @@ fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// The file of the program, which is built once; `None` without the library of the target.
+/// Path of the program, which is built once, or `None` without the library of the target.
 fn program() -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
     let built = PROGRAM.get_or_init(|| {

@@ -1,27 +1,28 @@
 use apex_nodes::scan::{Point2, Pose2};
 use apex_sim::World;
 
-// The thesis gives no dimensions. These are those of a usual hospital transport cart for about 1.2 m × 0.7 m of goods,
-// on four castors with wheels of 125 mm.
+// The thesis gives no dimensions. These are those of a common hospital transport cart for about 1.2 m × 0.7 m of
+// goods, on four castors with wheels of 125 mm.
 
-/// Distance of the outer sides of the wheels, across, in m.
+/// Distance across between the outer sides of the wheels, in m.
 pub const WIDTH: f32 = 0.68;
-/// Distance of the outer sides of the wheels, along, in m.
+/// Distance lengthwise between the outer sides of the wheels, in m.
 pub const LENGTH: f32 = 1.2;
 /// Width of a wheel, in m.
 pub const WHEEL_WIDTH: f32 = 0.04;
 /// Length of a wheel at the height of the scanner, in m.
 pub const WHEEL_LENGTH: f32 = 0.125;
-/// From the pivot of a castor to the axle of its wheel, in m.
+/// Distance from the pivot of a castor to the axle of its wheel, in m.
 const TRAIL: f32 = 0.04;
 
-/// Where the pivots are, from the centre: ±x along, ±y across.
+/// Positions of the pivots relative to the centre: ±x along, ±y across.
 const PIVOT: Point2 = Point2::new(0.5 * (LENGTH - WHEEL_LENGTH), 0.5 * (WIDTH - WHEEL_WIDTH));
-/// A wheel stays within 10.5 cm of its pivot; the rest is for noise and the error of the pose.
+/// Side of a wheel box, in m. A wheel stays within 10.5 cm of its pivot; the rest is for noise and the error of the
+/// pose.
 const BOX: f32 = 0.25;
 
-/// The box model of the cart: rows of x, y, length, width of the area that a castor can reach, in m, in the frame
-/// of the cart.
+/// Box model of the cart: rows of x, y, length, width of the area that a castor can reach, in m, in the frame of the
+/// cart.
 pub const WHEEL_BOXES: &[[f32; 4]] = &[
     [-PIVOT.x, -PIVOT.y, BOX, BOX],
     [-PIVOT.x, PIVOT.y, BOX, BOX],
@@ -29,37 +30,38 @@ pub const WHEEL_BOXES: &[[f32; 4]] = &[
     [PIVOT.x, PIVOT.y, BOX, BOX],
 ];
 
-/// A container cart on four castors. Its body is above the plane of the scanner, which sees the wheels only.
+/// Container cart on four castors. Its body is above the plane of the scanner, which sees the wheels only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cart {
     pose: Pose2,
-    /// Directions in which the wheels roll, in rad, in the frame of the world.
+    /// Rolling directions of the wheels, in rad, in the frame of the world.
     castors: [f32; 4],
 }
 
 impl Cart {
-    /// A cart at `pose` whose wheels roll in the given directions (rad, frame of the world).
+    /// Creates a cart at `pose` with the rolling directions of its wheels (rad, frame of the world).
     pub const fn new(pose: Pose2, castors: [f32; 4]) -> Self {
         Self { pose, castors }
     }
 
-    /// Where it is.
+    /// Pose of the cart.
     pub const fn pose(&self) -> Pose2 {
         self.pose
     }
 
-    /// Moves it to `pose`. Each castor turns towards the way of its pivot, as far as a castor does on that way.
+    /// Moves the cart to `pose`. Each castor turns towards the motion of its pivot, as far as its trail allows.
     pub fn move_to(&mut self, pose: Pose2) {
         for (castor, pivot) in self.castors.iter_mut().zip(pivots()) {
             let way = pose.to_outer(pivot) - self.pose.to_outer(pivot);
-            // Rolling without slipping turns a castor by way / trail · sin(direction of the way − its direction).
+            // Rolling without slipping turns a castor by distance / trail · sin(direction of motion − its
+            // direction).
             let turn = (way.norm() / TRAIL).min(1.0);
             *castor += turn * libm::sinf(way.angle() - *castor);
         }
         self.pose = pose;
     }
 
-    /// Puts its wheels into the world.
+    /// Adds the wheels to the world.
     pub fn add_to(&self, world: &mut World) {
         for (castor, pivot) in self.castors.iter().zip(pivots()) {
             let axle = self.pose.to_outer(pivot) - Point2::polar(TRAIL, *castor);

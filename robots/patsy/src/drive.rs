@@ -2,7 +2,7 @@ use apex_nodes::scan::Container;
 use apex_rt::{Ctx, Event, Time, node};
 use core::{fmt, time::Duration};
 
-/// The wheels: the robot turns about to look for a container, and stops before it. Keeps account of its searches.
+/// Wheels of the robot: it turns on the spot to look for a container, and stops in front of it. Counts the searches.
 #[node]
 #[derive(Debug, Default)]
 pub struct Drive {
@@ -15,14 +15,14 @@ pub struct Drive {
 
 #[node]
 impl Drive {
-    /// Begins to search. A search that goes on is given up.
+    /// Begins a search. A search in progress is abandoned.
     #[slot]
     fn go(&mut self, ctx: &Ctx) {
         self.searching_since = Some(ctx.now());
         self.searches += 1;
     }
 
-    /// Stops before the container.
+    /// Stops in front of the container.
     #[slot]
     fn stop(&mut self, _container: &Container, ctx: &Ctx, stopped: Event<()>) {
         if let Some(since) = self.searching_since.take() {
@@ -34,7 +34,7 @@ impl Drive {
         stopped.emit(());
     }
 
-    /// Searches that were begun, and those that ended before a container.
+    /// Numbers of started searches, and of searches that ended at a container.
     pub fn counts(&self) -> (u32, u32) {
         (self.searches, self.found)
     }

@@ -8,16 +8,16 @@ use core::{
 
 /// Counts detections and measures the errors of their poses, by scenario (thesis 6.10.2, table 6.2).
 ///
-/// A detection is true if its pose is near that of the container, else it is false; so is every detection where
-/// there is no container. Errors are those of true detections, in the frame of the container: x along it, y across.
-/// A container looks the same from both ends, so that half a turn counts as no error.
+/// A detection is true if its pose is near that of the container. Otherwise it is false, as is every detection without
+/// a container. Errors are those of true detections, in the frame of the container: x along it, y across. A container
+/// looks the same from both ends, so a rotation by 180° does not count as an error.
 #[node]
 #[derive(Debug)]
 pub struct Evaluate {
-    /// Largest distance of a true detection from the centre.
+    /// Maximum distance of a true detection from the centre of the container.
     #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
     max_distance: f32,
-    /// Largest error of the heading of a true detection.
+    /// Maximum heading error of a true detection.
     #[param(unit = "rad", default = 0.35, range = 0.0..=3.2)]
     max_angle: f32,
     scenarios: [Statistics; 5],
@@ -41,46 +41,46 @@ impl Evaluate {
         println!("{self}");
     }
 
-    /// The results of one scenario.
+    /// Results of one scenario.
     pub fn statistics(&self, scenario: Scenario) -> &Statistics {
         &self.scenarios[scenario as usize]
     }
 
-    /// The results of all scenarios together.
+    /// Results of all scenarios together.
     pub fn combined(&self) -> Statistics {
         self.scenarios.iter().fold(Statistics::default(), |all, one| all.plus(one))
     }
 }
 
-/// How it goes so far.
+/// Intermediate results.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Score {
-    /// The scenario of the last scan.
+    /// Scenario of the last scan.
     pub scenario: Scenario,
-    /// How many scans there were.
+    /// Number of scans.
     pub scans: u64,
-    /// True positives among the scans with a container, from 0 to 1; `None` before the first one.
+    /// Rate of true positives among the scans with a container, from 0 to 1; `None` before the first one.
     pub true_rate: Option<f64>,
-    /// Scans with a false detection, from 0 to 1; `None` before the first scan.
+    /// Rate of scans with a false detection, from 0 to 1; `None` before the first scan.
     pub false_rate: Option<f64>,
 }
 
-/// The pose of a detection in the frame of the container, which is turned by half a turn if that is nearer.
+/// Pose of a detection in the frame of the container, rotated by 180° if that gives the smaller error.
 fn pose_error(found: &Pose2, truth: &Pose2) -> Pose2 {
     let error = found.relative_to(truth);
     if error.theta.abs() <= FRAC_PI_2 { error } else { found.relative_to(&Pose2 { theta: truth.theta + PI, ..*truth }) }
 }
 
-/// Counts and errors.
+/// Counts and errors of detections.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Statistics {
-    /// All scans.
+    /// Number of all scans.
     pub scans: u64,
-    /// Scans with a container.
+    /// Number of scans with a container.
     pub containers: u64,
-    /// Scans with a true detection.
+    /// Number of scans with a true detection.
     pub found: u64,
-    /// Scans with a false detection.
+    /// Number of scans with a false detection.
     pub wrong: u64,
     /// Sums of the errors in x (m), y (m) and heading (rad), and of their squares.
     sums: [(f64, f64); 3],
@@ -112,17 +112,17 @@ impl Statistics {
         self
     }
 
-    /// The share of scans with a container in which it was found; `None` without such scans.
+    /// Share of the scans with a container in which it was found, or `None` without such scans.
     pub fn true_rate(&self) -> Option<f64> {
         ratio(self.found, self.containers)
     }
 
-    /// The share of scans with a false detection; `None` without scans.
+    /// Share of the scans with a false detection, or `None` without scans.
     pub fn false_rate(&self) -> Option<f64> {
         ratio(self.wrong, self.scans)
     }
 
-    /// Mean and standard deviation of the errors in x (m), y (m) and heading (rad); `None` without detections.
+    /// Mean and standard deviation of the errors in x (m), y (m) and heading (rad), or `None` without detections.
     pub fn errors(&self) -> Option<[(f64, f64); 3]> {
         let n = self.found as f64;
         (self.found > 0).then(|| {
@@ -166,7 +166,7 @@ fn percent(rate: f64) -> String {
     format!("{:.1}", rate * 100.0)
 }
 
-/// One row; a dash where there is nothing to say.
+/// Writes one row, with a dash for a missing value.
 fn row(
     f: &mut fmt::Formatter<'_>,
     name: &str,
@@ -212,7 +212,7 @@ mod tests {
         let mut node = Evaluate::construct((0.3, 0.35));
         let pose = Pose2::new(2.0, 1.0, FRAC_PI_2);
         for x in [0.1, 0.2] {
-            // The container looks to the left: 0.1 m in its x is 0.1 m in y.
+            // The container faces left: 0.1 m in its x is 0.1 m in y.
             node.process(&truth(Some(pose)), Some(&found(Pose2 { y: 1.0 + x, ..pose })));
         }
         let [x, y, theta] = node.combined().errors().expect("detections");

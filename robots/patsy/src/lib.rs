@@ -1,7 +1,7 @@
-//! PATSY fetches hospital containers. Here is the perception of containers by their wheels (thesis 6.6.1), and a
-//! simulation to measure it as the thesis does (6.10.2, experiment 1).
+//! PATSY, a robot that fetches hospital containers: the detection of containers by their wheels (thesis 6.6.1), and a
+//! simulation to evaluate it as in the thesis (6.10.2, experiment 1).
 //!
-//! The scanner stands at the origin and looks along x; a cart moves before it.
+//! The scanner is at the origin and faces along x; a cart moves in front of it.
 
 mod cart;
 mod drive;
@@ -29,7 +29,7 @@ pub use progress::Progress;
 pub use report::{RECORDED_SCANNER, Report};
 pub use sim_laser::{SimLaser, Truth};
 
-/// The compiled robots of `patsy.afg`.
+/// Compiled robots of `patsy.afg`.
 pub mod programs {
     apex_rt::graph!("patsy.afg");
 }

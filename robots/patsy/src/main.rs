@@ -1,4 +1,4 @@
-//! PATSY looks for containers: in a simulated room, or in recorded scans.
+//! Runs PATSY in search of containers: in a simulated room, or on recorded scans.
 
 use apex_nodes::io::ScanLog;
 use apex_rt::prelude::*;
@@ -41,7 +41,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The options; `None` for the simulation.
+/// Reads the options. `None` selects the simulation.
 fn options() -> Result<Option<Options>, String> {
     use lexopt::prelude::*;
     let mut parser = lexopt::Parser::from_env();
@@ -94,7 +94,7 @@ fn recorded(options: Options) -> Result<ExitCode, String> {
     let log = ScanLog::open(&options.log, RECORDED_SCANNER).map_err(|e| e.to_string())?;
     let report = Report::new(&options.table, options.labels.as_deref())?;
     let mut clock = SimClock::until(Time::MAX);
-    // The two programs differ in type, not in how they are driven.
+    // The two programs differ in type, but are driven in the same way.
     macro_rules! play {
         ($robot:expr, $program:ty) => {{
             let (mut robot, mut watch) = ($robot, Watch::new(const { &<$program>::INFO }));
@@ -114,7 +114,7 @@ fn recorded(options: Options) -> Result<ExitCode, String> {
     })
 }
 
-/// Tells of failures and remembers that there were some.
+/// Reports failures and remembers whether there were any.
 struct Watch {
     messages: StdErr,
     failed: bool,

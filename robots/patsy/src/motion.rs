@@ -6,18 +6,18 @@ use core::{
 };
 use serde::{Deserialize, Serialize};
 
-/// How the cart moves (thesis 6.10.2, experiment 1).
+/// Motion of the cart in a run (thesis 6.10.2, experiment 1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scenario {
     /// Straight towards the scanner, front first.
     Toward,
     /// Straight away from the scanner.
     Away,
-    /// About its own centre.
+    /// Rotation about its own centre.
     Rotating,
-    /// Pushed about, with changes of direction that turn the castors each in its own way.
+    /// Pushed around with changes of direction, so that the castors turn differently.
     Random,
-    /// There is no cart.
+    /// No cart.
     Empty,
 }
 
@@ -38,12 +38,12 @@ impl fmt::Display for Scenario {
     }
 }
 
-/// Where the cart is during one run.
+/// Path of the cart during one run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Motion {
-    /// Evenly from one pose to another one.
+    /// Uniform motion from one pose to another.
     Straight { from: Pose2, to: Pose2 },
-    /// Swings about a pose, in each coordinate with its own amplitude, number of swings and phase.
+    /// Oscillation about a pose, with its own amplitude, frequency and phase in each coordinate.
     Swinging { about: Pose2, swings: [Swing; 3] },
 }
 
@@ -66,7 +66,7 @@ impl Swing {
 }
 
 impl Motion {
-    /// The motion of a new run; `None` if there is no cart.
+    /// Random motion of a new run, or `None` without a cart.
     pub fn random(scenario: Scenario, random: &mut Random) -> Option<Self> {
         match scenario {
             Scenario::Toward => Some(Self::straight(4.2, 1.3, random)),
@@ -87,8 +87,8 @@ impl Motion {
         }
     }
 
-    /// Along a line that passes near the scanner, between two distances. The cart looks along it, give or take what
-    /// one sees when it is pushed by hand.
+    /// Motion along a line that passes near the scanner, between two distances. The cart faces along it, except for the
+    /// deviation of a cart pushed by hand.
     fn straight(first: f32, last: f32, random: &mut Random) -> Self {
         let bearing = random.uniform(-0.7, 0.7);
         let theta = bearing + PI + random.uniform(-0.35, 0.35);
@@ -99,7 +99,7 @@ impl Motion {
         Self::Straight { from: at(first), to: at(last) }
     }
 
-    /// The pose at `t`, from 0 to 1 in a run. The heading is not wrapped.
+    /// Pose at `t`, from 0 to 1 in a run. The heading is not wrapped.
     pub fn pose(&self, t: f32) -> Pose2 {
         match self {
             Self::Straight { from, to } => Pose2::new(

@@ -2,11 +2,11 @@ use crate::Score;
 use apex_rt::node;
 use std::io::{IsTerminal as _, Write as _};
 
-/// Keeps a line about the score up to date on standard error, if that is a terminal.
+/// Shows the current score in one line on standard error, if that is a terminal.
 #[node]
 #[derive(Debug)]
 pub struct Progress {
-    /// Of so many scores one is written.
+    /// Number of scores per shown line.
     #[param(default = 500, range = 1..=1_000_000_000)]
     every: u64,
 }
@@ -17,7 +17,7 @@ impl Progress {
         if score.scans.is_multiple_of(self.every.max(1)) {
             let mut terminal = std::io::stderr();
             if terminal.is_terminal() {
-                // A line that cannot be shown is no reason to stop.
+                // Failing to show the line is not a reason to stop.
                 let _ = write!(terminal, "\r{}", line(score)).and_then(|()| terminal.flush());
             }
         }

@@ -11,7 +11,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The scanner of recorded tables, which do not say it themselves: 761 beams over 190°, beam 0 at the right.
+/// Geometry of the scanner of the recorded tables, which they do not contain: 761 beams over 190°, beam 0 at the
+/// right.
 pub const RECORDED_SCANNER: LogGeometry = LogGeometry {
     angle_min: (-95.0_f32).to_radians(),
     angle_increment: (190.0_f32 / 761.0).to_radians(),
@@ -19,11 +20,11 @@ pub const RECORDED_SCANNER: LogGeometry = LogGeometry {
     range_max: 20.0,
 };
 
-/// Writes what is found in recorded scans into a table, and compares it with labels if there are some.
+/// Writes the detections in recorded scans into a table, and compares them with labels if available.
 #[node]
 #[derive(Debug, Default)]
 pub struct Report {
-    /// By number of the scan: smallest x and y, largest x and y of a box that the centre lies in, in m.
+    /// Boxes that contain the centre, by number of the scan: smallest x and y, largest x and y, in m.
     labels: BTreeMap<u64, [f64; 4]>,
     table: Option<BufWriter<File>>,
     path: PathBuf,
@@ -54,11 +55,11 @@ impl Report {
 }
 
 impl Report {
-    /// A report into `path`, with the labels in `labels` if there are some: rows of number, smallest x and y,
-    /// largest x and y in m under a line of names.
+    /// Creates a report in `path`, with the optional labels in `labels`: rows of number, smallest x and y, largest x
+    /// and y in m, after a header line.
     ///
     /// # Errors
-    /// If the table cannot be made or the labels cannot be read.
+    /// If the table cannot be created or the labels cannot be read.
     pub fn new(path: &Path, labels: Option<&Path>) -> Result<Self, String> {
         let made = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| File::create(path));
         let mut table = BufWriter::new(made.map_err(|e| format!("cannot write {}: {e}", path.display()))?);
@@ -67,8 +68,8 @@ impl Report {
         Ok(Self { labels, table: Some(table), path: path.to_owned(), ..Self::default() })
     }
 
-    /// How many scans with a label there were, in how many of them the container was found inside it, and how often
-    /// one was found elsewhere.
+    /// Number of scans with a label, number of those with a detection inside the label, and number of detections
+    /// elsewhere.
     pub fn counts(&self) -> (u64, u64, u64) {
         (self.labelled, self.found, self.elsewhere)
     }

@@ -2,16 +2,16 @@ use apex_nodes::scan::{Point2, Pose2};
 use apex_sim::{Random, World};
 use core::f32::consts::PI;
 
-/// Nothing stands so near to the way of the cart's centre, in m: the cart's half diagonal, and room for what stands
-/// there.
+/// Minimum distance of objects from the path of the cart's centre, in m: half the diagonal of the cart, and the size of
+/// the objects.
 const CLEAR_OF_CART: f32 = 1.4;
-/// Nothing stands so near to the scanner, in m.
+/// Minimum distance of objects from the scanner, in m.
 const CLEAR_OF_SCANNER: f32 = 0.9;
 
-/// Puts a thing at a place.
+/// Function that adds an object at a pose.
 type Add = fn(&mut World, Pose2, &mut Random);
 
-/// Puts a room with furniture and people into the world; the `way` of the cart stays free.
+/// Adds a room with furniture and people to the world. The path `way` of the cart stays free.
 pub(crate) fn furnish(world: &mut World, way: &[Point2], random: &mut Random) {
     let centre = Pose2::new(random.uniform(1.5, 2.5), random.uniform(-0.5, 0.5), random.uniform(-0.2, 0.2));
     world.block(&centre, random.uniform(9.0, 11.0), random.uniform(7.0, 9.0));
@@ -25,7 +25,7 @@ pub(crate) fn furnish(world: &mut World, way: &[Point2], random: &mut Random) {
     }
 }
 
-/// A place in the room that is free; `None` if some tries did not find one.
+/// A free pose in the room, or `None` if several tries did not find one.
 fn free_place(way: &[Point2], random: &mut Random) -> Option<Pose2> {
     (0..20).find_map(|_| {
         let place = Pose2::new(random.uniform(-1.5, 6.0), random.uniform(-3.2, 3.2), random.uniform(-PI, PI));
@@ -34,13 +34,13 @@ fn free_place(way: &[Point2], random: &mut Random) -> Option<Pose2> {
     })
 }
 
-/// Four round legs, 1.6 m × 0.8 m apart.
+/// Table: four round legs, 1.6 m × 0.8 m apart.
 fn table(world: &mut World, place: Pose2, random: &mut Random) {
     let radius = random.uniform(0.015, 0.03);
     legs(world, place, Point2::new(0.8, 0.4), radius);
 }
 
-/// Four round legs, 42 cm apart.
+/// Chair: four round legs, 42 cm apart.
 fn chair(world: &mut World, place: Pose2, _random: &mut Random) {
     legs(world, place, Point2::new(0.21, 0.21), 0.0125);
 }
@@ -51,7 +51,7 @@ fn legs(world: &mut World, place: Pose2, half: Point2, radius: f32) {
     }
 }
 
-/// Two ankles, a step apart.
+/// Person: two ankles, a step apart.
 fn person(world: &mut World, place: Pose2, random: &mut Random) {
     let step = random.uniform(-0.2, 0.2);
     for side in [-1.0, 1.0] {
@@ -62,7 +62,7 @@ fn person(world: &mut World, place: Pose2, random: &mut Random) {
     }
 }
 
-/// A box from a bin to a cupboard.
+/// Box with a size between a bin and a cupboard.
 fn chest(world: &mut World, place: Pose2, random: &mut Random) {
     world.block(&place, random.uniform(0.15, 1.0), random.uniform(0.15, 0.6));
 }

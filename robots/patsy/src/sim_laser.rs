@@ -5,35 +5,35 @@ use apex_sim::{Laser, Random, World};
 use core::f32::consts::{FRAC_PI_2, PI};
 use serde::{Deserialize, Serialize};
 
-/// What is really there while a scan is taken.
+/// Ground truth during a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
-    /// The scenario that runs.
+    /// Scenario of the run.
     pub scenario: Scenario,
-    /// The pose of the container's centre in the frame of the scanner, if there is a container.
+    /// Pose of the container's centre in the frame of the scanner, if there is a container.
     pub container: Option<Pose2>,
 }
 
-/// A simulated laser scanner in rooms with and without a container cart: a source.
+/// Simulated laser scanner in rooms with and without a container cart: a source.
 ///
-/// Plays all scenarios one after the other, `runs` runs of each; every run has a room and a motion of its own.
-/// Triggers `command`, the operator's word to begin, with each run, and `done` when all is played; sends ⊥ from then on.
+/// Plays all scenarios in sequence with `runs` runs each. Every run has its own room and motion. Triggers `command`,
+/// the operator's command to begin, with each run, and `done` after the last one. Afterwards it sends ⊥.
 #[node]
 #[derive(Debug)]
 pub struct SimLaser {
-    /// Rooms, motions and noise follow from it.
+    /// Seed of rooms, motions and noise.
     #[param(default = 1)]
     seed: u64,
-    /// Runs of each scenario.
+    /// Number of runs per scenario.
     #[param(default = 20, range = 1..=100_000)]
     runs: u32,
-    /// Scans of a run.
+    /// Number of scans per run.
     #[param(default = 50, range = 2..=100_000)]
     frames: u32,
     /// Angle between the first and the last beam.
     #[param(unit = "rad", default = 1.5 * PI, range = 0.1..=6.3)]
     field_of_view: f32,
-    /// Angle from beam to beam.
+    /// Angle between consecutive beams.
     #[param(unit = "rad", default = PI / 360.0, range = 0.001..=0.1)]
     resolution: f32,
     /// Standard deviation of a range.
@@ -83,7 +83,7 @@ impl SimLaser {
         }
     }
 
-    /// Whether all runs have been played.
+    /// Returns `true` if all runs have been played.
     pub fn finished(&self) -> bool {
         self.finished
     }
@@ -93,7 +93,7 @@ impl SimLaser {
         self.runs_started += 1;
         let index = usize::try_from(number / u64::from(self.runs.max(1))).ok()?;
         let scenario = *Scenario::ALL.get(index)?;
-        // A stream for each run: what happens in one does not change the next.
+        // A random stream for each run, so that one run does not change the next.
         let mut seeds = Random::new(self.seed);
         let mut random = Random::new(seeds.bits() ^ Random::new(number).bits());
         Some(Run::new(scenario, &mut random))
@@ -110,7 +110,7 @@ impl SimLaser {
     }
 }
 
-/// One run: a room, and perhaps a cart that moves in it.
+/// One run: a room, possibly with a cart that moves in it.
 #[derive(Debug)]
 struct Run {
     scenario: Scenario,
@@ -118,7 +118,7 @@ struct Run {
     random: Random,
     room: World,
     moving: Option<(Motion, Cart)>,
-    /// The room with the cart where it is now.
+    /// Room with the cart at its present pose.
     world: World,
 }
 
@@ -131,14 +131,14 @@ impl Run {
         furnish(&mut room, &way, random);
         let moving = motion.map(|motion| {
             let start = motion.pose(0.0);
-            // Somewhere between straight on and across, as the cart was left.
+            // Between straight ahead and across, like a cart that was left there.
             let castors = [0; 4].map(|_| start.theta + random.uniform(-FRAC_PI_2, FRAC_PI_2));
             (motion, Cart::new(start, castors))
         });
         Self { scenario, frame: 0, random: random.clone(), room, moving, world: World::default() }
     }
 
-    /// Goes on to the next of `frames` frames, and says where the cart is.
+    /// Advances to the next of `frames` frames, and returns the pose of the cart.
     fn advance(&mut self, frames: u32) -> Option<Pose2> {
         let t = self.frame as f32 / frames.saturating_sub(1).max(1) as f32;
         self.frame += 1;

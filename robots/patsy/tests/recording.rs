@@ -1,4 +1,4 @@
-//! What PATSY sees, recorded and seen again.
+//! Recording and replay of PATSY's perception.
 
 use apex_rt::{
     StdErr, drive_with,
@@ -11,7 +11,7 @@ graph! {
     use apex_nodes::scan::{JumpDistance, RangeFilter, SegmentFilter};
     use patsy::SimLaser;
 
-    /// The first steps of its perception.
+    /// First nodes of the perception.
     robot Eyes {
         node laser = SimLaser(seed = 3, runs = 1) every 40ms;
         node range = RangeFilter(max = 10m);

@@ -1,6 +1,7 @@
 //! The compiled robot on recorded scans of EUR pallets (thesis 6.6.1, with a pallet in place of a cart).
 //!
-//! The recordings are not part of the project: without them the test says so and passes, unless it runs with `CI=true`.
+//! The recordings are not part of the project. Without them the test prints a message and passes, unless it runs with
+//! `CI=true`.
 
 use apex_nodes::io::ScanLog;
 use apex_rt::Time;
@@ -10,7 +11,7 @@ use patsy::{
 };
 use std::path::{Path, PathBuf};
 
-/// The folder of the recordings, or `None` (with a message) if they are not there.
+/// Folder of the recordings, or `None` (with a message) if it does not exist.
 fn recordings() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/container2d");
     if folder.is_dir() {
@@ -21,7 +22,7 @@ fn recordings() -> Option<PathBuf> {
     None
 }
 
-/// Labelled scans, pallets found in their box, and pallets found elsewhere.
+/// Numbers of labelled scans, of pallets found in their box, and of pallets found elsewhere.
 fn play(folder: &Path, class: &str) -> (u64, u64, u64) {
     let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{class}.csv"));
     let log = ScanLog::open(folder.join(format!("{class}_scans.csv.gz")), RECORDED_SCANNER).expect("the scans");

@@ -1,4 +1,4 @@
-//! The rates of experiment 1 (thesis 6.10.2, table 6.2) in simulation, with the nodes wired by hand.
+//! The rates of experiment 1 (thesis 6.10.2, table 6.2) in simulation, with nodes connected by hand.
 
 use apex_nodes::scan::{ContainerSearch, JumpDistance, RangeFilter, SegmentFilter};
 use apex_rt::{Clock, Construct, Ctx, Event, Next, Out, SimClock, Time};
@@ -19,12 +19,12 @@ fn search() -> ContainerSearch {
         3,                      // min_wheels
         0,                      // max_missing
         0.0,                    // clearance
-        120.0_f32.to_radians(), // max_view_angle: near wheels are in front, or just hidden behind one another
+        120.0_f32.to_radians(), // max_view_angle: near wheels are in front, or just hidden by each other
         WHEEL_BOXES,
     ))
 }
 
-/// Plays the simulation; gives the results and the time that the detection took for a scan.
+/// Plays the simulation. Returns the results and the computing time per scan.
 fn play(seed: u64) -> (Evaluate, Duration) {
     let mut laser = SimLaser::construct((seed, 20, 50, 1.5 * PI, PI / 360.0, 0.01, 0.005));
     let mut filter = RangeFilter::construct((0.05, 10.0));
@@ -75,6 +75,6 @@ fn the_compiled_robot_does_what_the_hand_written_one_does() {
     }
     let (by_hand, _) = play(1);
     assert_eq!(robot.nodes().evaluate.to_string(), by_hand.to_string());
-    // A search begins with every run; in 80 of them there is a container, and in two empty rooms something like it.
+    // A search begins with every run. In 80 of them there is a container, and in two empty rooms a similar object.
     assert_eq!(robot.nodes().drive.counts(), (100, 82));
 }

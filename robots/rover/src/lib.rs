@@ -1,4 +1,4 @@
-//! The nodes of this robot, beside those of the libraries.
+//! Nodes of this robot, in addition to those of the libraries.
 
 use apex_nodes::{
     nav::Twist,
@@ -6,24 +6,24 @@ use apex_nodes::{
 };
 use apex_rt::prelude::*;
 
-/// The world that is simulated, as a drawing.
+/// Drawing of the simulated world.
 pub const WORLD: &str = include_str!("../world.txt");
 
-/// How far a robot that is twice `half_width` wide can drive straight ahead, as its scanner sees it, in m.
+/// Distance that a robot of the width `2 * half_width` can drive straight ahead, according to its scanner, in m.
 #[node]
 pub fn free_ahead(scan: &Scan, #[param(unit = "m", default = 0.25, range = 0.0..=2.0)] half_width: f32) -> f32 {
     let ahead = scan.points().map(|(_, point)| point).filter(|point| point.x > 0.0 && point.y.abs() < half_width);
     ahead.map(|point| point.x).fold(scan.range_max, f32::min)
 }
 
-/// Drives straight ahead while it is active, until something is near.
+/// Drives straight ahead while it is active, until an obstacle is near.
 #[node]
 #[derive(Default)]
 pub struct Drive {
-    /// How fast it drives.
+    /// Speed of the robot.
     #[param(unit = "m/s", default = 0.6, range = 0.0..=2.0)]
     speed: f32,
-    /// Nearer than this is near.
+    /// Distance below which an obstacle is near.
     #[param(unit = "m", range = 0.0..=10.0)]
     near: f32,
 }
@@ -42,15 +42,15 @@ impl Drive {
     }
 }
 
-/// Turns while it is active, to the side that is wider, until the way ahead is free. The longer it turns, the less will
-/// do: half of `free` and a little more.
+/// Turns while it is active, to the side with more space, until the robot can drive ahead. The required free distance
+/// shrinks in time from `free` to slightly more than half of it.
 #[node]
 #[derive(Default)]
 pub struct Turn {
-    /// How fast it turns.
+    /// Angular velocity of the robot.
     #[param(unit = "rad/s", default = 1.0, range = 0.01..=5.0)]
     speed: f32,
-    /// So much has to be free ahead.
+    /// Free distance ahead at which the turn ends.
     #[param(unit = "m", range = 0.0..=10.0)]
     free: f32,
     wish: f32,
@@ -72,7 +72,7 @@ impl Turn {
         Some(Twist::new(0.0, 0.0, if to_left { self.speed } else { -self.speed }))
     }
 
-    /// It chooses the side when it begins.
+    /// Resets the side, which is chosen in the next firing.
     #[on_activate]
     fn begin(&mut self) {
         self.wish = self.free;
@@ -80,11 +80,11 @@ impl Turn {
     }
 }
 
-/// Says whether the battery is full enough, each time that it is asked.
+/// Reports on request whether the battery is full enough.
 #[node]
 #[derive(Default)]
 pub struct AskBattery {
-    /// Less than this is low: 1 is full.
+    /// Charge below which the battery is low; 1 is full.
     #[param(default = 0.3, range = 0.0..=1.0)]
     low: f32,
     charge: f32,
@@ -96,24 +96,24 @@ impl AskBattery {
         self.charge = *battery;
     }
 
-    /// Asks.
+    /// Triggers `full` or `low`, according to the last charge.
     #[slot]
     fn put(&mut self, full: Event<()>, low: Event<()>) {
         if self.charge < self.low { low.emit(()) } else { full.emit(()) }
     }
 }
 
-/// Keeps its way in mind, and drives it back to where it began while it is active.
+/// Remembers the path of the robot, and drives it back to its start while it is active.
 #[node]
 #[derive(Default)]
 pub struct Retrace {
-    /// How fast it drives.
+    /// Maximum speed of the robot.
     #[param(unit = "m/s", default = 0.6, range = 0.0..=2.0)]
     speed: f32,
-    /// How far the places that it keeps in mind are apart.
+    /// Distance between remembered places.
     #[param(unit = "m", default = 0.3, range = 0.05..=5.0)]
     step: f32,
-    /// How near to a place is there.
+    /// Tolerance of the position at a place.
     #[param(unit = "m", default = 0.1, range = 0.01..=1.0)]
     tolerance: f32,
     way: Vec<Point2>,
@@ -134,13 +134,13 @@ impl Retrace {
             there.emit(());
             return Some(Twist::ZERO);
         };
-        // Turns first where the place is not ahead.
+        // Slower, the less the next place is ahead: the robot turns first.
         let speed = self.speed.min(5.0 * next.norm()) * next.angle().cos().max(0.0).powi(3);
         Some(Twist::new(speed, 0.0, 3.0 * next.angle()))
     }
 
-    /// Adds a place, or takes back the way that it has made since it was here before: so it never gets longer than the
-    /// world is large.
+    /// Adds a place, or removes the loop since the robot was last here. So the size of the world bounds the length of
+    /// the path.
     fn keep(&mut self, here: Point2) {
         match self.way.iter().position(|place| (*place - here).norm() < self.step) {
             Some(known) => self.way.truncate(known + 1),

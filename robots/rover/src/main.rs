@@ -1,4 +1,4 @@
-//! Drives the robot of `robot.afg`: by the machine's clock, or with `--fast` as fast as the machine can.
+//! Drives the robot of `robot.afg` by the system clock, or with `--fast` as fast as the machine can.
 
 use apex_rt::prelude::*;
 

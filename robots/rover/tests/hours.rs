@@ -1,3 +1,3 @@
-//! The robot of the text, for hours of simulated time.
+//! The robot of `robot.afg`, for hours of simulated time.
 
 apex_rt::graph!("hours.afg");

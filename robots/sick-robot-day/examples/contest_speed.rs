@@ -1,4 +1,4 @@
-//! How much time ten simulated minutes of the competition take, by driver, with the rates of the robot.
+//! Measures the computing time of ten simulated minutes of the competition, by driver, at the rates of the robot.
 
 use apex_nodes::{
     image::{Camera, GrayImage},

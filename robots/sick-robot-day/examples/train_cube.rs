@@ -1,4 +1,4 @@
-//! Trains the network that sees whether there is a cube in the hopper, on images that it renders itself, and writes it:
+//! Trains the network that detects a cube in the hopper, on images that it renders itself, and writes the model:
 //!
 //! ```text
 //! cargo run --release -p sick-robot-day --example train_cube -- FILE [SEED]
@@ -38,9 +38,9 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// A network that has seen all images in each epoch; the steps become shorter.
+/// Trains a network on all images in each epoch, with a decreasing learning rate.
 fn train(seed: u64) -> Model {
-    // What is measured has other seeds: small numbers.
+    // Measurements use other seeds: small numbers.
     let mut random = Random::new(!seed);
     let examples: Vec<Example> = (0..IMAGES).filter_map(|i| example(i % 2, &mut random)).collect();
     let mut network = Mlp::new(&[PATCH_SIDE * PATCH_SIDE, HIDDEN, 2], &mut random);

@@ -19,33 +19,33 @@ const RADIUS: f32 = 6.0;
 const RING_HEIGHT: f32 = 0.5;
 const RING_RADIUS: f32 = 0.15;
 
-/// The arena of the competition (thesis 4.2): a border with four delivery stations around an octagonal island with
-/// four filling stations. Its origin is the middle of the island.
+/// Arena of the competition (thesis 4.2): a border with four delivery stations around an octagonal island with four
+/// filling stations. Its origin is the middle of the island.
 #[derive(Debug, Clone)]
 pub struct Arena {
-    /// What a laser scanner hits.
+    /// World of the laser scanners.
     pub world: World,
-    /// What a camera sees.
+    /// Scene of the cameras.
     pub scene: Scene,
-    /// The corners of the border, counter-clockwise.
+    /// Corners of the border, counter-clockwise, in m.
     pub border: Vec<Point2>,
-    /// Where cubes are given out.
+    /// Filling stations, where cubes are handed out.
     pub filling: [Station; 4],
-    /// Where cubes are taken: station 1 first.
+    /// Delivery stations, where cubes are taken; station 1 comes first.
     pub delivery: [Station; 4],
 }
 
-/// A place where cubes are given out or taken.
+/// Filling or delivery station.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
-    /// The foot of its target on the wall; x points out of the wall.
+    /// Pose of the foot of the target on the wall; x points out of the wall.
     pub pose: Pose2,
-    /// What its sign says, 1 to 4; `None` for a filling station, which has no sign.
+    /// Number of the sign, 1 to 4, or `None` for a filling station, which has no sign.
     pub number: Option<u32>,
 }
 
 impl Arena {
-    /// The arena of a seed: the same seed gives the same one.
+    /// Creates the arena of a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let border = border(&mut random);
@@ -68,7 +68,7 @@ impl Arena {
         self.filling.iter().chain(&self.delivery)
     }
 
-    /// Whether a robot of this radius may stand somewhere.
+    /// Returns `true` if a robot of this radius fits at a place.
     pub fn is_free(&self, place: Point2, radius: f32) -> bool {
         let sides = self.border.iter().zip(self.border.iter().cycle().skip(1));
         let inside = sides.fold(true, |inside, (a, b)| inside && (*b - *a).perpendicular().dot(place - *a) > 0.0);
@@ -77,7 +77,7 @@ impl Arena {
         inside && place.norm() > island && self.world.walls().iter().all(far)
     }
 
-    /// Whether no wall stands between two places.
+    /// Returns `true` if no wall is between two places.
     pub fn is_clear(&self, from: Point2, to: Point2) -> bool {
         let length = (to - from).norm();
         let hit = self.world.cast(from, (to - from).scaled(1.0 / length));
@@ -86,7 +86,7 @@ impl Arena {
 }
 
 impl Station {
-    /// Hangs up what belongs to it: a target, a ring over it, and a sign if it has a number.
+    /// Adds the equipment of the station: a target, a ring over it, and a sign if it has a number.
     fn furnish(&self, scene: &mut Scene) {
         let before = |x: f32, y: f32| self.pose.to_outer(Point2::new(x, y));
         let ahead = Pose2 { x: before(0.01, 0.0).x, y: before(0.01, 0.0).y, ..self.pose };
@@ -115,7 +115,7 @@ fn island(turn: f32) -> [Point2; 8] {
     std::array::from_fn(|i| Point2::polar(radius, turn + TAU * i as f32 / 8.0))
 }
 
-/// One station in each quarter of the border, in any order of their numbers.
+/// One station in each quarter of the border, numbered in random order.
 fn delivery(border: &[Point2], random: &mut Random) -> [Station; 4] {
     let start = random.bits() as usize;
     let mut stations: [Pose2; 4] = std::array::from_fn(|quarter| {
@@ -128,8 +128,8 @@ fn delivery(border: &[Point2], random: &mut Random) -> [Station; 4] {
     std::array::from_fn(|i| Station { pose: stations[i], number: Some(i as u32 + 1) })
 }
 
-/// The pose on a side of a polygon, a part of its length from its first corner, that looks away from the origin
-/// (`sense` 1) or to it (-1).
+/// Pose on a side of a polygon, at the fraction `part` of its length from its first corner. It faces away from the
+/// origin (`sense` 1) or towards it (-1).
 fn on_side(corners: &[Point2], side: usize, part: f32, sense: f32) -> Pose2 {
     let (a, b) = (corners[side % corners.len()], corners[(side + 1) % corners.len()]);
     let place = a + (b - a).scaled(part);
@@ -143,7 +143,7 @@ fn walls(scene: &mut Scene, corners: &[Point2], brightness: u8) {
     }
 }
 
-/// What stands around the arena: people and posts, boards and posters with stripes.
+/// Adds the surroundings of the arena: people and posts, boards, and posters with stripes.
 fn surroundings(scene: &mut Scene, random: &mut Random) {
     for _ in 0..20 {
         let place = Point2::polar(random.uniform(7.0, 10.0), random.uniform(0.0, TAU));
@@ -160,7 +160,7 @@ fn surroundings(scene: &mut Scene, random: &mut Random) {
     }
 }
 
-/// A poster with level and upright bars.
+/// A poster with horizontal and vertical bars.
 fn poster(random: &mut Random) -> Picture {
     let mut bars =
         || -> Vec<[f32; 2]> { (0..3).map(|_| [random.uniform(0.0, 90.0), random.uniform(3.0, 20.0)]).collect() };
@@ -170,12 +170,12 @@ fn poster(random: &mut Random) -> Picture {
     Picture::new(image::ImageBuffer::from_fn(100, 100, shade).into())
 }
 
-/// The distance of a place from the wall between two points.
+/// Distance of a place from the wall between two points, in m.
 fn distance(place: Point2, a: Point2, b: Point2) -> f32 {
     (place - nearest(place, a, b)).norm()
 }
 
-/// The point of the wall between two points that is nearest to a place.
+/// Point of the wall between two points that is nearest to a place.
 pub(crate) fn nearest(place: Point2, a: Point2, b: Point2) -> Point2 {
     let along = b - a;
     let part = ((place - a).dot(along) / along.norm_squared()).clamp(0.0, 1.0);

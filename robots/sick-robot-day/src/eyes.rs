@@ -7,39 +7,39 @@ use apex_nodes::{
 use apex_rt::Time;
 use apex_sim::{Laser, Light, NotLevel, Photographer, Random};
 
-/// The scanner at the front of the robot, at the origin of its frame.
+/// Scanner at the front of the robot, at the origin of its frame.
 pub const LASER: Laser = Laser::LMS100;
 
-/// The camera at the front: level, 40 cm above the floor, and 70° wide.
+/// Camera at the front: level, 40 cm above the floor, with a field of view of 70°.
 pub fn camera() -> Camera {
     Camera { position: [0.05, 0.0, 0.4], ..Camera::new(960, 720, 70.0_f32.to_radians()) }
 }
 
-/// What the robot sees at one moment.
+/// Sensor data of the robot at one time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct View {
-    /// From the camera.
+    /// Image of the camera.
     pub image: GrayImage,
-    /// From the scanner.
+    /// Scan of the scanner.
     pub scan: Scan,
 }
 
-/// The camera and the scanner of the robot.
+/// Camera and scanner of the robot.
 #[derive(Debug, Clone)]
 pub struct Eyes {
     photographer: Photographer,
 }
 
 impl Eyes {
-    /// The eyes of the robot.
+    /// Creates the camera and the scanner of the robot.
     ///
     /// # Errors
-    /// The [`camera`] is not level.
+    /// If the [`camera`] is not level.
     pub fn new() -> Result<Self, NotLevel> {
         Ok(Self { photographer: Photographer::new(camera())? })
     }
 
-    /// What is seen at a pose in the arena by a robot that turns, in rad/s.
+    /// Sensor data at a pose in the arena, for a robot that turns with `turn` rad/s.
     pub fn see(&mut self, arena: &Arena, pose: &Pose2, turn: f32, light: &Light, random: &mut Random) -> View {
         let mut view = View::default();
         LASER.measure(&arena.world, pose, random, &mut view.scan);
@@ -49,7 +49,7 @@ impl Eyes {
     }
 }
 
-/// Light as in a hall: some more, some less, some from the side.
+/// Random lighting of a hall: brighter or darker, possibly from the side.
 pub fn hall_light(random: &mut Random) -> Light {
     Light { gain: random.uniform(0.6, 1.1), slope: random.uniform(-0.3, 0.3), haze: random.uniform(0.0, 20.0) }
 }

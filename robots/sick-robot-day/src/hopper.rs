@@ -12,49 +12,50 @@ pub const CUBE_SIDE: f32 = 0.06;
 /// Columns and rows of an image of the hopper.
 pub const HOPPER_SIZE: (u32, u32) = (320, 240);
 
-/// Height of the camera above the ground of the hopper, and the width of the ground that it sees, in m.
+/// Height of the camera above the ground of the hopper, and width of the visible ground, in m.
 const EYE: f32 = 0.24;
 const GROUND: f32 = 0.17;
 
-/// What a pixel sees of the ground, in m.
+/// Size of a pixel on the ground, in m.
 const SCALE: f32 = GROUND / HOPPER_SIZE.0 as f32;
 
-/// The brightness of the ground, and of the squares on it.
+/// Brightness of the ground, and of the squares on it.
 const DARK: f32 = 22.0;
 const LIGHT: f32 = 150.0;
 
-/// A cube in the hopper.
+/// Cube in the hopper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cube {
-    /// What its bar codes say, 1 to 4.
+    /// Number in its bar codes, 1 to 4.
     pub number: u32,
-    /// Where its middle is, in m from the middle of the ground: right in the image, down in it, and up from the ground.
+    /// Position of the middle, in m from the middle of the ground: right in the image, down in it, and up from the
+    /// ground.
     pub place: [f32; 3],
-    /// How far it is turned about the upright axis, in rad.
+    /// Rotation about the vertical axis, in rad.
     pub turn: f32,
-    /// How far it leans, in rad: a cube that is wedged does not lie flat.
+    /// Tilt, in rad: a wedged cube does not lie flat.
     pub lean: f32,
 }
 
-/// What the camera above the hopper looks at (thesis 4.3.3, figure 4.6).
+/// Scene of the camera above the hopper (thesis 4.3.3, figure 4.6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hopper {
-    /// Whether there is a pattern on its ground.
+    /// `true` if the ground has a pattern.
     pub pattern: bool,
-    /// What lies in it.
+    /// Cube in the hopper.
     pub cube: Option<Cube>,
-    /// How it is lit.
+    /// Lighting of the hopper.
     pub light: Light,
     /// Standard deviation of the brightness of a pixel, of 255.
     pub noise: f32,
 }
 
 impl Cube {
-    /// A cube anywhere on the ground, in any direction; of four one is wedged.
+    /// A cube at a random place on the ground, in a random direction. One of four is wedged.
     pub fn random(random: &mut Random) -> Self {
         let wedged = random.chance(0.25);
         let lean = if wedged { random.uniform(0.2, FRAC_PI_4) } else { 0.0 };
-        // The lowest edge is on the ground, or higher if it hangs between the walls.
+        // The lowest edge is on the ground, or higher if the cube hangs between the walls.
         let height = 0.5 * CUBE_SIDE * (lean.sin() + lean.cos()) + if wedged { random.uniform(0.0, 0.03) } else { 0.0 };
         Self {
             number: 1 + (random.bits() % 4) as u32,
@@ -64,21 +65,21 @@ impl Cube {
         }
     }
 
-    /// A point or a direction of the world in the frame of the cube.
+    /// Rotates a vector from the world to the frame of the cube.
     fn inner(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         let ((sin, cos), (down, level)) = (self.turn.sin_cos(), self.lean.sin_cos());
         let (a, b) = (cos * x + sin * y, cos * y - sin * x);
         [a, level * b + down * z, level * z - down * b]
     }
 
-    /// A direction of the cube in the frame of the world.
+    /// Rotates a vector from the frame of the cube to the world.
     fn outer(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         let ((sin, cos), (down, level)) = (self.turn.sin_cos(), self.lean.sin_cos());
         let (a, b) = (x, level * y - down * z);
         [cos * a - sin * b, sin * a + cos * b, level * z + down * y]
     }
 
-    /// The columns and rows of the image that may show it: those between its corners.
+    /// Columns and rows of the image that may show the cube: those between its corners.
     fn extent(&self) -> [Range<u32>; 2] {
         let half = 0.5 * CUBE_SIDE;
         let corners: [[f32; 2]; 8] = std::array::from_fn(|i| {
@@ -94,7 +95,7 @@ impl Cube {
         })
     }
 
-    /// The brightness of what a ray from the camera meets of the cube.
+    /// Brightness of the point of the cube that a ray from the camera hits.
     fn shade(&self, ray: [f32; 3]) -> Option<f32> {
         let [x, y, z] = self.place;
         let (eye, ray) = (self.inner([-x, -y, EYE - z]), self.inner(ray));
@@ -102,7 +103,7 @@ impl Cube {
         let (mut near, mut far, mut axis) = (0.0, f32::MAX, 2);
         for i in 0..3 {
             let [a, b] = [-half, half].map(|side| (side - eye[i]) / ray[i]);
-            // Both are infinite for a ray along the face; a face that it lies in is none.
+            // Both are infinite for a ray parallel to the face, and NaN within its plane, which then does not count.
             if a.min(b) > near {
                 (near, axis) = (a.min(b), i);
             }
@@ -120,11 +121,11 @@ impl Cube {
 }
 
 impl Hopper {
-    /// A hopper with or without a pattern, in any light, that holds a cube or not.
+    /// A hopper with or without a pattern, in random light, with or without a cube.
     pub fn random(pattern: bool, full: bool, random: &mut Random) -> Self {
         let cube = full.then(|| Cube::random(random));
         let light = Light {
-            // As many images are half as bright as twice as bright.
+            // Logarithmic: as many images are half as bright as twice as bright.
             gain: random.uniform(0.05_f32.ln(), 3.0_f32.ln()).exp(),
             slope: random.uniform(-0.8, 0.8),
             haze: random.uniform(0.0, 40.0),
@@ -132,7 +133,7 @@ impl Hopper {
         Self { pattern, cube, light, noise: random.uniform(1.0, 5.0) }
     }
 
-    /// The image of the camera.
+    /// Image of the camera.
     pub fn photo(&self, random: &mut Random) -> GrayImage {
         let (width, height) = HOPPER_SIZE;
         let (across, down) = (even_squares(width), even_squares(height));
@@ -153,7 +154,7 @@ impl Hopper {
         image
     }
 
-    /// The brightness of a pixel that may show the cube.
+    /// Brightness of a pixel that may show the cube.
     fn mean(&self, cube: &Cube, u: u32, v: u32) -> f32 {
         let ([left, right], [upper, lower]) = (places(u, HOPPER_SIZE.0), places(v, HOPPER_SIZE.1));
         let rays = [[left, upper], [left, lower], [right, upper], [right, lower]];
@@ -161,29 +162,30 @@ impl Hopper {
         0.25 * rays.map(shade).iter().sum::<f32>()
     }
 
-    /// The ground: black, or with light squares on it.
+    /// Brightness of the ground: dark, or with light squares.
     fn ground(&self, x: f32, y: f32) -> f32 {
         if self.pattern && is_even(x) == is_even(y) { LIGHT } else { DARK }
     }
 }
 
-/// Where the two rays of a pixel in a direction meet the ground, in m from its middle. In two directions they are four.
+/// Places where the two rays of a pixel in one dimension hit the ground, in m from its middle. Both dimensions give
+/// four.
 fn places(pixel: u32, count: u32) -> [f32; 2] {
     [0.25, 0.75].map(|part| (pixel as f32 + part - 0.5 * count as f32) * SCALE)
 }
 
-/// For each pixel and ray in a direction whether it meets an even square.
+/// For each pixel and each of its rays in one dimension: `true` if it hits an even square.
 fn even_squares(count: u32) -> Vec<[bool; 2]> {
     (0..count).map(|pixel| places(pixel, count).map(is_even)).collect()
 }
 
-/// Whether a place lies in an even square.
+/// Returns `true` if a place is in an even square.
 fn is_even(x: f32) -> bool {
     const SQUARE: f32 = 0.02;
     (x / SQUARE).floor() as i32 % 2 == 0
 }
 
-/// The brightness of a face of a cube, from (0, 0) to (1, 1): a white label with bars on wood.
+/// Brightness of a face of a cube, from (0, 0) to (1, 1): a white label with bars on wood.
 fn label(number: u32, x: f32, y: f32) -> f32 {
     if !(0.03..0.97).contains(&x) || !(0.25..0.75).contains(&y) {
         return 165.0;
@@ -193,14 +195,14 @@ fn label(number: u32, x: f32, y: f32) -> f32 {
     if (0.3..0.7).contains(&y) && modules.get(module as usize) == Some(&true) { 20.0 } else { 225.0 }
 }
 
-/// Code 39 of a digit between two stars, with quiet zones: whether each module is black.
+/// Modules of the Code 39 of a digit between two stars, with quiet zones; `true` is black.
 fn bars(number: u32) -> &'static [bool] {
     static ALL: std::sync::LazyLock<[Vec<bool>; 4]> = std::sync::LazyLock::new(|| [1, 2, 3, 4].map(modules));
     ALL.get(number.wrapping_sub(1) as usize).map_or(&[], Vec::as_slice)
 }
 
 fn modules(number: u32) -> Vec<bool> {
-    /// Bars and gaps in turn, `w` for wide ones (ISO/IEC 16388).
+    /// Bars and gaps alternately, `w` for wide ones (ISO/IEC 16388).
     const STAR: &str = "nwnnwnwnn";
     const DIGITS: [&str; 4] = ["wnnwnnnnw", "nnwwnnnnw", "wnwwnnnnn", "nnnwwnnnw"];
     let quiet = [false; 10];

@@ -9,12 +9,12 @@ use apex_nodes::{
 use apex_rt::{Ctx, Time, node};
 use std::time::Duration;
 
-/// At most so many images of targets, and as many of signs.
+/// Maximum number of images of targets, and of signs.
 const FRAMES: usize = 4;
-/// At first, the least time from one image to the next.
+/// Initial minimum time between two images.
 const APART: Duration = Duration::from_secs(10);
 
-/// Remembers what the robot knows, to be looked at after a run: a sink.
+/// Records the knowledge of the robot for inspection after a run: a sink.
 #[node]
 #[derive(Debug, Default)]
 pub struct Journal {
@@ -22,13 +22,13 @@ pub struct Journal {
     island: Option<Octagon>,
     stations: heapless::Vec<Station, 4>,
     signs: Signs,
-    /// What the camera saw last.
+    /// Last image of the camera.
     image: GrayImage,
     crosses: Frames,
     numbers: Frames,
 }
 
-/// A few images, spread over the time in which there were some.
+/// A few images, spread over the time in which images came.
 #[derive(Debug, Default)]
 struct Frames {
     kept: Vec<(Time, Frame)>,
@@ -37,44 +37,44 @@ struct Frames {
 
 #[node]
 impl Journal {
-    /// The map as it is now.
+    /// Stores the present map.
     #[slot]
     fn map(&mut self, map: &Grid<Occupancy>) {
         self.map = Some(map.clone());
     }
 
-    /// Where the island is.
+    /// Stores the pose of the island.
     #[slot]
     fn island(&mut self, island: &Octagon) {
         self.island = Some(*island);
     }
 
-    /// The filling stations.
+    /// Stores the filling stations.
     #[slot]
     fn stations(&mut self, stations: &heapless::Vec<Station, 4>) {
         self.stations.clone_from(stations);
     }
 
-    /// All signs that were seen.
+    /// Stores all detected signs.
     #[slot]
     fn signs(&mut self, signs: &Signs) {
         self.signs.clone_from(signs);
     }
 
-    /// What the camera sees.
+    /// Stores the present image of the camera.
     #[slot]
     fn image(&mut self, image: &GrayImage) {
         self.image.clone_from(image);
     }
 
-    /// A target in the image.
+    /// Records a target in the image.
     #[slot]
     fn cross(&mut self, cross: &Target, ctx: &Ctx) {
         let mark = Mark::Cross(cross.centre);
         self.crosses.add(ctx.now(), "a target", &self.image, mark);
     }
 
-    /// A sign in the image.
+    /// Records a sign in the image.
     #[slot]
     fn sign(&mut self, sign: &NumberSign, ctx: &Ctx) {
         let mark = Mark::Box(sign.region, sign.number.to_string());
@@ -83,27 +83,27 @@ impl Journal {
 }
 
 impl Journal {
-    /// The last map; `None` before the first.
+    /// Last map, or `None` before the first one.
     pub const fn last_map(&self) -> Option<&Grid<Occupancy>> {
         self.map.as_ref()
     }
 
-    /// What the robot took for the island.
+    /// Last detected island.
     pub const fn last_island(&self) -> Option<Octagon> {
         self.island
     }
 
-    /// What it took for filling stations.
+    /// Last detected filling stations.
     pub fn last_stations(&self) -> &[Station] {
         &self.stations
     }
 
-    /// The signs that it saw.
+    /// Last map of the signs.
     pub const fn last_signs(&self) -> &Signs {
         &self.signs
     }
 
-    /// Some images in which something was found, in the order of time.
+    /// Some images with detections, in the order of time.
     pub fn frames(&self) -> Vec<Frame> {
         let mut all: Vec<&(Time, Frame)> = self.crosses.kept.iter().chain(&self.numbers.kept).collect();
         all.sort_by_key(|(time, _)| *time);
@@ -112,8 +112,8 @@ impl Journal {
 }
 
 impl Frames {
-    /// Keeps an image, unless the last one is too young. When there are too many, every other one goes, and from then on
-    /// they are twice as far apart.
+    /// Keeps an image, unless the previous one is too recent. When there are too many, every other one is removed, and
+    /// from then on the minimum time between images is doubled.
     fn add(&mut self, now: Time, what: &str, image: &GrayImage, mark: Mark) {
         self.apart = self.apart.max(APART);
         if self.kept.last().is_some_and(|(last, _)| now.since(*last) < self.apart) {

@@ -1,5 +1,5 @@
-//! The robot of the SICK Robot Day 2014, which fetches labelled cubes and delivers them (thesis chapter 4): the arena
-//! in simulation, the robot's perception and its mission, measured in it, and what a run leaves behind.
+//! The robot of the SICK Robot Day 2014, which fetches labelled cubes and delivers them (thesis chapter 4): a
+//! simulation of the arena, the robot's perception and mission, their evaluation, and the report of a run.
 
 mod arena;
 pub mod bench;
@@ -25,7 +25,7 @@ pub use nodes::{
 pub use places::{BorderTour, ChooseStation, is_word, origin};
 pub use signs::{NUMBER_WIDTH, TARGET_WIDTH};
 
-/// The compiled graphs.
+/// Compiled graphs.
 pub mod programs {
     pub use {
         competition::{Competition, CompetitionParts, SdfCompetition, SdfCompetitionParts},

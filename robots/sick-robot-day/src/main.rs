@@ -1,4 +1,4 @@
-//! The robot of the SICK Robot Day: lets it take part in the competition, and measures it.
+//! Runs and evaluates the robot of the SICK Robot Day in the simulated competition.
 
 mod command;
 

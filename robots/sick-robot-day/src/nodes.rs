@@ -4,34 +4,34 @@ use apex_nodes::{
 };
 use apex_rt::node;
 
-/// The numbers of the delivery stations.
+/// Numbers of the delivery stations.
 pub const NUMBERS: std::ops::RangeInclusive<u32> = 1..=4;
 
-/// The network of [`is_cube`], for the patches of images of the hopper: class 1 is a cube. Made by the example
-/// `train_cube`.
+/// Model of the network for [`is_cube`], on the patches of images of the hopper: class 1 is a cube. Trained by the
+/// example `train_cube`.
 pub const CUBE: &[u8] = include_bytes!("cube.mlp");
 
-/// A number sign in an image.
+/// Number sign in an image.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NumberSign {
-    /// What it says, 1 to 4.
+    /// Number of the sign, 1 to 4.
     pub number: u32,
-    /// How likely that is, from 0 to 1.
+    /// Probability of the number, from 0 to 1.
     pub confidence: f32,
-    /// Where the digit is.
+    /// Region of the digit.
     pub region: Region,
 }
 
-/// The number signs of one image.
+/// Number signs of one image.
 pub type NumberSigns = heapless::Vec<NumberSign, MAX_REGIONS>;
 
-/// A dark thing with light paper all around, as a digit on a sign; ⊥ for what touches other things, as most in pictures
-/// does.
+/// Passes a region with a dark object that has light paper all around, like the digit of a sign. ⊥ for objects that
+/// touch others, like most objects in images.
 #[node]
 pub fn on_paper(image: &GrayImage, region: &Region) -> Option<Region> {
-    /// Where the paper is looked at, as a part of the height of the thing: narrower than the margin of a sign.
+    /// Width of the examined margin as a fraction of the object's height: narrower than the margin of a sign.
     const MARGIN: f32 = 0.1;
-    /// How much darker than elsewhere the paper may be, as a part of its contrast to the ink.
+    /// Maximum darkening of the paper, as a fraction of its contrast to the ink.
     const SHADE: f32 = 0.25;
     let thing = light_of(image, region, |_, _| true);
     let edge = region.grown((MARGIN * region.height as f32).ceil() as u32, image.size());
@@ -39,12 +39,12 @@ pub fn on_paper(image: &GrayImage, region: &Region) -> Option<Region> {
     let on_edge = |x: u32, y: u32| x == edge.left || x + 1 == right || y == edge.top || y + 1 == bottom;
     let paper = light_of(image, &edge, on_edge);
     let at = |part: usize| paper.get(paper.len() * part / 10).copied().map(f32::from);
-    // Seen from the side, the corners of the rectangle may lie beside the paper.
+    // In an oblique view, the corners of the rectangle may be beside the paper.
     let (ink, dark, light) = (f32::from(*thing.first()?), at(2)?, at(9)?);
     (light > ink && light - dark <= SHADE * (light - ink)).then_some(*region)
 }
 
-/// The intensities of some pixels in a region, the darkest first.
+/// Intensities of some pixels in a region, in ascending order.
 fn light_of(image: &GrayImage, region: &Region, which: impl Fn(u32, u32) -> bool) -> Vec<u8> {
     let Region { left, top, width, height, .. } = region.grown(0, image.size());
     let places = (top..top + height).flat_map(|y| (left..left + width).map(move |x| (x, y)));
@@ -54,7 +54,7 @@ fn light_of(image: &GrayImage, region: &Region, which: impl Fn(u32, u32) -> bool
     light
 }
 
-/// A digit as a number sign; ⊥ if no station has this number, or it is wider than high, as no digit is.
+/// Number sign from a digit; ⊥ if no station has this number, or if the region is wider than high, unlike a digit.
 #[node]
 pub fn number_sign(class: &Class, region: &Region) -> Option<NumberSign> {
     let Class { number, confidence } = *class;
@@ -62,31 +62,31 @@ pub fn number_sign(class: &Class, region: &Region) -> Option<NumberSign> {
     is_sign.then_some(NumberSign { number, confidence, region: *region })
 }
 
-/// The sign that is likeliest to be one; ⊥ without signs.
+/// Number sign with the greatest confidence; ⊥ without signs.
 #[node]
 pub fn clearest(signs: &NumberSigns) -> Option<NumberSign> {
     signs.iter().max_by(|a, b| a.confidence.total_cmp(&b.confidence)).copied()
 }
 
-/// The sign as something that hangs on the wall, so that its pose can be measured.
+/// Number sign as a target on the wall, so that its pose can be measured.
 #[node]
 pub fn sign_target(sign: &NumberSign) -> Target {
     Target { centre: sign.region.middle(), region: sign.region }
 }
 
-/// What the sign says.
+/// Number of the sign.
 #[node]
 pub fn sign_number(sign: &NumberSign) -> u32 {
     sign.number
 }
 
-/// Whether the network took it for a cube.
+/// `true` if the network classified the image as a cube.
 #[node]
 pub fn is_cube(class: &Class) -> bool {
     class.number == 1
 }
 
-/// The delivery station that the bar code of a cube names; ⊥ if it names none.
+/// Number of the delivery station in the bar code of a cube; ⊥ if the code is not such a number.
 #[node]
 pub fn cube_number(code: &BarCode) -> Option<u32> {
     let number = code.text.parse().ok().filter(|number| NUMBERS.contains(number));

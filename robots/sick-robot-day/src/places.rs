@@ -7,13 +7,13 @@ use apex_nodes::{
 use apex_rt::{Ctx, Event, node};
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// Where the robot began: the origin of its map.
+/// Start pose of the robot: the origin of its map.
 #[node]
 pub fn origin() -> Pose2 {
     Pose2::default()
 }
 
-/// Triggers `yes` when the word is the expected one (thesis figure 8.1a, *streq*).
+/// Triggers `yes` if the word is the expected one (thesis figure 8.1a, *streq*).
 #[node]
 pub fn is_word(word: &String, #[param] expected: &'static str, yes: Event<()>) {
     if word == expected {
@@ -21,16 +21,16 @@ pub fn is_word(word: &String, #[param] expected: &'static str, yes: Event<()>) {
     }
 }
 
-/// Chooses the nearest free filling station while it is active, and sends where to stand before it; ⊥ while none is known
-/// or free.
+/// Chooses the nearest free filling station while it is active, and sends the pose in front of it; ⊥ while no free
+/// station is known.
 #[node]
 #[derive(Debug)]
 pub struct ChooseStation {
-    /// How far before the wall the robot is to stand.
+    /// Distance between the robot's pose and the wall.
     #[param(unit = "m", default = 0.9, range = 0.0..=10.0)]
     distance: f32,
     chosen: Option<usize>,
-    /// The one that was given up last.
+    /// Index of the station that was given up last.
     avoided: Option<usize>,
 }
 
@@ -49,25 +49,25 @@ impl ChooseStation {
         Some(stand_before(&station.pose, self.distance))
     }
 
-    /// The one that was chosen last is avoided next time, if there is another one.
+    /// Avoids the chosen station next time, if there is another free one.
     #[slot]
     fn give_up(&mut self) {
         self.avoided = self.chosen;
     }
 }
 
-/// The next place on a way around the island, counter-clockwise, from which the robot looks along the border (thesis 4.3.4).
-/// Sent once for each time that it becomes active. A place that the robot did not get to is left out.
+/// Next place of a tour around the island, counter-clockwise, from which the robot faces along the border (thesis
+/// 4.3.4). Sent once per activation. Places that the robot did not reach are skipped.
 #[node]
 #[derive(Debug)]
 pub struct BorderTour {
-    /// How far from the middle of the island it drives.
+    /// Distance of the tour from the middle of the island.
     #[param(unit = "m", default = 3.8, range = 0.0..=100.0)]
     radius: f32,
-    /// From one place to the next, seen from the middle.
+    /// Angle between two places, seen from the middle.
     #[param(unit = "rad", default = FRAC_PI_4, range = 0.01..=3.2)]
     step: f32,
-    /// The angle of the last place.
+    /// Angle of the last place, in rad.
     last: Option<f32>,
 }
 
@@ -85,7 +85,7 @@ impl BorderTour {
         Some(Pose2::new(place.x, place.y, normalize_angle(&(angle + FRAC_PI_2))))
     }
 
-    /// Takes the activity that the token may carry.
+    /// Receives activity with a token, without any other effect.
     #[slot]
     fn begin(&mut self) {}
 }

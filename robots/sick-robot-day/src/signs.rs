@@ -12,18 +12,18 @@ pub const NUMBER_WIDTH: f32 = 0.3;
 /// Columns and rows of a drawing.
 const SIDE: u32 = 240;
 
-/// Paper and ink are not white and black.
+/// Brightness of paper and ink, which are not perfectly white and black.
 const PAPER: f32 = 225.0;
 const INK: f32 = 25.0;
 
-/// A target: a cross in two rings on a plate.
+/// Target sign: a cross in two rings on a plate.
 pub static TARGET: LazyLock<Picture> = LazyLock::new(target);
 
-/// The number signs: 1 first.
+/// Number signs; 1 comes first.
 pub static SIGNS: LazyLock<[Picture; 4]> = LazyLock::new(|| [1, 2, 3, 4].map(number));
 
 fn target() -> Picture {
-    /// Half the width of a stroke, the radii of the rings and the length of an arm, as parts of the plate.
+    /// Half the width of a stroke, the radii of the rings and the length of an arm, as fractions of the plate's width.
     const STROKE: f32 = 0.025;
     const RINGS: [f32; 2] = [0.333, 0.188];
     const ARM: f32 = 0.396;
@@ -35,7 +35,7 @@ fn target() -> Picture {
 }
 
 fn number(number: u32) -> Picture {
-    /// Width and height of a digit and half the width of its strokes, as parts of the paper.
+    /// Width and height of a digit and half the width of its strokes, as fractions of the paper's width.
     const SIZE: [f32; 2] = [0.42, 0.64];
     const STROKE: f32 = 0.05;
     let place = |[x, y]: [f32; 2]| [(x - 0.5) * SIZE[0], (y - 0.5) * SIZE[1]];
@@ -46,8 +46,8 @@ fn number(number: u32) -> Picture {
     })
 }
 
-/// Draws what has ink where `outside`, the distance from it as a part of the width, is negative. The origin is in the
-/// middle, y points down.
+/// Draws a shape: ink where `outside` is negative, the distance from the shape as a fraction of the width. The origin
+/// is in the middle; y points down.
 fn draw(outside: impl Fn(f32, f32) -> f32) -> Picture {
     let pixels = ImageBuffer::from_fn(SIDE, SIDE, |u, v| {
         let [x, y] = [u, v].map(|i| (i as f32 + 0.5) / SIDE as f32 - 0.5);
@@ -57,7 +57,7 @@ fn draw(outside: impl Fn(f32, f32) -> f32) -> Picture {
     Picture::new(GrayImage::from(pixels))
 }
 
-/// The lines of a digit in the unit box, y down.
+/// Lines of a digit in the unit box, y down.
 fn strokes(number: u32) -> Vec<Vec<[f32; 2]>> {
     match number {
         1 => vec![vec![[0.2, 0.25], [0.55, 0.0], [0.55, 1.0]]],
@@ -68,7 +68,7 @@ fn strokes(number: u32) -> Vec<Vec<[f32; 2]>> {
     }
 }
 
-/// A part of an ellipse, from angle to angle in degrees: 0 is right, 90 down.
+/// Arc of an ellipse between two angles in degrees: 0 is right, 90 down.
 fn arc(centre: [f32; 2], radii: [f32; 2], from: f32, to: f32) -> Vec<[f32; 2]> {
     const PARTS: u8 = 16;
     let point = |i: u8| {
@@ -78,7 +78,7 @@ fn arc(centre: [f32; 2], radii: [f32; 2], from: f32, to: f32) -> Vec<[f32; 2]> {
     (0..=PARTS).map(point).collect()
 }
 
-/// The distance of a point from a segment.
+/// Distance of a point from a segment.
 pub fn distance(p: [f32; 2], [a, b]: [[f32; 2]; 2]) -> f32 {
     let (d, e) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let along = ((d[0] * e[0] + d[1] * e[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! The arena is one that a robot can work in, and the camera sees it where it is.
+//! Tests that a robot can operate in the arena, and that the camera sees it at the right place.
 
 use apex_nodes::scan::{Point2, Pose2, Scan};
 use apex_sim::{Laser, Light, Random};
@@ -40,7 +40,7 @@ fn stations_can_be_reached_and_told_apart() {
     }
 }
 
-/// A robot that looks at a station from straight ahead.
+/// A robot that faces a station from straight ahead.
 fn before(arena: &Arena, station: usize, distance: f32) -> Pose2 {
     let pose = arena.stations().nth(station).expect("one of eight").pose;
     let place = pose.to_outer(Point2::new(distance, 0.0));
@@ -71,7 +71,7 @@ fn targets_are_where_the_camera_projects_them() {
             let [u, v] = camera().project([place.x, place.y, TARGET_HEIGHT + z]).expect("in front");
             image.pixels[(u.round() as u32, v.round() as u32)].0[0]
         };
-        // The cross is dark, the plate between its arms and beside the rings is light.
+        // The cross is dark; the plate between its arms and beside the rings is light.
         assert!(at(0.0, 0.0) < 60 && at(0.065, 0.0) < 60 && at(0.0, 0.065) < 60, "seed {seed}");
         assert!(at(0.02, 0.02) > 180 && at(-0.02, 0.02) > 180 && at(0.11, 0.11) > 180, "seed {seed}");
     }

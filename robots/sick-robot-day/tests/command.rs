@@ -1,4 +1,4 @@
-//! The command: what it refuses, what it leaves behind, and its exit codes.
+//! Tests of the command: rejected arguments, written files, and exit codes.
 
 use std::{
     env, fs,
@@ -6,14 +6,14 @@ use std::{
     process::Command,
 };
 
-/// A folder of our own, which is empty.
+/// An empty folder for the test.
 fn folder(name: &str) -> PathBuf {
     let folder = env::temp_dir().join(format!("apex-sick-robot-day-{name}-{}", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder for temporary files");
     folder
 }
 
-/// The exit code, the output and the messages of the command, run in a folder.
+/// Exit code, output and messages of the command, run in a folder.
 fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_sick-robot-day")).args(args).current_dir(folder).output();
     let output = output.expect("the command");

@@ -1,17 +1,17 @@
-//! The numbers of `docs/competition.md`: both missions, counted.
+//! The numbers of `docs/competition.md`: statistics of both missions.
 
 use apex_rt::{Info, Program as _};
 use sick_robot_day::programs::{Competition, SdfCompetition};
 use std::fmt::Write as _;
 
-/// A text of this robot.
+/// Source file of this robot.
 macro_rules! text {
     ($name:literal) => {
         include_str!(concat!("../", $name, ".afg"))
     };
 }
 
-/// The items of a text whose first lines begin so.
+/// Items of a source file whose first lines have one of these beginnings.
 fn items(text: &str, begins: &[&str]) -> String {
     let mut kept = String::new();
     let mut inside = false;
@@ -25,17 +25,17 @@ fn items(text: &str, begins: &[&str]) -> String {
     kept
 }
 
-/// Lines that say something: no comments, nothing empty.
+/// Number of lines without comments and blank lines.
 fn lines(text: &str) -> usize {
     text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//")).count()
 }
 
-/// Lines that begin with this word.
+/// Number of lines that begin with this word.
 fn count(text: &str, word: &str) -> usize {
     text.lines().filter(|line| line.trim_start().starts_with(word)).count()
 }
 
-/// Nodes and connections of the mission when all nested graphs are opened.
+/// Numbers of nodes and connections of the mission with all nested graphs expanded.
 fn opened(info: &Info) -> (usize, usize) {
     let is_of = |node: &usize| info.nodes[*node].name.starts_with("mission.");
     let nodes = (0..info.nodes.len()).filter(is_of).count();

@@ -1,4 +1,4 @@
-//! The competition: who may do what in it, and that the others play fair.
+//! Tests of the competition: its rules, and the fairness of the rivals.
 
 use apex_nodes::{
     nav::Twist,
@@ -23,12 +23,12 @@ fn at(time: Time) -> Ctx {
     Ctx::new(time)
 }
 
-/// The pose of our robot at a station, so far from the wall and beside the target, and askew.
+/// Pose of our robot at a station, with a distance from the wall, a sideways offset and a heading error.
 fn before(station: &Station, gap: f32, beside: f32, askew: f32) -> Pose2 {
     station.pose.compose(&Pose2::new(RADIUS + gap, beside, PI + askew))
 }
 
-/// Passes the time in steps, telling the motors the same again and again.
+/// Advances the time in steps, with the same command for the motors.
 fn drive(contest: &mut Contest, twist: Twist, seconds: f32) {
     let end = contest.now() + Duration::from_secs_f32(seconds);
     while contest.now() < end {
@@ -41,7 +41,7 @@ fn wait(contest: &mut Contest, seconds: f32) {
     contest.advance(contest.now() + Duration::from_secs_f32(seconds));
 }
 
-/// The filling station that our robot starts before: the others do not go there at first.
+/// The filling station at the start of our robot. The others do not go there at first.
 fn own_station(contest: &Contest) -> Station {
     let start = contest.robots()[0].pose.position();
     let way = |station: &Station| (station.pose.position() - start).norm();
@@ -61,7 +61,7 @@ fn the_start_is_as_the_rules_say() {
     }
 }
 
-/// A minute of a robot that drives at random.
+/// Report of a minute of a robot that drives randomly.
 fn at_random(seed: u64) -> Report {
     let hall = Hall::new(seed, vec![]).expect("a level camera");
     let Drivers { mut front_laser, mut base, mut lamp, .. } = Drivers::new(&hall);
@@ -69,7 +69,7 @@ fn at_random(seed: u64) -> Report {
     for tick in 0..1500 {
         let ctx = at(ms(40 * tick));
         front_laser.process(&ctx, &mut scan);
-        // What it senses tells it what to do.
+        // The command depends on the sensor data.
         let seen = scan.get().expect("a scan").ranges[270].min(1.0);
         let [x, y, omega] = [1.5 * seen - 0.5, 0.8, 2.0].map(|most| random.uniform(-most, most));
         base.drive(&Twist::new(x, y, omega), &ctx);
@@ -86,7 +86,7 @@ fn the_same_seed_and_commands_are_the_same_contest() {
 
 #[test]
 fn a_cube_is_put_in_only_where_the_rules_allow_it() {
-    // Gap, beside, askew, lamp, and whether a cube comes.
+    // Gap, sideways offset, heading error, lamp, and the expected cube.
     let cases = [
         (0.05, 0.0, 0.0, true, true),
         (0.03, -0.08, 0.3, true, true),
@@ -181,7 +181,7 @@ fn whoever_drives_against_a_wall_causes_one_collision_and_stops_there() {
 fn whoever_drives_against_a_robot_causes_it() {
     let mut contest = Contest::new(1, vec![]);
     let rival = contest.robots()[1];
-    // Before the start the rivals stand.
+    // Before the start the rivals stand still.
     let place = rival.pose.position() + Point2::polar(1.0, 0.5);
     contest.place(Pose2::new(place.x, place.y, 0.5 + PI));
     drive(&mut contest, Twist::new(1.5, 0.0, 0.0), 0.9);
@@ -235,7 +235,7 @@ mod wired {
             Base, FrontCamera, FrontLaser, HopperCamera, Lamp, RearLaser, Remote, WheelOdometry,
         };
 
-        /// All drivers, with nothing behind them.
+        /// All drivers, without anything behind them.
         graph Wired {
             in  twist: Twist;
             in  on: bool;
@@ -375,7 +375,7 @@ fn stopped_wheels_go_on_where_they_are() {
     assert!(poses[50].x - poses[49].x > 0.2 && poses[51] != poses[50]);
 }
 
-/// Plays to the end with our robot where it is put, looking after the rivals; how often each has delivered.
+/// Plays to the end with our robot at a given place, and checks the rivals. Returns their report.
 fn rivals(seed: u64, place: impl Fn(&Arena) -> Pose2) -> Report {
     let mut contest = Contest::new(seed, vec![]);
     contest.place(place(contest.arena()));

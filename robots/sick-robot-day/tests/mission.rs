@@ -1,4 +1,4 @@
-//! The whole robot in the competition: it works, it does the same again, and it survives what breaks.
+//! The whole robot in the competition: it works, it is reproducible, and it survives faults.
 
 use apex_rt::{Program, Time, record::replay};
 use sick_robot_day::{
@@ -8,7 +8,7 @@ use sick_robot_day::{
 };
 use std::{fs, time::Duration};
 
-/// A seed with which the first cube is delivered soon, and how long that takes, with some more time.
+/// Seed with which the first cube is delivered soon, and the time for this, with some reserve.
 const SEED: u64 = 1;
 const SOON: Duration = Duration::from_secs(60);
 
@@ -62,9 +62,9 @@ fn the_same_seed_is_the_same_run_and_its_recording_replays() {
     assert!(finished.dropped.is_empty() && size < 3_000_000, "{size} bytes");
 }
 
-/// Something breaks while the robot needs it; afterwards it moves again.
+/// Tests that the robot moves again after a fault of a device that it needs.
 fn survives(kind: FaultKind, mission: Mission) {
-    // The camera is needed before a station, all else to get there.
+    // The camera is needed before a station, everything else to get there.
     let (from, length) = match kind {
         FaultKind::CameraBlack | FaultKind::CameraTorn => (7, 6),
         FaultKind::LaserFrozen => (3, 3),

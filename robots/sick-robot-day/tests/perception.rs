@@ -1,4 +1,4 @@
-//! The perception of the robot as it is compiled, on rendered images.
+//! The perception of the robot as compiled, on rendered images.
 
 use apex_nodes::{
     image::GrayImage,
@@ -31,7 +31,7 @@ fn read(program: &mut FindSign, view: View) -> (Option<NumberSign>, Option<Pose2
     (outputs.sign, outputs.pose)
 }
 
-/// What is seen of a station in its arena from somewhere `distance` before it, and where it is from there.
+/// View of a station in its arena from about `distance` in front of it, and the pose of the station from there.
 fn view(seed: u64, station: usize, distance: f32) -> (View, Pose2) {
     let (arena, mut random) = (Arena::new(seed), Random::new(seed));
     let station = arena.stations().nth(station).expect("one of eight").pose;
@@ -92,7 +92,7 @@ fn wall(picture: GrayImage) -> View {
     view
 }
 
-/// Rings on a plate, with a cross if it is a target.
+/// Rings on a plate, with a cross for a target.
 fn rings(cross: bool) -> GrayImage {
     let ink = |x: f32, y: f32| {
         let radius = x.hypot(y);
@@ -111,8 +111,8 @@ fn rings_without_a_cross_are_no_target() {
     assert_eq!(locate(&mut program, wall(rings(false))), None);
 }
 
-/// Other bull's eyes. The images are not part of the project: without them the test says so and passes, unless it runs
-/// with `CI=true`.
+/// Other concentric rings. The images are not part of the project. Without them the test prints a message and passes,
+/// unless it runs with `CI=true`.
 #[test]
 fn other_rings_are_no_targets() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/fiducials");
@@ -130,7 +130,7 @@ fn other_rings_are_no_targets() {
     }
 }
 
-/// Images of nothing, of the right size and of wrong ones, and of noise.
+/// Uniform images, of the right size and of wrong ones, and noise.
 fn odd_images(whole: (u32, u32)) -> Vec<GrayImage> {
     let mut random = Random::new(2);
     let noise = ImageBuffer::from_fn(320, 240, |_, _| Luma([random.bits() as u8]));
@@ -159,7 +159,7 @@ fn after_odd_views_stations_are_found_again() {
     assert_eq!(sign.map(|sign| sign.number), Some(2));
 }
 
-/// What the three graphs of the hopper say: full by the deviation, full by the network, and the number.
+/// Results of the three graphs of the hopper: full by the deviation, full by the network, and the number.
 fn look(image: &GrayImage) -> (Option<bool>, Option<bool>, Option<u32>) {
     let (mut deviation, mut network, mut code) = (CubeByDeviation::new(), CubeByNetwork::new(), CubeNumber::new());
     assert!(deviation.inputs().image.put(image.clone()).is_ok());

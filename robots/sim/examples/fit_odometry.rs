@@ -12,18 +12,18 @@ use std::{
     io::{BufRead, BufReader, Read},
 };
 
-/// References with more scans than this between them are left out: people walked in.
+/// Maximum number of scans between two references. More scans are skipped, as people walked in.
 const MOST_SCANS: usize = 40;
-/// Share of the smallest errors that are used: the references have outliers, too.
+/// Share of the smallest errors that are used, as the references also have outliers.
 const USED: f64 = 0.98;
 
-/// What the wheels said between two references.
+/// Wheel odometry between two references.
 struct Step {
-    /// Way in m and turn in rad.
+    /// Distance in m and rotation in rad.
     by: [f64; 2],
     /// Errors of x and y in m and of the heading in rad.
     errors: [f64; 3],
-    /// x by the wheels and by the references.
+    /// x by the wheels and by the references, in m.
     x: [f64; 2],
 }
 
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The numbers of each line, from line `first` on.
+/// Numbers of each line, from line `first` on.
 fn rows(file: impl Read, first: usize) -> Result<Vec<Vec<f64>>, Box<dyn Error>> {
     let mut rows = vec![];
     for (number, line) in BufReader::new(file).lines().enumerate().skip(first) {
@@ -74,7 +74,7 @@ fn step(odometry: &[Vec<f64>], a: &[f64], b: &[f64]) -> Option<Step> {
     Some(Step { by, errors, x: [wheels.x, true_step.x].map(f64::from) })
 }
 
-/// The least squares of `value ≈ a · way + b · turn`, without the largest ones.
+/// Least-squares fit of `value ≈ a · distance + b · rotation`, without the largest values.
 fn fit(steps: &[Step], value: impl Fn(&Step) -> f64) -> [f64; 2] {
     let mut sizes: Vec<f64> = steps.iter().map(|s| value(s).abs()).collect();
     sizes.sort_by(f64::total_cmp);

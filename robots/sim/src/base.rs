@@ -2,49 +2,49 @@ use crate::{Differential, FloorPlan, Limits, Odometry, OdometryNoise, PlanError}
 use apex_nodes::{nav::Twist, scan::Pose2};
 use apex_rt::{Ctx, Event, Out, Time, node};
 
-/// The longest step of the simulation, in s.
+/// Maximum step of the simulation, in s.
 const STEP: f32 = 0.01;
-/// How far a base that touches something may be away from it, in m.
+/// Maximum distance from an obstacle at which a base still touches it, in m.
 const SLACK: f32 = 0.02;
 
-/// A simulated base with two driven wheels in a drawn world: a source, and a slot for what it is to do.
+/// Simulated base with two driven wheels in a drawn world. It is a source with a slot for twists.
 ///
-/// It begins where the [`FloorPlan`] says, keeps its distance from walls as a bumper would, and stops when twists no
-/// longer come or its battery is empty. Give it a period, for example `every 50ms`.
+/// The base starts at the start of the [`FloorPlan`], keeps its distance from walls like a bumper, and stops when
+/// twists no longer come or its battery is empty. It needs a period, for example `every 50ms`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct DifferentialBase {
-    /// The drawing of the world.
+    /// Drawing of the world.
     #[param]
     world: &'static str,
-    /// Its radius.
+    /// Radius of the base.
     #[param(unit = "m", default = 0.2, range = 0.01..=2.0)]
     radius: f32,
-    /// Distance of its wheels.
+    /// Distance between the wheels.
     #[param(unit = "m", default = 0.3, range = 0.01..=2.0)]
     track: f32,
-    /// The highest speed.
+    /// Maximum speed.
     #[param(unit = "m/s", default = 1.0, range = 0.0..=10.0)]
     speed: f32,
-    /// The highest change of the speed.
+    /// Maximum acceleration.
     #[param(unit = "m/s^2", default = 1.0, range = 0.01..=100.0)]
     acceleration: f32,
-    /// The fastest turn.
+    /// Maximum angular velocity.
     #[param(unit = "rad/s", default = 2.0, range = 0.0..=20.0)]
     turn: f32,
-    /// The highest change of the turn.
+    /// Maximum angular acceleration.
     #[param(unit = "rad/s^2", default = 6.0, range = 0.01..=200.0)]
     turn_acceleration: f32,
-    /// How wrong its wheels measure, in times of a Pioneer 2: 0 is exact.
+    /// Error of the wheel odometry, as a multiple of that of a Pioneer 2; 0 is exact.
     #[param(default = 0.0, range = 0.0..=10.0)]
     drift: f32,
-    /// How long its battery lasts.
+    /// Time until the battery is empty.
     #[param(unit = "s", default = 3600.0, range = 1.0..=1e9)]
     battery_life: f32,
-    /// How long it goes on without a new twist.
+    /// Time that the base goes on without a new twist.
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0)]
     patience: f32,
-    /// The errors of its wheels follow from it.
+    /// Seed of the odometry errors.
     #[param(default = 1)]
     seed: u64,
     moving: Option<Moving>,
@@ -65,8 +65,8 @@ struct Moving {
 
 #[node]
 impl DifferentialBase {
-    /// Sends where it is in the world (`pose`), where it is by its wheels, seen from where it began (`odometry`), and
-    /// how full its battery is, from 1 to 0. `bumped` comes when it touches something.
+    /// Sends the pose in the world (`pose`), the pose by wheel odometry relative to the start (`odometry`), and the
+    /// charge of the battery from 1 to 0. `bumped` comes when the base touches an obstacle.
     fn process(
         &mut self,
         ctx: &Ctx,
@@ -97,7 +97,7 @@ impl DifferentialBase {
         Ok(())
     }
 
-    /// Moves with this twist until the next one.
+    /// Sets the twist until the next one.
     #[slot]
     fn drive(&mut self, twist: &Twist, ctx: &Ctx) {
         self.command = *twist;
@@ -119,7 +119,7 @@ impl DifferentialBase {
 }
 
 impl Moving {
-    /// Moves until `now`; returns where it is by its wheels.
+    /// Moves until `now` and returns the odometry.
     fn step(&mut self, now: Time, command: &Twist, radius: f32) -> Pose2 {
         let elapsed = now.since(self.last).as_secs_f32();
         self.last = now;
@@ -131,13 +131,13 @@ impl Moving {
             self.base.step(command, elapsed / steps);
             let clearance = self.plan.world.clearance(self.base.pose.position());
             if clearance < radius && clearance < self.plan.world.clearance(pose.position()) {
-                // It may turn where it stands, and drive away.
+                // The base may turn on the spot and drive away.
                 self.base.pose = Pose2 { theta: self.base.pose.theta, ..pose };
                 self.base.twist.x = 0.0;
                 touches = true;
             }
         }
-        // It has to move away before it can bump again.
+        // The base has to move away before it can bump again.
         let near = || self.plan.world.clearance(self.base.pose.position()) < radius + SLACK;
         self.touches = touches || (self.touches && near());
         self.odometry.measure(&before, &self.base.pose)

@@ -9,31 +9,31 @@ use apex_nodes::{
 };
 use apex_rt::Time;
 
-/// What the light does to an image.
+/// Lighting of an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
     /// Factor of all brightnesses.
     pub gain: f32,
-    /// How much brighter the left side is than the right one: 0.2 is 10 % more there and 10 % less here.
+    /// Horizontal gradient of the brightness: 0.2 is 10 % more at the left side and 10 % less at the right.
     pub slope: f32,
-    /// What is added to all brightnesses, 0 to 255: fog on the lens.
+    /// Offset of all brightnesses, 0 to 255: fog on the lens.
     pub haze: f32,
 }
 
-/// A level camera that looks at a [`Scene`].
+/// Simulated level camera that takes images of a [`Scene`].
 #[derive(Debug, Clone)]
 pub struct Photographer {
     camera: Camera,
-    /// How long the shutter is open, in s: what turns meanwhile is blurred.
+    /// Exposure time, in s. Rotation during the exposure blurs the image.
     pub exposure: f32,
     /// Standard deviation of the brightness of a pixel, of 255.
     pub noise: f32,
-    /// The image as it is drawn, column by column: walls are upright.
+    /// Image in the order of drawing, column by column, as walls are upright.
     columns: Vec<u8>,
     row: Vec<u8>,
 }
 
-/// A camera that looks up or down, of which no images can be made here: walls would not be upright in them.
+/// Error of a camera that is not level. Its images cannot be rendered, as walls would not be upright in them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NotLevel(pub Camera);
 
@@ -45,7 +45,7 @@ impl core::fmt::Display for NotLevel {
 
 impl core::error::Error for NotLevel {}
 
-/// As bright as things are.
+/// Unchanged brightnesses.
 impl Default for Light {
     fn default() -> Self {
         Self { gain: 1.0, slope: 0.0, haze: 0.0 }
@@ -53,10 +53,10 @@ impl Default for Light {
 }
 
 impl Photographer {
-    /// A camera that is 10 ms open, with a noise of 2.
+    /// Creates a camera with an exposure of 10 ms and a noise of 2.
     ///
     /// # Errors
-    /// It is not level.
+    /// If the camera is not level.
     pub fn new(camera: Camera) -> Result<Self, NotLevel> {
         if camera.pitch != 0.0 {
             return Err(NotLevel(camera));
@@ -64,8 +64,8 @@ impl Photographer {
         Ok(Self { camera, exposure: 0.01, noise: 2.0, columns: vec![], row: vec![] })
     }
 
-    /// Replaces `image` by what the camera sees of `scene` when its robot is at `pose` and moves with `twist`. Only the
-    /// turn blurs the image.
+    /// Replaces `image` by the image of `scene` when the robot is at `pose` and moves with `twist`. Only the rotation
+    /// blurs the image.
     #[allow(clippy::too_many_arguments, reason = "all of them make an image")]
     pub fn take(
         &mut self,
@@ -94,12 +94,12 @@ impl Photographer {
         expose(light, self.noise, random, image);
     }
 
-    /// The row at which a height above the floor is seen at a distance.
+    /// Row of the image that shows a height above the floor at a distance.
     fn row_of(&self, height: f32, distance: f32) -> f32 {
         self.camera.principal_point[1] - self.camera.focal_length * (height - self.camera.position[2]) / distance
     }
 
-    /// Draws a column from the farthest thing to the nearest.
+    /// Draws a column from the farthest object to the nearest.
     fn column(&self, scene: &Scene, hits: &[Hit<'_>], column: &mut [u8]) {
         let rows = column.len();
         let row = |v: f32| (v.ceil().max(0.0) as usize).min(rows);
@@ -127,7 +127,7 @@ impl Photographer {
         }
     }
 
-    /// Smears each row over so many pixels.
+    /// Blurs each row over this number of pixels.
     fn blur(&mut self, over: f32, image: &mut GrayImage) {
         let width = image.size().0 as usize;
         let half = ((0.5 * over).round() as usize).min(width / 2);
@@ -135,7 +135,7 @@ impl Photographer {
             return;
         }
         let count = 2 * half + 1;
-        // A product instead of a quotient, which is the same for sums of so few bytes.
+        // A product instead of a quotient, which is exact for sums of so few bytes.
         let part = (1_u64 << 32) / count as u64 + 1;
         for line in image.pixels.chunks_exact_mut(width) {
             self.row.clear();
@@ -152,9 +152,9 @@ impl Photographer {
     }
 }
 
-/// Turns columns of so many rows into the rows of an image.
+/// Turns columns with `rows` pixels into the rows of an image.
 fn transpose(columns: &[u8], rows: usize, image: &mut [u8]) {
-    /// What is read and written in one go fits in the cache.
+    /// Side of a block, chosen so that the block fits in the cache.
     const BLOCK: usize = 32;
     if rows == 0 {
         return;
@@ -179,20 +179,20 @@ pub fn expose(light: &Light, noise: f32, random: &mut Random, image: &mut GrayIm
     }
     let factors: Vec<f32> =
         (0..width).map(|u| light.gain * (1.0 + light.slope * (0.5 - u as f32 / width as f32))).collect();
-    // The sum of four bytes is nearly normal: mean 510, variance 4·(256² − 1)/12.
+    // The sum of four random bytes is nearly normal: mean 510, variance 4·(256² − 1)/12.
     let sigma = noise / libm::sqrtf(65535.0 / 3.0);
     let mut sums = vec![[0; 2]; width.div_ceil(2)];
     for line in image.pixels.chunks_exact_mut(width) {
         sums.fill_with(|| sums_of_four(random.bits()));
         for ((pixel, factor), sum) in line.iter_mut().zip(&factors).zip(sums.as_flattened()) {
             let value = f32::from(*pixel) * factor + light.haze + sigma * (f32::from(*sum) - 510.0);
-            // What is no number becomes 0. By way of i32 the processor does several at once.
+            // NaN becomes 0. The cast by way of i32 can be vectorized.
             *pixel = (value + 0.5).clamp(0.0, 255.0) as i32 as u8;
         }
     }
 }
 
-/// The sum of the lower four bytes and that of the upper ones.
+/// Sum of the lower four bytes, and that of the upper ones.
 const fn sums_of_four(bits: u64) -> [u16; 2] {
     const EVEN: u64 = 0x00ff_00ff_00ff_00ff;
     let pairs = (bits & EVEN) + (bits >> 8 & EVEN);

@@ -4,58 +4,58 @@ use apex_nodes::{
     scan::{Point2, Pose2},
 };
 
-/// What the motors of a base can do.
+/// Limits of the motors of a base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// The highest speed, in m/s.
+    /// Maximum speed, in m/s.
     pub speed: f32,
-    /// The highest change of the velocity, in m/s².
+    /// Maximum change of the velocity, in m/s².
     pub acceleration: f32,
-    /// The highest turn rate, in rad/s.
+    /// Maximum angular velocity, in rad/s.
     pub turn: f32,
-    /// The highest change of the turn rate, in rad/s².
+    /// Maximum change of the angular velocity, in rad/s².
     pub turn_acceleration: f32,
 }
 
-/// A base that moves in all directions and turns at the same time: three or four omni wheels.
+/// Base that moves in all directions and turns at the same time: three or four omni wheels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Omnidirectional {
-    /// Where it is in the world.
+    /// Pose in the world.
     pub pose: Pose2,
-    /// How it moves, in its own frame.
+    /// Velocity in the frame of the base.
     pub twist: Twist,
-    /// What it can do.
+    /// Limits of the motors.
     pub limits: Limits,
 }
 
-/// A base with two driven wheels on one axis: it moves along its x axis only.
+/// Base with two driven wheels on one axis: it moves along its x axis only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Differential {
-    /// Where the middle of its axis is in the world.
+    /// Pose of the middle of the axis in the world.
     pub pose: Pose2,
-    /// How it moves, in its own frame; y is 0.
+    /// Velocity in the frame of the base; y is 0.
     pub twist: Twist,
-    /// What it can do. The speed is that of each wheel.
+    /// Limits of the motors. The speed is that of each wheel.
     pub limits: Limits,
-    /// Distance of the wheels, in m.
+    /// Distance between the wheels, in m.
     pub track: f32,
 }
 
 /// A [`Differential`] base that pulls a trailer with one axis (off-axle hitching; Lamiraux et al. 1998).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tractor {
-    /// What pulls.
+    /// Tractor.
     pub base: Differential,
     /// Heading of the trailer in the world, in rad.
     pub trailer: f32,
-    /// From the axis of the tractor back to the hitch, in m.
+    /// Distance from the axis of the tractor back to the hitch, in m.
     pub hitch: f32,
-    /// From the hitch back to the axis of the trailer, in m.
+    /// Distance from the hitch back to the axis of the trailer, in m.
     pub drawbar: f32,
 }
 
 impl Omnidirectional {
-    /// Moves for `dt` s, as near to `command` as it can. What is not finite in a command is 0.
+    /// Moves for `dt` s, as close to `command` as possible. Components of a command that are not finite count as 0.
     pub fn step(&mut self, command: &Twist, dt: f32) {
         let limits = &self.limits;
         let velocity = shortened(Point2::new(finite(command.x), finite(command.y)), limits.speed);
@@ -67,8 +67,8 @@ impl Omnidirectional {
 }
 
 impl Differential {
-    /// Moves for `dt` s, as near to `command` as it can: sideways it cannot. Where both wheels together cannot do what
-    /// is asked for, both are slowed down by the same factor, so that the curve stays.
+    /// Moves for `dt` s, as close to `command` as possible; sideways motion is ignored. If a wheel would exceed the
+    /// speed limit, both wheels are slowed down by the same factor, so that the curve is unchanged.
     pub fn step(&mut self, command: &Twist, dt: f32) {
         let limits = &self.limits;
         let half_track = 0.5 * self.track;
@@ -94,7 +94,7 @@ impl Tractor {
         self.trailer = normalize_angle(&(self.trailer + turn * dt));
     }
 
-    /// Where the middle of the axis of the trailer is in the world.
+    /// Pose of the middle of the trailer's axis in the world.
     pub fn trailer_pose(&self) -> Pose2 {
         let hitch = self.base.pose.to_outer(Point2::new(-self.hitch, 0.0));
         let axis = hitch - Point2::polar(self.drawbar, self.trailer);
@@ -102,14 +102,14 @@ impl Tractor {
     }
 }
 
-/// Where a constant twist leads from `pose` in `dt` s (to second order).
+/// Pose after moving from `pose` with a constant twist for `dt` s (to second order).
 fn moved(pose: &Pose2, twist: &Twist, dt: f32) -> Pose2 {
     let middle = Pose2 { theta: pose.theta + 0.5 * twist.omega * dt, ..*pose };
     let position = middle.to_outer(twist.velocity().scaled(dt));
     Pose2::new(position.x, position.y, normalize_angle(&(pose.theta + twist.omega * dt)))
 }
 
-/// A value that is asked to become `wanted`, at most `highest`, and changes by `step` at most.
+/// Moves a value towards `wanted`, limited to the magnitude `highest` and to a change of `step`.
 fn towards(is: f32, wanted: f32, highest: f32, step: f32) -> f32 {
     is + (wanted.clamp(-highest, highest) - is).clamp(-step, step)
 }

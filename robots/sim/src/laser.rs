@@ -2,16 +2,16 @@ use crate::{Random, World};
 use apex_nodes::scan::{MAX_BEAMS, Point2, Pose2, Scan};
 use core::f32::consts::PI;
 
-/// A plane laser scanner that looks forward.
+/// Simulated plane laser scanner that faces forward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Laser {
     /// Angle between the first and the last beam, in rad, centred about the x axis of the scanner.
     pub field_of_view: f32,
-    /// Angle from beam to beam, in rad.
+    /// Angle between consecutive beams, in rad.
     pub resolution: f32,
-    /// The shortest range that is measured, in m.
+    /// Minimum range, in m.
     pub range_min: f32,
-    /// The longest range that is measured, in m.
+    /// Maximum range, in m.
     pub range_max: f32,
     /// Standard deviation of a range, in m.
     pub noise: f32,
@@ -43,15 +43,14 @@ impl Laser {
     /// A SICK S300, a safety scanner: 270° at 0.5°, up to 30 m.
     pub const S300: Self = Self { range_max: 30.0, noise: 0.01, ..Self::LMS100 };
 
-    /// The number of beams, at most [`MAX_BEAMS`].
+    /// Number of beams, at most [`MAX_BEAMS`].
     pub fn beams(&self) -> usize {
         let intervals = libm::roundf(self.field_of_view / self.resolution);
         // A cast of NaN or of a negative number gives 0.
         (intervals as usize).saturating_add(1).min(MAX_BEAMS)
     }
 
-    /// Replaces `scan` by what the scanner measures at `pose`; the stamp stays. A beam without an echo measures
-    /// infinity.
+    /// Replaces `scan` by a measurement at `pose`; the stamp is unchanged. A beam without an echo measures infinity.
     pub fn measure(&self, world: &World, pose: &Pose2, random: &mut Random, scan: &mut Scan) {
         scan.angle_min = -0.5 * self.field_of_view;
         scan.angle_increment = self.resolution;
@@ -132,7 +131,7 @@ mod tests {
         for _ in 0..100 {
             Laser::default().measure(&room(), &Pose2::default(), &mut random, &mut scan);
         }
-        // 100 scans take 4 s on the real one, at 25 Hz.
+        // The real scanner takes 4 s for 100 scans, at 25 Hz.
         assert!(start.elapsed().as_secs_f64() < 4.0);
     }
 }

@@ -1,8 +1,8 @@
-//! A small simulator for robots made with Apex: worlds, the bases of robots that move in them with wheels that measure
-//! it, laser scanners, and, with the feature `camera`, cameras.
+//! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, and cameras
+//! (feature `camera`).
 //!
-//! As nodes: a [`DifferentialBase`] and a [`LaserScanner`] in a world that is drawn with characters ([`FloorPlan`]),
-//! and a [`LiveView`] of it. `apex new` makes a robot of them.
+//! Available as nodes: a [`DifferentialBase`] and a [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]),
+//! and a [`LiveView`] of it. `apex new` creates a robot with these nodes.
 //!
 //! Deterministic: the same seed gives the same scans on every platform. Much faster than real time.
 //!

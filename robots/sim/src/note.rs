@@ -1,11 +1,11 @@
 use apex_rt::{Event, node};
 use core::marker::PhantomData;
 
-/// Sends a text for each token that comes in: for example to the `note` of a [`LiveView`](crate::LiveView).
+/// Sends a text for each received token, for example to the `note` of a [`LiveView`](crate::LiveView).
 #[node]
 #[derive(Debug, Clone)]
 pub struct Note<T> {
-    /// What it sends.
+    /// Text to send.
     #[param]
     text: &'static str,
     _value: PhantomData<fn() -> T>,

@@ -1,17 +1,17 @@
 use crate::Random;
 use apex_nodes::scan::Pose2;
 
-/// How wrong the wheels of a base measure its way. Variances grow with the way and the turn, so that it does not matter
-/// into how many steps these are divided (Thrun, Burgard, Fox 2005, 5.4).
+/// Error model of wheel odometry. Variances grow with distance and rotation, so that the number of steps does not
+/// matter (Thrun, Burgard, Fox 2005, 5.4).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OdometryNoise {
-    /// What the wheels measure for a metre, in m.
+    /// Measured distance per metre, in m.
     pub scale: f32,
-    /// How far the heading seems to turn on a metre, in rad.
+    /// Error of the heading per metre, in rad.
     pub veer: f32,
-    /// Variance along the way, in m² per m and in m² per rad.
+    /// Variance along the direction of motion, in m² per m and in m² per rad.
     pub along: [f32; 2],
-    /// Variance across the way, in m² per m and in m² per rad.
+    /// Variance across the direction of motion, in m² per m and in m² per rad.
     pub across: [f32; 2],
     /// Variance of the heading, in rad² per m and in rad² per rad.
     pub heading: [f32; 2],
@@ -26,12 +26,12 @@ pub struct Odometry {
 }
 
 impl OdometryNoise {
-    /// Wheels without faults.
+    /// Wheels without errors.
     pub const NONE: Self = Self { scale: 1.0, veer: 0.0, along: [0.0; 2], across: [0.0; 2], heading: [0.0; 2] };
 
-    /// A Pioneer 2 in an office building: fitted to the wheel odometry of the Intel Research Lab log (D. Hähnel), as
-    /// the example `fit_odometry` does against the 510 reference poses of that log. The errors of the references, of
-    /// some centimetres, are in it: real wheels are a little better.
+    /// Pioneer 2 in an office building. Fitted to the wheel odometry of the Intel Research Lab log (D. Hähnel) by the
+    /// example `fit_odometry`, with the 510 reference poses of that log. The model includes the errors of the
+    /// references of some centimetres, so that real wheels are slightly better.
     pub const PIONEER: Self = Self {
         scale: 1.037,
         veer: -0.062,
@@ -40,7 +40,7 @@ impl OdometryNoise {
         heading: [0.0045, 0.0021],
     };
 
-    /// The same wheels with errors that are `factor` times as large.
+    /// The same wheels with errors multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: f32) -> Self {
         let variances = |of: [f32; 2]| of.map(|variance| variance * factor * factor);
@@ -55,20 +55,20 @@ impl OdometryNoise {
 }
 
 impl Odometry {
-    /// Begins at the origin of its own frame.
+    /// Starts at the origin of its own frame.
     pub const fn new(noise: OdometryNoise, seed: u64) -> Self {
         Self { noise, random: Random::new(seed), pose: Pose2::new(0.0, 0.0, 0.0) }
     }
 
-    /// The base has moved from one pose of the world to another one, by less than half a turn. Returns where it is by
-    /// its wheels.
+    /// Measures a movement of the base from one pose of the world to another, with a rotation of less than half a turn.
+    /// Returns the odometry.
     pub fn measure(&mut self, from: &Pose2, to: &Pose2) -> Pose2 {
         let Self { noise, random, .. } = self;
         let step = to.relative_to(from);
         let (way, turn) = (step.position().norm(), step.theta.abs());
         let mut error = |[by_way, by_turn]: [f32; 2]| random.normal(libm::sqrtf(by_way * way + by_turn * turn));
         let (along, across, heading) = (error(noise.along), error(noise.across), error(noise.heading));
-        // Along the way, which need not be the x axis.
+        // Along the direction of motion, which need not be the x axis.
         let (sin, cos) = if way > 0.0 { (step.y / way, step.x / way) } else { (0.0, 1.0) };
         let measured = Pose2 {
             x: noise.scale * step.x + cos * along - sin * across,
@@ -93,7 +93,7 @@ mod tests {
         assert!((last.position() - true_way.position()).norm() < 1e-5 && (last.theta - true_way.theta).abs() < 1e-5);
     }
 
-    /// Errors after one metre in so many steps: mean and variance of x and of the heading.
+    /// Errors after one metre in this number of steps: mean and variance of x and of the heading.
     fn after_a_metre(steps: u16) -> [(f32, f32); 2] {
         let ends: Vec<Pose2> = (0..4000)
             .map(|seed| {

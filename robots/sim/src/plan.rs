@@ -11,33 +11,33 @@ pub const CELL_WIDTH: f32 = 0.25;
 pub const CELL_HEIGHT: f32 = 0.5;
 /// Radius of a post, in m.
 const POST: f32 = 0.12;
-/// The most characters in a line, and the most lines.
+/// Maximum number of characters per line, and of lines.
 const LONGEST: usize = 400;
 
-/// A world that was drawn with characters, each 25 cm wide and 50 cm high: `#` is a wall, `o` a post, blanks and dots
-/// are free, and one of `>`, `^`, `<`, `v` is the place where the robot begins, and where it looks.
+/// World drawn with characters, each 25 cm wide and 50 cm high. `#` is a wall and `o` a post; blanks and dots are free.
+/// One of `>`, `^`, `<` and `v` is the start of the robot and points in its direction.
 ///
-/// The origin is the lower left corner of the drawing, x goes to the right and y up.
+/// The origin is the lower left corner of the drawing; x points to the right and y up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorPlan {
-    /// Its walls and posts.
+    /// Walls and posts.
     pub world: World,
-    /// Where the robot begins.
+    /// Start pose of the robot.
     pub start: Pose2,
     rows: Vec<Vec<char>>,
     columns: usize,
 }
 
-/// A drawing that is not a world.
+/// Error of a drawing that is not a world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlanError {
-    /// A character that means nothing, with its line and column.
+    /// Unknown character, with its line and column.
     Character(char, usize, usize),
-    /// There are several places to begin at: the second, by its line and column.
+    /// More than one start: line and column of the second one.
     Second(usize, usize),
-    /// There is no place to begin at.
+    /// No start.
     NoStart,
-    /// It is too large.
+    /// Drawing too large.
     TooLarge,
 }
 
@@ -64,7 +64,7 @@ impl FloorPlan {
     /// Reads a drawing.
     ///
     /// # Errors
-    /// It has a character without a meaning, not exactly one place to begin at, or is too large.
+    /// If the drawing has an unknown character, not exactly one start, or is too large.
     pub fn parse(drawing: &str) -> Result<Self, PlanError> {
         let rows: Vec<Vec<char>> = drawing.lines().map(|line| line.trim_end().chars().collect()).collect();
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -87,12 +87,12 @@ impl FloorPlan {
         (self.columns as f32 * CELL_WIDTH, self.rows.len() as f32 * CELL_HEIGHT)
     }
 
-    /// The character in a line from above and a column from the left; outside of the drawing it is a blank.
+    /// Character at a line from the top and a column from the left; a blank outside the drawing.
     pub fn at(&self, row: usize, column: usize) -> char {
         self.rows.get(row).and_then(|line| line.get(column)).copied().unwrap_or(' ')
     }
 
-    /// Looks at every character: adds the posts, and returns where the robot begins.
+    /// Reads all characters: adds the posts, and returns the start pose.
     fn read(&mut self) -> Result<Pose2, PlanError> {
         let mut start = None;
         for (row, line) in self.rows.iter().enumerate() {
@@ -119,7 +119,7 @@ impl FloorPlan {
         start.ok_or(PlanError::NoStart)
     }
 
-    /// Adds the edges between walls and what is free, as long as they go.
+    /// Adds the edges between walls and free places, each as long as possible.
     fn add_walls(&mut self) {
         let (columns, rows) = self.size();
         let x = |column: usize| column as f32 * CELL_WIDTH;
@@ -151,7 +151,8 @@ impl FloorPlan {
     }
 }
 
-/// Hands each longest run of places below `count` at which `holds` to `found`: its first place and the one behind it.
+/// Calls `found` for each longest run of places below `count` for which `holds` is true, with its first place and the
+/// one after its last.
 fn runs(count: usize, holds: impl Fn(usize) -> bool, mut found: impl FnMut(usize, usize)) {
     let mut begin = None;
     for place in 0..=count {

@@ -3,24 +3,24 @@ use apex_nodes::scan::{Pose2, Scan};
 use apex_rt::{Ctx, Out, node};
 use core::f32::consts::PI;
 
-/// A simulated plane laser scanner in a drawn world ([`FloorPlan`](crate::FloorPlan)): measures from each pose that
-/// comes in, in the frame of the scanner. Without other arguments it is a SICK TiM551.
+/// Simulated plane laser scanner in a drawn world ([`FloorPlan`](crate::FloorPlan)). Measures at each received pose;
+/// the scan is in the frame of the scanner. The defaults are those of a SICK TiM551.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LaserScanner {
-    /// The drawing of the world.
+    /// Drawing of the world.
     #[param]
     world: &'static str,
     /// Angle between the first and the last beam, centred about straight ahead.
     #[param(unit = "rad", default = 1.5 * PI, range = 0.0..=6.3)]
     field_of_view: f32,
-    /// Angle from beam to beam.
+    /// Angle between consecutive beams.
     #[param(unit = "rad", default = PI / 180.0, range = 0.001..=1.0)]
     resolution: f32,
-    /// The shortest range.
+    /// Minimum range.
     #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
     range_min: f32,
-    /// The longest range.
+    /// Maximum range.
     #[param(unit = "m", default = 10.0, range = 0.1..=1000.0)]
     range_max: f32,
     /// Standard deviation of a range.
@@ -29,7 +29,7 @@ pub struct LaserScanner {
     /// Probability that a beam measures nothing.
     #[param(default = 0.005, range = 0.0..=1.0)]
     dropout: f32,
-    /// Noise and dropouts follow from it.
+    /// Seed of noise and dropouts.
     #[param(default = 1)]
     seed: u64,
     measuring: Option<(FloorPlan, Random)>,

@@ -4,74 +4,74 @@ use apex_nodes::{
 };
 use image::imageops::{FilterType, resize};
 
-/// What a camera can see: upright things on a floor.
+/// Scene for a camera: upright objects on a floor.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
     /// Brightness of the floor.
     pub floor: u8,
-    /// Brightness above everything.
+    /// Brightness of the sky.
     pub sky: u8,
     panels: Vec<Panel>,
     pillars: Vec<Pillar>,
 }
 
-/// How a surface looks.
+/// Appearance of a surface.
 #[derive(Debug, Clone)]
 pub enum Look {
-    /// The same brightness everywhere, 0 to 255.
+    /// Uniform brightness, 0 to 255.
     Plain(u8),
-    /// A picture.
+    /// Surface with a picture.
     Picture(Picture),
 }
 
-/// A picture, and smaller and smaller ones of it for the distance.
+/// Picture with smaller copies of it for greater distances.
 #[derive(Debug, Clone)]
 pub struct Picture(Vec<GrayImage>);
 
-/// An upright rectangle. Who sees its picture has `a` on the left.
+/// Upright rectangle. For a viewer of its picture, `a` is on the left.
 #[derive(Debug, Clone)]
 pub struct Panel {
-    /// One end on the floor plan, in m.
+    /// Left end on the floor plan, in m.
     pub a: Point2,
-    /// The other end.
+    /// Right end on the floor plan, in m.
     pub b: Point2,
     /// Height of the lower edge, in m.
     pub bottom: f32,
     /// Height of the upper edge, in m.
     pub top: f32,
-    /// How it looks.
+    /// Appearance of the surface.
     pub look: Look,
 }
 
-/// An upright cylinder.
+/// Upright cylinder.
 #[derive(Debug, Clone)]
 pub struct Pillar {
-    /// Its axis on the floor plan, in m.
+    /// Axis on the floor plan, in m.
     pub centre: Point2,
-    /// Its radius, in m.
+    /// Radius, in m.
     pub radius: f32,
-    /// Its height, in m.
+    /// Height, in m.
     pub top: f32,
-    /// How it looks; of a picture its left edge is seen.
+    /// Appearance of the surface. Of a picture, only its left edge is shown.
     pub look: Look,
 }
 
-/// A thing in a column of an image.
+/// Object in a column of an image.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hit<'a> {
-    /// Along the direction that was asked for, in its lengths.
+    /// Distance along the direction, in lengths of the direction vector.
     pub distance: f32,
     pub bottom: f32,
     pub top: f32,
     pub look: &'a Look,
-    /// Where on its width, from 0 to 1.
+    /// Position on the width of the object, from 0 to 1.
     pub across: f32,
-    /// The width, in m.
+    /// Width, in m.
     pub width: f32,
 }
 
 impl Scene {
-    /// A floor under a sky, with brightnesses from 0 to 255.
+    /// Creates a floor under a sky, with brightnesses from 0 to 255.
     pub const fn new(floor: u8, sky: u8) -> Self {
         Self { floor, sky, panels: vec![], pillars: vec![] }
     }
@@ -81,28 +81,28 @@ impl Scene {
         self.panels.push(panel);
     }
 
-    /// Adds a picture `width` m wide, that hangs on a wall with its middle at the height `z` m: `pose` is where it is and
-    /// where it looks.
+    /// Adds a picture of `width` m that hangs on a wall with its middle at the height `z` m. `pose` is its position,
+    /// with x pointing to the viewer.
     pub fn sign(&mut self, pose: &Pose2, z: f32, width: f32, picture: Picture) {
         let (columns, rows) = picture.size();
         let half = 0.5 * width * rows as f32 / columns.max(1) as f32;
-        // Someone who looks at it sees its y axis point to the left, seen from the sign to the right.
+        // The y axis of the sign points to its left, which is on the right for the viewer.
         let [a, b] = [-0.5, 0.5].map(|side| pose.to_outer(Point2::new(0.0, side * width)));
         self.panel(Panel { a, b, bottom: z - half, top: z + half, look: Look::Picture(picture) });
     }
 
-    /// Adds a pillar; its number.
+    /// Adds a pillar and returns its number.
     pub fn pillar(&mut self, pillar: Pillar) -> usize {
         self.pillars.push(pillar);
         self.pillars.len() - 1
     }
 
-    /// The pillars, to be moved.
+    /// Pillars for modification.
     pub fn pillars_mut(&mut self) -> &mut [Pillar] {
         &mut self.pillars
     }
 
-    /// Puts what lies in a direction on the floor plan into `hits`, the farthest first.
+    /// Collects the objects in a direction on the floor plan into `hits`, the farthest first.
     pub(crate) fn look<'a>(&'a self, origin: Point2, direction: Point2, hits: &mut Vec<Hit<'a>>) {
         hits.clear();
         hits.extend(self.panels.iter().filter_map(|panel| panel.hit(origin, direction)));
@@ -117,7 +117,7 @@ impl Panel {
         let normal = along.perpendicular();
         let distance = from.dot(normal) / direction.dot(normal);
         let across = (direction.scaled(distance) - from).dot(along) / along.norm_squared();
-        // False for what is no number, too: a direction along the panel.
+        // Also false for NaN: a direction along the panel.
         let seen = distance > 0.0 && distance.is_finite() && (0.0..=1.0).contains(&across);
         let (bottom, top, look) = (self.bottom, self.top, &self.look);
         seen.then(|| Hit { distance, bottom, top, look, across, width: along.norm() })
@@ -141,7 +141,7 @@ impl Pillar {
 }
 
 impl Picture {
-    /// A picture of `image`.
+    /// Creates a picture from an image.
     pub fn new(image: GrayImage) -> Self {
         let mut levels = vec![image];
         while let Some(last) = levels.last()
@@ -154,12 +154,12 @@ impl Picture {
         Self(levels)
     }
 
-    /// Width and height of the whole picture, in pixels.
+    /// Width and height of the full picture, in pixels.
     pub fn size(&self) -> (u32, u32) {
         self.0.first().map_or((0, 0), GrayImage::size)
     }
 
-    /// The picture at a size at which it is `width` pixels wide, or a little more.
+    /// The smallest copy of the picture that is at least `width` pixels wide.
     pub(crate) fn at_width(&self, width: f32) -> Option<&GrayImage> {
         let wide = self.0.iter().take_while(|level| level.size().0 as f32 >= width);
         wide.last().or(self.0.first()).filter(|level| level.size().0 > 0 && level.size().1 > 0)

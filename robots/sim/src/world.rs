@@ -1,24 +1,24 @@
 use apex_nodes::scan::{Point2, Pose2};
 
-/// A straight wall between two points.
+/// Straight wall between two points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
-    /// One end, in m.
+    /// First end, in m.
     pub a: Point2,
-    /// The other end.
+    /// Second end, in m.
     pub b: Point2,
 }
 
-/// A round post.
+/// Round post.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// Its centre, in m.
+    /// Centre, in m.
     pub centre: Point2,
-    /// Its radius, in m.
+    /// Radius, in m.
     pub radius: f32,
 }
 
-/// What a plane scanner can hit: walls and discs.
+/// World of a plane scanner: walls and discs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct World {
     walls: Vec<Wall>,
@@ -26,7 +26,7 @@ pub struct World {
 }
 
 impl World {
-    /// Removes everything and keeps the storage.
+    /// Removes all objects and keeps the storage.
     pub fn clear(&mut self) {
         self.walls.clear();
         self.discs.clear();
@@ -48,7 +48,7 @@ impl World {
         self.discs.push(Disc { centre, radius });
     }
 
-    /// The discs, to be moved.
+    /// Discs for modification.
     pub fn discs_mut(&mut self) -> &mut [Disc] {
         &mut self.discs
     }
@@ -70,14 +70,14 @@ impl World {
         &self.discs
     }
 
-    /// The distance from `origin` along the unit vector `direction` to what is hit first; `None` if nothing is.
+    /// Distance from `origin` along the unit vector `direction` to the first object, or `None` if there is none.
     pub fn cast(&self, origin: Point2, direction: Point2) -> Option<f32> {
         let walls = self.walls.iter().filter_map(|wall| wall.hit(origin, direction));
         let discs = self.discs.iter().filter_map(|disc| disc.hit(origin, direction));
         walls.chain(discs).reduce(f32::min)
     }
 
-    /// The distance from `point` to the nearest thing; infinite in an empty world, 0 inside a disc.
+    /// Distance from `point` to the nearest object: infinite in an empty world, 0 inside a disc.
     pub fn clearance(&self, point: Point2) -> f32 {
         let walls = self.walls.iter().map(|wall| wall.distance(point));
         let discs = self.discs.iter().map(|disc| ((point - disc.centre).norm() - disc.radius).max(0.0));

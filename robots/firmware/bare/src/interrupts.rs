@@ -1,14 +1,14 @@
-//! Interrupts, and when they happen here.
+//! Simulated interrupts.
 
 use apex_rt::prelude::*;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-/// What an interrupt leaves behind for the loop, which alone touches the graph.
+/// Flag set by an interrupt. Only the main loop accesses the graph.
 pub struct Flag(AtomicBool);
 
-/// The button was pressed.
+/// Flag of the button.
 pub static BUTTON: Flag = Flag::new();
-/// The bumper hit something.
+/// Flag of the bumper.
 pub static BUMPER: Flag = Flag::new();
 
 impl Flag {
@@ -16,18 +16,18 @@ impl Flag {
         Self(AtomicBool::new(false))
     }
 
-    /// Called by the interrupt.
+    /// Sets the flag. Called by the interrupt.
     fn raise(&self) {
         self.0.store(true, Ordering::Release);
     }
 
-    /// Whether the interrupt happened since the last call.
+    /// Returns `true` if the interrupt happened since the last call.
     pub fn take(&self) -> bool {
         self.0.swap(false, Ordering::Acquire)
     }
 }
 
-/// Stands in for a person and a wall: the interrupts that happen at `now`.
+/// Raises the simulated interrupts of a person and a wall at the time `now`.
 pub fn happen(now: Time) {
     const PRESSED: [i64; 3] = [500, 1000, 3000];
     const HIT: [i64; 2] = [250, 2000];

@@ -1,5 +1,5 @@
-//! What stands between the program and the machine: where it begins, the functions that rustc expects of everyone, and
-//! two calls of the kernel, which take the place of a serial port and of a reset.
+//! Interface to the machine: the entry point, the functions that rustc expects on every platform, and two system calls
+//! in place of a serial port and a reset.
 #![allow(unsafe_code, reason = "the machine is reached by instructions, and the linker finds functions by their names")]
 
 use core::{
@@ -10,10 +10,10 @@ use core::{
 const WRITE: usize = 1;
 const EXIT: usize = 60;
 const STANDARD_OUTPUT: usize = 1;
-/// The exit code of a program that panicked, as with the standard library.
+/// Exit code of a program that panicked, as with the standard library.
 const PANICKED: usize = 101;
 
-/// Where the kernel begins. It aligns the stack as a function finds it that is called.
+/// Entry point of the program. Aligns the stack as a called function expects it.
 // SAFETY: without a C library, nothing else has this name.
 #[unsafe(no_mangle)]
 #[unsafe(naked)]
@@ -29,7 +29,7 @@ fn panicked(_info: &PanicInfo<'_>) -> ! {
 
 /// Writes to standard output, as much as the kernel takes.
 pub fn write(text: &[u8]) {
-    // SAFETY: the kernel reads `text.len()` bytes that are there, and changes nothing but these registers.
+    // SAFETY: the kernel reads `text.len()` valid bytes, and changes nothing but these registers.
     unsafe {
         asm!(
             "syscall",
@@ -46,15 +46,15 @@ pub fn write(text: &[u8]) {
 
 /// Ends the program.
 pub fn exit(code: usize) -> ! {
-    // SAFETY: the kernel does not come back.
+    // SAFETY: the system call does not return.
     unsafe { asm!("syscall", in("rax") EXIT, in("rdi") code, options(nostack, noreturn)) }
 }
 
-/// Copies bytes. By an instruction: rustc would turn a loop into a call of this very function.
-// SAFETY: does what the C standard says of this name.
+/// Copies bytes with an instruction, as rustc would turn a loop into a recursive call of this function.
+// SAFETY: behaves as the C standard specifies for this name.
 #[unsafe(no_mangle)]
 unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, count: usize) -> *mut u8 {
-    // SAFETY: the caller says that both are there.
+    // SAFETY: the caller guarantees that both ranges are valid.
     unsafe {
         asm!(
             "rep movsb",
@@ -68,10 +68,10 @@ unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, count: usize) -> *mut 
 }
 
 /// Sets bytes.
-// SAFETY: does what the C standard says of this name.
+// SAFETY: behaves as the C standard specifies for this name.
 #[unsafe(no_mangle)]
 unsafe extern "C" fn memset(to: *mut u8, byte: i32, count: usize) -> *mut u8 {
-    // SAFETY: the caller says that it is there.
+    // SAFETY: the caller guarantees that the range is valid.
     unsafe {
         asm!(
             "rep stosb",

@@ -1,7 +1,7 @@
-//! The cart without the standard library, without libc and without a heap, for x86-64 Linux: a machine that stands
-//! wherever the tests run.
+//! The cart without the standard library, libc and a heap, for x86-64 Linux: a machine that is available wherever the
+//! tests run.
 //!
-//! Eight seconds of made-up time go by at once. On a microcontroller a timer wakes the loop, and the interrupts are
+//! Eight seconds of simulated time pass at once. On a microcontroller, a timer wakes the loop and the interrupts are
 //! real; the rest is the same.
 #![no_std]
 #![no_main]
@@ -20,7 +20,7 @@ extern "C" fn main() -> ! {
     let mut now = Time::ZERO;
     while now < END {
         interrupts::happen(now);
-        // A full mailbox gives the token back: nothing is lost, since the one in it says the same.
+        // A full mailbox returns the token. Nothing is lost, as the token in it has the same meaning.
         if BUTTON.take() {
             let _ = cart.inputs().button.put(());
         }

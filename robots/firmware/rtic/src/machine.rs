@@ -1,18 +1,18 @@
-//! The debugger, or QEMU in its place: it shows what the cart says.
+//! Output to the debugger, or to QEMU in its place.
 
 use core::panic::PanicInfo;
 use cortex_m_semihosting::{debug, hio};
 
 /// Shows a text.
 pub fn write(text: &[u8]) {
-    // Without a debugger nobody listens.
+    // Fails without a debugger, which does not matter.
     let _ = hio::hstdout().and_then(|mut output| output.write_all(text));
 }
 
 /// Ends the run.
 pub fn exit(result: debug::ExitStatus) -> ! {
     debug::exit(result);
-    // A debugger may go on.
+    // A debugger may continue the program.
     loop {
         cortex_m::asm::bkpt();
     }

@@ -1,5 +1,5 @@
-//! The cart on a Cortex-M3, the LM3S6965, with RTIC 2: one task owns the graph and sleeps until its next timer or until
-//! an interrupt comes.
+//! The cart on a Cortex-M3, the LM3S6965, with RTIC 2: one task owns the graph, and sleeps until its next timer or
+//! interrupt.
 #![no_std]
 #![no_main]
 
@@ -9,7 +9,7 @@ use rtic_monotonics::systick::prelude::*;
 
 systick_monotonic!(Clock, 1000);
 
-/// The frequency of the clock of the core, in Hz.
+/// Frequency of the core clock, in Hz.
 const CORE: u32 = 12_500_000;
 
 #[rtic::app(device = lm3s6965, dispatchers = [SSI0])]
@@ -25,7 +25,7 @@ mod app {
         make_channel,
     };
 
-    /// What an interrupt tells the task that owns the graph.
+    /// Signal of an interrupt to the task that owns the graph.
     #[derive(Clone, Copy)]
     pub enum Signal {
         /// The button was pressed.
@@ -34,7 +34,7 @@ mod app {
         Bumper,
     }
 
-    /// Interrupts that may wait.
+    /// Capacity of the queue of interrupts.
     const WAITING: usize = 4;
 
     #[shared]
@@ -58,7 +58,7 @@ mod app {
         (Shared {}, Local { cart: Cart::new(), signals, button, bumper })
     }
 
-    /// Lets the graph react when one of its timers is due, or to an interrupt at once.
+    /// Runs the graph when one of its timers is due, and immediately on an interrupt.
     #[task(local = [cart, signals], priority = 1)]
     async fn control(cx: control::Context) {
         let control::LocalResources { cart, signals, .. } = cx.local;
@@ -68,7 +68,7 @@ mod app {
             tell(cart, now, machine::write);
             let Next::At(time) = next else { machine::exit(debug::EXIT_FAILURE) };
             let due = (time.as_nanos() / 1_000_000) as u32;
-            // A full mailbox gives the token back: nothing is lost, since the one in it says the same.
+            // A full mailbox returns the token. Nothing is lost, as the token in it has the same meaning.
             match Clock::timeout_at(Instant::from_ticks(due), signals.recv()).await {
                 Ok(Ok(Signal::Button)) => drop(cart.inputs().button.put(())),
                 Ok(Ok(Signal::Bumper)) => drop(cart.inputs().bumper.put(())),
@@ -77,19 +77,19 @@ mod app {
         }
     }
 
-    /// The button. If too many interrupts wait, one of them says the same.
+    /// Interrupt of the button. If the queue is full, it already contains the same signal.
     #[task(binds = GPIOA, local = [button], priority = 2)]
     fn button(cx: button::Context) {
         let _ = cx.local.button.try_send(Signal::Button);
     }
 
-    /// The bumper.
+    /// Interrupt of the bumper.
     #[task(binds = GPIOB, local = [bumper], priority = 2)]
     fn bumper(cx: bumper::Context) {
         let _ = cx.local.bumper.try_send(Signal::Bumper);
     }
 
-    /// Stands in for a person and a wall, for eight seconds.
+    /// Simulates a person and a wall for eight seconds.
     #[task(priority = 1)]
     async fn world(_: world::Context) {
         use Interrupt::{GPIOA, GPIOB};

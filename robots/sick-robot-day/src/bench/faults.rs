@@ -4,33 +4,33 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::{fmt, time::Duration};
 
-/// What a kind of fault costs, compared with the same halls without one.
+/// Cost of a kind of fault, compared with the same halls without a fault.
 #[derive(Debug)]
 pub struct Toll<'a> {
-    /// What broke; nothing in the runs that others are compared with.
+    /// Kind of the fault, or `None` in the reference runs.
     pub kind: Option<FaultKind>,
-    /// The runs.
+    /// Runs with the fault.
     pub scores: &'a [Score],
-    /// The runs without faults.
+    /// Runs without faults.
     pub without: &'a [Score],
 }
 
-/// A fault of a kind in a run that ends at `end`, at a time that the seed draws: the scanner freezes for 3 s, everything else
-/// fails for 10 s.
+/// A fault of a kind at a random time of the seed, in a run that ends at `end`. The scanner freezes for 3 s; all other
+/// faults last 10 s.
 pub fn fault_at(kind: FaultKind, seed: u64, end: Time) -> Fault {
     let length = Duration::from_secs(if kind == FaultKind::LaserFrozen { 3 } else { 10 });
     let number = FaultKind::ALL.iter().position(|other| *other == kind).unwrap_or_default() as u64;
     let mut random = Random::new(seed.wrapping_mul(31).wrapping_add(number));
-    // It begins after the start, and the rest of the run shows what became of it, if there is time for both.
+    // The fault begins after the start, early enough to show its effects in the rest of the run if possible.
     let room = end.since(START).as_secs_f32();
-    // In tenths of a second, as one writes it.
+    // In tenths of a second, as on the command line.
     let tenths = (10.0 * random.uniform(0.1, 0.8) * room) as u64;
     let from = START + Duration::from_millis(100 * tenths);
     Fault { kind, from, until: from + length }
 }
 
 impl Toll<'_> {
-    /// The names of the columns.
+    /// Names of the columns.
     pub const HEAD: &'static str = "fault               median  least   most   mean  change  wrong  caused  failures";
 }
 

@@ -8,13 +8,13 @@ use std::{
     thread,
 };
 
-/// Robots are large, and may be on the stack for a while.
+/// Size of the stack of a thread, in bytes. Robots are large, and may be on the stack for a while.
 const STACK: usize = 64 << 20;
 
-/// Does all jobs, on as many threads as the machine has cores, and shows each result in the order of the jobs.
+/// Runs all jobs on as many threads as the machine has cores, and shows each result in the order of the jobs.
 ///
 /// # Errors
-/// A thread cannot be started.
+/// If a thread cannot be started.
 pub fn on_all_cores<J: Sync, R: Send>(
     jobs: &[J],
     work: impl Fn(&J) -> R + Sync,
@@ -32,7 +32,7 @@ pub fn on_all_cores<J: Sync, R: Send>(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     jobs.get(index).map(|job| (index, job))
                 } {
-                    // Nobody listens any more only if the one who does panicked.
+                    // The receiver is gone only if its thread panicked.
                     let _ = sender.send((index, work(job)));
                 }
             })?;

@@ -1,4 +1,4 @@
-//! Measures the robot in many halls: its score, what faults cost, and where its time goes.
+//! Measures the robot in many halls: its score, the cost of faults, and its computing time.
 
 mod faults;
 mod jobs;

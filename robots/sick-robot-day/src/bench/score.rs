@@ -1,36 +1,36 @@
 use crate::run::Outcome;
 use std::{fmt, time::Duration};
 
-/// How well a run went.
+/// Score of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Score {
-    /// The seed of the hall.
+    /// Seed of the hall.
     pub seed: u64,
-    /// Cubes that came to the right station.
+    /// Number of cubes delivered to the right station.
     pub points: usize,
-    /// Cubes that came to another one.
+    /// Number of cubes delivered to a wrong station.
     pub wrong: usize,
-    /// Collisions that the robot caused.
+    /// Number of collisions that the robot caused.
     pub caused: usize,
-    /// Collisions that others caused.
+    /// Number of collisions that others caused.
     pub suffered: usize,
-    /// How far the robot drove, in m.
+    /// Distance that the robot drove, in m.
     pub distance: f32,
-    /// What failed in the robot.
+    /// Failures in the robot.
     pub failures: Vec<String>,
-    /// How long the run took on the machine.
+    /// Computing time of the run.
     pub took: Duration,
 }
 
-/// How well many runs went.
+/// Summary of many runs.
 #[derive(Debug)]
 pub struct Summary<'a>(pub &'a [Score]);
 
 impl Score {
-    /// The names of the columns.
+    /// Names of the columns.
     pub const HEAD: &'static str = "  seed  points   wrong  caused  suffered  distance      took  failures";
 
-    /// The score of a run that took so long.
+    /// Creates the score of a run with this computing time.
     pub fn of(outcome: &Outcome, took: Duration) -> Self {
         let report = &outcome.story.report;
         Self {
@@ -56,7 +56,7 @@ impl fmt::Display for Score {
 }
 
 impl Summary<'_> {
-    /// The least, the median and the most points.
+    /// Minimum, median and maximum of the points.
     pub fn points(&self) -> [usize; 3] {
         let mut points: Vec<usize> = self.0.iter().map(|score| score.points).collect();
         points.sort_unstable();
@@ -64,12 +64,12 @@ impl Summary<'_> {
         [0, last / 2, last].map(|index| points.get(index).copied().unwrap_or_default())
     }
 
-    /// The average of the points.
+    /// Mean of the points.
     pub fn mean(&self) -> f32 {
         self.sum(|score| score.points) as f32 / self.0.len().max(1) as f32
     }
 
-    /// Over all runs.
+    /// Sum of a value over all runs.
     pub fn sum(&self, value: impl Fn(&Score) -> usize) -> usize {
         self.0.iter().map(value).sum()
     }

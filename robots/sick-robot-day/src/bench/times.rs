@@ -9,28 +9,29 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// What makes the map is a part of its own: the localization in reactions in which this node, which takes maps, fires.
+/// Map building counts as a part of its own: the localization in those reactions in which this node, which takes maps,
+/// fires.
 const TAKES_MAPS: &str = "surroundings.find.search";
 const LOCALIZES: &str = "surroundings / localize";
 const MAKES_MAPS: &str = "surroundings / localize, with a map";
 
-/// The time at the beginning and at the end of a run that is compared.
+/// Length of the intervals at the beginning and the end of a run that are compared.
 const MINUTE: Duration = Duration::from_secs(60);
 
-/// Parts that take less of the time are not listed.
+/// Minimum share of the time of a listed part.
 const LEAST_SHARE: f64 = 0.0005;
 
-/// Where the time of a run goes, by part of the robot.
+/// Computing time of a run, by part of the robot.
 #[derive(Debug)]
 pub struct Times {
     info: &'static Info,
     parts: Parts,
-    /// By part, and at last what makes maps.
+    /// Statistics by part; the last one is that of map building.
     rows: Vec<Row>,
     end: Time,
-    /// Calls that go on: the last one, before it those that made it.
+    /// Calls in progress: the innermost one is last.
     running: Vec<Running>,
-    /// By part, of this reaction; `None` if nothing of it was called.
+    /// Time by part in this reaction, or `None` if no node of the part was called.
     spent: Vec<Option<Duration>>,
     map_taken: bool,
 }
@@ -39,21 +40,21 @@ pub struct Times {
 struct Running {
     node: usize,
     since: Instant,
-    /// What the calls took that this one made.
+    /// Time of the calls made by this one.
     inner: Duration,
 }
 
-/// A part.
+/// Statistics of a part.
 #[derive(Debug, Clone, PartialEq)]
 struct Row {
     name: String,
-    /// What it took in each reaction in which it was called, in ms.
+    /// Time in each reaction in which the part was called, in ms.
     calls: Vec<f32>,
     first: Mean,
     last: Mean,
 }
 
-/// A mean time, in ms.
+/// Mean time, in ms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Mean {
     sum: f64,
@@ -61,7 +62,7 @@ struct Mean {
 }
 
 impl Times {
-    /// Measures a robot in a run that ends at `end`.
+    /// Creates the statistics of a robot in a run that ends at `end`.
     pub fn new(info: &'static Info, end: Time) -> Self {
         let parts = Parts::new(info);
         let names = parts.names().iter().map(String::as_str).chain([MAKES_MAPS]);
@@ -70,7 +71,7 @@ impl Times {
         Self { info, parts, rows, end, running: vec![], spent, map_taken: false }
     }
 
-    /// Adds what was measured in another run of the same robot.
+    /// Adds the measurements of another run of the same robot.
     pub fn add(&mut self, other: &Self) {
         for (row, other) in self.rows.iter_mut().zip(&other.rows) {
             row.calls.extend(&other.calls);

@@ -49,14 +49,14 @@ Exit codes: 0 fine; 1 in a competition something failed in the robot, it caused 
 station; 2 it could not be done.
 ";
 
-/// Where the pictures go if nothing else is said.
+/// Default folder of the pictures.
 pub const PICTURES: &str = "out/sick-robot-day";
 
-/// A day: longer runs are slips of the pen.
+/// Maximum duration of a run, in minutes: a day. Longer runs are typing errors.
 const MOST_MINUTES: f64 = 1440.0;
 
 impl Command {
-    /// Reads what stands behind the name of the program.
+    /// Reads the arguments after the name of the program.
     pub fn read(args: impl IntoIterator<Item = OsString>) -> Result<Self, String> {
         let mut args = args.into_iter().peekable();
         let is_name = |arg: &OsString| !arg.as_encoded_bytes().starts_with(b"-");

@@ -7,7 +7,7 @@ use sick_robot_day::{
 };
 use std::{process::ExitCode, time::Instant};
 
-/// Plays competitions of the seeds 1 to `seeds`.
+/// Plays competitions with the seeds 1 to `seeds`.
 pub fn bench(seeds: u64, setup: &Setup, faults: bool, times: bool) -> Result<ExitCode, String> {
     if times {
         return measure_times(seeds, setup);
@@ -61,7 +61,7 @@ fn play(setup: &Setup, watch: &mut impl Watch) -> Result<Score, String> {
     Ok(Score::of(&outcome, start.elapsed()))
 }
 
-/// One after the other: they would take time from each other.
+/// In sequence, as parallel runs would slow one another down.
 fn measure_times(seeds: u64, setup: &Setup) -> Result<ExitCode, String> {
     let (progress, info) = (Progress::default(), setup.mission.info());
     let mut all = Times::new(info, setup.end());

@@ -14,10 +14,10 @@ use std::{
     process::ExitCode,
 };
 
-/// Plays a competition, and tells how it went.
+/// Plays a competition, and prints its result.
 pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Result<ExitCode, String> {
     let folder = out.unwrap_or_else(free_folder);
-    // Whether there is room for the pictures is to be known before.
+    // Checked before the run: the folder of the pictures must be usable.
     let album = Album::new(&folder)?;
     let mut view = View::of(setup);
     let outcome = setup.run(&mut view)?;
@@ -29,7 +29,7 @@ pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Resu
     Ok(if outcome.is_fine() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-/// The folder for pictures, or, if there is something in it, one with a number.
+/// Default folder of the pictures. If it is not empty, a folder with a number.
 fn free_folder() -> PathBuf {
     let is_free = |path: &Path| !path.exists() || path.read_dir().is_ok_and(|mut files| files.next().is_none());
     let numbered = (2_u32..).map(|number| PathBuf::from(format!("{PICTURES}-{number}")));
@@ -39,7 +39,7 @@ fn free_folder() -> PathBuf {
 
 fn summary(setup: &Setup, outcome: &Outcome, folder: &Path) -> String {
     let mut text = format!("{}\n\n", outcome.story.table());
-    // Nothing can go wrong in a text.
+    // Writing to a `String` cannot fail.
     for failure in &outcome.failures {
         let _ = writeln!(text, "failure: {failure}");
     }
@@ -58,11 +58,11 @@ fn summary(setup: &Setup, outcome: &Outcome, folder: &Path) -> String {
     text
 }
 
-/// Shows how a run goes on.
+/// View of a run in progress.
 struct View {
     live: LiveView,
     film: Film,
-    /// The walls; they stay where they are.
+    /// Walls, which do not move.
     arena: Arena,
 }
 

@@ -1,4 +1,4 @@
-//! What the command does.
+//! Commands of the program.
 
 mod args;
 mod bench;
@@ -15,7 +15,7 @@ use std::{
     process::ExitCode,
 };
 
-/// What is to be done.
+/// Command to carry out.
 pub enum Command {
     Help,
     Compete { setup: Setup, out: Option<PathBuf>, film: Option<PathBuf> },
@@ -24,7 +24,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does it; an error is why it could not be done.
+    /// Carries out the command. An error is the reason why this was not possible.
     pub fn run(self) -> Result<ExitCode, String> {
         match self {
             Self::Help => say(args::HELP).map(|()| ExitCode::SUCCESS),
@@ -50,7 +50,7 @@ fn perception(seeds: u64, out: Option<PathBuf>) -> Result<(), String> {
     out.map_or(Ok(()), |folder| say(&format!("pictures: {}\n", folder.display())))
 }
 
-/// Prints; a reader that has seen enough is no error.
+/// Prints a text. A closed pipe is not an error.
 fn say(text: &str) -> Result<(), String> {
     let mut output = io::stdout();
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {

@@ -9,7 +9,7 @@ use apex_sim::Omnidirectional;
 /// All robots; ours is the first.
 pub(super) type Bodies = [Body; ROBOTS];
 
-/// A robot as others see and feel it: a disc that drives, with a lamp and a hopper.
+/// Robot as a physical body: a disc that drives, with a lamp and a hopper.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub base: Omnidirectional,
@@ -18,17 +18,17 @@ pub(super) struct Body {
     pub cube: Option<Cube>,
 }
 
-/// A robot ran against something in its way.
+/// Contact of a robot with an obstacle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     pub who: usize,
     pub against: Obstacle,
     pub place: Point2,
-    /// How fast the robot approached the obstacle, and the obstacle the robot, in m/s.
+    /// Speed of the robot towards the obstacle, and of the obstacle towards the robot, in m/s.
     pub approach: [f32; 2],
 }
 
-/// What a body overlaps: the point that it has to stay away from, and how far.
+/// Overlap of a body with an obstacle: the point to keep away from, and the required distance.
 struct Overlap {
     against: Obstacle,
     point: Point2,
@@ -44,7 +44,7 @@ impl Body {
         self.base.pose.position()
     }
 
-    /// Its velocity in the world, in m/s.
+    /// Velocity in the world, in m/s.
     pub fn velocity(&self) -> Point2 {
         Pose2::new(0.0, 0.0, self.base.pose.theta).to_outer(self.base.twist.velocity())
     }
@@ -53,12 +53,12 @@ impl Body {
         self.base.twist.velocity().norm() < 0.02 && self.base.twist.omega.abs() < 0.05
     }
 
-    /// The room between it and another one, in m.
+    /// Distance between the outlines of two bodies, in m.
     pub fn gap(&self, other: &Self) -> f32 {
         (other.position() - self.position()).norm() - self.radius - other.radius
     }
 
-    /// Loses what it has of its velocity against a direction of length 1.
+    /// Removes the component of the velocity against `away`, a direction of length 1.
     fn block(&mut self, away: Point2) {
         let velocity = self.velocity();
         let into = velocity.dot(away).min(0.0);
@@ -67,8 +67,7 @@ impl Body {
     }
 }
 
-/// Moves a robot for `dt` s. Where something is in its way it is stopped in that direction, so that robots and walls
-/// never overlap.
+/// Moves a robot for `dt` s. An obstacle stops it in its direction, so that robots and walls never overlap.
 pub(super) fn advance(
     who: usize,
     command: &Twist,
@@ -79,7 +78,7 @@ pub(super) fn advance(
 ) {
     let before = bodies[who].position();
     bodies[who].base.step(command, dt);
-    // In a corner one obstacle pushes it into the other.
+    // In a corner, one obstacle pushes the robot into the other.
     for _ in 0..4 {
         let Some(overlap) = overlap(who, arena, bodies) else { return };
         touches.push(push_out(who, &overlap, bodies));
@@ -100,14 +99,14 @@ fn push_out(who: usize, overlap: &Overlap, bodies: &mut Bodies) -> Touch {
     };
     let body = &mut bodies[who];
     let approach = [-body.velocity().dot(away), theirs];
-    // A hair more, so that rounding makes no new overlap.
+    // Slightly more, so that rounding does not create a new overlap.
     let place = overlap.point + away.scaled(overlap.distance + 1e-5);
     (body.base.pose.x, body.base.pose.y) = (place.x, place.y);
     body.block(away);
     Touch { who, against: overlap.against, place: overlap.point + away.scaled(radius), approach }
 }
 
-/// What a robot overlaps most.
+/// Greatest overlap of a robot.
 fn overlap(who: usize, arena: &Arena, bodies: &Bodies) -> Option<Overlap> {
     let body = &bodies[who];
     let place = body.position();
@@ -125,7 +124,7 @@ fn overlap(who: usize, arena: &Arena, bodies: &Bodies) -> Option<Overlap> {
     deepest.filter(|overlap| depth(overlap) > 0.0)
 }
 
-/// The room between a robot and an obstacle, in m.
+/// Distance between a robot and an obstacle, in m.
 pub(super) fn room(who: usize, against: Obstacle, arena: &Arena, bodies: &Bodies) -> f32 {
     let body = &bodies[who];
     if let Obstacle::Robot(other) = against {
@@ -136,7 +135,7 @@ pub(super) fn room(who: usize, against: Obstacle, arena: &Arena, bodies: &Bodies
     of_it.map(|(_, wall)| (place - nearest(place, wall.a, wall.b)).norm()).fold(f32::MAX, f32::min) - body.radius
 }
 
-/// The walls of the arena, those of the border first.
+/// Walls of the arena, those of the border first.
 fn walls(arena: &Arena) -> impl Iterator<Item = (Obstacle, &apex_sim::Wall)> {
     let border = arena.border.len();
     let part = move |i| if i < border { Obstacle::Border } else { Obstacle::Island };

@@ -12,26 +12,26 @@ use std::f32::consts::PI;
 /// All drivers of a robot in a hall.
 #[derive(Debug)]
 pub struct Drivers {
-    /// The scanner at the front.
+    /// Scanner at the front.
     pub front_laser: FrontLaser,
-    /// The scanner at the rear.
+    /// Scanner at the rear.
     pub rear_laser: RearLaser,
-    /// The wheels.
+    /// Wheel odometry.
     pub wheel_odometry: WheelOdometry,
-    /// The camera at the front.
+    /// Camera at the front.
     pub front_camera: FrontCamera,
-    /// The camera above the hopper.
+    /// Camera above the hopper.
     pub hopper_camera: HopperCamera,
-    /// The remote control.
+    /// Remote control.
     pub remote: Remote,
-    /// The motors.
+    /// Motors.
     pub base: Base,
-    /// The green lamp.
+    /// Green lamp.
     pub lamp: Lamp,
 }
 
 impl Drivers {
-    /// The drivers of our robot in `hall`.
+    /// Creates the drivers of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self {
             front_laser: FrontLaser::new(hall),
@@ -46,7 +46,7 @@ impl Drivers {
     }
 }
 
-/// The LMS100 at the front: a source of scans over 270° from the origin of the robot, centred about its x axis.
+/// Front scanner, an LMS100: a source of scans over 270° at the origin of the robot, centred about its x axis.
 #[node]
 #[derive(Debug)]
 pub struct FrontLaser {
@@ -57,7 +57,7 @@ pub struct FrontLaser {
 
 #[node]
 impl FrontLaser {
-    /// The scanner of our robot in `hall`.
+    /// Creates the scanner of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         let contest = hall.contest();
         Self { random: contest.stream(30), faults: contest.stream(31), hall: hall.clone() }
@@ -76,8 +76,8 @@ impl FrontLaser {
     }
 }
 
-/// The TiM551 at the rear: a source of scans over 270°, in the frame of the scanner, which stands at the origin of the
-/// robot and looks back: its mount is (0, 0, π).
+/// Rear scanner, a TiM551: a source of scans over 270° in the frame of the scanner, which is at the origin of the
+/// robot and faces backwards. Its mount is (0, 0, π).
 #[node]
 #[derive(Debug)]
 pub struct RearLaser {
@@ -87,7 +87,7 @@ pub struct RearLaser {
 
 #[node]
 impl RearLaser {
-    /// The scanner of our robot in `hall`.
+    /// Creates the scanner of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self { random: hall.contest().stream(32), hall: hall.clone() }
     }
@@ -101,7 +101,8 @@ impl RearLaser {
     }
 }
 
-/// The wheels: a source of where the robot is by them, which begins at the origin of a frame of its own and drifts.
+/// Wheel odometry: a source of the pose according to the wheels. It starts at the origin of a frame of its own and
+/// drifts.
 #[node]
 #[derive(Debug)]
 pub struct WheelOdometry {
@@ -111,7 +112,7 @@ pub struct WheelOdometry {
 
 #[node]
 impl WheelOdometry {
-    /// The wheels of our robot in `hall`.
+    /// Creates the wheel odometry of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self { hall: hall.clone(), last: Pose2::default() }
     }
@@ -125,20 +126,20 @@ impl WheelOdometry {
     }
 }
 
-/// The camera at the front: a source of images of 960×720 pixels and of what [`camera`](crate::camera) took them.
+/// Front camera: a source of images of 960×720 pixels, and of the [`camera`](crate::camera) that took them.
 #[node]
 #[derive(Debug)]
 pub struct FrontCamera {
     hall: Hall,
     photographer: Photographer,
     random: Random,
-    /// Whether the last torn image had pixels.
+    /// `true` if the last torn image had pixels.
     torn: bool,
 }
 
 #[node]
 impl FrontCamera {
-    /// The camera of our robot in `hall`.
+    /// Creates the camera of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         let random = hall.contest().stream(33);
         Self { hall: hall.clone(), photographer: hall.photographer(), random, torn: false }
@@ -162,7 +163,7 @@ impl FrontCamera {
     }
 }
 
-/// The camera above the hopper: a source of images.
+/// Camera above the hopper: a source of images.
 #[node]
 #[derive(Debug)]
 pub struct HopperCamera {
@@ -172,7 +173,7 @@ pub struct HopperCamera {
 
 #[node]
 impl HopperCamera {
-    /// The camera of our robot in `hall`.
+    /// Creates the camera of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self { random: hall.contest().stream(34), hall: hall.clone() }
     }
@@ -183,7 +184,7 @@ impl HopperCamera {
     }
 }
 
-/// The remote control of the referee: a source of words, "ready" until the start, then "go" once, and ⊥ from then on.
+/// Remote control of the referee: a source of words, "ready" until the start, then "go" once, and ⊥ from then on.
 #[node]
 #[derive(Debug)]
 pub struct Remote {
@@ -193,7 +194,7 @@ pub struct Remote {
 
 #[node]
 impl Remote {
-    /// The remote control in `hall`.
+    /// Creates the remote control in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self { hall: hall.clone(), gone: false }
     }
@@ -208,7 +209,7 @@ impl Remote {
     }
 }
 
-/// The motors: a sink. They brake when they are told nothing for 0.3 s.
+/// Motors: a sink. They brake if they receive no twist for 0.3 s.
 #[node]
 #[derive(Debug)]
 pub struct Base {
@@ -217,19 +218,19 @@ pub struct Base {
 
 #[node]
 impl Base {
-    /// The motors of our robot in `hall`.
+    /// Creates the motors of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self { hall: hall.clone() }
     }
 
-    /// Drives so, as far as the motors can.
+    /// Sets the desired twist, which the motors follow within their limits.
     #[slot]
     fn drive(&mut self, twist: &Twist, ctx: &Ctx) {
         self.hall.drive(ctx.now(), *twist);
     }
 }
 
-/// The green lamp that tells the operators to put a cube in or to take it out: a sink.
+/// Green lamp that asks the operators to put in a cube or to take it out: a sink.
 #[node]
 #[derive(Debug)]
 pub struct Lamp {
@@ -238,12 +239,12 @@ pub struct Lamp {
 
 #[node]
 impl Lamp {
-    /// The lamp of our robot in `hall`.
+    /// Creates the lamp of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         Self { hall: hall.clone() }
     }
 
-    /// Switches it on or off.
+    /// Switches the lamp on or off.
     #[slot]
     fn set(&mut self, on: &bool, ctx: &Ctx) {
         self.hall.set_lamp(ctx.now(), *on);

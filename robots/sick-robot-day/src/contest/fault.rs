@@ -3,25 +3,25 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::{fmt, str::FromStr, time::Duration};
 
-/// Something that is broken for a while.
+/// Temporary fault of a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Fault {
-    /// What is broken.
+    /// Kind of the fault.
     pub kind: FaultKind,
-    /// Since when.
+    /// Start of the fault.
     pub from: Time,
-    /// From then on it works again.
+    /// End of the fault.
     pub until: Time,
 }
 
-/// What can break.
+/// Kind of a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FaultKind {
     /// The front scanner sends nothing.
     LaserFrozen,
     /// The images of the front camera are black.
     CameraBlack,
-    /// The images of the front camera are of another size: 17×3 and 0×0 in turn.
+    /// The images of the front camera have a wrong size: 17×3 and 0×0 alternately.
     CameraTorn,
     /// The front scanner measures NaN in all directions.
     BeamsNan,
@@ -31,14 +31,14 @@ pub enum FaultKind {
     BeamsZero,
     /// Each beam of the front scanner measures infinity with a probability of ½.
     BeamsMissing,
-    /// The wheel odometry sends the same pose again and again, and then goes on where it really is by its wheels.
+    /// The wheel odometry sends the same pose repeatedly, and afterwards continues at its real pose.
     OdometryStopped,
 }
 
 impl FromStr for Fault {
     type Err = String;
 
-    /// Reads `laser-frozen@100s..103s`.
+    /// Parses a fault such as `laser-frozen@100s..103s`.
     fn from_str(text: &str) -> Result<Self, String> {
         let cannot = |why: &str| format!("`{text}` is no fault: {why}; write one as `laser-frozen@100s..103s`");
         let (kind, times) = text.split_once('@').ok_or_else(|| cannot("there is no `@`"))?;
@@ -58,7 +58,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// A time such as `1.5s`.
+/// Parses a time such as `1.5s`.
 fn read_time(text: &str) -> Option<Time> {
     let seconds: f64 = text.strip_suffix('s')?.parse().ok()?;
     Duration::try_from_secs_f64(seconds).ok().filter(|time| time.as_secs() < 1_000_000).map(|time| Time::ZERO + time)
@@ -71,7 +71,7 @@ impl Fault {
 }
 
 impl FaultKind {
-    /// All of them.
+    /// All kinds of faults.
     pub const ALL: [Self; 8] = [
         Self::LaserFrozen,
         Self::CameraBlack,
@@ -83,7 +83,7 @@ impl FaultKind {
         Self::OdometryStopped,
     ];
 
-    /// What it is called on the command line.
+    /// Name of the fault on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::LaserFrozen => "laser-frozen",
@@ -97,7 +97,7 @@ impl FaultKind {
         }
     }
 
-    /// What spoils the beams of a scan.
+    /// Faults that change the beams of a scan.
     pub(super) const OF_BEAMS: [Self; 4] = [Self::BeamsNan, Self::BeamsInfinite, Self::BeamsZero, Self::BeamsMissing];
 
     pub(super) fn spoil(self, scan: &mut Scan, random: &mut Random) {

@@ -5,7 +5,7 @@ use apex_rt::Time;
 use apex_sim::{NotLevel, Photographer};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The hall in which a [`Contest`] takes place: a handle that all who take part in it share.
+/// Hall of a [`Contest`]: a handle that all participants share.
 #[derive(Debug, Clone)]
 pub struct Hall {
     contest: Arc<Mutex<Contest>>,
@@ -13,41 +13,41 @@ pub struct Hall {
 }
 
 impl Hall {
-    /// The hall of a seed, with these faults of our robot.
+    /// Creates the hall of a seed, with these faults of our robot.
     ///
     /// # Errors
-    /// The [`camera`] is not level.
+    /// If the [`camera`] is not level.
     pub fn new(seed: u64, faults: Vec<Fault>) -> Result<Self, NotLevel> {
         let photographer = Photographer::new(camera())?;
         Ok(Self { contest: Arc::new(Mutex::new(Contest::new(seed, faults))), photographer })
     }
 
-    /// What happened so far.
+    /// Events up to now.
     pub fn report(&self) -> Report {
         self.contest().report().clone()
     }
 
-    /// All robots as they really are, ours first.
+    /// True states of all robots, ours first.
     pub fn robots(&self) -> [Robot; 1 + RIVALS] {
         self.contest().robots()
     }
 
-    /// The arena, with the rivals where they are.
+    /// Arena with the rivals at their present places.
     pub fn arena(&self) -> Arena {
         self.contest().arena().clone()
     }
 
-    /// Puts our robot elsewhere, where it stands still; its wheels do not notice.
+    /// Moves our robot to another place, where it stands still. Its odometry does not change.
     pub fn place(&self, pose: Pose2) {
         self.contest().place(pose);
     }
 
-    /// Lets the time pass: drivers do so before they read.
+    /// Advances the simulation to a time. Drivers call this before they read.
     pub fn advance(&self, now: Time) {
         self.contest().advance(now);
     }
 
-    /// What our motors are told at a time.
+    /// Sets the twist of our motors at a time.
     pub fn drive(&self, now: Time, twist: Twist) {
         self.at(now).drive(twist);
     }
@@ -64,7 +64,7 @@ impl Hall {
         contest
     }
 
-    /// The competition as it is. One that panicked elsewhere can still be looked at.
+    /// The competition in its present state, even if another thread panicked while using it.
     pub(super) fn contest(&self) -> MutexGuard<'_, Contest> {
         self.contest.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! The competition in simulation (thesis 4.1, 4.2): our base among three rivals, the operators at the stations, and the
+//! Simulation of the competition (thesis 4.1, 4.2): our base among three rivals, the operators at the stations, and the
 //! referee.
 
 mod body;

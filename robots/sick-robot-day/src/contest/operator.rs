@@ -5,16 +5,17 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::{f32::consts::PI, time::Duration};
 
-/// How far a robot at a station may be from the wall and beside the target, in m, and how askew, in rad.
+/// Maximum distances of a robot at a station from the wall and sideways from the target, in m, and maximum heading
+/// error, in rad.
 const GAP: f32 = 0.08;
 const BESIDE: f32 = 0.1;
 const ASKEW: f32 = PI / 9.0;
 
-/// The human who serves a robot that shows its lamp at a station: puts a cube in, or takes it out.
+/// Human operator who serves a robot that shows its lamp at a station: puts a cube in, or takes it out.
 #[derive(Debug, Clone)]
 pub(super) struct Operator {
     random: Random,
-    /// At which station, and when it will be done.
+    /// Station in service, and the time when the service is finished.
     due: Option<(usize, Time)>,
 }
 
@@ -23,7 +24,8 @@ impl Operator {
         Self { random, due: None }
     }
 
-    /// The station at which the robot is served now. How long that takes is drawn when the lamp is seen.
+    /// Station at which the service of the robot is finished now. The duration is drawn when the operator notices the
+    /// lamp.
     pub fn watch(&mut self, body: &Body, arena: &Arena, now: Time) -> Option<usize> {
         let Some(station) = asks(body, arena) else {
             self.due = None;
@@ -38,7 +40,7 @@ impl Operator {
     }
 }
 
-/// The station at which a robot shows that it wants to be served, and can be.
+/// Station at which a robot requests service and can be served.
 fn asks(body: &Body, arena: &Arena) -> Option<usize> {
     if !body.lamp || !body.stands() {
         return None;
@@ -47,7 +49,7 @@ fn asks(body: &Body, arena: &Arena) -> Option<usize> {
     arena.stations().position(|station| station.number.is_some() == full && is_at(&body.pose(), body.radius, station))
 }
 
-/// Whether a robot stands right at a station: near enough, before its target, and straight.
+/// Returns `true` if a robot is correctly positioned at a station: near enough, in front of its target, and straight.
 fn is_at(robot: &Pose2, radius: f32, station: &Station) -> bool {
     let place = station.pose.to_inner(robot.position());
     let askew = normalize_angle(&(robot.theta - station.pose.theta - PI));

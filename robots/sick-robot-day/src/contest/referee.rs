@@ -4,28 +4,28 @@ use super::{
 };
 use crate::Arena;
 
-/// Whoever is faster than this towards the other has caused the collision, in m/s.
+/// Speed towards the other from which on a robot has caused the collision, in m/s.
 const PUSH: f32 = 0.05;
 
-/// A touch is over when there is so much room again, in m.
+/// Distance at which a contact has ended, in m.
 const APART: f32 = 0.02;
 
-/// Sees collisions: each as one, however long two touch.
+/// Detects collisions. A contact counts once, regardless of its duration.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Referee {
     touching: Vec<(usize, Obstacle)>,
 }
 
-/// A collision between a robot and something.
+/// Collision of a robot with an obstacle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crash {
     pub touch: Touch,
-    /// Whether the robot caused it, and whether the other one did.
+    /// Causes of the collision: `true` if the robot caused it, and `true` if the obstacle did.
     pub caused: [bool; 2],
 }
 
 impl Referee {
-    /// The collision that a touch begins; `None` if it goes on.
+    /// Collision that begins with a contact, or `None` if the contact continues.
     pub fn judge(&mut self, touch: &Touch) -> Option<Crash> {
         let pair = pair(touch.who, touch.against);
         if self.touching.contains(&pair) {
@@ -37,13 +37,13 @@ impl Referee {
         Some(Crash { touch: *touch, caused })
     }
 
-    /// Forgets what no longer touches.
+    /// Removes contacts that have ended.
     pub fn release(&mut self, arena: &Arena, bodies: &Bodies) {
         self.touching.retain(|(who, against)| room(*who, *against, arena, bodies) < APART);
     }
 }
 
-/// The same for both robots.
+/// Key of a pair of robots, independent of their order.
 fn pair(who: usize, against: Obstacle) -> (usize, Obstacle) {
     match against {
         Obstacle::Robot(other) if other < who => (other, Obstacle::Robot(who)),

@@ -12,31 +12,31 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::time::Duration;
 
-/// The middle of a robot before it docks, from the wall, in m.
+/// Distance of a robot's middle from the wall before it docks, in m.
 const BEFORE: f32 = 0.8;
 
-/// Who is so near to a station uses it, in m; others wait farther off.
+/// Distance within which a robot occupies a station, and distance of waiting robots, in m.
 const USED: f32 = 1.0;
 const QUEUE: f32 = 1.9;
 
-/// Who did not get so far in such a time is stuck, in m and s.
+/// Minimum progress, in m, and time limit: a robot with less progress in this time is stuck.
 const PROGRESS: f32 = 0.15;
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// What drives another robot: it knows the arena, fetches and delivers, and gives way.
+/// Driver of another robot: it knows the arena, fetches and delivers cubes, and gives way.
 #[derive(Debug, Clone)]
 pub(super) struct Rival {
     speed: f32,
     random: Random,
     task: Task,
     since: Time,
-    /// Which station it goes to.
+    /// Index of the station that the robot goes to.
     station: usize,
-    /// Where it was last seen to get on, and when.
+    /// Last place of progress, and its time.
     progress: (Point2, Time),
-    /// Where it goes to get unstuck, and until when.
+    /// Temporary goal of a stuck robot, and the time until which it counts.
     detour: Option<(Point2, Time)>,
-    /// Velocity in the world, and turn rate.
+    /// Desired velocity in the world, in m/s, and angular velocity, in rad/s.
     wanted: (Point2, f32),
     pub lamp: bool,
 }
@@ -44,7 +44,7 @@ pub(super) struct Rival {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Task {
     Travel,
-    /// Stands at the station, or gets there; with or without a cube when it came.
+    /// The robot docks or is docked at the station; `full` if it came with a cube.
     Dock {
         full: bool,
     },
@@ -52,7 +52,7 @@ enum Task {
 }
 
 impl Rival {
-    /// Starts in a while after `start`.
+    /// Creates a driver that starts shortly after `start`.
     pub fn new(mut random: Random, start: Time) -> Self {
         let speed = random.uniform(0.4, 1.0);
         let since = start + Duration::from_secs_f32(random.uniform(0.0, 2.0));
@@ -69,7 +69,7 @@ impl Rival {
         }
     }
 
-    /// Decides where to drive.
+    /// Chooses the desired velocity.
     pub fn decide(&mut self, who: usize, bodies: &Bodies, arena: &Arena, now: Time) {
         if now < self.since && self.task == Task::Travel {
             return;
@@ -100,7 +100,7 @@ impl Rival {
         }
     }
 
-    /// What the motors are told now: never so fast that it could not stop before another one.
+    /// Twist for the motors. It is always slow enough to stop before another robot.
     pub fn command(&self, who: usize, bodies: &Bodies) -> Twist {
         let (velocity, omega) = self.wanted;
         let own = Pose2::new(0.0, 0.0, bodies[who].pose().theta).to_inner(guarded(who, velocity, bodies));
@@ -111,8 +111,8 @@ impl Rival {
         (self.task, self.since, self.progress, self.detour) = (task, now, (body.position(), now), None);
     }
 
-    /// The station it goes to: for a cube that of its number, without one a free one nearby. On the way to a filling
-    /// station it goes to another one if someone else is there first.
+    /// Station to go to: with a cube that of its number, without one a free one nearby. The filling station changes if
+    /// another robot arrives there first.
     fn choose(&mut self, who: usize, bodies: &Bodies, arena: &Arena) -> Station {
         let body = &bodies[who];
         let is_free = |station: &usize| !is_used(who, &arena.filling[*station], bodies);
@@ -129,7 +129,7 @@ impl Rival {
         *arena.stations().nth(self.station).unwrap_or(&arena.filling[0])
     }
 
-    /// Goes before the station, or waits until it is free.
+    /// Goes to a place in front of the station, or waits until the station is free.
     fn travel(&mut self, who: usize, station: &Station, bodies: &Bodies, now: Time) {
         let body = &bodies[who];
         let entry = stand_before(&station.pose, BEFORE);
@@ -148,7 +148,7 @@ impl Rival {
         }
     }
 
-    /// Drives on to a place, or elsewhere for a moment if it cannot get there.
+    /// Drives towards a place, or temporarily elsewhere if the robot is stuck.
     fn drive(&mut self, who: usize, goal: Point2, heading: Option<f32>, bodies: &Bodies, now: Time) {
         let body = &bodies[who];
         if (body.position() - self.progress.0).norm() > PROGRESS {
@@ -167,7 +167,7 @@ impl Rival {
     }
 }
 
-/// Whether another one is at a station, and nearer.
+/// Returns `true` if another robot is at a station, and nearer to it.
 fn is_used(who: usize, station: &Station, bodies: &Bodies) -> bool {
     let distance = |body: &Body| (body.position() - station.pose.position()).norm();
     let own = distance(&bodies[who]).min(USED);

@@ -7,23 +7,25 @@ use apex_nodes::{
 use apex_sim::Random;
 use std::f32::consts::PI;
 
-/// Where robots drive that are not at a station: distances of their middle from that of the arena, in m.
+/// Limits of the ring in which robots drive outside of stations: distances of their middle from that of the arena, in
+/// m.
 const NEAR: f32 = 2.05;
 const FAR: f32 = 5.3;
 
-/// How far ahead robots look for each other, in s, and the room that they leave, in m: less if there is no other way.
+/// Horizon of the collision avoidance, in s, and the distances to keep, in m: the second one if no velocity keeps the
+/// first.
 const HORIZON: f32 = 2.0;
 const ROOMS: [f32; 2] = [0.25, 0.12];
 
-/// The room at which a robot stops before another one, in m, and how it slows down before, in m/s².
+/// Distance at which a robot stops before another one, in m, and the deceleration before, in m/s².
 const STOP: f32 = 0.1;
 const BRAKES: f32 = 1.0;
 
-/// Candidates for the next velocity: angles from the wanted direction, those to the right first, so that two that meet
-/// pass on the same side.
+/// Candidates for the next velocity: angles from the desired direction, those to the right first, so that two robots
+/// that meet pass on the same side.
 const TURNS: [f32; 12] = [0.0, -0.3, 0.3, -0.6, 0.6, -1.0, 1.0, -1.4, 1.4, -2.0, 2.0, PI];
 
-/// The velocity that leads a robot on to a place, round the island and past the others.
+/// Velocity that moves a robot towards a place, around the island and past the others.
 pub(super) fn steer(who: usize, goal: Point2, speed: f32, bodies: &Bodies) -> Point2 {
     let body = &bodies[who];
     let place = body.position();
@@ -44,7 +46,7 @@ pub(super) fn steer(who: usize, goal: Point2, speed: f32, bodies: &Bodies) -> Po
     ROOMS.into_iter().find_map(best).unwrap_or_default()
 }
 
-/// The part of a velocity with which a robot can still stop before all others.
+/// Part of a velocity with which a robot can still stop before all others.
 pub(super) fn guarded(who: usize, mut velocity: Point2, bodies: &Bodies) -> Point2 {
     let body = &bodies[who];
     for _ in 0..2 {
@@ -54,11 +56,11 @@ pub(super) fn guarded(who: usize, mut velocity: Point2, bodies: &Bodies) -> Poin
             velocity = velocity - to.scaled(excess.max(0.0) / to.norm());
         }
     }
-    // Between two, what leads away from the one leads to the other.
+    // Between two robots, a velocity away from one may lead to the other.
     if others(who, bodies).any(|other| excess(body, other, velocity) > 0.01) { Point2::default() } else { velocity }
 }
 
-/// Any place between the island and the border.
+/// Random place between the island and the border.
 pub(super) fn any_place(random: &mut Random) -> Point2 {
     Point2::polar(random.uniform(NEAR + 0.3, FAR - 0.2), random.uniform(-PI, PI))
 }
@@ -67,7 +69,7 @@ fn others(who: usize, bodies: &Bodies) -> impl Iterator<Item = &Body> {
     bodies.iter().enumerate().filter(move |(i, _)| *i != who).map(|(_, body)| body)
 }
 
-/// By how much a velocity is too fast towards another robot, in m/s.
+/// Excess of a velocity over the allowed speed towards another robot, in m/s.
 fn excess(body: &Body, other: &Body, velocity: Point2) -> f32 {
     let to = other.position() - body.position();
     let allowed = (BRAKES * (body.gap(other) - STOP)).max(0.0).sqrt();
@@ -90,7 +92,7 @@ fn turned(vector: Point2, angle: f32) -> Point2 {
     Pose2::new(0.0, 0.0, angle).to_outer(vector)
 }
 
-/// Whether a velocity leads neither out of where robots drive nor too near to another one.
+/// Returns `true` if a velocity keeps the robot in the permitted ring and far enough from the others.
 fn is_free(body: &Body, velocity: Point2, others: &[&Body], room: f32) -> bool {
     let (now, then) = (body.position().norm(), (body.position() + velocity.scaled(0.5)).norm());
     let inner = 0.5 * ISLAND_SIDE / (PI / 8.0).sin() + body.radius + 0.1;
@@ -98,7 +100,8 @@ fn is_free(body: &Body, velocity: Point2, others: &[&Body], room: f32) -> bool {
     stays && others.iter().all(|other| passes(body, velocity, other, room))
 }
 
-/// Whether there will be room between two, should they go on so; without room, whether they part.
+/// Returns `true` if two robots with constant velocities keep enough distance. If they are too close already, returns
+/// `true` if they do not approach.
 fn passes(body: &Body, velocity: Point2, other: &Body, room: f32) -> bool {
     let apart = other.position() - body.position();
     let closing = velocity - other.velocity();

@@ -14,31 +14,31 @@ use apex_rt::Time;
 use apex_sim::{Light, Limits, Look, Odometry, OdometryNoise, Omnidirectional, Pillar, Random};
 use std::{f32::consts::PI, time::Duration};
 
-/// When "go" is said, and the rivals start.
+/// Time of the start command, at which the rivals start.
 pub const START: Time = Time::from_secs(1);
 
-/// How long the competition lasts from then on.
+/// Duration of the competition from the start on.
 pub const DURATION: Duration = Duration::from_secs(600);
 
-/// The radius of our robot, in m.
+/// Radius of our robot, in m.
 pub const RADIUS: f32 = 0.3;
 
-/// The other robots.
+/// Number of the other robots.
 pub const RIVALS: usize = 3;
 
 pub(super) const ROBOTS: usize = 1 + RIVALS;
 
 const STEP: Duration = Duration::from_millis(10);
 
-/// Motors that hear nothing for so long brake.
+/// Time without a twist after which motors brake.
 const WATCHDOG: Duration = Duration::from_millis(300);
 
 const LIMITS: Limits = Limits { speed: 1.5, acceleration: 2.0, turn: 2.5, turn_acceleration: 6.0 };
 
-/// How far from the middle all start, in m.
+/// Distance of all starts from the middle, in m.
 const START_DISTANCE: f32 = 4.5;
 
-/// The competition of one seed. The same seed and the same commands give the same result, bit for bit.
+/// Simulated competition of one seed. The same seed and the same commands give the same result, bit for bit.
 #[derive(Debug, Clone)]
 pub struct Contest {
     seed: u64,
@@ -47,10 +47,10 @@ pub struct Contest {
     light: Light,
     bodies: Bodies,
     rivals: [Rival; RIVALS],
-    /// The first of the rivals in the scene; they follow one another.
+    /// Index of the first rival in the scene; the others follow it.
     pillar: usize,
     operators: [Operator; ROBOTS],
-    /// Draws the cubes.
+    /// Random numbers for the cubes.
     cubes: Random,
     referee: Referee,
     hopper: Hopper,
@@ -61,23 +61,23 @@ pub struct Contest {
     report: Report,
 }
 
-/// A robot as it really is.
+/// True state of a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot {
-    /// Where it is in the arena.
+    /// Pose in the arena.
     pub pose: Pose2,
-    /// How it moves, in its own frame.
+    /// Velocity in the frame of the robot.
     pub twist: Twist,
-    /// Its radius, in m.
+    /// Radius, in m.
     pub radius: f32,
-    /// Whether its lamp is on.
+    /// `true` if the lamp is on.
     pub lamp: bool,
-    /// The number of the cube in its hopper.
+    /// Number of the cube in the hopper.
     pub cube: Option<u32>,
 }
 
 impl Contest {
-    /// The competition of a seed with these faults of our robot.
+    /// Creates the competition of a seed with these faults of our robot.
     pub fn new(seed: u64, faults: Vec<Fault>) -> Self {
         let mut arena = Arena::new(seed);
         let mut random = stream(seed, 0);
@@ -108,19 +108,19 @@ impl Contest {
         contest
     }
 
-    /// Lets the time pass.
+    /// Advances the simulation to a time.
     pub fn advance(&mut self, now: Time) {
         while self.now + STEP <= now {
             self.step();
         }
     }
 
-    /// The time of the competition.
+    /// Time of the simulation.
     pub const fn now(&self) -> Time {
         self.now
     }
 
-    /// What our motors are told. They brake when they are told nothing for 0.3 s.
+    /// Sets the twist of our motors. They brake if they receive none for 0.3 s.
     pub const fn drive(&mut self, twist: Twist) {
         self.command = (twist, self.now);
     }
@@ -130,33 +130,33 @@ impl Contest {
         self.bodies[0].lamp = on;
     }
 
-    /// Puts our robot elsewhere, where it stands still; its wheels do not notice.
+    /// Moves our robot to another place, where it stands still. Its odometry does not change.
     pub const fn place(&mut self, pose: Pose2) {
         self.bodies[0].base.pose = pose;
         self.bodies[0].base.twist = Twist::ZERO;
     }
 
-    /// The arena, with the rivals where they are.
+    /// Arena with the rivals at their present places.
     pub const fn arena(&self) -> &Arena {
         &self.arena
     }
 
-    /// How the arena is lit.
+    /// Lighting of the arena.
     pub const fn light(&self) -> &Light {
         &self.light
     }
 
-    /// The hopper of our robot.
+    /// Hopper of our robot.
     pub const fn hopper(&self) -> &Hopper {
         &self.hopper
     }
 
-    /// Where our robot is by its wheels.
+    /// Pose of our robot by wheel odometry.
     pub const fn wheels(&self) -> Pose2 {
         self.wheels
     }
 
-    /// All robots, ours first.
+    /// True states of all robots, ours first.
     pub fn robots(&self) -> [Robot; ROBOTS] {
         self.bodies.each_ref().map(|body| Robot {
             pose: body.pose(),
@@ -167,17 +167,17 @@ impl Contest {
         })
     }
 
-    /// What happened so far.
+    /// Events up to now.
     pub const fn report(&self) -> &Report {
         &self.report
     }
 
-    /// Whether something of our robot is broken now.
+    /// Returns `true` if our robot has this fault now.
     pub fn has(&self, kind: FaultKind) -> bool {
         self.faults.iter().any(|fault| fault.is_on(kind, self.now))
     }
 
-    /// Random numbers for something that is not part of the competition itself, such as the noise of a sensor.
+    /// Random numbers for anything outside the competition itself, such as the noise of a sensor.
     pub(super) const fn stream(&self, number: u64) -> Random {
         stream(self.seed, number)
     }
@@ -203,7 +203,7 @@ impl Contest {
         self.note();
     }
 
-    /// What the motors of all robots do: ours as told, the others as they decide, 20 times a second.
+    /// Commands of all robots: ours as received, those of the others as chosen by their drivers 20 times per second.
     fn commands(&mut self) -> [Twist; ROBOTS] {
         if self.now.as_nanos() % 50_000_000 == 0 {
             for (rival, who) in self.rivals.iter_mut().zip(1..) {
@@ -219,7 +219,7 @@ impl Contest {
         })
     }
 
-    /// An operator puts a cube in at a filling station, or takes it out at a delivery station.
+    /// Service at a station: puts a cube in at a filling station, or takes it out at a delivery station.
     fn serve(&mut self, who: usize, station: usize) {
         let sign = self.arena.stations().nth(station).and_then(|station| station.number);
         let cube = self.bodies[who].cube.take();
@@ -264,7 +264,7 @@ impl Contest {
         self.report.collisions.push(ours);
     }
 
-    /// Moves the rivals to where they are seen.
+    /// Moves the rivals in world and scene to their present places.
     fn show(&mut self) {
         let rivals = &self.bodies[1..];
         let discs = self.arena.world.discs_mut().iter_mut().zip(rivals);
@@ -280,12 +280,12 @@ impl Contest {
     }
 }
 
-/// Random numbers of their own for everything, so that one thing does not change what another one draws.
+/// Random stream of its own for each purpose, so that none changes the numbers of another.
 const fn stream(seed: u64, number: u64) -> Random {
     Random::new(Random::new(seed).bits() ^ Random::new(number.wrapping_mul(0x9e37_79b9)).bits())
 }
 
-/// The robots at the start: each before another filling station, ours with its front roughly to the middle.
+/// Robots at the start: each in front of another filling station, ours roughly facing the middle.
 fn line_up(arena: &Arena, random: &mut Random) -> Bodies {
     let first = random.bits() as usize % arena.filling.len();
     std::array::from_fn(|who| {
@@ -299,7 +299,7 @@ fn line_up(arena: &Arena, random: &mut Random) -> Bodies {
     })
 }
 
-/// Makes the rivals visible; the number of the first one in the scene.
+/// Adds the rivals to world and scene. Returns the index of the first one in the scene.
 fn add_rivals(arena: &mut Arena, bodies: &Bodies, random: &mut Random) -> usize {
     let first = arena.scene.pillars_mut().len();
     for body in &bodies[1..] {

@@ -6,20 +6,20 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The colour of the box around what was found.
+/// Colour of the box around a detection.
 const FOUND: Rgb<u8> = Rgb([255, 40, 40]);
 
-/// A folder for pictures of what was seen, with boxes around what was found; or none.
+/// Folder for images with boxes around detections, or none.
 #[derive(Debug, Default)]
 pub struct Album {
     folder: Option<PathBuf>,
 }
 
 impl Album {
-    /// An album in a new or empty folder.
+    /// Creates an album in a new or empty folder.
     ///
     /// # Errors
-    /// There is something in the folder, or it cannot be made.
+    /// If the folder is not empty, or cannot be created.
     pub fn new(folder: &Path) -> Result<Self, String> {
         let cannot = |e| format!("cannot make the folder {}: {e}", folder.display());
         fs::create_dir_all(folder).map_err(cannot)?;
@@ -29,10 +29,10 @@ impl Album {
         Ok(Self { folder: Some(folder.to_owned()) })
     }
 
-    /// Adds a picture; nothing without a folder.
+    /// Adds an image with a box around the detection. Does nothing without a folder.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// If the file cannot be written.
     pub fn add(&self, name: &str, image: &GrayImage, found: Option<&Region>) -> Result<(), String> {
         if self.folder.is_none() {
             return Ok(());
@@ -44,10 +44,10 @@ impl Album {
         self.save(name, &picture)
     }
 
-    /// Adds a picture as it is; nothing without a folder.
+    /// Adds an unchanged image. Does nothing without a folder.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// If the file cannot be written.
     pub fn save(&self, name: &str, picture: &RgbImage) -> Result<(), String> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let path = folder.join(format!("{name}.png"));

@@ -8,17 +8,17 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::{fmt, time::Instant};
 
-/// Images of each kind of hopper for each seed; every second one has a cube.
+/// Number of images per kind of hopper and seed. Every second one has a cube.
 const IMAGES: u32 = 20;
 
-/// How well cubes are seen and read (thesis 4.4.3, table 4.1).
+/// Results of the detection and reading of cubes (thesis 4.4.3, table 4.1).
 #[derive(Debug, Clone)]
 pub struct Cubes {
     deviation: Confusion<2>,
     network: Confusion<2>,
-    /// Bar codes that were read right, wrong and not at all, of cubes that lie flat and of wedged ones.
+    /// Bar codes read correctly, wrongly and not at all, for cubes that lie flat and for wedged ones.
     codes: [[u32; 3]; 2],
-    /// Bar codes that were read where there is no cube.
+    /// Number of bar codes read where there is no cube.
     ghosts: u32,
     times: [Times; 3],
 }
@@ -30,10 +30,11 @@ struct Programs {
     number: CubeNumber,
 }
 
-/// Looks at hoppers without a pattern by the deviation of the intensities, and at others with one by the network and
-/// for the bar code.
+/// Evaluates the detection by deviation on hoppers without a pattern, and the network and the bar code reader on
+/// hoppers with one.
 ///
 /// # Errors
+/// If an image cannot be written.
 /// A picture cannot be written.
 pub fn cubes(seeds: u64, album: &Album, progress: &Progress) -> Result<Cubes, String> {
     let empty = Confusion::new(["empty", "full"]);
@@ -80,7 +81,7 @@ impl Cubes {
         let read = number.outputs().number;
         match hopper.cube {
             Some(cube) => {
-                // Without a cube there is next to nothing to do.
+                // Only with a cube: without one there is hardly any work.
                 self.times[2].push(time);
                 let outcome = read.map_or(2, |number| usize::from(number != cube.number));
                 self.codes[usize::from(cube.lean > 0.0)][outcome] += 1;

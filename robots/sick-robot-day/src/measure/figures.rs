@@ -1,6 +1,6 @@
 use std::{fmt, time::Duration};
 
-/// The value below which this part of all lies; `None` without values.
+/// The value below which the share `part` of all values is, or `None` without values.
 pub fn percentile(values: &[f32], part: f32) -> Option<f32> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f32::total_cmp);
@@ -9,12 +9,12 @@ pub fn percentile(values: &[f32], part: f32) -> Option<f32> {
     Some(sorted[index])
 }
 
-/// How long a graph took for its frames.
+/// Computing times of a graph per frame, in ms.
 #[derive(Debug, Clone, Default)]
 pub struct Times(Vec<f32>);
 
 impl Times {
-    /// Counts a frame.
+    /// Adds the time of a frame.
     pub fn push(&mut self, time: Duration) {
         self.0.push(1e3 * time.as_secs_f32());
     }
@@ -29,7 +29,7 @@ impl fmt::Display for Times {
     }
 }
 
-/// How often each class was taken for which.
+/// Confusion matrix of a classifier.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Confusion<const N: usize> {
     names: [&'static str; N],
@@ -37,17 +37,17 @@ pub struct Confusion<const N: usize> {
 }
 
 impl<const N: usize> Confusion<N> {
-    /// A table of zeros.
+    /// Creates a matrix of zeros.
     pub const fn new(names: [&'static str; N]) -> Self {
         Self { names, counts: [[0; N]; N] }
     }
 
-    /// Counts something that is `actual` and was taken for `predicted`.
+    /// Counts an example of the class `actual` that was classified as `predicted`.
     pub fn count(&mut self, actual: usize, predicted: usize) {
         self.counts[actual][predicted] += 1;
     }
 
-    /// How often a class was taken for another or for itself.
+    /// Number of examples of the class `actual` that were classified as `predicted`.
     pub fn get(&self, actual: usize, predicted: usize) -> u32 {
         self.counts[actual][predicted]
     }

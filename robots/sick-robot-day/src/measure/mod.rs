@@ -1,4 +1,4 @@
-//! Measures the compiled perception on rendered images, one arena or hopper for each seed.
+//! Evaluates the compiled perception on rendered images, with one arena or hopper per seed.
 
 mod album;
 mod cubes;

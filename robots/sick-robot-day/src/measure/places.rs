@@ -6,11 +6,11 @@ use std::f32::consts::TAU;
 /// Radius of the robot, in m.
 const RADIUS: f32 = 0.3;
 
-/// So many places are tried.
+/// Maximum number of tries.
 const TRIES: u32 = 1000;
 
-/// A pose of the robot at which its camera is `distance` m before a station, at most `slant` rad from straight ahead,
-/// and nothing stands between; `None` if none is found.
+/// A robot pose with the camera `distance` m in front of a station, at most `slant` rad from straight ahead, and with a
+/// free line of sight. `None` if none is found.
 pub fn before(arena: &Arena, station: &Station, distance: f32, slant: f32, random: &mut Random) -> Option<Pose2> {
     let target = station.pose.position();
     (0..TRIES).find_map(|_| {
@@ -22,7 +22,7 @@ pub fn before(arena: &Arena, station: &Station, distance: f32, slant: f32, rando
     })
 }
 
-/// Any pose of the robot.
+/// A random pose of the robot, or `None` if none is found.
 pub fn anywhere(arena: &Arena, random: &mut Random) -> Option<Pose2> {
     (0..TRIES).find_map(|_| {
         let place = Point2::new(random.uniform(-6.0, 6.0), random.uniform(-6.0, 6.0));
@@ -31,7 +31,7 @@ pub fn anywhere(arena: &Arena, random: &mut Random) -> Option<Pose2> {
     })
 }
 
-/// The numbers of the signs that are in the image of the camera, even if only a corner is.
+/// Numbers of the signs in the image of the camera, including those of which only a corner is visible.
 pub fn numbers_in_view(arena: &Arena, robot: &Pose2) -> impl Iterator<Item = u32> {
     let camera = camera();
     let inside = move |place: Point2, z: f32| {

@@ -1,10 +1,10 @@
 use std::io::{IsTerminal as _, Write as _};
 
-/// Keeps a line about what is done up to date on standard error, if that is a terminal.
+/// Shows the progress in one line on standard error, if that is a terminal.
 #[derive(Debug)]
 pub struct Progress(bool);
 
-/// Looks at what standard error is.
+/// Shows the progress if standard error is a terminal.
 impl Default for Progress {
     fn default() -> Self {
         Self(std::io::stderr().is_terminal())
@@ -12,12 +12,12 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// Says how much of something is done.
+    /// Shows the finished part of the work.
     pub fn step(&self, what: &str, done: u64, of: u64) {
         self.show(&format!("{what}: {done} of {of}"));
     }
 
-    /// Takes the line away.
+    /// Erases the line.
     pub fn clear(&self) {
         self.show("");
     }
@@ -25,7 +25,7 @@ impl Progress {
     fn show(&self, line: &str) {
         if self.0 {
             let mut terminal = std::io::stderr();
-            // A line that cannot be shown is no reason to stop. What was there before is erased.
+            // Failing to show the line is not a reason to stop. The previous line is erased.
             let _ = write!(terminal, "\r\x1b[K{line}").and_then(|()| terminal.flush());
         }
     }

@@ -5,16 +5,16 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::{fmt, time::Instant};
 
-/// How far the camera is from the sign, in m.
+/// Distances of the camera from the sign, in m.
 const DISTANCES: [f32; 6] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
 
-/// How far from straight ahead the camera stands, in rad.
+/// Maximum angle of the camera from straight ahead of the sign, in rad.
 const SLANT: f32 = 0.7;
 
-/// The class of images without a sign.
+/// Class of images without a sign.
 const NONE: usize = 4;
 
-/// How well number signs are read.
+/// Results of reading number signs.
 #[derive(Debug, Clone)]
 pub struct Signs {
     all: Confusion<5>,
@@ -22,10 +22,10 @@ pub struct Signs {
     times: Times,
 }
 
-/// Looks at each sign from each distance, and as often at places without a sign, for each seed.
+/// Evaluates each sign at each distance, and as many places without a sign, for each seed.
 ///
 /// # Errors
-/// A picture cannot be written.
+/// If an image cannot be written.
 pub fn signs(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) -> Result<Signs, String> {
     let empty = Confusion::new(["1", "2", "3", "4", "none"]);
     let by_distance = std::array::from_fn(|_| empty.clone());
@@ -56,7 +56,7 @@ pub fn signs(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) ->
     Ok(result)
 }
 
-/// A pose at which this sign is seen and no other one.
+/// A pose from which this sign is visible and no other one.
 fn place(arena: &Arena, class: usize, distance: f32, random: &mut Random) -> Option<Pose2> {
     let expected = (class < NONE).then_some(class as u32 + 1);
     (0..100).find_map(|_| {
@@ -68,7 +68,7 @@ fn place(arena: &Arena, class: usize, distance: f32, random: &mut Random) -> Opt
     })
 }
 
-/// The sign in a view.
+/// Sign in a view.
 fn read(program: &mut FindSign, view: View) -> Option<NumberSign> {
     let inputs = program.inputs();
     // The inputs are free: each frame is taken at once.

@@ -5,22 +5,22 @@ use apex_rt::Time;
 use apex_sim::Random;
 use std::{fmt, time::Instant};
 
-/// How far the camera is from the target, in m.
+/// Distances of the camera from the target, in m.
 const DISTANCES: [f32; 8] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0];
 
-/// How fast the robot turns, in rad/s: at 1 rad/s, 10 ms of exposure blur the image over 5 pixels.
+/// Angular velocities of the robot, in rad/s. At 1 rad/s, an exposure of 10 ms blurs the image over 5 pixels.
 const TURNS: [f32; 2] = [0.0, 1.0];
 
-/// How far from straight ahead the camera stands, in rad.
+/// Maximum angle of the camera from straight ahead of the target, in rad.
 const SLANT: f32 = 0.5;
 
-/// A target that is found farther away than this from where it is, in m, is another thing.
+/// Maximum position error of a correct detection, in m. Detections with a greater error are other objects.
 const NEAR: f32 = 0.3;
 
-/// How well targets are found, and where.
+/// Results of the detection of targets.
 #[derive(Debug, Clone, Default)]
 pub struct Targets {
-    /// By distance, then by turn.
+    /// Results by distance, then by angular velocity.
     cells: [[Cell; TURNS.len()]; DISTANCES.len()],
     times: Times,
 }
@@ -29,15 +29,15 @@ pub struct Targets {
 struct Cell {
     frames: u32,
     elsewhere: u32,
-    /// Of those that were found: in m and rad.
+    /// Errors of the detected targets, in m and rad.
     places: Vec<f32>,
     angles: Vec<f32>,
 }
 
-/// Looks at one station at each distance and turn, for each seed.
+/// Evaluates one station at each distance and angular velocity, for each seed.
 ///
 /// # Errors
-/// A picture cannot be written.
+/// If an image cannot be written.
 pub fn targets(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) -> Result<Targets, String> {
     let (mut result, mut program) = (Targets::default(), FindTarget::new());
     for seed in 1..=seeds {
@@ -65,7 +65,7 @@ pub fn targets(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) 
     Ok(result)
 }
 
-/// Where a target is in a view.
+/// Target in a view, in the image and in the frame of the robot.
 fn locate(program: &mut FindTarget, view: crate::View) -> (Option<Target>, Option<Pose2>) {
     let inputs = program.inputs();
     // The inputs are free: each frame is taken at once.

@@ -3,27 +3,27 @@ use crate::story::Phase;
 use apex_rt::{Info, Observer, Time};
 use std::fmt;
 
-/// Notes what the robot is busy with, and what goes wrong in it.
+/// Records the active parts of the mission and the failures in the robot.
 #[derive(Debug)]
 pub struct Diary {
-    /// The time of the reaction that goes on.
+    /// Time of the present reaction.
     pub now: Time,
     info: &'static Info,
     parts: Parts,
-    /// By part: how many of its nodes are active, and since when one is.
+    /// Number of active nodes of each part, and the time since when one is active.
     active: Vec<(u32, Time)>,
     phases: Vec<Phase>,
     failures: Vec<Failure>,
 }
 
-/// Something that went wrong in the robot, once or several times.
+/// Failure in the robot, with the number of its occurrences.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
-    /// What went wrong.
+    /// Description of the failure.
     pub what: String,
-    /// When it did so first.
+    /// Time of the first occurrence.
     pub at: Time,
-    /// How often.
+    /// Number of occurrences.
     pub count: u32,
 }
 
@@ -34,7 +34,7 @@ impl Diary {
         Self { now: Time::ZERO, info, parts, active, phases: vec![], failures: vec![] }
     }
 
-    /// The parts of the mission that are active.
+    /// Active parts of the mission.
     pub fn active(&self) -> Vec<String> {
         let active = self.parts.names().iter().zip(&self.active).filter(|(_, (count, _))| *count > 0);
         active.map(|(name, _)| name.clone()).collect()
@@ -53,11 +53,11 @@ impl Diary {
 
     fn end(&mut self, part: usize) {
         let (name, from) = (self.parts.names()[part].clone(), self.active[part].1);
-        // What passes at once is no phase.
+        // Activity that passes at once is not a phase.
         if from == self.now {
             return;
         }
-        // From one node to the next of the same part the activity passes at once.
+        // Activity may pass from one node to the next of the same part at once: the phase continues.
         match self.phases.iter_mut().rev().find(|phase| phase.name == name) {
             Some(phase) if phase.until == from => phase.until = self.now,
             _ => self.phases.push(Phase { name, from, until: self.now }),
@@ -117,7 +117,7 @@ mod tests {
     use crate::programs::Competition;
     use apex_rt::Program as _;
 
-    /// What a diary says of a robot in which these nodes become active or passive.
+    /// Phases of a robot in which these nodes become active or inactive.
     fn written(story: &[(i64, &str, bool)]) -> Vec<Phase> {
         let info = const { &Competition::INFO };
         let mut diary = Diary::new(info);

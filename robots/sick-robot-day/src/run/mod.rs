@@ -1,4 +1,4 @@
-//! A run of the robot in the competition: which robot, in which hall, how long, and what comes of it.
+//! A run of the robot in the competition: its setup and its outcome.
 
 mod diary;
 mod part;
@@ -20,67 +20,69 @@ use apex_rt::{
 use diary::Diary;
 use std::{path::PathBuf, time::Duration};
 
-/// How often the robot reacts where it could always do so, because of constants in its graphs: as often as the hall moves.
+/// Period of the reactions of a robot that could always react, because of constants in its graphs. It is the step of
+/// the simulation.
 const STEP: Duration = Duration::from_millis(10);
 
-/// How a robot knows what it does next.
+/// Kind of the robot's mission.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Mission {
-    /// By an activity flow graph: `mission.afg`.
+    /// Activity flow graph: `mission.afg`.
     #[default]
     Graph,
-    /// By a state machine: `sdf_mission.afg`.
+    /// State machine: `sdf_mission.afg`.
     Machine,
 }
 
-/// What is run.
+/// Setup of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Setup {
-    /// Which hall.
+    /// Seed of the hall.
     pub seed: u64,
-    /// Which robot.
+    /// Mission of the robot.
     pub mission: Mission,
-    /// What breaks.
+    /// Faults of the robot.
     pub faults: Vec<Fault>,
-    /// How long, from the start on.
+    /// Duration from the start on.
     pub duration: Duration,
-    /// Where it is recorded.
+    /// Optional recording of the run.
     pub record: Option<Recording>,
 }
 
-/// A recording that is wanted.
+/// Options of a recording.
 #[derive(Debug, Clone)]
 pub struct Recording {
-    /// The file; if it is there already, one with a number.
+    /// Path of the file. If the file exists, a number is added.
     pub path: PathBuf,
-    /// With what the cameras see: 4 MB a second. A replay in the hall of the same seed needs no images.
+    /// `true` if camera images are recorded, with 4 MB per second. A replay in the hall of the same seed does not need
+    /// them.
     pub images: bool,
 }
 
-/// What came of a run.
+/// Outcome of a run.
 #[derive(Debug)]
 pub struct Outcome {
-    /// What the robot did and knew.
+    /// Report of the actions and the knowledge of the robot.
     pub story: Story,
-    /// What went wrong in the robot.
+    /// Failures in the robot.
     pub failures: Vec<Failure>,
-    /// What was recorded.
+    /// Finished recording.
     pub recorded: Option<Finished>,
 }
 
-/// What can be seen between two reactions.
+/// State of a run between two reactions.
 #[derive(Debug)]
 pub struct Moment<'a> {
-    /// The time of the run.
+    /// Time of the run.
     pub now: Time,
-    /// Where it takes place.
+    /// Hall of the run.
     pub hall: &'a Hall,
     diary: &'a Diary,
 }
 
-/// Watches a run.
+/// Observer of a run.
 pub trait Watch: Observer {
-    /// The robot has reacted.
+    /// Called after each reaction of the robot.
     fn reacted(&mut self, moment: &Moment<'_>) {
         let _ = moment;
     }
@@ -89,7 +91,7 @@ pub trait Watch: Observer {
 impl Watch for () {}
 
 impl Mission {
-    /// What the robot is made of.
+    /// Structure of the compiled robot.
     pub const fn info(self) -> &'static Info {
         match self {
             Self::Graph => const { &<Competition as Program>::INFO },
@@ -99,7 +101,7 @@ impl Mission {
 }
 
 impl Setup {
-    /// When the run ends.
+    /// Time at which the run ends.
     pub fn end(&self) -> Time {
         START + self.duration
     }
@@ -107,7 +109,7 @@ impl Setup {
     /// Runs the robot.
     ///
     /// # Errors
-    /// It cannot be recorded.
+    /// If the run cannot be recorded.
     pub fn run(&self, watch: &mut impl Watch) -> Result<Outcome, String> {
         match self.mission {
             Mission::Graph => self.drive::<Competition>(watch),
@@ -144,7 +146,7 @@ impl Recording {
     fn begin<R: Robot>(&self) -> Result<Tap, String> {
         let left_out = |channel: &Channel| {
             let node = R::INFO.nodes[channel.node].name;
-            // Only drivers bring in something new: constants and latches in the graphs send the same again.
+            // Only drivers bring in new data: constants and latches in the graphs send the same again in a replay.
             let is_new = !node.contains('.') && (self.images || !R::CAMERAS.contains(&node));
             channel.role == Role::Source && !is_new
         };
@@ -153,7 +155,7 @@ impl Recording {
     }
 }
 
-/// Records, or does not.
+/// Observer with an optional recording.
 struct Tapped(Option<Tap>);
 
 impl Observer for Tapped {
@@ -171,8 +173,8 @@ impl Tapped {
 }
 
 impl Outcome {
-    /// Whether nothing went wrong: in the robot, with a collision that it caused, or with a cube that it took to another
-    /// station.
+    /// Returns `true` if the run has no failures in the robot, no collisions that it caused, and no cubes delivered to
+    /// a wrong station.
     pub fn is_fine(&self) -> bool {
         let report = &self.story.report;
         self.failures.is_empty() && report.caused() == 0 && report.penalties() == 0
@@ -180,7 +182,7 @@ impl Outcome {
 }
 
 impl Moment<'_> {
-    /// What the robot is busy with.
+    /// Active parts of the mission.
     pub fn active(&self) -> Vec<String> {
         self.diary.active()
     }

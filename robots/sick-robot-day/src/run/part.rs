@@ -1,20 +1,20 @@
 use apex_rt::Info;
 
-/// The graph whose parts are those of the mission.
+/// Name of the graph whose parts are those of the mission.
 const MISSION: &str = "mission";
 
-/// Which part of a robot each of its nodes belongs to: the nested graph that it is in, and the one within that.
+/// Assignment of nodes to parts of a robot: the nested graph of a node, and the one within that.
 #[derive(Debug)]
 pub struct Parts {
     names: Vec<String>,
-    /// The number of its part, for each node.
+    /// Number of the part of each node.
     of_nodes: Vec<usize>,
-    /// Whether a part is one of the mission.
+    /// `true` for each part that belongs to the mission.
     in_mission: Vec<bool>,
 }
 
 impl Parts {
-    /// The parts of a robot.
+    /// Determines the parts of a robot.
     pub fn new(info: &Info) -> Self {
         let mut parts = Self { names: vec![], of_nodes: vec![], in_mission: vec![] };
         for node in info.nodes {
@@ -29,29 +29,29 @@ impl Parts {
         parts
     }
 
-    /// The names of all parts, such as `fetch / navigate`.
+    /// Names of all parts, such as `fetch / navigate`.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The number of the part of a node.
+    /// Number of the part of a node.
     pub fn of(&self, node: usize) -> usize {
         self.of_nodes[node]
     }
 
-    /// Whether a part is one of the mission.
+    /// Returns `true` if a part belongs to the mission.
     pub fn is_of_mission(&self, part: usize) -> bool {
         self.in_mission[part]
     }
 }
 
-/// The part of a node, and whether it is one of the mission, whose name is left out.
+/// Name of the part of a node, and `true` if it belongs to the mission, whose name is omitted.
 fn part(node: &str, graphs: &[&str]) -> (String, bool) {
     let inner = node.strip_prefix(MISSION).and_then(|rest| rest.strip_prefix('.'));
     let mut names = inner.unwrap_or(node).split('.');
     let first = names.next().unwrap_or_default();
     let whole = if inner.is_some() { format!("{MISSION}.{first}.") } else { format!("{first}.") };
-    // A graph without graphs in it is a part as a whole.
+    // A graph without nested graphs is one part.
     let second = names.next().filter(|_| graphs.iter().any(|graph| graph.starts_with(&whole)));
     (second.map_or_else(|| first.to_owned(), |second| format!("{first} / {second}")), inner.is_some())
 }

@@ -5,19 +5,19 @@ use crate::{
 };
 use apex_rt::Program;
 
-/// A robot that takes part in the competition.
+/// Robot that takes part in the competition.
 pub trait Robot: Program {
-    /// The nodes that send images.
+    /// Names of the nodes that send images.
     const CAMERAS: [&'static str; 2];
 
-    /// The robot in a hall.
+    /// Creates the robot in a hall.
     fn in_hall(hall: &Hall) -> Self;
 
-    /// What it knows.
+    /// Knowledge of the robot.
     fn journal(&self) -> &Journal;
 }
 
-/// The robots differ in their missions, not in what they are made of.
+/// The robots differ in their missions only.
 macro_rules! robot {
     ($robot:ident, $parts:ident) => {
         impl Robot for $robot {

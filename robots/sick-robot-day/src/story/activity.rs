@@ -7,17 +7,17 @@ use crate::contest::Delivery;
 use image::{Rgb, RgbImage};
 
 const WIDTH: u32 = 1200;
-/// Height of a row, and of what is above and below all.
+/// Height of a row, and of the margins above and below all rows, in pixels.
 const ROW: f32 = 26.0;
 const MARGIN: f32 = 16.0;
-/// At most so many characters of a name.
+/// Maximum number of characters of a name.
 const NAME: usize = 48;
-/// At most so many minutes have a label.
+/// Maximum number of labelled minutes.
 const LABELS: u32 = 16;
 
 const GRID: Colour = Rgb([215, 219, 224]);
 const DELIVERY: Colour = Rgb([200, 20, 40]);
-/// The colours of phases: those within one have its colour.
+/// Colours of phases. Nested phases have the colour of the outer one.
 const PHASES: [Colour; 6] = [
     Rgb([50, 115, 190]),
     Rgb([225, 130, 30]),
@@ -27,11 +27,11 @@ const PHASES: [Colour; 6] = [
     Rgb([145, 100, 75]),
 ];
 
-/// Where times and phases are in the picture.
+/// Layout of times and phases in the picture.
 struct Layout {
-    /// Where time begins.
+    /// Start of the time axis, in pixels.
     left: f32,
-    /// Pixels of a second.
+    /// Pixels per second.
     scale: f32,
     rows: usize,
 }
@@ -48,12 +48,12 @@ impl Layout {
         self.left + self.scale * seconds
     }
 
-    /// The middle of a row; row 0 is that of the deliveries.
+    /// Vertical middle of a row, in pixels; row 0 is that of the deliveries.
     fn y(&self, row: usize) -> f32 {
         MARGIN + ROW * (row as f32 + 0.5)
     }
 
-    /// Where the axis is.
+    /// Vertical position of the time axis, in pixels.
     fn bottom(&self) -> f32 {
         MARGIN + ROW * (self.rows as f32 + 1.0)
     }
@@ -64,7 +64,7 @@ impl Layout {
 }
 
 impl Story {
-    /// Which phase was active when, and when cubes were delivered: a row for each phase, time to the right.
+    /// Diagram of the active phases and the deliveries: a row for each phase, time to the right.
     pub(super) fn draw_activity(&self) -> RgbImage {
         let names = self.phase_names();
         let layout = Layout::of(self, &names);
@@ -102,11 +102,11 @@ fn draw_minutes(canvas: &mut Canvas, layout: &Layout, end: f32) {
 fn draw_phase(canvas: &mut Canvas, layout: &Layout, row: usize, phase: &Phase, colour: Colour) {
     let [from, until] = [phase.from, phase.until].map(|time| layout.x(seconds(time)));
     let y = layout.y(row);
-    // What is short is still seen.
+    // Short phases remain visible.
     canvas.block([from, y - 8.0], [until.max(from + 1.5), y + 8.0], colour);
 }
 
-/// A delivery: its station, over a line through all phases.
+/// Draws a delivery: the number of its station, over a line through all phases.
 fn draw_delivery(canvas: &mut Canvas, layout: &Layout, time: f32, station: u32) {
     let (x, y) = (layout.x(time), layout.y(0));
     canvas.line(&[[x, y], [x, layout.bottom()]], 1.0, DELIVERY);
@@ -115,7 +115,7 @@ fn draw_delivery(canvas: &mut Canvas, layout: &Layout, time: f32, station: u32) 
     canvas.text([x - 0.5 * text_width(&number, SMALL), y], SMALL, &number, WHITE);
 }
 
-/// The colour of a phase is that of the outermost one that it is in.
+/// Colour of a phase: that of the outermost phase around it.
 fn colour_of(name: &str, names: &[&str]) -> Colour {
     let mut outermost = vec![];
     for name in names.iter().map(|name| outer(name)) {

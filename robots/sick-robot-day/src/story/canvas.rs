@@ -6,41 +6,41 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_wid
 /// A colour.
 pub type Colour = Rgb<u8>;
 
-/// A place on a canvas in pixels: to the right and down from its upper left corner.
+/// Position on a canvas, in pixels to the right and down from the upper left corner.
 pub type Spot = [f32; 2];
 
-/// The size of a text: the height of a line in pixels.
+/// Size of a text: the height of a line in pixels.
 pub use noto_sans_mono_bitmap::RasterHeight::{Size16 as SMALL, Size24 as LARGE};
 
 pub const WHITE: Colour = Rgb([255; 3]);
 pub const BLACK: Colour = Rgb([25; 3]);
 
-/// A picture to draw on, with smooth edges. What lies outside is not drawn.
+/// Anti-aliased drawing canvas. Shapes are clipped to it.
 #[derive(Debug, Clone)]
 pub struct Canvas(RgbImage);
 
 impl Canvas {
-    /// A canvas of one colour.
+    /// Creates a canvas of one colour.
     pub fn new(width: u32, height: u32, colour: Colour) -> Self {
         Self(RgbImage::from_pixel(width, height, colour))
     }
 
-    /// A canvas with an image on it.
+    /// Creates a canvas with an image on it.
     pub fn over(image: &GrayImage) -> Self {
         Self(DynamicImage::ImageLuma8(image.pixels.clone()).to_rgb8())
     }
 
-    /// What was drawn.
+    /// The finished picture.
     pub fn finish(self) -> RgbImage {
         self.0
     }
 
-    /// Columns and rows.
+    /// Number of columns and rows.
     pub fn size(&self) -> (u32, u32) {
         self.0.dimensions()
     }
 
-    /// Gives each pixel the colour that a function of its middle says.
+    /// Sets the colour of each pixel by a function of its centre.
     pub fn paint(&mut self, colour: impl Fn(Spot) -> Colour) {
         self.0.enumerate_pixels_mut().for_each(|(x, y, pixel)| *pixel = colour([x as f32 + 0.5, y as f32 + 0.5]));
     }
@@ -69,7 +69,7 @@ impl Canvas {
         });
     }
 
-    /// Writes a text, `at` being the left end of its middle line.
+    /// Writes a text. `at` is the left end of its middle line.
     pub fn text(&mut self, at: Spot, size: RasterHeight, text: &str, colour: Colour) {
         if !at.iter().all(|x| x.is_finite()) {
             return;
@@ -88,17 +88,18 @@ impl Canvas {
         }
     }
 
-    /// Writes a text on a white ground, `at` being its middle.
+    /// Writes a text on a white background. `at` is its middle.
     pub fn label(&mut self, at: Spot, size: RasterHeight, text: &str, colour: Colour) {
         let half = [0.5 * text_width(text, size), 0.5 * size.val() as f32];
         self.block([at[0] - half[0] - 2.0, at[1] - half[1]], [at[0] + half[0] + 2.0, at[1] + half[1]], WHITE);
         self.text([at[0] - half[0], at[1]], size, text, colour);
     }
 
-    /// Draws where `outside`, the distance from a shape in pixels, is negative; it is not between `low` and `high`.
+    /// Draws a shape, where `outside`, the distance from it in pixels, is negative. The shape is inside `low` and
+    /// `high`.
     fn shape(&mut self, low: Spot, high: Spot, colour: Colour, outside: impl Fn(Spot) -> f32) {
         let (width, height) = self.size();
-        // Casts of what is no pixel give the nearest one.
+        // Casts saturate to the nearest pixel.
         let [left, top] = low.map(|x| x as u32);
         let (right, bottom) = ((high[0].ceil() as u32).min(width), (high[1].ceil() as u32).min(height));
         for (x, y) in (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))) {
@@ -107,7 +108,7 @@ impl Canvas {
         }
     }
 
-    /// Mixes a share of a colour into a pixel; nothing if the share is no number.
+    /// Mixes a share of a colour into a pixel. Does nothing if the share is NaN.
     fn blend(&mut self, x: i64, y: i64, share: f32, colour: Colour) {
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         let Some(pixel) = self.0.get_pixel_mut_checked(x, y).filter(|_| share > 0.0) else { return };
@@ -117,7 +118,7 @@ impl Canvas {
     }
 }
 
-/// How wide a text is, in pixels.
+/// Width of a text, in pixels.
 pub fn text_width(text: &str, size: RasterHeight) -> f32 {
     text.chars().count() as f32 * advance(size)
 }

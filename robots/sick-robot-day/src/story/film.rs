@@ -1,5 +1,4 @@
-//! A run as a moving picture: an SVG that animates itself, without scripts, which browsers play also in a page of
-//! Markdown.
+//! Film of a run: a self-animating SVG without scripts, which browsers also play in a Markdown page.
 
 use super::{Phase, Story, seconds};
 use crate::{
@@ -13,19 +12,19 @@ use std::{
     time::Duration,
 };
 
-/// How much faster than the run the film is.
+/// Speed of the film relative to the run.
 const SPEED: f32 = 6.0;
-/// Time of the run between two shots.
+/// Time of the run between two frames.
 const PACE: Duration = Duration::from_millis(500);
-/// Pixels of a metre.
+/// Pixels per metre.
 const SCALE: f32 = 40.0;
-/// Half of what is shown of the arena, in m.
+/// Half of the visible side of the arena, in m.
 const REACH: f32 = 6.6;
 /// Width of the column with the phases, in pixels.
 const COLUMN: f32 = 190.0;
 /// Height of a row of the column, in pixels.
 const ROW: f32 = 24.0;
-/// Colours of the delivery stations, and of the cubes that go there.
+/// Colours of the delivery stations, and of their cubes.
 const STATIONS: [&str; 4] = ["#c2410c", "#1d4ed8", "#15803d", "#a21caf"];
 
 const STYLE: &str = "\
@@ -40,38 +39,38 @@ text { font-family: Helvetica, Arial, 'DejaVu Sans', sans-serif; font-size: 14px
 .number { fill: #fff; font-weight: bold; text-anchor: middle }
 ";
 
-/// What is seen at one moment.
+/// Frame of the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Shot {
     at: Time,
     robots: [(Pose2, Option<u32>); 1 + RIVALS],
 }
 
-/// The places of all robots in the course of a run.
+/// Positions of all robots in the course of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Film {
     shots: Vec<Shot>,
 }
 
 impl Film {
-    /// Takes a shot if it is time for one.
+    /// Takes a frame if it is due.
     pub fn take(&mut self, now: Time, robots: impl FnOnce() -> [Robot; 1 + RIVALS]) {
         if self.shots.last().is_none_or(|last| now.since(last.at) >= PACE) {
             self.shots.push(Shot { at: now, robots: robots().map(|robot| (robot.pose, robot.cube)) });
         }
     }
 
-    /// The film of a run as SVG.
+    /// Film of a run as SVG.
     pub fn svg(&self, story: &Story) -> String {
         Picture { film: self, story, end: story.end().max(1.0) }.to_string()
     }
 }
 
-/// A film that is being written.
+/// Film that is being written.
 struct Picture<'a> {
     film: &'a Film,
     story: &'a Story,
-    /// The end of the run, in s.
+    /// End of the run, in s.
     end: f32,
 }
 
@@ -93,17 +92,17 @@ impl fmt::Display for Picture<'_> {
 }
 
 impl Picture<'_> {
-    /// A share of the run, as the key of an animation.
+    /// Time as a fraction of the run, for the key of an animation.
     fn key(&self, time: Time) -> f32 {
         (seconds(time) / self.end).clamp(0.0, 1.0)
     }
 
-    /// The attributes of an animation that lasts as long as the film.
+    /// Attributes of an animation with the duration of the film.
     fn always(&self) -> String {
         format!(r#"dur="{:.1}s" repeatCount="indefinite""#, self.end / SPEED)
     }
 
-    /// A robot that moves, and the cube in its hopper.
+    /// Writes a moving robot, and the cube in its hopper.
     fn robot(&self, f: &mut fmt::Formatter<'_>, who: usize) -> fmt::Result {
         let shots = || self.film.shots.iter().map(move |shot| (shot.at, shot.robots[who]));
         let Some((_, (begin, _))) = shots().next() else { return Ok(()) };
@@ -129,7 +128,7 @@ impl Picture<'_> {
         writeln!(f, "</g>")
     }
 
-    /// A movement through values at times.
+    /// Writes a movement through values at times.
     fn motion(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -142,7 +141,7 @@ impl Picture<'_> {
             let value: Vec<String> = value.iter().map(|number| format!("{number:.1}")).collect();
             let _ = write!(path, "{}{}", if path.is_empty() { "" } else { ";" }, value.join(" "));
         }
-        // The last value has to stand at the end, and is there already if a shot was taken then.
+        // The last value is repeated at the end, also if a frame was taken then.
         let last = path.rsplit(';').next().unwrap_or_default().to_owned();
         let begin = path.split(';').next().unwrap_or_default().to_owned();
         let always = self.always();
@@ -152,7 +151,7 @@ impl Picture<'_> {
         )
     }
 
-    /// Shows what it is in from each time with `true` to the next with `false`.
+    /// Shows the enclosing element from each time with `true` to the next time with `false`.
     fn shown(&self, f: &mut fmt::Formatter<'_>, changes: &[(Time, bool)]) -> fmt::Result {
         let (mut keys, mut values) = ("0".to_owned(), "0".to_owned());
         for (at, is_shown) in changes {
@@ -166,7 +165,7 @@ impl Picture<'_> {
         )
     }
 
-    /// The column at the right: what the mission is doing, what it has delivered, and how far the run is.
+    /// Writes the column at the right: the active phases of the mission, its deliveries, and the progress of the run.
     fn column(&self, f: &mut fmt::Formatter<'_>, side: f32) -> fmt::Result {
         let left = side + 4.0;
         writeln!(f, r#"<text class="small" x="{left}" y="{:.1}">active in the mission</text>"#, 0.8 * ROW)?;
@@ -183,7 +182,7 @@ impl Picture<'_> {
         self.progress(f, left, side - 24.0)
     }
 
-    /// Every cube that came to a station, from its time on.
+    /// Writes every delivered cube, visible from its time on.
     fn deliveries(&self, f: &mut fmt::Formatter<'_>, left: f32, y: f32) -> fmt::Result {
         const SIZE: f32 = 18.0;
         let in_row = ((COLUMN - 16.0) / SIZE) as usize;
@@ -214,7 +213,7 @@ impl Picture<'_> {
     }
 }
 
-/// The floor, the island and the stations.
+/// Writes the floor, the island and the stations.
 fn arena(f: &mut fmt::Formatter<'_>, arena: &Arena) -> fmt::Result {
     polygon(f, "floor", &arena.border)?;
     let walls = arena.world.walls();
@@ -244,17 +243,17 @@ fn station_colour(number: u32) -> &'static str {
     STATIONS.get(index).copied().unwrap_or("#555")
 }
 
-/// A place of the arena in the picture.
+/// Position of a place of the arena in the picture.
 fn spot(place: Point2) -> [f32; 2] {
     [SCALE * (REACH + place.x), SCALE * (REACH - place.y)]
 }
 
-/// The heading of a pose in the picture, where y points down.
+/// Heading of a pose in the picture, where y points down, in degrees.
 fn degrees(pose: &Pose2) -> f32 {
     -pose.theta.to_degrees()
 }
 
-/// Angles that go on where a turn is full, so that nothing spins between two of them.
+/// Unwrapped angles, so that nothing spins between two of them.
 fn unwound(angles: impl Iterator<Item = (Time, f32)>) -> impl Iterator<Item = (Time, Vec<f32>)> {
     let mut last: Option<f32> = None;
     angles.map(move |(at, angle)| {
@@ -264,12 +263,12 @@ fn unwound(angles: impl Iterator<Item = (Time, f32)>) -> impl Iterator<Item = (T
     })
 }
 
-/// When a phase begins, and when it ends.
+/// Start and end of a phase.
 fn ends(phase: &Phase) -> [(Time, bool); 2] {
     [(phase.from, true), (phase.until, false)]
 }
 
-/// The times at which something changes.
+/// States that differ from the previous one.
 fn changes(states: &[(Time, bool)]) -> Vec<(Time, bool)> {
     let mut is_on = false;
     states.iter().copied().filter(|(_, now)| std::mem::replace(&mut is_on, *now) != *now).collect()

@@ -2,33 +2,33 @@ use super::canvas::{BLACK, Canvas, Colour, SMALL, Spot, text_width};
 use apex_nodes::image::{GrayImage, Region};
 use image::{Rgb, RgbImage};
 
-/// The colour of what was detected.
+/// Colour of detections.
 const FOUND: Colour = Rgb([255, 40, 40]);
-/// Half the width of a cross.
+/// Half the width of a cross, in pixels.
 const CROSS: f32 = 12.0;
 
-/// An image of the camera, and what was detected in it.
+/// Camera image with its detections.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// What it is about.
+    /// Title of the image.
     pub name: String,
-    /// What the camera saw.
+    /// Image of the camera.
     pub image: GrayImage,
-    /// What was detected.
+    /// Detections.
     pub marks: Vec<Mark>,
 }
 
-/// Something that was detected in an image.
+/// Detection in an image.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
     /// A point, in pixels.
     Cross([f32; 2]),
-    /// Something that fills a region, and what it is.
+    /// Region of an object, and its label.
     Box(Region, String),
 }
 
 impl Frame {
-    /// The image with its name and all marks.
+    /// Draws the image with its title and all detections.
     pub(super) fn draw(&self) -> RgbImage {
         let mut canvas = Canvas::over(&self.image);
         for mark in &self.marks {
@@ -42,14 +42,14 @@ impl Frame {
     }
 }
 
-/// The centre of the first pixel is (0, 0) in an image, and (0.5, 0.5) on a canvas.
+/// Draws a cross. The centre of the first pixel is (0, 0) in an image, and (0.5, 0.5) on a canvas.
 fn draw_cross(canvas: &mut Canvas, centre: [f32; 2]) {
     let [x, y]: Spot = centre.map(|x| x + 0.5);
     canvas.line(&[[x - CROSS, y], [x + CROSS, y]], 2.0, FOUND);
     canvas.line(&[[x, y - CROSS], [x, y + CROSS]], 2.0, FOUND);
 }
 
-/// A frame around a region, and over it what it is.
+/// Draws a frame around a region, with its label above.
 fn draw_box(canvas: &mut Canvas, region: &Region, text: &str) {
     let (left, top) = (region.left as f32 - 2.0, region.top as f32 - 2.0);
     let (right, bottom) = (left + region.width as f32 + 4.0, top + region.height as f32 + 4.0);

@@ -7,44 +7,44 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Columns and rows of the arena: a character is about twice as high as wide.
+/// Columns and rows of the arena. A character is about twice as high as wide.
 const COLUMNS: usize = 38;
 const ROWS: usize = 19;
-/// Half of what is shown of the arena, in m.
+/// Half of the visible side of the arena, in m.
 const REACH: f32 = 6.5;
-/// At most so many characters beside the arena.
+/// Maximum number of characters beside the arena.
 const BESIDE: usize = 38;
-/// The shortest time between two views.
+/// Minimum time between two views.
 const PACE: Duration = Duration::from_millis(100);
 
-/// What can be seen of a run at one moment.
+/// Snapshot of a run.
 #[derive(Debug, Clone)]
 pub struct Glance<'a> {
-    /// The time of the run.
+    /// Time of the run.
     pub now: Time,
-    /// Where it takes place.
+    /// Arena of the run.
     pub arena: &'a Arena,
-    /// Where the robot really is.
+    /// True pose of the robot.
     pub pose: Pose2,
-    /// Where the other robots are.
+    /// Positions of the other robots.
     pub rivals: Vec<Point2>,
-    /// The score.
+    /// Points for correct deliveries.
     pub points: u32,
-    /// What was taken off the score.
+    /// Penalties.
     pub penalties: u32,
-    /// The phases that are active.
+    /// Active phases.
     pub active: Vec<String>,
-    /// The number of the cube in the hopper.
+    /// Number of the cube in the hopper.
     pub hopper: Option<u32>,
 }
 
-/// Shows how a run goes on standard error: as a map that is drawn again and again if that is a terminal, and else as a
-/// line for each minute, if somebody asked for them.
+/// Shows the progress of a run on standard error: on a terminal as a map that is redrawn in place, otherwise as a line
+/// per minute if lines are requested.
 #[derive(Debug)]
 pub struct LiveView {
     output: Output,
     drawn: Option<Instant>,
-    /// The minute of the next line.
+    /// Minute of the next line.
     minute: u32,
 }
 
@@ -56,7 +56,7 @@ enum Output {
 }
 
 impl LiveView {
-    /// Looks at what standard error is. `lines` says whether lines are wanted where it is no terminal.
+    /// Creates a view for the type of standard error. `lines` requests lines if it is not a terminal.
     pub fn new(lines: bool) -> Self {
         let output = match std::io::stderr().is_terminal() {
             true => Output::Map,
@@ -66,23 +66,23 @@ impl LiveView {
         Self { output, drawn: None, minute: 0 }
     }
 
-    /// Shows what is seen at `now`, if it is time to.
+    /// Shows the snapshot at `now`, if a view is due.
     pub fn show<'a>(&mut self, now: Time, glance: impl FnOnce() -> Glance<'a>) {
         if let Some(text) = self.text(now, Instant::now(), glance) {
             let mut terminal = std::io::stderr();
-            // A view that cannot be shown is no reason to stop.
+            // Failing to show the view is not a reason to stop.
             let _ = terminal.write_all(text.as_bytes()).and_then(|()| terminal.flush());
         }
     }
 
-    /// What has to be written now.
+    /// Text to write now, if any.
     fn text<'a>(&mut self, now: Time, wall: Instant, glance: impl FnOnce() -> Glance<'a>) -> Option<String> {
         match self.output {
             Output::Map => {
                 if self.drawn.is_some_and(|drawn| wall.duration_since(drawn) < PACE) {
                     return None;
                 }
-                // Over what was drawn before; what is left of its lines is erased.
+                // Over the previous drawing; the rest of each line is erased.
                 let up = self.drawn.replace(wall).map_or_else(String::new, |_| format!("\x1b[{ROWS}A"));
                 let lines: Vec<String> = glance().lines().iter().map(|line| format!("{line}\x1b[K\n")).collect();
                 Some(up + &lines.concat())
@@ -101,7 +101,7 @@ impl LiveView {
 }
 
 impl Glance<'_> {
-    /// The arena, and beside it what goes on.
+    /// Lines of the arena, with the state of the run beside them.
     fn lines(&self) -> Vec<String> {
         let beside = self.beside();
         let mut beside = beside.iter().map(|text| shortened(text, BESIDE));
@@ -109,7 +109,7 @@ impl Glance<'_> {
         rows.iter().map(|row| format!("{row}  {}", beside.next().unwrap_or_default()).trim_end().to_owned()).collect()
     }
 
-    /// One line instead of all.
+    /// State of the run in one line.
     fn line(&self) -> String {
         format!("{}: points {}, penalties {}", clock(seconds(self.now)), self.points, self.penalties)
     }
@@ -127,8 +127,8 @@ impl Glance<'_> {
         lines
     }
 
-    /// Walls as `#`, filling stations as `+`, delivery stations by their numbers, the robot as `A`, and the others as `B`
-    /// and so on. What comes later hides what was there.
+    /// Chart of the arena: walls as `#`, filling stations as `+`, delivery stations by their numbers, the robot as `A`,
+    /// and the others as `B` and so on. Later characters replace earlier ones.
     fn chart(&self) -> Vec<String> {
         let mut chart = Chart([[' '; COLUMNS]; ROWS]);
         for wall in self.arena.world.walls() {
@@ -146,15 +146,15 @@ impl Glance<'_> {
     }
 }
 
-/// The arena in characters.
+/// Arena in characters.
 struct Chart([[char; COLUMNS]; ROWS]);
 
 impl Chart {
-    /// Puts a character where a place is; nothing if that is outside.
+    /// Puts a character at a place, or nothing if the place is outside.
     fn put(&mut self, place: Point2, character: char) {
         let column = (0.5 + 0.5 * place.x / REACH) * COLUMNS as f32;
         let row = (0.5 - 0.5 * place.y / REACH) * ROWS as f32;
-        // False for what is no number.
+        // False for NaN.
         if column >= 0.0 && row >= 0.0 && column < COLUMNS as f32 && row < ROWS as f32 {
             self.0[row as usize][column as usize] = character;
         }

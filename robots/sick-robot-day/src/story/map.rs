@@ -12,7 +12,7 @@ use std::f32::consts::TAU;
 
 /// Columns and rows of the picture.
 const SIDE: u32 = 1200;
-/// Pixels of a metre: around the border there is room for the numbers of the stations.
+/// Pixels per metre, with room for the numbers of the stations around the border.
 const SCALE: f32 = 90.0;
 
 const UNKNOWN: Colour = Rgb([226, 229, 233]);
@@ -20,20 +20,20 @@ const WALL: Colour = Rgb([90, 175, 255]);
 const ISLAND: Colour = Rgb([200, 40, 200]);
 const STATION: Colour = Rgb([20, 140, 60]);
 const SIGN: Colour = Rgb([215, 95, 0]);
-/// A sign that was hardly seen.
+/// Colour of a sign with few sightings.
 const DOUBTFUL: Colour = Rgb([235, 190, 150]);
 const DELIVERY: Colour = Rgb([200, 20, 40]);
-/// The colours of the way, from the start to the end.
+/// Colours of the path, from the start to the end.
 const TIMES: [Colour; 4] = [Rgb([70, 60, 190]), Rgb([0, 150, 190]), Rgb([110, 165, 40]), Rgb([240, 165, 0])];
 
-/// A sign that was seen less often may be something else.
+/// Minimum number of sightings of a certain sign. One with fewer may be something else.
 const SURE: u32 = 3;
-/// 95 % of a Gaussian in the plane lie within so many standard deviations.
+/// Number of standard deviations that contain 95 % of a Gaussian in the plane.
 const DEVIATIONS: f32 = 2.45;
 
 impl Story {
-    /// The robot's map and what it found in it, over the truth. The origin of the arena is in the middle, and x points to
-    /// the right.
+    /// Draws the robot's map and its detections over the true arena. The origin of the arena is in the middle; x points
+    /// to the right.
     pub(super) fn draw_map(&self) -> RgbImage {
         let mut canvas = Canvas::new(SIDE, SIDE, UNKNOWN);
         self.draw_cells(&mut canvas);
@@ -73,7 +73,7 @@ impl Story {
         }
     }
 
-    /// The way of the robot, coloured by time.
+    /// Draws the path of the robot, coloured by time.
     fn draw_way(&self, canvas: &mut Canvas) {
         let end = self.end();
         for ends in self.report.trajectory.windows(2) {
@@ -88,7 +88,7 @@ impl Story {
         }
     }
 
-    /// What the robot found, from its own frame to that of the arena.
+    /// Draws the detections of the robot, transformed from its own frame to that of the arena.
     fn draw_found(&self, canvas: &mut Canvas) {
         if let Some(octagon) = &self.octagon {
             let corner = |i| Point2::polar(octagon.apothem / (TAU / 16.0).cos(), octagon.theta + TAU / 16.0 * i as f32);
@@ -110,7 +110,7 @@ impl Story {
         }
     }
 
-    /// The pixel of a place in the map of the robot.
+    /// Pixel of a place in the map of the robot.
     fn pixel_of(&self, place: Point2) -> Spot {
         pixel(self.start.to_outer(place))
     }
@@ -121,7 +121,7 @@ impl Story {
         canvas.text([16.0, 50.0], SMALL, &points, BLACK);
     }
 
-    /// What the colours of the way mean.
+    /// Draws the legend for the colours of the path.
     fn draw_times(&self, canvas: &mut Canvas) {
         const LENGTH: f32 = 160.0;
         let (left, y) = (16.0, SIDE as f32 - 40.0);
@@ -140,17 +140,17 @@ impl Story {
 /// The middle of the arena is in the middle of the picture.
 const MIDDLE: f32 = 0.5 * SIDE as f32;
 
-/// The pixel of a place in the arena.
+/// Pixel of a place in the arena.
 fn pixel(place: Point2) -> Spot {
     [MIDDLE + SCALE * place.x, MIDDLE - SCALE * place.y]
 }
 
-/// The place in the arena of a pixel.
+/// Place in the arena of a pixel.
 fn place(spot: Spot) -> Point2 {
     Point2::new(spot[0] - MIDDLE, MIDDLE - spot[1]).scaled(1.0 / SCALE)
 }
 
-/// The colour of a moment, as a part of the whole time.
+/// Colour of a time, given as a fraction of the run.
 fn colour_of(part: f32) -> Colour {
     let at = part.clamp(0.0, 1.0) * (TIMES.len() - 1) as f32;
     let first = (at as usize).min(TIMES.len() - 2);
@@ -159,7 +159,7 @@ fn colour_of(part: f32) -> Colour {
     Rgb([0, 1, 2].map(|i| mixed(i) as u8))
 }
 
-/// Where a sign is with a probability of 95 %, in the frame of the map.
+/// Ellipse that contains a sign with a probability of 95 %, in the frame of the map.
 fn ellipse(sign: &Sign) -> impl Iterator<Item = Point2> {
     const PARTS: u8 = 48;
     let [xx, yy, xy] = sign.covariance();
@@ -177,7 +177,7 @@ fn delivery(canvas: &mut Canvas, spot: Spot) {
     canvas.disc(spot, 6.5, DELIVERY);
 }
 
-/// A filling station; one that is in use is hollow.
+/// Draws a filling station; one in use is hollow.
 fn station(canvas: &mut Canvas, spot: Spot, free: bool) {
     canvas.disc(spot, 9.0, STATION);
     if !free {
@@ -185,7 +185,7 @@ fn station(canvas: &mut Canvas, spot: Spot, free: bool) {
     }
 }
 
-/// What the marks mean, in the upper right corner.
+/// Draws the legend of the symbols in the upper right corner.
 fn draw_legend(canvas: &mut Canvas) {
     type Symbol = fn(&mut Canvas, Spot);
     let rows: [(&str, Symbol); 7] = [
@@ -204,12 +204,12 @@ fn draw_legend(canvas: &mut Canvas) {
     }
 }
 
-/// A short line of a legend.
+/// Draws a short line of the legend.
 fn bar(canvas: &mut Canvas, [x, y]: Spot, colour: Colour) {
     canvas.line(&[[x - 9.0, y], [x + 9.0, y]], 3.0, colour);
 }
 
-/// How long a metre is, in the lower right corner.
+/// Draws a scale of one metre in the lower right corner.
 fn draw_scale(canvas: &mut Canvas) {
     let (right, y) = (SIDE as f32 - 16.0, SIDE as f32 - 20.0);
     canvas.line(&[[right - SCALE, y], [right, y]], 3.0, BLACK);
@@ -221,7 +221,7 @@ mod tests {
     use super::*;
     use crate::{contest::Report, story::tests::story};
 
-    /// The colour at a place of the arena.
+    /// Colour at a place of the arena.
     fn at(picture: &RgbImage, place: Point2) -> Colour {
         let [x, y] = pixel(place).map(|x| x as u32);
         picture[(x, y)]
@@ -251,7 +251,7 @@ mod tests {
         for (x, y) in [(1.2, 2.2), (0.8, 1.8), (1.1, 2.1), (0.9, 1.9)] {
             sign.add(&Pose2::new(x, y, 0.0));
         }
-        // It was seen along a line of 45°.
+        // The sign was seen along a line of 45°.
         let deviation = DEVIATIONS * sign.covariance()[0].sqrt();
         assert!(ellipse(&sign).all(|p| ((p.x - 1.0) - (p.y - 2.0)).abs() < 1e-3));
         let farthest = ellipse(&sign).map(|p| (p.x - 1.0).abs()).fold(0.0, f32::max);

@@ -1,4 +1,4 @@
-//! What a run of the robot leaves behind: a table, pictures, and a view of it while it goes on.
+//! Report of a run: a table, pictures, and a live view.
 
 mod activity;
 mod canvas;
@@ -23,44 +23,44 @@ use apex_nodes::{
 };
 use apex_rt::Time;
 
-/// What happened in a run.
+/// Report of a run.
 #[derive(Debug, Clone)]
 pub struct Story {
-    /// The seed of the run.
+    /// Seed of the run.
     pub seed: u64,
-    /// The truth.
+    /// True arena.
     pub arena: Arena,
-    /// Where the robot began: what it knows is in the frame of its odometry, which begins there.
+    /// Start pose of the robot. Its knowledge is in the frame of its odometry, which begins there.
     pub start: Pose2,
-    /// The last map of the robot.
+    /// Last map of the robot.
     pub map: Option<Grid<Occupancy>>,
-    /// What it took for the island.
+    /// Detected island.
     pub octagon: Option<Octagon>,
-    /// What it took for filling stations.
+    /// Detected filling stations.
     pub stations: Vec<Station>,
-    /// The signs that it saw.
+    /// Detected signs.
     pub signs: Signs,
-    /// What it was busy with.
+    /// Active phases of the mission.
     pub phases: Vec<Phase>,
-    /// What the referee says.
+    /// Report of the referee.
     pub report: Report,
-    /// What its camera saw.
+    /// Camera images with detections.
     pub frames: Vec<Frame>,
 }
 
-/// A part of the mission that was active for a while. Several may be at once.
+/// Time in which a part of the mission was active. Several phases may overlap.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Phase {
-    /// Which part, after those that it is in: `fetch / position`.
+    /// Name of the part, after those around it: `fetch / position`.
     pub name: String,
-    /// When it became active.
+    /// Time of activation.
     pub from: Time,
-    /// When it ended.
+    /// Time of deactivation.
     pub until: Time,
 }
 
 impl Story {
-    /// The story of a run that has ended, in the hall of a seed.
+    /// Creates the report of a finished run in the hall of a seed.
     pub fn of(seed: u64, hall: &Hall, start: Pose2, journal: &Journal, phases: Vec<Phase>) -> Self {
         Self {
             seed,
@@ -79,7 +79,7 @@ impl Story {
     /// Writes the pictures: `map`, `activity`, and `frame-01` and so on.
     ///
     /// # Errors
-    /// A picture cannot be written.
+    /// If a picture cannot be written.
     pub fn write(&self, album: &Album) -> Result<(), String> {
         album.save("map", &self.draw_map())?;
         album.save("activity", &self.draw_activity())?;
@@ -87,7 +87,7 @@ impl Story {
         frames.try_for_each(|(frame, number)| album.save(&format!("frame-{number:02}"), &frame.draw()))
     }
 
-    /// The last time at which something happened, in s.
+    /// Time of the last event, in s.
     fn end(&self) -> f32 {
         let driven = self.report.trajectory.last().map(|(time, _)| *time);
         let phases = self.phases.iter().map(|phase| phase.until);
@@ -95,7 +95,7 @@ impl Story {
         all.max().map_or(0.0, seconds)
     }
 
-    /// The names of the phases, in the order in which they were first active.
+    /// Names of the phases, in the order of their first activation.
     fn phase_names(&self) -> Vec<&str> {
         let mut phases: Vec<&Phase> = self.phases.iter().collect();
         phases.sort_by_key(|phase| phase.from);
@@ -108,7 +108,7 @@ impl Story {
         names
     }
 
-    /// Where the robot was at a time.
+    /// Position of the robot at a time.
     fn place(&self, time: Time) -> Option<Point2> {
         let after = self.report.trajectory.partition_point(|(t, _)| *t < time);
         let nearest = self.report.trajectory.get(after).or(self.report.trajectory.last());
@@ -116,18 +116,18 @@ impl Story {
     }
 }
 
-/// A time in s.
+/// Time in s.
 fn seconds(time: Time) -> f32 {
     time.as_secs_f64() as f32
 }
 
-/// Seconds as minutes: `7:03`.
+/// Seconds as minutes and seconds: `7:03`.
 fn clock(seconds: f32) -> String {
     let whole = seconds as u32;
     format!("{}:{:02}", whole / 60, whole % 60)
 }
 
-/// At most so many characters of a text.
+/// Text shortened to `most` characters.
 fn shortened(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();

@@ -1,14 +1,14 @@
 use super::{Story, clock, seconds, shortened};
 use std::{fmt, fmt::Write as _};
 
-/// Columns for the names of phases.
+/// Number of columns for the names of phases.
 const NAME: usize = 44;
 
 impl Story {
-    /// How the run ended: the score, and how long each phase took.
+    /// Table of the result: the score, and the duration of each phase.
     pub fn table(&self) -> String {
         let mut table = String::new();
-        // Nothing can go wrong in a text.
+        // Writing to a `String` cannot fail.
         let _ = self.write_score(&mut table).and_then(|()| self.write_phases(&mut table));
         table
     }

@@ -6,7 +6,7 @@ use apex_nodes::{
 };
 use std::fs;
 
-/// A made-up run of two minutes.
+/// An invented run of two minutes.
 pub fn story() -> Story {
     let arena = Arena::new(3);
     let start = Pose2::new(3.0, -2.0, 2.0);
@@ -32,7 +32,7 @@ pub fn story() -> Story {
     }
 }
 
-/// One of two cubes came to the right station; one of three collisions was its fault.
+/// One of two cubes came to the right station; the robot caused one of three collisions.
 fn report(trajectory: Vec<(Time, Pose2)>) -> Report {
     let delivery = |s, station, cube| Delivery { at: Time::from_secs(s), station, cube };
     let collision = |s, caused| Collision {
@@ -72,14 +72,14 @@ fn seen(arena: &Arena, start: &Pose2) -> Grid<Occupancy> {
     map
 }
 
-/// The island, not quite where it is.
+/// The island, with a small error.
 fn island(arena: &Arena, start: &Pose2) -> Octagon {
     let centre = start.to_inner(Point2::new(0.06, 0.04));
     let theta = arena.filling[0].pose.theta - start.theta;
     Octagon { centre, apothem: 1.45, theta }
 }
 
-/// The four signs, which were seen often, after one that was hardly seen.
+/// The four signs with many sightings, after one with few.
 fn signs(arena: &Arena, start: &Pose2) -> Signs {
     let mut signs = Signs::new();
     for (station, number) in arena.delivery.iter().zip(1..) {

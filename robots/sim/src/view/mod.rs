@@ -1,4 +1,4 @@
-//! A picture of a drawn world with its robot, while it moves.
+//! Live picture of a drawn world with a moving robot.
 
 mod svg;
 mod terminal;
@@ -13,45 +13,45 @@ use std::{
     path::Path,
 };
 
-/// How far places of the trail are apart, in m.
+/// Distance between points of the trail, in m.
 const TRAIL_STEP: f32 = 0.08;
-/// The most places of the trail. Beyond, every second one is left out.
+/// Maximum number of points of the trail. Beyond it, every second point is removed.
 const TRAIL_LENGTH: usize = 2000;
-/// How often the file is written.
+/// Period of writing the file.
 const FILE_PERIOD: Duration = Duration::from_secs(1);
 
-/// What there is to see.
+/// Content of the view.
 #[derive(Debug, Clone)]
 struct Picture {
     plan: FloorPlan,
-    /// Where the robot is.
+    /// Pose of the robot in the world.
     pose: Pose2,
-    /// What its scanner has hit last, in the world.
+    /// Points of the last scan, in the world.
     hits: Vec<Point2>,
-    /// Where the robot has been.
+    /// Previous positions of the robot.
     trail: Vec<Point2>,
-    /// The time of all this.
+    /// Time of the view.
     now: Time,
-    /// The last note.
+    /// Last note.
     note: String,
 }
 
-/// Shows a drawn world ([`FloorPlan`](crate::FloorPlan)) with a robot in it, where it has been, and what its scanner
-/// sees.
+/// Shows a drawn world ([`FloorPlan`](crate::FloorPlan)) with the robot, its trail and the points of its scan.
 ///
-/// On a terminal the picture is drawn there again and again, with the last note below; where the output goes elsewhere,
-/// each note is a line with its time, and nothing is drawn. The picture is also written into a file, once a second and
+/// On a terminal the picture is redrawn in place, with the last note below. If the output is redirected, each note is a
+/// line with its time, and no picture is drawn. The picture is also written to a file, once per second and with each
+/// note.
 /// with each note.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LiveView {
-    /// The drawing of the world.
+    /// Drawing of the world.
     #[param]
     world: &'static str,
-    /// Time from one picture on the terminal to the next.
+    /// Time between two pictures on the terminal.
     #[param(unit = "s", default = 0.1, range = 0.01..=60.0)]
     period: f32,
-    /// The file that is written (SVG); empty if none is.
+    /// SVG file to write, or empty for none.
     #[param(default = "")]
     file: &'static str,
     picture: Option<Picture>,
@@ -61,14 +61,14 @@ pub struct LiveView {
     failed: bool,
 }
 
-/// Why there is no picture.
+/// Error of the view.
 #[derive(Debug)]
 pub enum ViewError {
     /// The drawing is not a world.
     Plan(PlanError),
-    /// The picture cannot be written: the file, and why.
+    /// The picture cannot be written: the file, and the error.
     File(&'static str, io::Error),
-    /// Nothing can be written to the terminal.
+    /// The terminal cannot be written to.
     Terminal(io::Error),
 }
 
@@ -86,7 +86,7 @@ impl core::error::Error for ViewError {}
 
 #[node]
 impl LiveView {
-    /// Takes where the robot really is, and what it sees from there.
+    /// Takes the true pose of the robot, and its scan.
     fn process(&mut self, ctx: &Ctx, pose: &Pose2, scan: Option<&Scan>) -> Result<(), ViewError> {
         if self.failed {
             return Ok(());
@@ -94,7 +94,7 @@ impl LiveView {
         self.look(ctx, pose, scan).and_then(|()| self.show(false)).inspect_err(|_| self.failed = true)
     }
 
-    /// What the picture is to say from now on.
+    /// Shows a note from now on.
     #[slot]
     fn note(&mut self, text: &String, ctx: &Ctx) -> Result<(), ViewError> {
         let now = ctx.now();
@@ -121,7 +121,7 @@ impl LiveView {
         Ok(())
     }
 
-    /// Draws what is due, or everything.
+    /// Draws the outputs that are due, or all.
     fn show(&mut self, everything: bool) -> Result<(), ViewError> {
         let Some(picture) = &self.picture else { return Ok(()) };
         let due = |last: Option<Time>, period: Duration| {
@@ -162,7 +162,7 @@ impl Picture {
     }
 }
 
-/// Draws over the last picture, which has so many lines; returns how many the new one has.
+/// Draws over the last picture of `lines` lines. Returns the number of lines of the new one.
 fn draw_on_terminal(picture: &Picture, lines: usize) -> io::Result<usize> {
     let (columns, rows) = picture.plan.size();
     let room = terminal_size::terminal_size().map_or((80, 24), |(w, h)| (usize::from(w.0), usize::from(h.0)));
@@ -173,14 +173,14 @@ fn draw_on_terminal(picture: &Picture, lines: usize) -> io::Result<usize> {
         (format!("(a terminal of {size} shows the map) {}\x1b[K\n", terminal::caption(picture)), 1)
     };
     let mut output = io::stdout().lock();
-    // Up to where the last picture begins; what is left of it below is removed.
+    // Moves up to the start of the last picture. The rest of it below the new one is removed.
     let up = if lines > 0 { format!("\x1b[{lines}A\r") } else { String::new() };
     output.write_all(format!("{up}{text}\x1b[J").as_bytes())?;
     output.flush()?;
     Ok(count)
 }
 
-/// Replaces a file, so that nobody ever sees half of it.
+/// Replaces a file atomically, so that readers never see a part of it.
 fn write_whole(path: &Path, text: &str) -> io::Result<()> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         fs::create_dir_all(folder)?;

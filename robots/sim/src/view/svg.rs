@@ -7,12 +7,12 @@ use std::fmt::Write as _;
 
 /// Pixels per metre.
 const SCALE: f32 = 48.0;
-/// Height of the line below the map, in pixels.
+/// Height of the caption below the map, in pixels.
 const CAPTION: f32 = 34.0;
 /// Radius of the drawn robot, in m.
 const ROBOT: f32 = 0.2;
 
-/// The whole file.
+/// Content of the file.
 pub fn draw(picture: &Picture) -> String {
     let (width, height) = picture.plan.extent();
     let (width, height) = (width * SCALE, height * SCALE);
@@ -58,7 +58,7 @@ fn walls(picture: &Picture, text: &mut String) {
             let count = (column..columns).take_while(|column| is_wall(*column)).count();
             if count > 0 {
                 let (x, wide) = (column as f32 * w, count as f32 * w);
-                // A little higher, so that no seam shows between lines.
+                // Slightly higher, so that no seam shows between lines.
                 let _ = writeln!(
                     text,
                     "<rect x=\"{x}\" y=\"{y}\" width=\"{wide}\" height=\"{}\" fill=\"#454b57\"/>",
@@ -74,7 +74,7 @@ fn walls(picture: &Picture, text: &mut String) {
     }
 }
 
-/// A disc with a wedge that points ahead.
+/// Robot: a disc with a wedge that points ahead.
 fn robot(picture: &Picture, height: f32, text: &mut String) {
     let (x, y) = (picture.pose.x * SCALE, height - picture.pose.y * SCALE);
     let (r, turn) = (ROBOT * SCALE, -picture.pose.theta.to_degrees());

@@ -1,4 +1,4 @@
-//! The picture in characters: the drawing itself, with dots of Braille for what is finer.
+//! The picture in characters: the drawing itself, with Braille dots for finer details.
 
 use super::Picture;
 use crate::plan::{CELL_HEIGHT, CELL_WIDTH};
@@ -12,12 +12,12 @@ const HIT: &str = "\x1b[91m";
 const TRAIL: &str = "\x1b[36m";
 const ROBOT: &str = "\x1b[1;93m";
 const HOME: &str = "\x1b[92m";
-/// The robot, by eighths of a turn from the x axis on.
+/// Symbols of the robot, by eighths of a turn from the x axis on.
 const ARROWS: [char; 8] = ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'];
-/// The dots of a Braille character, by row and column.
+/// Dots of a Braille character, by row and column.
 const DOTS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
-/// The characters and colours of one picture, with the caption below.
+/// Characters and colours of one picture, with the caption below.
 pub fn draw(picture: &Picture) -> String {
     let (columns, rows) = picture.plan.size();
     let (trail, hits) = (dots(picture, &picture.trail), dots(picture, &picture.hits));
@@ -51,18 +51,18 @@ pub fn draw(picture: &Picture) -> String {
     text
 }
 
-/// The time and the last note.
+/// Time and last note.
 pub fn caption(picture: &Picture) -> String {
     let note: String = picture.note.chars().filter(|c| !c.is_control()).take(60).collect();
     format!("{:6.1} s  {note}", picture.now.as_secs_f64())
 }
 
-/// Which dots of each character points lie at.
+/// Braille dots of each character, from the points in it.
 fn dots(picture: &Picture, points: &[Point2]) -> Vec<u8> {
     let (columns, rows) = picture.plan.size();
     let mut dots = vec![0; columns * rows];
     for point in points {
-        // What a scanner hits is a little inside of what it belongs to, or before it.
+        // A scan point may be slightly inside its object, or in front of it.
         if let Some((row, column)) = cell(picture, *point) {
             let (x, y) = place(picture, *point);
             let [across, down] = [x.fract() * 2.0, y.fract() * 4.0].map(|part| part as usize);
@@ -72,13 +72,13 @@ fn dots(picture: &Picture, points: &[Point2]) -> Vec<u8> {
     dots
 }
 
-/// A point in characters from the left and from above.
+/// Position of a point in characters, from the left and from the top.
 fn place(picture: &Picture, point: Point2) -> (f32, f32) {
     let (_, height) = picture.plan.extent();
     (point.x / CELL_WIDTH, (height - point.y) / CELL_HEIGHT)
 }
 
-/// The character at a point, by row and column; `None` outside.
+/// Row and column of the character at a point, or `None` outside the drawing.
 fn cell(picture: &Picture, point: Point2) -> Option<(usize, usize)> {
     let ((x, y), (columns, rows)) = (place(picture, point), picture.plan.size());
     let inside = x >= 0.0 && y >= 0.0 && x < columns as f32 && y < rows as f32;
@@ -98,7 +98,7 @@ fn arrow(theta: f32) -> char {
 mod tests {
     use super::{super::tests::picture, *};
 
-    /// A text without its colours.
+    /// Text without its colours.
     fn plain(text: &str) -> String {
         let mut parts = text.split('\x1b');
         let first = parts.next().unwrap_or_default().to_owned();
