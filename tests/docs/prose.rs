@@ -123,7 +123,10 @@ fn add<'a>(line: &'a str, number: usize, in_code: &mut bool, paragraphs: &mut Ve
     if fence || *in_code || line.is_empty() || line.starts_with(['|', '#']) || line.starts_with("![") {
         paragraphs.push(vec![]);
     } else if let Some(paragraph) = paragraphs.last_mut() {
-        paragraph.push((number, line));
+        // Four blanks at the beginning of a paragraph make it a block of code.
+        if !paragraph.is_empty() || !line.starts_with("    ") {
+            paragraph.push((number, line));
+        }
     }
 }
 
@@ -288,7 +291,7 @@ fn habits_are_told_from_good_english() {
     let lines: Vec<(&str, usize)> =
         comments(text).iter().map(|(mark, paragraphs)| (*mark, paragraphs.concat().len())).collect();
     assert_eq!(lines, [("///", 1), ("//!", 1), ("//", 1)]);
-    let page = "# A title\nprose\n| a | table |\n```afg\ncode\n```\n![A picture](x.svg)\nmore\n";
+    let page = "# A title\nprose\n| a | table |\n```afg\ncode\n```\n![A picture](x.svg)\nmore\n\n    code\n";
     assert_eq!(paragraphs(page).concat(), [(2, "prose"), (8, "more")]);
     assert_eq!(["a word", "a [link](page.md#anchor) and [another](x) one"].map(width), [6, 30]);
 }
