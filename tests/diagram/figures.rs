@@ -6,12 +6,13 @@ use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
 
 const INTRODUCTION: &str = "# Figures
 
-The figures of the dissertation that are about the model itself, as they are written in `tests/figures` and drawn by `apex graph`. The tests
-run all of them, and write this page.
+The figures of the dissertation that concern the model itself. Their source files are in `tests/figures`, and
+`apex graph` draws them. The tests run all of them, and write this page.
 
-Data goes from left to right: inputs are at the left of a box, outputs at the right. Slots are at the top, events at the bottom. Double lines
-are `=>`, which activity passes. Solid lines are synchronous, dashed ones asynchronous; dash-dotted ones lead from the one to the
-other. Where activity can be is coloured, and it begins at the dot. A second picture shows the activity alone (`--activity`).
+Data flows from left to right: inputs are on the left of a box, outputs on the right. Slots are at the top, events at
+the bottom. Double lines are `=>`, which passes activity on. Solid lines are synchronous, dashed lines asynchronous;
+dash-dotted lines lead from one kind to the other. Nodes that can be active are coloured, and a dot marks the beginning
+of the activity. A second picture shows the activity alone (`--activity`).
 ";
 
 /// What stands behind `mark` at the beginning of a text.

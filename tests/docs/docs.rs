@@ -20,6 +20,7 @@ mod from;
 mod language;
 #[allow(dead_code)]
 mod nodes;
+mod prose;
 #[allow(dead_code)]
 mod rates;
 mod readme;

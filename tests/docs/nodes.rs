@@ -28,7 +28,7 @@ pub fn larger<T: PartialOrd + Copy>(a: &T, b: &T) -> T {
 /// Counts down while it is active, one a firing, and says when it is done.
 #[node]
 pub struct Countdown {
-    /// Where it begins when it becomes active.
+    /// First number after the activation.
     #[param(default = 3)]
     from: u32,
     left: u32,

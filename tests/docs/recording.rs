@@ -8,7 +8,7 @@ use apex_rt::{
     },
 };
 
-/// How warm it is, in °C.
+/// Temperature, in °C.
 pub struct Warmth(pub f64);
 
 impl Message for Warmth {
@@ -36,7 +36,7 @@ pub fn thermometer(ctx: &Ctx) -> Warmth {
     Warmth(20.0 + ctx.now().as_secs_f64())
 }
 
-/// Whether it is too warm.
+/// Returns `true` if it is too warm.
 #[node]
 pub fn too_warm(warmth: &Warmth) -> bool {
     warmth.0 > 20.5
