@@ -14,7 +14,7 @@ use crate::{
 };
 use apex_rt::{Out, Timer};
 use seq_macro::seq;
-use std::{hint::black_box, time::Duration};
+use std::hint::black_box;
 
 macro_rules! chain {
     ($($name:ident: $source:ty, $n:literal;)*) => {

@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn deactivate_passes_tokens_on() {
         let mut token = None;
-        Deactivate::default().put(&3, Event::into_slot(&mut token));
+        Deactivate::default().put(&3, apex_rt::event(&mut token));
         assert_eq!(token, Some(3));
     }
 }

@@ -107,7 +107,7 @@ mod tests {
     /// Token with which `call` triggers its event.
     fn triggered<T>(call: impl FnOnce(Event<'_, T>)) -> Option<T> {
         let mut token = None;
-        call(Event::into_slot(&mut token));
+        call(apex_rt::event(&mut token));
         token
     }
 
@@ -120,7 +120,7 @@ mod tests {
     fn equals_triggers_one_of_two() {
         let both = |a, b| {
             let (mut equal, mut unequal) = (None, None);
-            equals(&a, &b, Event::into_slot(&mut equal), Event::into_slot(&mut unequal));
+            equals(&a, &b, apex_rt::event(&mut equal), apex_rt::event(&mut unequal));
             (equal.is_some(), unequal.is_some())
         };
         assert_eq!((both("start", "start"), both("start", "stop")), ((true, false), (false, true)));
@@ -130,7 +130,7 @@ mod tests {
     fn either_triggers_one_of_two() {
         let both = |value| {
             let (mut yes, mut no) = (None, None);
-            either(&value, Event::into_slot(&mut yes), Event::into_slot(&mut no));
+            either(&value, apex_rt::event(&mut yes), apex_rt::event(&mut no));
             (yes.is_some(), no.is_some())
         };
         assert_eq!((both(true), both(false)), ((true, false), (false, true)));
@@ -160,7 +160,7 @@ mod tests {
         let mut node = Toggle::default();
         let turns = [(); 3].map(|()| {
             let (mut on, mut off) = (None, None);
-            node.flip(Event::into_slot(&mut on), Event::into_slot(&mut off));
+            node.flip(apex_rt::event(&mut on), apex_rt::event(&mut off));
             (on.is_some(), off.is_some())
         });
         assert_eq!(turns, [(true, false), (false, true), (true, false)]);

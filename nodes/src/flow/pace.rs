@@ -129,7 +129,7 @@ mod tests {
         let mut node = Edge::default();
         let events = [false, true, true, false].map(|value| {
             let (mut rose, mut fell) = (None, None);
-            node.process(&value, Event::into_slot(&mut rose), Event::into_slot(&mut fell));
+            node.process(&value, apex_rt::event(&mut rose), apex_rt::event(&mut fell));
             (rose.is_some(), fell.is_some())
         });
         assert_eq!(events, [(false, false), (true, false), (false, false), (false, true)]);

@@ -112,7 +112,7 @@ mod tests {
         let row = out.get().expect("a row");
         assert!(row[0] == 3.0 && row[1].is_nan() && !node.finished());
         let mut done = None;
-        node.process(&mut out, Event::into_slot(&mut done)).expect("the end");
+        node.process(&mut out, apex_rt::event(&mut done)).expect("the end");
         assert!(out.get().is_none() && node.finished() && done.is_some());
     }
 

@@ -339,13 +339,13 @@ mod tests {
             entry.clear();
             let mut done = None;
             let ctx = Ctx::new(Time::from_secs(5));
-            let result = node.process(&ctx, &mut scan, &mut entry, Event::into_slot(&mut done));
+            let result = node.process(&ctx, &mut scan, &mut entry, apex_rt::event(&mut done));
             sent.push((result.is_ok(), entry.get().map(|e: &LogEntry| e.id), done.is_some()));
             assert_eq!(scan.get().is_some(), entry.get().is_some());
         }
         assert_eq!(sent, [(true, Some(1), false), (false, None, false), (true, Some(3), false), (true, None, true)]);
         let mut done = None;
-        assert_eq!(node.process(&Ctx::new(Time::ZERO), &mut scan, &mut entry, Event::into_slot(&mut done)), Ok(()));
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &mut scan, &mut entry, apex_rt::event(&mut done)), Ok(()));
         assert!(done.is_none(), "the end comes once");
     }
 

@@ -148,7 +148,7 @@ mod tests {
 
     fn lookup(class: u32, signs: &Signs) -> (Option<Pose2>, Option<u32>) {
         let mut unknown = None;
-        let pose = MapLookup::construct((3, 0.75)).process(&class, Some(signs), Event::into_slot(&mut unknown));
+        let pose = MapLookup::construct((3, 0.75)).process(&class, Some(signs), apex_rt::event(&mut unknown));
         (pose, unknown)
     }
 

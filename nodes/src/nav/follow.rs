@@ -326,8 +326,7 @@ mod tests {
             let (mut reached, mut blocked, mut off_path) = (None, None, None);
             let ctx = Ctx::new(Time::from_millis(20 * self.step));
             self.step += 1;
-            let (a, b, c) =
-                (Event::into_slot(&mut reached), Event::into_slot(&mut blocked), Event::into_slot(&mut off_path));
+            let (a, b, c) = (apex_rt::event(&mut reached), apex_rt::event(&mut blocked), apex_rt::event(&mut off_path));
             let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c);
             let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));

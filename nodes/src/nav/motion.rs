@@ -200,7 +200,7 @@ mod tests {
             let start = Pose2::new(1.0, 2.0, 0.3);
             let (mut pose, mut last, mut done) = (start, 0.0, None);
             for step in 0..2000 {
-                let twist = node.process(&active(step), &pose, Event::into_slot(&mut done)).expect("it is active");
+                let twist = node.process(&active(step), &pose, apex_rt::event(&mut done)).expect("it is active");
                 let speed = twist.velocity().norm();
                 assert!(done.is_some() || (speed <= 0.5 + 1e-5 && (speed - last).abs() < 0.04), "{speed} after {last}");
                 if done.is_some() {
@@ -237,7 +237,7 @@ mod tests {
             let mut scan = Scan { angle_min: -0.5, angle_increment: 0.05, range_max: 10.0, ..Scan::default() };
             scan.ranges.extend((0..21).map(|i| (2.0 - x) / libm::cosf(-0.5 + 0.05 * i as f32)));
             scan.ranges[20] = 0.7;
-            let twist = node.process(&active(step), &scan, Event::into_slot(&mut done)).expect("it is active");
+            let twist = node.process(&active(step), &scan, apex_rt::event(&mut done)).expect("it is active");
             if done.is_some() {
                 break;
             }
@@ -258,7 +258,7 @@ mod tests {
         for step in 0..1000 {
             let seen = target.relative_to(&pose);
             let twist = node
-                .process(&active(step), Some(&seen), Event::into_slot(&mut positioned), Event::unconnected())
+                .process(&active(step), Some(&seen), apex_rt::event(&mut positioned), Event::unconnected())
                 .expect("it is active");
             assert!(twist.velocity().norm() <= 0.3 + 1e-6 && twist.omega.abs() <= 0.8);
             pose = drive(&pose, twist);
@@ -275,7 +275,7 @@ mod tests {
         let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
         let mut react = |step, target: Option<Pose2>| {
             let mut lost = None;
-            let twist = node.process(&active(step), target.as_ref(), Event::unconnected(), Event::into_slot(&mut lost));
+            let twist = node.process(&active(step), target.as_ref(), Event::unconnected(), apex_rt::event(&mut lost));
             (twist == Some(Twist::ZERO), lost.is_some())
         };
         assert_eq!(react(0, None), (true, false));

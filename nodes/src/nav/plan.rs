@@ -161,7 +161,7 @@ mod tests {
         let mut out = Out::new();
         let mut ask = |goal: Pose2| {
             let mut why = None;
-            node.process(&Pose2::new(0.0, -1.5, 0.0), &goal, &map, None, out.begin(), Event::into_slot(&mut why));
+            node.process(&Pose2::new(0.0, -1.5, 0.0), &goal, &map, None, out.begin(), apex_rt::event(&mut why));
             (out.get().is_some(), why)
         };
         assert_eq!(ask(Pose2::new(0.0, 2.0, 0.0)), (false, Some(NoPath::Unreachable)));

@@ -164,7 +164,7 @@ mod tests {
     fn fire(node: &mut SimLaser, ms: i64) -> Firing {
         let (mut scan, mut truth, mut pose, mut done) = (Out::new(), Out::new(), Out::new(), None);
         let ctx = Ctx::new(Time::from_millis(ms));
-        node.process(&ctx, &mut scan, &mut truth, &mut pose, Event::unconnected(), Event::into_slot(&mut done));
+        node.process(&ctx, &mut scan, &mut truth, &mut pose, Event::unconnected(), apex_rt::event(&mut done));
         (scan.get().cloned(), truth.get().copied(), pose.get().copied(), done.is_some())
     }
 

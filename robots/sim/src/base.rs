@@ -170,7 +170,7 @@ mod tests {
     fn fire(node: &mut DifferentialBase, ms: i64, command: Option<Twist>) -> Sent {
         let ctx = Ctx::new(Time::from_millis(ms));
         let (mut pose, mut odometry, mut battery, mut bumped) = (Out::new(), Out::new(), Out::new(), None);
-        node.process(&ctx, &mut pose, &mut odometry, &mut battery, Event::into_slot(&mut bumped)).expect("a room");
+        node.process(&ctx, &mut pose, &mut odometry, &mut battery, apex_rt::event(&mut bumped)).expect("a room");
         if let Some(twist) = command {
             node.drive(&twist, &ctx);
         }

@@ -28,7 +28,7 @@ mod tests {
     #[test]
     fn each_token_is_a_text() {
         let mut sent = None;
-        Note::construct(("turns",)).put(&(), Event::into_slot(&mut sent));
+        Note::construct(("turns",)).put(&(), apex_rt::event(&mut sent));
         assert_eq!(sent.as_deref(), Some("turns"));
     }
 }
