@@ -8,7 +8,6 @@ use crate::{
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
-use syn::Ident;
 
 /// The conditions of the dispatcher, by number: for each dispatched cluster its guards, "enabled", and for each
 /// connection to another cluster "holds a token" and "free"; for each asynchronous connection that may stay occupied
@@ -118,11 +117,6 @@ impl Bits {
     /// The row of a cluster in the table.
     pub fn row(&self, cluster: usize) -> Option<usize> {
         self.dispatched.binary_search(&cluster).ok()
-    }
-
-    /// The constant with the number of the condition that a graph-level event has room.
-    pub fn room_name(node: NodeId) -> Ident {
-        format_ident!("ROOM_{node}")
     }
 
     /// At first every cluster is enabled and every connection free.

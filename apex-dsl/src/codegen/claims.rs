@@ -77,7 +77,7 @@ impl Generator<'_> {
                 state.#name = broken;
             }
         });
-        let state = format_ident!("{}State", whole.graph.name);
+        let state = self.item(whole.graph, "State");
         quote! {
             fn check_claims<O: ::apex_rt::Observer>(state: &mut #state, observer: &mut O) { #(#looks)* }
         }

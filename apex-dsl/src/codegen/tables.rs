@@ -135,7 +135,7 @@ impl Generator<'_> {
 
     /// The function that says where the token of an event lies.
     fn token_function(&self, whole: Whole<'_>, ports: &Ports<'_>) -> TokenStream {
-        let state = format_ident!("{}State", whole.graph.name);
+        let state = self.item(whole.graph, "State");
         let Some((last, tokens)) = ports.tokens.split_last() else { return quote!() };
         let arms = tokens.iter().enumerate().map(|(number, end)| {
             let (number, name) = (Literal::usize_unsuffixed(number), self.name(*end));
