@@ -165,7 +165,6 @@ impl Generator<'_> {
             pub struct #name { #(#inner #fields: #types,)* }
             #parts_item
             #(#items)*
-            #witnesses
             impl #name {
                 /// The program before its first reaction.
                 pub fn new(#argument) -> Self { Self { #(#fields: #makes,)* } }
@@ -175,6 +174,7 @@ impl Generator<'_> {
                 #claims
             }
             #default
+            #witnesses
         }
     }
 
