@@ -104,5 +104,5 @@ pub fn generate(
     if diagnostics.has_errors() {
         return TokenStream::new();
     }
-    codegen::text(programs, machines, catalog, sources, place, recordable)
+    codegen::text(programs, machines, catalog, sources, place, recordable, diagnostics)
 }

@@ -3,6 +3,7 @@
 use super::{
     Generator, Names,
     activity::Whole,
+    bugs::Bugs,
     cells::cell_name,
     program::{Field, boundaries},
     state::Kind,
@@ -31,11 +32,13 @@ pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Pi
     let graph = &program.graph;
     let mut used = BTreeSet::new();
     let names = Names::new(graph, "", &mut 0, &mut used);
+    let bugs = Bugs::new(graph.span);
     let place = |_| proc_macro2::Span::call_site();
     let generator = Generator {
         catalog,
         sources,
         names: &names,
+        bugs: &bugs,
         place: &place,
         outer: None,
         part: None,

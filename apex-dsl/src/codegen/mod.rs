@@ -2,6 +2,7 @@
 
 mod activity;
 mod bits;
+mod bugs;
 mod cells;
 mod claims;
 mod clusters;
@@ -40,9 +41,11 @@ use crate::{
     claims::Decided,
     graph::{Graph, NodeId},
     program::Program,
+    report::Diagnostics,
     source::{Sources, Span},
     threads::{Cell, Part},
 };
+use bugs::Bugs;
 use names::Names;
 use proc_macro2::TokenStream;
 use std::collections::BTreeSet;
@@ -53,6 +56,8 @@ pub struct Generator<'a> {
     catalog: &'a Catalog,
     sources: &'a Sources,
     names: &'a Names,
+    /// Faults of the compiler itself.
+    bugs: &'a Bugs,
     /// Where a piece of the text stands in the code that called `graph!`.
     place: &'a dyn Fn(Span) -> proc_macro2::Span,
     /// The graph around the body of an `each`, and the node that the body belongs to.
@@ -76,8 +81,10 @@ fn program(
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
     recordable: bool,
+    diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let graph = &program.graph;
+    let bugs = Bugs::new(graph.span);
     let mut used = BTreeSet::new();
     let names = Names::new(graph, "", &mut 0, &mut used);
     let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
@@ -85,16 +92,29 @@ fn program(
     let channels = record::Channels::new(graph, &program.analysis, catalog, parts);
     let channels = recordable.then_some(&channels);
     let claims = program.split.is_none().then_some(&program.claims);
-    let generator =
-        Generator { catalog, sources, names: &names, place, outer: None, part: None, parts, cells, claims, channels };
+    let generator = Generator {
+        catalog,
+        sources,
+        names: &names,
+        bugs: &bugs,
+        place,
+        outer: None,
+        part: None,
+        parts,
+        cells,
+        claims,
+        channels,
+    };
     let code = match &program.split {
         Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
         None => generator.program(graph, &program.analysis),
     };
-    match &program.script {
+    let code = match &program.script {
         Some(script) => generator.test(graph, script, code),
         None => code,
-    }
+    };
+    bugs.report(diagnostics);
+    code
 }
 
 impl<'a> Generator<'a> {

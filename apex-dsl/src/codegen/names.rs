@@ -137,16 +137,16 @@ impl Generator<'_> {
 
     /// The name of a token.
     pub fn name(&self, end: End) -> Ident {
-        ident(self.names.tokens.get(&end).map_or("token", String::as_str))
+        self.names.tokens.get(&end).map_or_else(|| self.nameless("a token"), |name| ident(name))
     }
 
     /// The name of the place where a delay keeps the activity of the tokens that it holds.
     pub fn held_activity(&self, node: NodeId) -> Ident {
-        ident(self.names.held_activity.get(&node).map_or("held_activity", String::as_str))
+        self.names.held_activity.get(&node).map_or_else(|| self.nameless("the activity of a delay"), |name| ident(name))
     }
 
     /// The name of the place where a delay holds tokens back.
     pub fn held(&self, node: NodeId) -> Ident {
-        ident(self.names.held.get(&node).map_or("held", String::as_str))
+        self.names.held.get(&node).map_or_else(|| self.nameless("a delay"), |name| ident(name))
     }
 }

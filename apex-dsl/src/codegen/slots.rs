@@ -243,7 +243,9 @@ impl Generator<'_> {
         let graph = whole.graph;
         let c = &graph.connections[connection];
         let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
-        let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else { return quote!() };
+        let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else {
+            return self.bug(c.span, "the slot has no method");
+        };
         let mut takes = false;
         let args: Vec<TokenStream> = slot
             .args

@@ -7,6 +7,7 @@ use crate::{
     graph::{Graph, Library, NodeKind},
     machine::{Machine, Machines},
     program::Program,
+    report::Diagnostics,
     source::{FileId, Sources, Span},
 };
 use proc_macro2::{Group, Literal, TokenStream, TokenTree};
@@ -32,11 +33,12 @@ pub fn text(
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
     recordable: bool,
+    diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let machines: Vec<&Machine> = machines.values().collect();
     let modules = machines.iter().map(|m| module(&ident(&m.module), &m.name, machine::item(m, catalog)));
     let programs_of = programs.iter().map(|p| {
-        let code = program(p, catalog, sources, place, recordable);
+        let code = program(p, catalog, sources, place, recordable, diagnostics);
         match &p.script {
             None => module(&graph_module(&p.graph.name), &p.graph.name, code),
             Some(_) => code,
