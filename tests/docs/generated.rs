@@ -1,16 +1,18 @@
 //! The page about generated code shows what the compiler generates.
 
-use crate::{Package, page, root};
-use apex_dsl::{passes, report::Diagnostics};
+use crate::{Checked, Package, page, root};
+use apex_dsl::{
+    passes::{self, listings},
+    report::Diagnostics,
+};
 use std::{env, fs};
 
 const PAGE: &str = "docs/generated.md";
+const LISTING: &str = "```text\n";
 const BEGIN: &str = "```rust,ignore\n";
 
 /// Rust of the first program of a source file, without the module of the file and its attributes.
-fn expanded(package: &mut Package, text: &str) -> String {
-    let checked = package.check(text);
-    assert_eq!(checked.messages, Vec::<String>::new(), "{text}");
+fn expanded(package: &Package, checked: &Checked) -> String {
     let place = |_| proc_macro2::Span::call_site();
     let mut diagnostics = Diagnostics::default();
     let (catalog, sources) = (&package.catalog, &checked.sources);
@@ -26,6 +28,13 @@ fn expanded(package: &mut Package, text: &str) -> String {
     prettyplease::unparse(&code)
 }
 
+/// A page whose block after `fence` has other contents.
+fn with(page: &str, fence: &str, contents: &str) -> String {
+    let (before, rest) = page.split_once(fence).expect("there is a block");
+    let (_, after) = rest.split_once("```").expect("it ends");
+    format!("{before}{fence}{contents}```{after}")
+}
+
 /// With `APEX_UPDATE_EXPECTATIONS=1` the page is written again.
 #[test]
 fn the_page_about_generated_code_shows_the_code() {
@@ -35,10 +44,14 @@ fn the_page_about_generated_code_shows_the_code() {
     let mut real = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let (text, rest) = part.split_once("```").expect("the text ends");
-        let (between, rest) = rest.split_once(BEGIN).expect("its code follows");
-        let (_, rest) = rest.split_once("```").expect("the code ends");
-        let code = expanded(&mut package, text);
-        real += &format!("```afg\n{text}```{between}{BEGIN}{code}```{rest}");
+        let checked = package.check(text);
+        assert_eq!(checked.messages, Vec::<String>::new(), "{text}");
+        let rest = with(rest, BEGIN, &expanded(&package, &checked));
+        let rest = match rest.contains(LISTING) {
+            true => with(&rest, LISTING, &listings(&checked.programs, &package.catalog, &checked.sources).concat()),
+            false => rest,
+        };
+        real += &format!("```afg\n{text}```{rest}");
     }
     if env::var_os("APEX_UPDATE_EXPECTATIONS").is_some() {
         fs::write(root().join(PAGE), &real).unwrap();

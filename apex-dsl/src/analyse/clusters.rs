@@ -24,6 +24,25 @@ pub enum Guard {
     Events(NodeId),
 }
 
+impl Guard {
+    /// The guard as text: `input scan`.
+    pub fn text(self, graph: &Graph) -> String {
+        match self {
+            Self::Timer(node) => {
+                let modifiers = &graph.nodes[node].modifiers;
+                let every = modifiers.every.map(|period| format!("every {period:?}"));
+                let after = modifiers.after.map(|time| format!("after {time:?}"));
+                let times: Vec<String> = every.into_iter().chain(after).collect();
+                format!("timer of {} ({})", graph.path(node), times.join(" "))
+            }
+            Self::Token(connection) => format!("event {}", graph.end_name(graph.connections[connection].from)),
+            Self::Events(node) => format!("events of {} enabled", graph.path(node)),
+            Self::Input(node) => format!("input {}", graph.path(node)),
+            Self::React => "each reaction".to_owned(),
+        }
+    }
+}
+
 /// Nodes that fire together.
 #[derive(Debug)]
 pub struct Cluster {

@@ -11,6 +11,7 @@ mod deliver;
 mod dispatch;
 mod each;
 mod fire;
+mod listing;
 mod machine;
 mod memory;
 mod names;
@@ -32,6 +33,7 @@ mod types;
 mod wiring;
 mod witness;
 
+pub use listing::listing;
 pub use memory::{Piece, memory};
 pub use plan::{Storage, storage};
 pub use text::{module_name, text};
@@ -45,10 +47,12 @@ use crate::{
     source::{Sources, Span},
     threads::{Cell, Part},
 };
+use activity::Whole;
 use bugs::Bugs;
 use names::Names;
 use proc_macro2::TokenStream;
 use std::collections::BTreeSet;
+use wiring::Wiring;
 
 /// Generates programs.
 #[derive(Clone, Copy)]
@@ -115,6 +119,43 @@ fn program(
     };
     bugs.report(diagnostics);
     code
+}
+
+/// Calls `visit` for the program, or for each of its thread groups.
+fn each_part(
+    program: &Program,
+    catalog: &Catalog,
+    sources: &Sources,
+    visit: &mut dyn FnMut(&Generator<'_>, Whole<'_>, Option<&Part>),
+) {
+    let graph = &program.graph;
+    let mut used = BTreeSet::new();
+    let names = Names::new(graph, "", &mut 0, &mut used);
+    let bugs = Bugs::new(graph.span);
+    let place = |_| proc_macro2::Span::call_site();
+    let generator = Generator {
+        catalog,
+        sources,
+        names: &names,
+        bugs: &bugs,
+        place: &place,
+        outer: None,
+        part: None,
+        parts: &[],
+        cells: &[],
+        claims: program.split.is_none().then_some(&program.claims),
+        channels: None,
+    };
+    let Some(split) = &program.split else {
+        let wiring = Wiring::new(&generator, graph, &program.analysis);
+        return visit(&generator, Whole::new(graph, &program.analysis, &wiring), None);
+    };
+    for (part, number) in split.parts.iter().zip(names.count()..) {
+        let names = names.of_part(part, number, &mut used);
+        let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
+        let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
+        visit(&generator, Whole::new(&part.graph, &part.analysis, &wiring), Some(part));
+    }
 }
 
 impl<'a> Generator<'a> {

@@ -150,9 +150,7 @@ impl Generator<'_> {
 
     /// Documentation of what a connection leads to: ``` `stopped => waiting.enable`, mission.afg:27 ```.
     fn docs_of_connection(&self, graph: &Graph, connection: usize) -> String {
-        let c = &graph.connections[connection];
-        let arrow = if c.active { "=>" } else { "->" };
-        format!(" `{} {arrow} {}`, {}.", graph.end_name(c.from), graph.end_name(c.to), self.line(c.span))
+        format!(" `{}`, {}.", graph.connection_text(connection), self.line(graph.connections[connection].span))
     }
 
     fn slot(&self, whole: Whole<'_>, number: usize, slot: &Slot) -> TokenStream {
