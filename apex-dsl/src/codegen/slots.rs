@@ -242,7 +242,11 @@ impl Generator<'_> {
         let c = &graph.connections[connection];
         let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
         let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else {
-            return self.bug(c.span, "the slot has no method");
+            // `enable` of a node that nothing disables is called only for the activity that it carries.
+            return match graph.port(c.to).standard {
+                Some(_) => quote!(),
+                None => self.bug(c.span, "the slot has no method"),
+            };
         };
         let mut takes = false;
         let args: Vec<TokenStream> = slot
