@@ -133,10 +133,10 @@ pub struct SlotSig {
     pub args: Vec<ArgSig>,
     /// `true` for a `Result`: the method may fail.
     pub fallible: bool,
-    }
+}
 
-    impl Signature {
-        /// Returns `true` if the tokens of a firing at this port are in an array.
+impl Signature {
+    /// Returns `true` if the tokens of a firing at this port are in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1
     }
