@@ -216,6 +216,8 @@ fn is_single(
             NodeKind::Library(library) if !by_process(&catalog.signatures[library.signature], graph, c.from) => {}
             _ => *by_region.entry(regions[c.from.node]).or_default() += 1,
         }
+        // Three cases are excluded: slots that may have to wait, for a region or for a port of the program; `reset`,
+        // which sends several tokens; standard events, which come in addition to other tokens.
         let held_back = events(graph, links, c.to.node).any(|c| graph.flow(&graph.connections[c]) == Flow::ToInput);
         let leaves = matches!(graph.nodes[c.to.node].kind, NodeKind::Boundary(_) | NodeKind::Reset);
         let standard = graph.port(c.from).standard.is_some();
@@ -258,7 +260,7 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: usize) ->
     let node = &graph.nodes[to.node];
     let by_process = graph.port(to).kind == PortKind::Input;
     let sends = |port: usize| match (&node.kind, node.ports[port].kind, node.ports[port].standard) {
-        // A delay sends its token in a later iteration.
+        // A delay sends its token in a later iteration, and a timeout comes at a later time.
         (NodeKind::Delay(_), ..) => false,
         (_, _, Some(Standard::Timeout)) => false,
         (_, _, Some(Standard::Processed | Standard::Late)) => by_process,

@@ -153,7 +153,7 @@ pub fn clusters(
     let mut guards = vec![];
     let mut own: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
     for (id, node) in graph.nodes.iter().enumerate() {
-        // The body of an `each` has no guards: it runs when it is called, with all its inputs.
+        // The body of an `each` has none of these guards: it runs when it is called, with all its inputs.
         if graph.is_body || !fires(graph, catalog, links, id) {
             continue;
         }
@@ -180,11 +180,13 @@ pub fn clusters(
         by_guards.entry((regions[node], &accumulated[node])).or_default().push(node);
     }
     let mut groups: Vec<_> = by_guards.into_iter().collect();
+    // The dispatcher tests clusters in the order of the source file.
     groups.sort_by_key(|(_, nodes)| nodes.iter().min().copied());
     let mut cluster_of = vec![0; graph.nodes.len()];
     let mut clusters: Vec<Cluster> = vec![];
     for ((region, set), nodes) in groups {
         nodes.iter().for_each(|n| cluster_of[*n] = clusters.len());
+        // A set, as several nodes can share a React guard.
         let own_guards: BTreeSet<usize> = nodes.iter().flat_map(|n| own[*n].iter().copied()).collect();
         let (upstream, downstream) = (BTreeSet::new(), BTreeSet::new());
         let own_guards = own_guards.into_iter().collect();
@@ -367,6 +369,7 @@ fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTre
             let mut set = sets[node].clone();
             for &index in &links.inputs[node] {
                 let connection = &graph.connections[index];
+                // The token of an event does not bring the guards of the event's node, which fires on its own.
                 let token = match tokens.get(&index) {
                     Some(guard) => BTreeSet::from([*guard]),
                     None => sets[connection.from.node].clone(),

@@ -94,6 +94,7 @@ pub struct Loops {
 impl Loops {
     /// Loops of `graph`.
     pub fn new(graph: &Graph, links: &Links) -> Self {
+        // `links` has no loops yet, so the order graph also has the connections from delays.
         let mut delays = (0..graph.nodes.len()).filter(|node| graph.nodes[*node].is_delay()).peekable();
         if delays.peek().is_none() {
             return Self::default();
@@ -226,6 +227,7 @@ fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnos
     while !std::mem::replace(&mut seen[at], true) {
         at = back[at].map_or(at, |(before, _)| before);
     }
+    // The first vertex that is reached twice is on the cycle.
     let (first, mut path, mut connections) = (at, vec![], vec![]);
     while let Some((before, connection)) = back[at] {
         path.push(precedence.vertices[at]);
@@ -237,6 +239,7 @@ fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnos
     }
     path.reverse();
     connections.reverse();
+    // A connection through boundaries has several edges, and a nested graph several vertices.
     connections.dedup();
     let name = |vertex: &Vertex| match vertex {
         Vertex::Node(node) => format!("`{}`", graph.path(*node)),

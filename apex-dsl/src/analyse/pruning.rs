@@ -57,6 +57,7 @@ fn siblings(graph: &Graph, links: &Links, order: &[NodeId]) -> Vec<bool> {
         let mut dominator = None;
         for &c in &links.into[node] {
             let from = graph.connections[c].from.node;
+            // The token of a delay does not descend from the tokens of this iteration.
             if matches!(graph.nodes[from].kind, NodeKind::Delay(_)) {
                 dominator = Some(root);
                 continue;

@@ -59,6 +59,7 @@ fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -
         if !group.nodes.insert(node) {
             continue;
         }
+        // Nodes upstream of a free node are free, too: guards are passed downstream.
         let from = view.links.into[node].iter().map(|c| view.graph.connections[*c].from.node);
         ends.extend(from);
         for &c in &view.links.out_of[node] {

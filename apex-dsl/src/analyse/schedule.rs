@@ -84,6 +84,7 @@ impl Scheduler<'_> {
             .into_iter()
             .chain(clock.iter().copied())
             .collect();
+        // A node with the clock of a level needs no further block, so the limit of the depth does not apply.
         let deepest = (0..self.levels.len()).rev().find(|level| {
             let level_clock = &self.levels[*level].clock;
             level_clock == clock || (level + 1 < MAX_DEPTH && level_clock.is_subset(&known))
@@ -126,6 +127,7 @@ impl Scheduler<'_> {
     fn open(&mut self, key: (usize, NodeId), clock: Clock) -> Block {
         let depth = self.levels.len() - 1;
         let outer = &self.levels[depth];
+        // The blocks around have tested the other tokens.
         let opens: Vec<End> =
             clock.iter().filter(|t| !outer.clock.contains(t) && !outer.implied.contains(t)).copied().collect();
         let implied = implied(&self.analysis.clocks, &self.analysis.cluster_of, self.cluster, &clock);

@@ -48,6 +48,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
                 }
             }
             Asks::Cluster(cluster) if found.clusters.insert(cluster) => {
+                // A cluster takes tokens from clusters upstream, and from events.
                 let c = &analysis.clusters[cluster];
                 open.extend(c.upstream.iter().copied().map(Asks::Cluster));
                 let tokens = c.own_guards.iter().filter_map(|guard| match analysis.guards[*guard] {
@@ -58,6 +59,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
             }
             Asks::Cluster(_) => {}
         }
+        // The sender may have sent in a firing or in a slot call: both need a stamp.
         sent_on.retain(|connection| found.connections.insert(*connection));
         open.extend(sent_on.into_iter().map(|connection| Asks::Node(graph.connections[connection].from.node)));
     }
