@@ -1,6 +1,6 @@
 //! Characteristics of nodes (thesis 3.3.7): do other nodes have to know of a ⊥ that a node sends?
 //!
-//! They have to if an essential node is downstream (the node is *required*), or if a node downstream joins its tokens
+//! Yes if an essential node is downstream (the node is *required*), or if a node downstream joins its tokens
 //! with tokens of another origin (the node has *siblings*). Any other ⊥ can be dropped where it arises. With
 //! `a -> [b, c]`, `b -> d.x` and `c -> d.y`, the nodes `b` and `c` have siblings: `d` waits for both. `a` has none: all
 //! tokens that come to `d` descend from it.
