@@ -263,7 +263,7 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: usize) ->
         // A delay sends its token in a later iteration, and a timeout comes at a later time.
         (NodeKind::Delay(_), ..) => false,
         (_, _, Some(Standard::Timeout)) => false,
-        (_, _, Some(Standard::Processed | Standard::Late)) => by_process,
+        (_, _, Some(Standard::Processed)) => by_process,
         (_, _, Some(_)) => true,
         (_, PortKind::Output, _) => by_process,
         (NodeKind::Library(library), ..) => {
