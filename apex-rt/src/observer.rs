@@ -154,7 +154,7 @@ macro_rules! pass_on_others {
 }
 
 #[cfg(feature = "std")]
-impl<O: Observer> Observer for crate::threads::Felt<'_, O> {
+impl<O: Observer> Observer for crate::threads::WatchdogObserver<'_, O> {
     #[inline(always)]
     fn fired(&mut self, node: usize) {
         self.runs(node + 1);

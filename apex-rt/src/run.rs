@@ -2,7 +2,7 @@
 use crate::Ports;
 use crate::{
     Clock, Info, Observer, Time,
-    threads::{Alone, Spawn, Wake},
+    threads::{SingleGroup, Spawn, Wake},
 };
 use core::time::Duration;
 
@@ -88,7 +88,7 @@ pub trait Program {
         Self: Sized,
     {
         let _ = wake;
-        spawn.stay(0, Alone(self));
+        spawn.stay(0, SingleGroup(self));
     }
 
     /// Whether nested graph `graph`, by its index in [`Info::graphs`], is active: a node in it is, or activity is under way
@@ -216,7 +216,7 @@ pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -
         return crate::profile::drive(program, clock, ports, path.as_ref());
     }
     #[cfg(feature = "record")]
-    if let Some(wish) = crate::record::Wish::of::<P>() {
+    if let Some(wish) = crate::record::RunMode::of::<P>() {
         return crate::record::drive(program, clock, ports, &wish);
     }
     drive_groups(program, clock, ports, |_| crate::StdErr(const { &P::INFO }))

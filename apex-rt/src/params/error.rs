@@ -5,7 +5,7 @@ use core::fmt;
 
 /// Why a value was not taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refusal {
+pub enum Rejection {
     /// It is of another kind.
     Kind {
         /// What the parameter takes: `a number`.
@@ -46,11 +46,11 @@ pub enum ParamError {
         /// The parameter.
         param: &'static ParamInfo,
         /// Why.
-        refusal: Refusal,
+        refusal: Rejection,
     },
 }
 
-impl Refusal {
+impl Rejection {
     /// The sentence about `param`; `value` is shown if it is known.
     pub(super) fn say(
         &self,

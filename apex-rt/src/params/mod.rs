@@ -15,7 +15,7 @@ mod run;
 mod text;
 mod value;
 
-pub use error::{ParamError, Refusal};
+pub use error::{ParamError, Rejection};
 #[cfg(feature = "params")]
 pub use file::{load_file, save_file};
 #[doc(hidden)]
@@ -24,7 +24,7 @@ pub use probe::{Known, Opaque, Probe};
 pub use run::run_with_files;
 #[cfg(feature = "params")]
 pub use text::{LoadError, Problem, load, not_saved, save, set_text};
-pub use value::{Give, Given, GivenList, ParamValue};
+pub use value::{GivenList, IntoParam, ParamRef, ParamValue};
 
 use core::fmt;
 
@@ -84,19 +84,19 @@ impl fmt::Display for ParamRange {
 /// Access to the value of one parameter.
 pub trait Access {
     /// The value that it has.
-    fn get(&mut self) -> Given<'_>;
+    fn get(&mut self) -> ParamRef<'_>;
 
     /// Whether `value` could be set.
     ///
     /// # Errors
     /// Says why not: another type, or out of its range.
-    fn check(&self, value: Given<'_>) -> Result<(), Refusal>;
+    fn check(&self, value: ParamRef<'_>) -> Result<(), Rejection>;
 
     /// Sets it.
     ///
     /// # Errors
     /// Those of [`Access::check`]; then it keeps the value that it has.
-    fn set(&mut self, value: Given<'_>) -> Result<(), Refusal>;
+    fn set(&mut self, value: ParamRef<'_>) -> Result<(), Rejection>;
 }
 
 /// Sees the parameters of a program one after the other.
@@ -127,13 +127,13 @@ pub trait Parameters {
     /// # Errors
     /// There is no such parameter, it is of another type, or the value is out of its range; this is the check that
     /// tokens at the port of the parameter pass, too. The parameter keeps the value that it has.
-    fn set_param(&mut self, name: &str, value: impl Give) -> Result<(), ParamError> {
+    fn set_param(&mut self, name: &str, value: impl IntoParam) -> Result<(), ParamError> {
         at::<Self, ()>(self, name, &mut |access| access.set(value.give()))
     }
 }
 
 /// What `act` does with a parameter.
-type Act<'a, T> = &'a mut dyn FnMut(&mut dyn Access) -> Result<T, Refusal>;
+type Act<'a, T> = &'a mut dyn FnMut(&mut dyn Access) -> Result<T, Rejection>;
 
 /// Looks for the parameter `name`.
 struct At<'a, T> {
@@ -145,7 +145,7 @@ struct At<'a, T> {
 impl<T> ParamVisitor for At<'_, T> {
     fn param(&mut self, param: &'static ParamInfo, access: Option<&mut dyn Access>) {
         if param.name == self.name {
-            let result = access.map_or(Err(Refusal::Opaque), |access| (self.act)(access));
+            let result = access.map_or(Err(Rejection::Opaque), |access| (self.act)(access));
             self.result = Some(result.map_err(|refusal| ParamError::Refused { param, refusal }));
         }
     }

@@ -2,7 +2,7 @@
 //! [`Probe`], which is [`Known::visit`] if the type is a [`ParamValue`], and [`Opaque::visit`] otherwise, because rustc
 //! tries a value before a reference to it.
 
-use super::{Access, Give as _, Given, ParamInfo, ParamValue, ParamVisitor, Refusal};
+use super::{Access, IntoParam as _, ParamInfo, ParamRef, ParamValue, ParamVisitor, Rejection};
 use crate::{Param, ParamField};
 
 /// Parameter number `I` of a node.
@@ -20,19 +20,19 @@ where
     N: ParamField<I>,
     <N as Param<I>>::Value: ParamValue,
 {
-    fn get(&mut self) -> Given<'_> {
+    fn get(&mut self) -> ParamRef<'_> {
         self.0.field().give()
     }
 
-    fn check(&self, value: Given<'_>) -> Result<(), Refusal> {
+    fn check(&self, value: ParamRef<'_>) -> Result<(), Rejection> {
         let value = ParamValue::take(value)?;
-        if N::accepts(&value) { Ok(()) } else { Err(Refusal::Range) }
+        if N::accepts(&value) { Ok(()) } else { Err(Rejection::Range) }
     }
 
-    fn set(&mut self, value: Given<'_>) -> Result<(), Refusal> {
+    fn set(&mut self, value: ParamRef<'_>) -> Result<(), Rejection> {
         let value = ParamValue::take(value)?;
         if !N::accepts(&value) {
-            return Err(Refusal::Range);
+            return Err(Rejection::Range);
         }
         *self.0.field() = value;
         Ok(())

@@ -1,6 +1,6 @@
 //! Parameters as a text in TOML: one table per node, values in SI.
 
-use super::{Access, Given, GivenList, ParamError, ParamInfo, ParamVisitor, Parameters, Refusal, error::nearest};
+use super::{Access, GivenList, ParamError, ParamInfo, ParamRef, ParamVisitor, Parameters, Rejection, error::nearest};
 use std::{
     collections::BTreeMap,
     fmt::{self, Write as _},
@@ -109,7 +109,7 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
 pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
     match DeValue::parse(value) {
         Ok(value) => program.set_param(name, given(value.get_ref())),
-        Err(_) => program.set_param(name, Given::Other("something that is no value of TOML")),
+        Err(_) => program.set_param(name, ParamRef::Other("something that is no value of TOML")),
     }
 }
 
@@ -152,7 +152,7 @@ fn comment(info: &ParamInfo) -> String {
 /// A name as a key.
 fn key(name: &str) -> String {
     let is_bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
-    if is_bare { name.to_owned() } else { Given::Text(name).to_string() }
+    if is_bare { name.to_owned() } else { ParamRef::Text(name).to_string() }
 }
 
 /// A value of the file, and where it stands.
@@ -223,7 +223,7 @@ impl ParamVisitor for Check<'_, '_> {
     fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
         let Some(entry) = self.0.values.get(info.name) else { return };
         let value = given(entry.value);
-        if let Err(refusal) = access.map_or(Err(Refusal::Opaque), |access| access.check(value)) {
+        if let Err(refusal) = access.map_or(Err(Rejection::Opaque), |access| access.check(value)) {
             self.0.problems.add(entry.at, Refused { info, refusal, value }.to_string());
         }
     }
@@ -231,8 +231,8 @@ impl ParamVisitor for Check<'_, '_> {
 
 struct Refused<'a> {
     info: &'static ParamInfo,
-    refusal: Refusal,
-    value: Given<'a>,
+    refusal: Rejection,
+    value: ParamRef<'a>,
 }
 
 impl fmt::Display for Refused<'_> {
@@ -254,21 +254,21 @@ impl ParamVisitor for Set<'_, '_> {
 }
 
 /// A value of TOML as a program takes it.
-fn given<'a>(value: &'a DeValue<'_>) -> Given<'a> {
+fn given<'a>(value: &'a DeValue<'_>) -> ParamRef<'a> {
     match value {
-        DeValue::String(text) => Given::Text(text),
+        DeValue::String(text) => ParamRef::Text(text),
         DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
-            .map_or(Given::Other("an integer with very many digits"), Given::Integer),
+            .map_or(ParamRef::Other("an integer with very many digits"), ParamRef::Integer),
         DeValue::Float(float) => {
             let value = float.as_str().parse::<f64>().ok();
             let value =
                 value.filter(|value| value.is_finite() || !float.as_str().contains(|c: char| c.is_ascii_digit()));
-            value.map_or(Given::Other("a number that is too large"), Given::Float)
+            value.map_or(ParamRef::Other("a number that is too large"), ParamRef::Float)
         }
-        DeValue::Boolean(value) => Given::Bool(*value),
-        DeValue::Datetime(_) => Given::Other("a date"),
-        DeValue::Array(array) => Given::List(array),
-        DeValue::Table(_) => Given::Other("a table"),
+        DeValue::Boolean(value) => ParamRef::Bool(*value),
+        DeValue::Datetime(_) => ParamRef::Other("a date"),
+        DeValue::Array(array) => ParamRef::List(array),
+        DeValue::Table(_) => ParamRef::Other("a table"),
     }
 }
 
@@ -277,8 +277,8 @@ impl GivenList for DeArray<'_> {
         self.len()
     }
 
-    fn element(&self, index: usize) -> Given<'_> {
-        self.get(index).map_or(Given::Other("nothing"), |value| given(value.get_ref()))
+    fn element(&self, index: usize) -> ParamRef<'_> {
+        self.get(index).map_or(ParamRef::Other("nothing"), |value| given(value.get_ref()))
     }
 }
 

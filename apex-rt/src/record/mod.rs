@@ -26,7 +26,7 @@ pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
 pub use report::{Compared, Difference, Report};
 pub use run::replay;
-pub(crate) use run::{Wish, drive};
+pub(crate) use run::{RunMode, drive};
 pub use tap::Tap;
 #[doc(hidden)]
 pub use tap::looked;

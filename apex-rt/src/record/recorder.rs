@@ -5,7 +5,7 @@ use super::{
 };
 use crate::{
     GroupInfo, Mailbox, Parameters, Program, Time,
-    params::{Access, Given, ParamInfo, ParamVisitor},
+    params::{Access, ParamInfo, ParamRef, ParamVisitor},
 };
 use core::time::Duration;
 use std::{
@@ -342,21 +342,21 @@ impl ParamVisitor for Bits<'_> {
 }
 
 /// Values are the same if their bits are.
-fn bits(value: Given<'_>, out: &mut Vec<u8>) {
+fn bits(value: ParamRef<'_>, out: &mut Vec<u8>) {
     match value {
-        Given::Bool(value) => out.push(u8::from(value)),
-        Given::Integer(value) => out.extend_from_slice(&value.to_le_bytes()),
-        Given::Float(value) => out.extend_from_slice(&value.to_le_bytes()),
-        Given::Single(value) => out.extend_from_slice(&value.to_le_bytes()),
-        Given::Text(value) => out.extend_from_slice(value.as_bytes()),
-        Given::List(list) => {
+        ParamRef::Bool(value) => out.push(u8::from(value)),
+        ParamRef::Integer(value) => out.extend_from_slice(&value.to_le_bytes()),
+        ParamRef::Float(value) => out.extend_from_slice(&value.to_le_bytes()),
+        ParamRef::Single(value) => out.extend_from_slice(&value.to_le_bytes()),
+        ParamRef::Text(value) => out.extend_from_slice(value.as_bytes()),
+        ParamRef::List(list) => {
             for index in 0..list.count() {
                 bits(list.element(index), out);
                 // Texts in a list are told apart.
                 out.push(0);
             }
         }
-        Given::Other(_) => {}
+        ParamRef::Other(_) => {}
     }
 }
 

@@ -4,7 +4,7 @@ use super::{
     report::{Compared, Difference},
     sink::OWN,
     source::{CUT, FileMessage, Source},
-    waits::{Waited, Waits},
+    waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
     Parameters, Program, Time,
@@ -144,7 +144,7 @@ pub struct Replay {
 /// One of several groups that ran side by side.
 struct Side {
     number: usize,
-    waits: Arc<Waits>,
+    waits: Arc<ReplayBarrier>,
 }
 
 impl Replay {
@@ -157,7 +157,11 @@ impl Replay {
     }
 
     /// Opens a recording of groups that ran side by side, for what the group `number` did.
-    pub(super) fn of_group<P: Program>(path: &Path, number: usize, waits: Arc<Waits>) -> Result<Self, ReplayError> {
+    pub(super) fn of_group<P: Program>(
+        path: &Path,
+        number: usize,
+        waits: Arc<ReplayBarrier>,
+    ) -> Result<Self, ReplayError> {
         Self::new::<P>(path, Some(Side { number, waits }))
     }
 
@@ -365,9 +369,9 @@ impl Replay {
             return false;
         }
         match group.waits.wait(group.number, finds) {
-            Waited::Found => return true,
-            Waited::Missed => self.report.missed += 1,
-            Waited::Cut => {
+            WaitOutcome::Found => return true,
+            WaitOutcome::Missed => self.report.missed += 1,
+            WaitOutcome::Cut => {
                 self.over = true;
                 // This one is not whole.
                 self.report.reactions -= 1;

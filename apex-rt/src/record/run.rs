@@ -19,12 +19,12 @@ const REPLAY: &str = "APEX_REPLAY";
 const RECORD: &str = "APEX_RECORD";
 
 /// What is to be done with a recording.
-pub enum Wish {
+pub enum RunMode {
     Record(PathBuf),
     Replay(PathBuf),
 }
 
-impl Wish {
+impl RunMode {
     /// What the environment says, or a `record` statement of the program.
     pub fn of<P: Program>() -> Option<Self> {
         let file = |name| env::var_os(name).map(PathBuf::from);
@@ -37,13 +37,13 @@ impl Wish {
 }
 
 /// Drives a program and records it, or replays a recording of it.
-pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, wish: &Wish) -> u8 {
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, wish: &RunMode) -> u8 {
     match wish {
-        Wish::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
+        RunMode::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
             eprintln!("error: cannot record to `{}`: {error}", path.display());
             2
         }),
-        Wish::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
+        RunMode::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
             Ok(report) => {
                 print!("{report}");
                 u8::from(!report.is_same() || !report.is_whole())

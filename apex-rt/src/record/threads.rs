@@ -4,11 +4,13 @@
 //! does follows, besides from what enters it, from what these looks find: that is recorded, and in a replay a group that
 //! found something waits until it is there.
 
-use super::{Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source, waits::Waits};
+use super::{
+    Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source, waits::ReplayBarrier,
+};
 use crate::{
     CellSender, Observer, Ports, Program,
     ports::Ways,
-    threads::{Group, Pace, Parcel, Spawn, Wake, drive_from_threads},
+    threads::{CellMessage, Group, Pace, Spawn, Wake, drive_from_threads},
 };
 use std::{
     io, mem,
@@ -73,7 +75,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
         let (path, recorded) = (path.to_owned(), recorded.to_owned());
         return Err(ReplayError::OtherThreads { path, recorded, wanted: recorder::names(groups) });
     }
-    let waits = Arc::new(Waits::new(groups.len()));
+    let waits = Arc::new(ReplayBarrier::new(groups.len()));
     let open = |group| Replay::of_group::<P>(path, group, Arc::clone(&waits)).map(Tap::Replay);
     let mut taps = (0..groups.len()).map(open).collect::<Result<Vec<Tap>, ReplayError>>()?;
     if let Some(main) = taps.first_mut() {
@@ -100,13 +102,13 @@ impl Wake for Nobody {
 }
 
 /// The way to tell a group that a node hangs.
-type Hung<'a> = CellSender<'a, Parcel<()>>;
+type Hung<'a> = CellSender<'a, CellMessage<()>>;
 
 /// Repeats what each group did.
 struct Repeat<'scope, 'env, O> {
     scope: &'scope Scope<'scope, 'env>,
     observer: &'env O,
-    waits: &'env Waits,
+    waits: &'env ReplayBarrier,
     /// What each group did, until it begins.
     taps: Vec<Option<Tap>>,
     hung: Vec<(usize, Hung<'env>)>,
@@ -147,7 +149,7 @@ struct Part<'a, G, O> {
     tap: Tap,
     hung: Vec<(usize, Hung<'a>)>,
     observer: O,
-    waits: &'a Waits,
+    waits: &'a ReplayBarrier,
 }
 
 impl<G: Group, O: Observer> Part<'_, G, O> {
@@ -171,7 +173,7 @@ impl<G: Group, O: Observer> Part<'_, G, O> {
 
 /// Tells the others that a group has ended, in whatever way.
 struct Ends<'a> {
-    waits: &'a Waits,
+    waits: &'a ReplayBarrier,
     group: usize,
     cut: bool,
 }

@@ -14,7 +14,7 @@ const PAUSE: Duration = Duration::from_micros(50);
 
 /// What the groups of a replay know of each other.
 #[derive(Debug)]
-pub struct Waits(Mutex<State>);
+pub struct ReplayBarrier(Mutex<State>);
 
 #[derive(Debug)]
 struct State {
@@ -29,13 +29,13 @@ struct State {
 enum Group {
     Runs,
     /// It has looked in vain after so many changes.
-    Waits(u64),
+    ReplayBarrier(u64),
     Ended,
 }
 
 /// What comes of a wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Waited {
+pub enum WaitOutcome {
     /// What was recorded.
     Found,
     /// It does not come any more: this run is another one.
@@ -44,32 +44,32 @@ pub enum Waited {
     Cut,
 }
 
-impl Waits {
+impl ReplayBarrier {
     /// So many groups run.
     pub fn new(groups: usize) -> Self {
         Self(Mutex::new(State { groups: vec![Group::Runs; groups], changes: 0, cut: false }))
     }
 
     /// Group `group` waits until it `finds` what it is looking for, or until this cannot come any more.
-    pub fn wait(&self, group: usize, finds: impl Fn() -> bool) -> Waited {
+    pub fn wait(&self, group: usize, finds: impl Fn() -> bool) -> WaitOutcome {
         for _ in 0..SPINS {
             if finds() {
-                return Waited::Found;
+                return WaitOutcome::Found;
             }
             hint::spin_loop();
         }
-        let mut seen = self.state().change(group, Group::Waits(0));
+        let mut seen = self.state().change(group, Group::ReplayBarrier(0));
         loop {
             if finds() {
                 self.state().change(group, Group::Runs);
-                return Waited::Found;
+                return WaitOutcome::Found;
             }
             let mut state = self.state();
             // Others may have changed something after this group looked: then `seen` is not the last change.
-            state.groups[group] = Group::Waits(seen);
+            state.groups[group] = Group::ReplayBarrier(seen);
             if state.gives_up(group) {
                 state.change(group, Group::Runs);
-                return if state.cut { Waited::Cut } else { Waited::Missed };
+                return if state.cut { WaitOutcome::Cut } else { WaitOutcome::Missed };
             }
             seen = state.changes;
             drop(state);
@@ -99,8 +99,8 @@ impl State {
     /// Whether all groups have ended or have looked in vain since the last change, and `group` is the first of those that
     /// wait: which one gives up is then the same each time.
     fn gives_up(&self, group: usize) -> bool {
-        let stuck = |g: &Group| matches!(*g, Group::Ended) || *g == Group::Waits(self.changes);
-        let first = self.groups.iter().position(|g| matches!(g, Group::Waits(_)));
+        let stuck = |g: &Group| matches!(*g, Group::Ended) || *g == Group::ReplayBarrier(self.changes);
+        let first = self.groups.iter().position(|g| matches!(g, Group::ReplayBarrier(_)));
         first == Some(group) && self.groups.iter().all(stuck)
     }
 }
@@ -112,19 +112,19 @@ mod tests {
 
     #[test]
     fn one_that_waits_for_another_finds_what_comes() {
-        let (waits, there) = (Waits::new(2), AtomicBool::new(false));
+        let (waits, there) = (ReplayBarrier::new(2), AtomicBool::new(false));
         thread::scope(|scope| {
             let waiting = scope.spawn(|| waits.wait(0, || there.load(Ordering::Acquire)));
             thread::sleep(Duration::from_millis(20));
             there.store(true, Ordering::Release);
             waits.end(1, false);
-            assert_eq!(waiting.join().ok(), Some(Waited::Found));
+            assert_eq!(waiting.join().ok(), Some(WaitOutcome::Found));
         });
     }
 
     #[test]
     fn the_first_of_those_that_wait_in_vain_gives_up_and_others_may_go_on() {
-        let (waits, there) = (Waits::new(3), AtomicBool::new(false));
+        let (waits, there) = (ReplayBarrier::new(3), AtomicBool::new(false));
         thread::scope(|scope| {
             let second = scope.spawn(|| waits.wait(1, || there.load(Ordering::Acquire)));
             let first = scope.spawn(|| {
@@ -136,15 +136,15 @@ mod tests {
             thread::sleep(Duration::from_millis(20));
             assert!(!first.is_finished(), "the last group still runs");
             waits.end(2, false);
-            assert_eq!(first.join().ok(), Some(Waited::Missed));
-            assert_eq!(second.join().ok(), Some(Waited::Found));
+            assert_eq!(first.join().ok(), Some(WaitOutcome::Missed));
+            assert_eq!(second.join().ok(), Some(WaitOutcome::Found));
         });
     }
 
     #[test]
     fn what_would_come_after_a_cut_is_told_apart() {
-        let waits = Waits::new(2);
+        let waits = ReplayBarrier::new(2);
         waits.end(1, true);
-        assert_eq!(waits.wait(0, || false), Waited::Cut);
+        assert_eq!(waits.wait(0, || false), WaitOutcome::Cut);
     }
 }

@@ -1,10 +1,10 @@
 //! One thread for each group.
 
 use super::{
-    Group, Parcel, Spawn, Wake,
+    CellMessage, Group, Spawn, Wake,
     idle::{Alarm, Shared},
     settings,
-    watch::{Felt, Off, Pulse, Watched, watch},
+    watch::{Heartbeat, StopSignal, WatchdogObserver, Watched, watch},
 };
 use crate::{
     CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways, run::Stopwatch,
@@ -39,9 +39,9 @@ struct Run {
     /// The exit code, once a group has one.
     code: AtomicU8,
     /// For each group what it runs.
-    pulses: Box<[Pulse]>,
+    pulses: Box<[Heartbeat]>,
     /// Ends the watch over them.
-    off: Off,
+    off: StopSignal,
     /// There is a core for each group: who stays awake takes it from nobody.
     has_cores: bool,
 }
@@ -125,8 +125,8 @@ fn run_groups<P: Program, O: Observer + Send>(
     let groups = info.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
     let has_cores = thread::available_parallelism().is_ok_and(|cores| cores.get() >= groups);
-    let pulses = (0..groups).map(|_| Pulse::default()).collect();
-    let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: Off::default(), has_cores };
+    let pulses = (0..groups).map(|_| Heartbeat::default()).collect();
+    let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: StopSignal::default(), has_cores };
     let panicked = thread::scope(|scope| {
         let mut spawner = Spawner { scope, run: &run, observer, ways: Some(ways), hung: vec![], threads: vec![] };
         program.on_threads(&run, &mut spawner);
@@ -147,7 +147,7 @@ struct Spawner<'scope, 'env, F, W> {
     /// The ways into the main group, until it begins.
     ways: Option<W>,
     /// The ways to tell groups that a node hangs.
-    hung: Vec<(usize, CellSender<'env, Parcel<()>>)>,
+    hung: Vec<(usize, CellSender<'env, CellMessage<()>>)>,
     threads: Vec<ScopedJoinHandle<'scope, ()>>,
 }
 
@@ -174,7 +174,7 @@ where
         self.thread(run.info.groups[group].name, move || run.group(group, part, observer, None));
     }
 
-    fn watch(&mut self, group: usize, hung: CellSender<'env, Parcel<()>>) {
+    fn watch(&mut self, group: usize, hung: CellSender<'env, CellMessage<()>>) {
         self.hung.push((group, hung));
     }
 
@@ -227,7 +227,7 @@ impl Run {
             self.end(1);
         }
         let pulse = self.pulses.get(group).filter(|_| settings.is_some_and(|group| group.hang.is_some()));
-        let observer = Felt { observer, pulse, info: self.info };
+        let observer = WatchdogObserver { observer, pulse, info: self.info };
         match self.time {
             Timing::Paced(pace) => {
                 let _stops = pace.stopped.map(Switch::listen);

@@ -13,7 +13,7 @@ use crate::{Observer, Program, Time};
 use core::cell::Cell;
 
 #[cfg(feature = "std")]
-pub use watch::Felt;
+pub use watch::WatchdogObserver;
 
 #[cfg(feature = "std")]
 pub(crate) use drive::drive_from_threads;
@@ -22,7 +22,7 @@ pub use drive::{Pace, drive_on_threads, react_on_threads};
 
 /// A token on its way from one thread group to another, with what goes with it.
 #[derive(Debug)]
-pub struct Parcel<T> {
+pub struct CellMessage<T> {
     /// The token; `None` is ⊥.
     pub token: Option<T>,
     /// It carries activity.
@@ -31,14 +31,14 @@ pub struct Parcel<T> {
     pub stamp: Time,
 }
 
-impl<T> Parcel<T> {
+impl<T> CellMessage<T> {
     /// An empty one.
     pub const fn new() -> Self {
         Self { token: None, active: false, stamp: Time::ZERO }
     }
 }
 
-impl<T> Default for Parcel<T> {
+impl<T> Default for CellMessage<T> {
     fn default() -> Self {
         Self::new()
     }
@@ -56,14 +56,14 @@ impl<W: Wake> Wake for &W {
     }
 }
 
-/// The most thread groups that a program can have: each has a bit of [`Woken`].
+/// The most thread groups that a program can have: each has a bit of [`ReadySet`].
 pub const MAX_GROUPS: usize = u64::BITS as usize;
 
 /// Remembers which groups were woken: for groups that run one after the other on one thread.
 #[derive(Debug, Default)]
-pub struct Woken(Cell<u64>);
+pub struct ReadySet(Cell<u64>);
 
-impl Woken {
+impl ReadySet {
     /// All `groups` of a program are awake: it starts.
     ///
     /// # Panics
@@ -86,7 +86,7 @@ impl Woken {
     }
 }
 
-impl Wake for Woken {
+impl Wake for ReadySet {
     fn wake(&self, group: usize) {
         self.0.set(self.0.get() | 1 << group);
     }
@@ -105,7 +105,7 @@ pub trait Spawn<'a, I, E> {
     fn spawn<G: Group + Send + 'a>(&mut self, group: usize, part: G);
 
     /// Takes the way to tell group `group` that a node hangs: it comes before all groups.
-    fn watch(&mut self, group: usize, hung: crate::CellSender<'a, Parcel<()>>);
+    fn watch(&mut self, group: usize, hung: crate::CellSender<'a, CellMessage<()>>);
 
     /// Takes the main group, which has the ports of the program and stays where it is: it comes last.
     fn stay<G: Group<Inputs = I, Events = E> + 'a>(&mut self, group: usize, part: G);
@@ -113,9 +113,9 @@ pub trait Spawn<'a, I, E> {
 
 /// A program that is a single group.
 #[derive(Debug)]
-pub struct Alone<'a, P>(pub &'a mut P);
+pub struct SingleGroup<'a, P>(pub &'a mut P);
 
-impl<P: Program> Program for Alone<'_, P> {
+impl<P: Program> Program for SingleGroup<'_, P> {
     const INFO: crate::Info = P::INFO;
     type Inputs = P::Inputs;
     type Events = P::Events;
@@ -129,7 +129,7 @@ impl<P: Program> Program for Alone<'_, P> {
     }
 }
 
-impl<P: Program> Group for Alone<'_, P> {
+impl<P: Program> Group for SingleGroup<'_, P> {
     fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next {
         if begins { self.0.react_with(now, observer) } else { crate::Next::Input }
     }
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn as_many_groups_as_there_may_be_are_woken_one_by_one() {
-        let woken = Woken::all(MAX_GROUPS);
+        let woken = ReadySet::all(MAX_GROUPS);
         assert!((0..MAX_GROUPS).all(|group| woken.take(group)));
         assert!(woken.is_none());
         woken.wake(MAX_GROUPS - 1);
@@ -154,6 +154,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "at most 64 thread groups")]
     fn more_groups_are_refused() {
-        Woken::all(MAX_GROUPS + 1);
+        ReadySet::all(MAX_GROUPS + 1);
     }
 }

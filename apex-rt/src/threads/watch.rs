@@ -1,6 +1,6 @@
 //! Watches over threads: which node each of them is running, and since when.
 
-use super::Parcel;
+use super::CellMessage;
 use crate::{CellSender, Info, Observer};
 use std::{
     sync::{
@@ -13,23 +13,23 @@ use std::{
 /// What a thread says of itself: the node that it runs, and how many it has run. Whoever watches reads it from time to time; the
 /// thread never waits, nor looks at a clock.
 #[derive(Debug, Default)]
-pub struct Pulse {
+pub struct Heartbeat {
     /// The number of the node, from 1; 0 between nodes.
     node: AtomicUsize,
     beats: AtomicUsize,
 }
 
 /// An observer that keeps the pulse of its thread.
-pub struct Felt<'a, O> {
+pub struct WatchdogObserver<'a, O> {
     /// The observer that is told all of it.
     pub observer: O,
     /// The pulse, if the thread is watched.
-    pub pulse: Option<&'a Pulse>,
+    pub pulse: Option<&'a Heartbeat>,
     /// Who takes the token on each connection.
     pub info: &'static Info,
 }
 
-impl<O> Felt<'_, O> {
+impl<O> WatchdogObserver<'_, O> {
     /// The thread runs a node, by its number from 1, or none (0).
     #[inline(always)]
     pub(crate) fn runs(&self, node: usize) {
@@ -51,7 +51,7 @@ struct Seen {
 
 /// Ends the watch, or wakes it.
 #[derive(Debug, Default)]
-pub struct Off {
+pub struct StopSignal {
     state: Mutex<Watch>,
     changed: Condvar,
 }
@@ -63,7 +63,7 @@ struct Watch {
     stirred: bool,
 }
 
-impl Off {
+impl StopSignal {
     /// The watch is over.
     pub fn end(&self) {
         self.state().over = true;
@@ -109,9 +109,9 @@ pub trait Watched {
 /// then, because a thread that hangs cannot be ended.
 pub fn watch<O: Observer>(
     info: &'static Info,
-    pulses: &[Pulse],
-    off: &Off,
-    mut hung: Vec<(usize, CellSender<'_, Parcel<()>>)>,
+    pulses: &[Heartbeat],
+    off: &StopSignal,
+    mut hung: Vec<(usize, CellSender<'_, CellMessage<()>>)>,
     threads: &impl Watched,
     mut observer: O,
 ) {
