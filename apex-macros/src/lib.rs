@@ -1,4 +1,4 @@
-//! The macros of Apex: thin shells around `apex-dsl`.
+//! The macros of Apex: thin wrappers around `apex-dsl`.
 
 mod graph;
 mod node;
@@ -6,7 +6,7 @@ mod outputs;
 
 use proc_macro::TokenStream;
 
-/// Marks a function, a struct or its `impl` as a node: the signature is the interface.
+/// Makes a function, a struct or its `impl` a node. The signature is the interface.
 #[proc_macro_attribute]
 pub fn node(args: TokenStream, item: TokenStream) -> TokenStream {
     node::expand(args.into(), item.into()).unwrap_or_else(|error| error.into_compile_error()).into()
@@ -18,7 +18,7 @@ pub fn outputs(item: TokenStream) -> TokenStream {
     outputs::expand(item.into()).unwrap_or_else(|error| error.into_compile_error()).into()
 }
 
-/// Compiles a graph: `graph!("robot.afg")`, or the text itself in braces.
+/// Compiles a graph: `graph!("robot.afg")`, or the source itself in braces.
 #[proc_macro]
 pub fn graph(text: TokenStream) -> TokenStream {
     graph::expand(text).into()

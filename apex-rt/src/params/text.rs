@@ -1,4 +1,4 @@
-//! Parameters as a text in TOML: one table per node, values in SI.
+//! Parameters in TOML: one table per node, values in SI units.
 
 use super::{Access, GivenList, ParamError, ParamInfo, ParamRef, ParamVisitor, Parameters, Rejection, error::nearest};
 use std::{
@@ -13,32 +13,32 @@ use toml::{
     de::{DeArray, DeTable, DeValue},
 };
 
-/// Something that is wrong with a text of parameters.
+/// An error in a text of parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// Error message.
     pub message: String,
 }
 
-/// Why parameters were not loaded. Nothing was changed.
+/// Reason why parameters were not loaded. No parameter was changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LoadError {
     /// The file cannot be read.
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         reason: String,
     },
-    /// The text is wrong.
+    /// The text has errors.
     Text {
-        /// The file that it stands in, if it is one.
+        /// The file with the text, if it comes from one.
         path: Option<PathBuf>,
-        /// All problems, in the order of the text.
+        /// All errors, in the order of the text.
         problems: Vec<Problem>,
     },
 }
@@ -64,25 +64,27 @@ impl fmt::Display for LoadError {
 
 impl std::error::Error for LoadError {}
 
-/// All parameters of `program` as a text that [`load`] reads: a table per node in the order of the graph, values in SI,
-/// units and ranges in comments. Those whose type is no [`ParamValue`](super::ParamValue) are named in comments.
+/// Returns all parameters of `program` as a text for [`load`]: a table per node in the order of the graph, values in SI
+/// units, units and ranges in comments. A parameter whose type is not a [`ParamValue`](super::ParamValue) is named in a
+/// comment.
 pub fn save<P: Parameters>(program: &mut P) -> String {
     let mut saved = Save::default();
     program.visit_params(&mut saved);
     saved.text
 }
 
-/// The names of the parameters that [`save`] leaves out because their type is no [`ParamValue`](super::ParamValue).
+/// Returns the names of the parameters that [`save`] leaves out because their type is not a
+/// [`ParamValue`](super::ParamValue).
 pub fn not_saved<P: Parameters>(program: &mut P) -> Vec<&'static str> {
     let mut saved = Save::default();
     program.visit_params(&mut saved);
     saved.left_out
 }
 
-/// Sets the parameters that are named in `text`, written as [`save`] writes it; all others keep their values.
+/// Sets the parameters in `text`, which has the form that [`save`] writes. All others keep their values.
 ///
 /// # Errors
-/// Everything that is wrong with the text; then nothing is changed.
+/// All errors in the text; then no parameter is changed.
 pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError> {
     let mut problems = Problems { text, found: vec![] };
     let (document, errors) = DeTable::parse_recoverable(text);
@@ -102,10 +104,10 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
     Ok(())
 }
 
-/// Sets the parameter `name` to a value that is spelled in TOML: `1.5`, `true`, `"text"`, `[1, 2]`.
+/// Sets the parameter `name` to a value in TOML: `1.5`, `true`, `"text"`, `[1, 2]`.
 ///
 /// # Errors
-/// Those of [`Parameters::set_param`]; what is no value of TOML is refused too.
+/// The errors of [`Parameters::set_param`]. A `value` that is not valid TOML is refused as one of the wrong kind.
 pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
     match DeValue::parse(value) {
         Ok(value) => program.set_param(name, given(value.get_ref())),
@@ -116,7 +118,7 @@ pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Resu
 #[derive(Default)]
 struct Save {
     text: String,
-    /// The node whose table was begun last.
+    /// The node of the current table.
     node: Option<&'static str>,
     left_out: Vec<&'static str>,
 }
@@ -142,26 +144,26 @@ impl ParamVisitor for Save {
     }
 }
 
-/// The unit and the range.
+/// Returns the comment on a parameter: its unit and its range.
 fn comment(info: &ParamInfo) -> String {
     let range = info.range.is_known().then(|| info.range.to_string());
     let parts: Vec<String> = info.unit.map(str::to_owned).into_iter().chain(range).collect();
     parts.join(", ")
 }
 
-/// A name as a key.
+/// Returns a name as a TOML key.
 fn key(name: &str) -> String {
     let is_bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
     if is_bare { name.to_owned() } else { ParamRef::Text(name).to_string() }
 }
 
-/// A value of the file, and where it stands.
+/// A value of the file, with its position as a byte offset.
 struct Entry<'a> {
     at: usize,
     value: &'a DeValue<'a>,
 }
 
-/// What a text says about the parameters of a program.
+/// Parsed text with values for the parameters of a program.
 struct File<'a> {
     params: &'static [ParamInfo],
     values: BTreeMap<&'static str, Entry<'a>>,
@@ -169,7 +171,7 @@ struct File<'a> {
 }
 
 impl<'a> File<'a> {
-    /// Reads a table; `prefix` is its name with a dot behind it.
+    /// Reads a table. `prefix` is its name with a trailing dot, or empty.
     fn table(&mut self, prefix: &str, table: &'a DeTable<'a>) {
         for (key, value) in table {
             let name = format!("{prefix}{}", key.get_ref());
@@ -210,13 +212,13 @@ impl<'a> File<'a> {
     }
 }
 
-/// So many names from the front of `param` as `like` has.
+/// Returns the leading part of `param` that has as many names as `like`.
 fn node_of(param: &'static str, like: &str) -> Option<&'static str> {
     let dots = like.matches('.').count();
     param.match_indices('.').nth(dots).map(|(end, _)| &param[..end])
 }
 
-/// Looks for values that are not taken.
+/// Visitor that finds values which would be refused.
 struct Check<'a, 'b>(&'a mut File<'b>);
 
 impl ParamVisitor for Check<'_, '_> {
@@ -241,7 +243,7 @@ impl fmt::Display for Refused<'_> {
     }
 }
 
-/// Sets all values, which were checked.
+/// Visitor that sets all values, which were checked before.
 struct Set<'a, 'b>(&'a File<'b>);
 
 impl ParamVisitor for Set<'_, '_> {
@@ -253,7 +255,7 @@ impl ParamVisitor for Set<'_, '_> {
     }
 }
 
-/// A value of TOML as a program takes it.
+/// Converts a value of TOML to a value of a parameter.
 fn given<'a>(value: &'a DeValue<'_>) -> ParamRef<'a> {
     match value {
         DeValue::String(text) => ParamRef::Text(text),
@@ -282,14 +284,14 @@ impl GivenList for DeArray<'_> {
     }
 }
 
-/// What is wrong with a text.
+/// Errors in a text.
 struct Problems<'a> {
     text: &'a str,
     found: Vec<(usize, String)>,
 }
 
 impl Problems<'_> {
-    /// Something at byte `at` of the text.
+    /// Adds an error at byte `at` of the text.
     fn add(&mut self, at: usize, message: String) {
         self.found.push((at, message));
     }

@@ -1,53 +1,53 @@
-//! Values of parameters, independent of their types: what a program gives, and what it is given.
+//! Values of parameters, independent of their types.
 
 use super::Rejection;
 use core::{fmt, time::Duration};
 
-/// A value of a parameter, in SI. Displayed as TOML spells it.
+/// A value of a parameter, in SI units. `Display` writes it in TOML.
 #[derive(Clone, Copy)]
 pub enum ParamRef<'a> {
-    /// A switch.
+    /// A truth value.
     Bool(bool),
-    /// A whole number.
+    /// An integer.
     Integer(i128),
-    /// A number.
+    /// A number of double precision.
     Float(f64),
-    /// A number of single precision; the same as a [`ParamRef::Float`] but for its spelling.
+    /// A number of single precision. Equal to a [`ParamRef::Float`] except for its spelling.
     Single(f32),
-    /// A text.
+    /// A string.
     Text(&'a str),
     /// A list.
     List(&'a dyn GivenList),
-    /// Something that no parameter takes, with what it is: `a table`.
+    /// A value that no parameter takes, with its kind: `a table`.
     Other(&'static str),
 }
 
 /// The elements of a list.
 pub trait GivenList {
-    /// How many there are.
+    /// Number of elements.
     fn count(&self) -> usize;
-    /// Element number `index`, which is below [`GivenList::count`].
+    /// Returns element number `index`, which is below [`GivenList::count`].
     fn element(&self, index: usize) -> ParamRef<'_>;
 }
 
-/// A value that a parameter can be set to.
+/// A value that can be assigned to a parameter.
 pub trait IntoParam {
-    /// The value, without its type.
+    /// Returns the value, independent of its type.
     fn give(&self) -> ParamRef<'_>;
 }
 
-/// A type of parameters that can be read, set, saved and loaded. Implement it for types of your own by those that
-/// they consist of.
+/// A type of parameters that can be read, set, saved and loaded. Implement it for your own types by those of their
+/// contents.
 pub trait ParamValue: IntoParam + Sized {
-    /// The value that was given, if it is one of this type.
+    /// Converts a given value to this type.
     ///
     /// # Errors
-    /// Says what it should have been.
+    /// The value is of another kind, or does not fit into this type.
     fn take(given: ParamRef<'_>) -> Result<Self, Rejection>;
 }
 
 impl ParamRef<'_> {
-    /// What it is, for messages: `a string`.
+    /// Returns the kind of the value, for messages: `a string`.
     pub const fn what(&self) -> &'static str {
         match self {
             Self::Bool(_) => "`true` or `false`",
@@ -59,7 +59,7 @@ impl ParamRef<'_> {
         }
     }
 
-    /// The refusal where something else was expected.
+    /// Returns the refusal of this value where another kind was expected.
     pub const fn refuse(&self, expected: &'static str) -> Rejection {
         Rejection::Kind { expected, found: self.what() }
     }
@@ -93,7 +93,7 @@ impl fmt::Display for ParamRef<'_> {
     }
 }
 
-/// A string as TOML spells it.
+/// Writes a string in TOML.
 fn quoted(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     use fmt::Write as _;
     f.write_char('"')?;
@@ -140,7 +140,7 @@ macro_rules! integers {
     ($($ty:ident)*) => { $(
         impl IntoParam for $ty {
             fn give(&self) -> ParamRef<'_> {
-                // All of these types fit.
+                // An `i128` has room for all of these types.
                 ParamRef::Integer(*self as i128)
             }
         }
@@ -193,7 +193,7 @@ impl ParamValue for f32 {
 }
 
 impl IntoParam for Duration {
-    /// In seconds.
+    /// Returns the time in seconds.
     fn give(&self) -> ParamRef<'_> {
         ParamRef::Float(self.as_secs_f64())
     }
@@ -255,7 +255,7 @@ lists! {
     [] alloc::vec::Vec<T>;
 }
 
-/// The elements of a list, one after the other.
+/// Returns the elements of a list.
 fn elements<T: ParamValue>(
     given: ParamRef<'_>,
 ) -> Result<impl ExactSizeIterator<Item = Result<T, Rejection>>, Rejection> {
