@@ -353,8 +353,8 @@ impl Generator<'_> {
     pub fn allows(&self, view: ProgramView<'_>, free: &[usize]) -> TokenStream {
         const MOST_STRAIGHT: usize = 4;
         let free = if free.len() > MOST_STRAIGHT {
-            let free = view.wiring.bits.set(free);
-            quote!(&& self.state.dispatcher.holds(&#free))
+            let (ty, free) = (view.wiring.bits.set_type(), view.wiring.bits.set(free));
+            quote!(&& { const FREE: #ty = #free; self.state.dispatcher.holds(&FREE) })
         } else {
             quote!(#(&& self.state.dispatcher.has(#free))*)
         };
