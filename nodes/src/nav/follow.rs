@@ -15,7 +15,7 @@ const TURN: f32 = 0.1;
 /// in the frame of the robot; before the first one, no obstacle is known. The node sends twists while it has a path,
 /// and drops the path when the robot
 /// * has `reached` the goal,
-/// * is `blocked`: for longer than `patience`, an obstacle stands on the path ahead or the robot makes no progress,
+/// * is `blocked`: for longer than `blocked_timeout`, an obstacle stands on the path ahead or the robot makes no progress,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///
@@ -31,7 +31,7 @@ pub struct PathFollower {
     speed: f32,
     /// Minimum speed on the path.
     #[param(unit = "m/s", default = 0.05, range = 0.001..=1.0)]
-    slowest: f32,
+    min_speed: f32,
     /// Gain of the slowdown by curves ahead (K_κ).
     #[param(unit = "1/rad", default = 0.5, range = 0.0..=100.0)]
     turning_gain: f32,
@@ -83,7 +83,7 @@ pub struct PathFollower {
     clearance: f32,
     /// Time that an obstacle may stand on the path, and time that the robot may go without progress.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
-    patience: f32,
+    blocked_timeout: f32,
     path: Path,
     progress: Progress,
     motion: Motion,
@@ -229,7 +229,7 @@ impl PathFollower {
             self.progress.least = Some((left, now));
         }
         let stuck_since = self.progress.least.map(|(_, since)| since);
-        let too_long = |since: Option<Time>| since.is_some_and(|t| now.since(t).as_secs_f32() > self.patience);
+        let too_long = |since: Option<Time>| since.is_some_and(|t| now.since(t).as_secs_f32() > self.blocked_timeout);
         (too_long(self.progress.obstructed_since) || too_long(stuck_since)).then_some(End::Blocked)
     }
 
@@ -276,7 +276,7 @@ impl PathFollower {
         FollowingLaw {
             convergence: self.convergence,
             speed: self.speed,
-            slowest: self.slowest,
+            min_speed: self.min_speed,
             turning_gain: self.turning_gain,
             rotation_gain: self.rotation_gain,
             obstacle_gain: self.obstacle_gain,

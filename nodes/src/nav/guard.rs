@@ -11,13 +11,13 @@ use apex_rt::{Ctx, Time, node};
 pub struct OdometryGuard {
     /// Time that the odometry may stay unchanged while the robot is commanded to move.
     #[param(unit = "s", default = 0.4, range = 0.0..=60.0)]
-    patience: f32,
+    start_timeout: f32,
     /// Length of a stop, after which the robot tries again.
     #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
     pause: f32,
     /// Commanded speed up to which the robot counts as standing.
     #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
-    slowest: f32,
+    min_speed: f32,
     /// Last odometry, and the time since which it has not changed while the robot was commanded to move.
     frozen: Option<(Pose2, Time)>,
 }
@@ -27,18 +27,18 @@ impl OdometryGuard {
     /// Stops the robot at once if there is no odometry.
     fn process(&mut self, ctx: &Ctx, twist: &Twist, odometry: Option<&Pose2>) -> Twist {
         let Some(odometry) = odometry else { return Twist::ZERO };
-        let is_moving = twist.velocity().norm() > self.slowest;
+        let is_moving = twist.velocity().norm() > self.min_speed;
         let since = match self.frozen {
             Some((last, since)) if last == *odometry => since,
             _ => ctx.now(),
         };
         let waited = ctx.now().since(since).as_secs_f32();
-        if !is_moving && waited <= self.patience || waited > self.patience + self.pause {
+        if !is_moving && waited <= self.start_timeout || waited > self.start_timeout + self.pause {
             self.frozen = None;
             return *twist;
         }
         self.frozen = Some((*odometry, since));
-        if waited > self.patience { Twist::ZERO } else { *twist }
+        if waited > self.start_timeout { Twist::ZERO } else { *twist }
     }
 }
 

@@ -10,7 +10,7 @@ pub struct FollowingLaw {
     /// Nominal speed on a straight path far from obstacles and the goal, in m/s (v_n).
     pub speed: f32,
     /// Minimum speed, in m/s. Without it, the robot would never reach the goal.
-    pub slowest: f32,
+    pub min_speed: f32,
     /// Gain of the slowdown by curves, in 1/rad (K_κ).
     pub turning_gain: f32,
     /// Gain of the slowdown by the robot's own rotation, in s/rad (K_ω).
@@ -39,7 +39,7 @@ impl FollowingLaw {
             + self.rotation_gain * rotation.abs()
             + near(self.obstacle_gain, obstacle)
             + near(self.goal_gain, goal);
-        fmaxf(self.speed * expf(-brake), self.slowest)
+        fmaxf(self.speed * expf(-brake), self.min_speed)
     }
 }
 
@@ -51,7 +51,7 @@ mod tests {
     const LAW: FollowingLaw = FollowingLaw {
         convergence: 2.0,
         speed: 1.0,
-        slowest: 0.05,
+        min_speed: 0.05,
         turning_gain: 0.5,
         rotation_gain: 0.5,
         obstacle_gain: 0.2,
@@ -77,10 +77,10 @@ mod tests {
         for slower in [LAW.speed(0.0, 0.0, 0.4, far), LAW.speed(0.0, 0.0, far, 0.4)] {
             assert!((slower - expf(-0.5)).abs() < 1e-6);
         }
-        for slowest in
+        for min_speed in
             [LAW.speed(0.0, 0.0, 0.0, far), LAW.speed(0.0, 0.0, far, -1.0), LAW.speed(f32::NAN, 0.0, far, far)]
         {
-            assert_eq!(slowest, 0.05);
+            assert_eq!(min_speed, 0.05);
         }
     }
 }

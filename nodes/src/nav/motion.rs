@@ -117,7 +117,7 @@ impl MoveToObstacle {
 ///
 /// `target` is the pose of the target in the frame of the robot; the x axis of the target points out of it, towards the
 /// viewer. While it is ⊥, the robot stands still; `lost` comes once the target has not been seen for longer than
-/// `patience`. `positioned` comes with a twist of zero.
+/// `lost_timeout`. `positioned` comes with a twist of zero.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PositionToTarget {
@@ -141,7 +141,7 @@ pub struct PositionToTarget {
     heading_tolerance: f32,
     /// Time that the target may be out of sight.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
-    patience: f32,
+    lost_timeout: f32,
     seen: Option<Time>,
 }
 
@@ -153,7 +153,7 @@ impl PositionToTarget {
         }
         let place = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI)));
         let Some(place) = place.filter(Pose2::is_finite) else {
-            if ctx.now().since(*self.seen.get_or_insert(ctx.now())).as_secs_f32() > self.patience {
+            if ctx.now().since(*self.seen.get_or_insert(ctx.now())).as_secs_f32() > self.lost_timeout {
                 self.forget();
                 lost.emit(());
             }

@@ -77,7 +77,7 @@ pub struct JumpDistance {
     gap: f32,
     /// Maximum number of consecutive beams without a measurement inside a segment.
     #[param(default = 1, range = 0..=100)]
-    bridge: usize,
+    max_gap_beams: usize,
 }
 
 #[node]
@@ -89,7 +89,7 @@ impl JumpDistance {
         for (beam, point) in scan.points() {
             let range = scan.ranges[beam];
             let joins =
-                last.is_some_and(|(before, r)| beam - before <= self.bridge + 1 && (range - r).abs() < self.gap);
+                last.is_some_and(|(before, r)| beam - before <= self.max_gap_beams + 1 && (range - r).abs() < self.gap);
             last = Some((beam, range));
             match list.last_mut() {
                 Some(segment) if joins => segment.push(beam as u16, point),
@@ -140,10 +140,10 @@ mod tests {
     use super::*;
     use apex_rt::Construct;
 
-    fn split(ranges: &[f32], gap: f32, bridge: usize) -> std::vec::Vec<(u16, u16, u16)> {
+    fn split(ranges: &[f32], gap: f32, max_gap_beams: usize) -> std::vec::Vec<(u16, u16, u16)> {
         let scan = Scan { angle_increment: 0.01, ranges: ranges.iter().copied().collect(), ..Scan::default() };
         let mut out = Out::new();
-        JumpDistance::construct((gap, bridge)).process(&scan, &mut out).expect("few segments");
+        JumpDistance::construct((gap, max_gap_beams)).process(&scan, &mut out).expect("few segments");
         out.get().expect("segments").iter().map(|s| (s.first, s.last, s.points)).collect()
     }
 

@@ -32,9 +32,9 @@ pub struct Settings {
     /// Side of the cells for the comparison of scans, in m.
     pub resolution: f64,
     /// Standard deviation of the distance between two measurements of the same object, in m.
-    pub smear: f64,
+    pub correlation_sigma: f64,
     /// Number of previous scans that a scan is compared with.
-    pub running: usize,
+    pub window_scans: usize,
     /// Maximum error of odometry between two kept scans.
     pub window: Window,
     /// Minimum response of a comparison. Below it, odometry is used instead.
@@ -54,8 +54,8 @@ impl Default for Settings {
             turn: 0.35,
             reach: 20.0,
             resolution: 0.05,
-            smear: 0.06,
-            running: 20,
+            correlation_sigma: 0.06,
+            window_scans: 20,
             window: Window { distance: 0.4, angle: 0.35 },
             least_response: 0.3,
             drift: 0.04,
@@ -101,7 +101,7 @@ impl Mapper {
             odometry: Pose::identity(),
             neighbours: Vec::new(),
             loops: 0,
-            table: Table::new(settings.resolution, settings.smear),
+            table: Table::new(settings.resolution, settings.correlation_sigma),
             matcher: Matcher::default(),
             settings,
         }
@@ -146,9 +146,9 @@ impl Mapper {
             self.keep(prediction, points);
             return;
         };
-        let running = last.saturating_sub(self.settings.running.max(1) - 1)..last + 1;
+        let window_scans = last.saturating_sub(self.settings.window_scans.max(1) - 1)..last + 1;
         let Settings { window, least_response, .. } = self.settings;
-        let found = self.compare(&points, &prediction, running, &window, least_response);
+        let found = self.compare(&points, &prediction, window_scans, &window, least_response);
         let pose = found.as_ref().map_or(prediction, |m| m.pose);
         let information = found.map_or(Matrix3::zeros(), |m| m.information) + odometry_information(&moved);
         self.keep(pose, points);
@@ -221,15 +221,15 @@ impl Mapper {
     /// Chains of consecutive scans that are near the scan `new`, but far away along the graph: for each of them the
     /// nearest scan, and the length of the path to it.
     fn loop_candidates(&self, new: usize) -> Vec<(usize, f64)> {
-        let Settings { travel, running, drift, loop_distance, .. } = self.settings;
+        let Settings { travel, window_scans, drift, loop_distance, .. } = self.settings;
         let ways = self.ways(new);
         let poses = self.graph.poses();
         let distance = |k: usize| (poses[k].translation.vector - poses[new].translation.vector).norm();
         let mut candidates: Vec<(usize, f64)> = Vec::new();
         let mut last = None;
-        for (k, &way) in ways.iter().enumerate().take(new.saturating_sub(running)) {
+        for (k, &way) in ways.iter().enumerate().take(new.saturating_sub(window_scans)) {
             let near = travel * CHAIN as f64 + (drift * way).min(loop_distance);
-            if way < travel * running as f64 * 0.5 || distance(k) > near {
+            if way < travel * window_scans as f64 * 0.5 || distance(k) > near {
                 continue;
             }
             let joins = last.is_some_and(|last| k - last == 1);

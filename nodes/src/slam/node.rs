@@ -52,10 +52,10 @@ pub struct GraphSlam {
     /// Standard deviation of the distance between two measurements of the same object; smaller with a good scanner in
     /// small rooms.
     #[param(unit = "m", default = 0.06, range = 0.005..=1.0)]
-    smear: f32,
+    correlation_sigma: f32,
     /// Number of previous scans that a scan is compared with.
     #[param(default = 20, range = 1..=1000)]
-    running: usize,
+    window_scans: usize,
     /// Drift of a pose per metre of the path. The search for loops is extended by the accumulated drift.
     #[param(default = 0.04, range = 0.0..=1.0)]
     drift: f32,
@@ -118,8 +118,8 @@ impl GraphSlam {
             turn: f64::from(self.turn),
             reach: f64::from(self.reach),
             window: Window { distance: f64::from(self.slip), angle: f64::from(self.skid) },
-            smear: f64::from(self.smear),
-            running: self.running,
+            correlation_sigma: f64::from(self.correlation_sigma),
+            window_scans: self.window_scans,
             drift: f64::from(self.drift),
             loop_distance: f64::from(self.loop_distance),
             loop_response: f64::from(self.loop_response),

@@ -4,25 +4,25 @@
 mod arena;
 pub mod bench;
 pub mod contest;
-mod eyes;
 mod hopper;
-mod journal;
+mod knowledge_log;
 pub mod measure;
 mod nodes;
 mod places;
 pub mod run;
+pub mod run_report;
+mod sensors;
 mod signs;
-pub mod story;
 
 pub use arena::{Arena, ISLAND_SIDE, NUMBER_HEIGHT, Station, TARGET_HEIGHT, WALL_HEIGHT};
-pub use eyes::{Eyes, LASER, View, camera, hall_light};
 pub use hopper::{CUBE_SIDE, Cube, HOPPER_SIZE, Hopper};
-pub use journal::Journal;
+pub use knowledge_log::KnowledgeLog;
 pub use nodes::{
     CUBE, NUMBERS, NumberSign, NumberSigns, clearest, cube_number, is_cube, number_sign, on_paper, sign_number,
     sign_target,
 };
 pub use places::{BorderTour, ChooseStation, is_word, origin};
+pub use sensors::{LASER, Sensors, View, camera, hall_light};
 pub use signs::{NUMBER_WIDTH, TARGET_WIDTH};
 
 /// Compiled graphs.

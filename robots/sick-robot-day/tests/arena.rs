@@ -2,7 +2,7 @@
 
 use apex_nodes::scan::{Point2, Pose2, Scan};
 use apex_sim::{Laser, Light, Random};
-use sick_robot_day::{Arena, Eyes, TARGET_HEIGHT, camera};
+use sick_robot_day::{Arena, Sensors, TARGET_HEIGHT, camera};
 use std::f32::consts::{PI, TAU};
 
 #[test]
@@ -52,7 +52,7 @@ fn the_same_seed_is_the_same_arena_and_the_same_view() {
     let view = |seed: u64| {
         let (arena, mut random) = (Arena::new(seed), Random::new(seed));
         let pose = before(&arena, 3, 1.0);
-        Eyes::new().expect("a level camera").see(&arena, &pose, 0.3, &Light::default(), &mut random)
+        Sensors::new().expect("a level camera").see(&arena, &pose, 0.3, &Light::default(), &mut random)
     };
     assert_eq!(view(3), view(3));
     assert!(view(3).image != view(4).image && view(3).scan != view(4).scan);
@@ -60,11 +60,11 @@ fn the_same_seed_is_the_same_arena_and_the_same_view() {
 
 #[test]
 fn targets_are_where_the_camera_projects_them() {
-    let mut eyes = Eyes::new().expect("a level camera");
+    let mut sensors = Sensors::new().expect("a level camera");
     for (seed, station) in (0..8).zip(0..) {
         let arena = Arena::new(seed);
         let robot = before(&arena, station, 1.2);
-        let image = eyes.see(&arena, &robot, 0.0, &Light::default(), &mut Random::new(seed)).image;
+        let image = sensors.see(&arena, &robot, 0.0, &Light::default(), &mut Random::new(seed)).image;
         let target = arena.stations().nth(station).expect("one of eight").pose;
         let at = |y: f32, z: f32| {
             let place = robot.to_inner(target.to_outer(Point2::new(0.01, y)));

@@ -18,14 +18,14 @@ fn run(mission: Mission, faults: Vec<Fault>, duration: Duration) -> Outcome {
 }
 
 fn delivers(mission: Mission) {
-    let Outcome { story, failures, .. } = run(mission, vec![], SOON);
-    let report = &story.report;
+    let Outcome { run_report, failures, .. } = run(mission, vec![], SOON);
+    let report = &run_report.report;
     assert!(failures.is_empty(), "{failures:?}");
     assert!(!report.fetches.is_empty() && report.points() > 0, "{report:?}");
     assert_eq!((report.penalties(), report.caused()), (0, 0));
-    assert!(story.map.is_some() && story.octagon.is_some() && !story.frames.is_empty());
-    assert!(story.phases.windows(2).all(|pair| pair[0].until <= pair[1].until));
-    assert!(story.phases.first().is_some_and(|phase| phase.name == "wait" && phase.until >= START));
+    assert!(run_report.map.is_some() && run_report.octagon.is_some() && !run_report.frames.is_empty());
+    assert!(run_report.phases.windows(2).all(|pair| pair[0].until <= pair[1].until));
+    assert!(run_report.phases.first().is_some_and(|phase| phase.name == "wait" && phase.until >= START));
 }
 
 #[test]
@@ -53,9 +53,9 @@ fn the_same_seed_is_the_same_run_and_its_recording_replays() {
     let report = replay(Competition::in_hall(&hall), &finished.path, ());
     fs::remove_dir_all(&folder).expect("it is ours");
 
-    assert_eq!(recorded.story.report, again.story.report);
-    assert_eq!(recorded.story.phases, again.story.phases);
-    assert!(recorded.story.report.distance > 3.0, "it did not drive far");
+    assert_eq!(recorded.run_report.report, again.run_report.report);
+    assert_eq!(recorded.run_report.phases, again.run_report.phases);
+    assert!(recorded.run_report.report.distance > 3.0, "it did not drive far");
     let report = report.expect("a recording");
     assert!(report.is_same(), "{report}");
     assert!(report.compared.iter().all(|c| c.equal > 0), "{report}");
@@ -74,7 +74,7 @@ fn survives(kind: FaultKind, mission: Mission) {
     let duration = until.since(START) + Duration::from_secs(8);
     let outcome = run(mission, vec![Fault { kind, from, until }], duration);
     assert!(outcome.failures.is_empty(), "{kind:?}: {:?}", outcome.failures);
-    let report = outcome.story.report;
+    let report = outcome.run_report.report;
     let after: Vec<_> = report.trajectory.iter().filter(|(time, _)| *time >= until).collect();
     let way: f32 = after.windows(2).map(|pair| (pair[1].1.position() - pair[0].1.position()).norm()).sum();
     assert!(way > 0.2, "{kind:?}: after it the robot drove {way} m");

@@ -6,10 +6,10 @@ use apex_nodes::{
     scan::{Point2, Pose2, Scan},
 };
 use apex_rt::Time;
-use apex_sim::{Light, Look, Panel, Photographer, Picture, Random, Scene, World};
+use apex_sim::{CameraSim, Light, Look, Panel, Picture, Random, Scene, World};
 use image::{ImageBuffer, Luma};
 use sick_robot_day::{
-    Arena, Eyes, HOPPER_SIZE, Hopper, LASER, NumberSign, TARGET_HEIGHT, TARGET_WIDTH, View, camera, hall_light,
+    Arena, HOPPER_SIZE, Hopper, LASER, NumberSign, Sensors, TARGET_HEIGHT, TARGET_WIDTH, View, camera, hall_light,
     programs::{CubeByDeviation, CubeByNetwork, CubeNumber, FindCross, FindSign, FindTarget},
 };
 use std::{f32::consts::PI, path::Path};
@@ -39,7 +39,7 @@ fn view(seed: u64, station: usize, distance: f32) -> (View, Pose2) {
     let back = (station.position() - place).angle();
     let robot = Pose2::new(place.x, place.y, back + random.uniform(-0.1, 0.1));
     let light = hall_light(&mut random);
-    let view = Eyes::new().expect("a level camera").see(&arena, &robot, 0.0, &light, &mut random);
+    let view = Sensors::new().expect("a level camera").see(&arena, &robot, 0.0, &light, &mut random);
     (view, station.relative_to(&robot))
 }
 
@@ -87,8 +87,8 @@ fn wall(picture: GrayImage) -> View {
     scene.sign(&Pose2::new(1.49, 0.1, PI), TARGET_HEIGHT, TARGET_WIDTH, Picture::new(picture));
     let (mut view, mut random, pose) = (View::default(), Random::new(1), Pose2::default());
     LASER.measure(&world, &pose, &mut random, &mut view.scan);
-    let mut photographer = Photographer::new(camera()).expect("a level camera");
-    photographer.take(&scene, &pose, &Twist::ZERO, &Light::default(), Time::ZERO, &mut random, &mut view.image);
+    let mut camera = CameraSim::new(camera()).expect("a level camera");
+    camera.take(&scene, &pose, &Twist::ZERO, &Light::default(), Time::ZERO, &mut random, &mut view.image);
     view
 }
 

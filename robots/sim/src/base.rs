@@ -43,7 +43,7 @@ pub struct DifferentialBase {
     battery_life: f32,
     /// Time that the base goes on without a new twist.
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0)]
-    patience: f32,
+    command_timeout: f32,
     /// Seed of the odometry errors.
     #[param(default = 1)]
     seed: u64,
@@ -84,7 +84,7 @@ impl DifferentialBase {
             None => self.begin(now).inspect_err(|_| self.failed = true)?,
         };
         let charge = (1.0 - now.since(moving.began).as_secs_f32() / self.battery_life).max(0.0);
-        let fresh = self.commanded.is_some_and(|then| now.since(then).as_secs_f32() <= self.patience);
+        let fresh = self.commanded.is_some_and(|then| now.since(then).as_secs_f32() <= self.command_timeout);
         let command = if fresh && charge > 0.0 { self.command } else { Twist::ZERO };
         let touched = moving.touches;
         odometry.set(moving.step(now, &command, self.radius));

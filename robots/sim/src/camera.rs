@@ -22,7 +22,7 @@ pub struct Light {
 
 /// Simulated level camera that takes images of a [`Scene`].
 #[derive(Debug, Clone)]
-pub struct Photographer {
+pub struct CameraSim {
     camera: Camera,
     /// Exposure time, in s. Rotation during the exposure blurs the image.
     pub exposure: f32,
@@ -52,7 +52,7 @@ impl Default for Light {
     }
 }
 
-impl Photographer {
+impl CameraSim {
     /// Creates a camera with an exposure of 10 ms and a noise of 2.
     ///
     /// # Errors
@@ -207,32 +207,32 @@ mod tests {
     use core::f32::consts::{FRAC_PI_2, PI};
 
     /// A room with a bright wall 4 m ahead, 2 m high, and a camera 0.5 m above the floor.
-    fn room() -> (Scene, Photographer) {
+    fn room() -> (Scene, CameraSim) {
         let mut scene = Scene::new(50, 10);
         let (a, b) = (Point2::new(4.0, 5.0), Point2::new(4.0, -5.0));
         scene.panel(Panel { a, b, bottom: 0.0, top: 2.0, look: Look::Plain(200) });
         let camera = Camera { position: [0.0, 0.0, 0.5], ..Camera::new(640, 480, FRAC_PI_2) };
-        let mut photographer = Photographer::new(camera).expect("it is level");
-        photographer.noise = 0.0;
-        (scene, photographer)
+        let mut camera = CameraSim::new(camera).expect("it is level");
+        camera.noise = 0.0;
+        (scene, camera)
     }
 
-    fn photo(scene: &Scene, photographer: &mut Photographer, twist: &Twist, light: &Light) -> GrayImage {
+    fn photo(scene: &Scene, camera: &mut CameraSim, twist: &Twist, light: &Light) -> GrayImage {
         let mut image = GrayImage::default();
         let mut random = Random::new(1);
-        photographer.take(scene, &Pose2::default(), twist, light, Time::ZERO, &mut random, &mut image);
+        camera.take(scene, &Pose2::default(), twist, light, Time::ZERO, &mut random, &mut image);
         image
     }
 
     #[test]
     fn things_are_where_the_camera_projects_them() {
-        let (mut scene, mut photographer) = room();
+        let (mut scene, mut camera) = room();
         let mark =
             GrayImage::from(image::GrayImage::from_fn(64, 64, |u, _| image::Luma([if u < 32 { 0 } else { 255 }])));
         scene.sign(&Pose2::new(3.9, 1.0, PI), 1.0, 0.6, Picture::new(mark));
-        let image = photo(&scene, &mut photographer, &Twist::ZERO, &Light::default());
+        let image = photo(&scene, &mut camera, &Twist::ZERO, &Light::default());
         let at = |point: [f32; 3]| {
-            let [u, v] = photographer.camera.project(point).expect("in front");
+            let [u, v] = camera.camera.project(point).expect("in front");
             image.pixels.get_pixel(u.round() as u32, v.round() as u32).0[0]
         };
         assert_eq!([at([4.0, 0.0, 1.8]), at([2.0, 0.0, 0.0]), at([4.0, 0.0, 2.3])], [200, 50, 10]);
@@ -242,33 +242,33 @@ mod tests {
 
     #[test]
     fn near_things_hide_far_ones() {
-        let (mut scene, mut photographer) = room();
+        let (mut scene, mut camera) = room();
         scene.pillar(Pillar { centre: Point2::new(2.0, 0.0), radius: 0.3, top: 0.6, look: Look::Plain(77) });
-        let image = photo(&scene, &mut photographer, &Twist::ZERO, &Light::default());
-        let [u, v] = photographer.camera.project([1.7, 0.0, 0.3]).expect("in front");
+        let image = photo(&scene, &mut camera, &Twist::ZERO, &Light::default());
+        let [u, v] = camera.camera.project([1.7, 0.0, 0.3]).expect("in front");
         assert_eq!(image.pixels.get_pixel(u as u32, v as u32).0, [77]);
-        let [_, above] = photographer.camera.project([1.7, 0.0, 0.7]).expect("in front");
+        let [_, above] = camera.camera.project([1.7, 0.0, 0.7]).expect("in front");
         assert_eq!(image.pixels.get_pixel(u as u32, above as u32).0, [200]);
     }
 
     #[test]
     fn turning_blurs_upright_edges() {
-        let (mut scene, mut photographer) = room();
+        let (mut scene, mut camera) = room();
         scene.pillar(Pillar { centre: Point2::new(2.0, 0.0), radius: 0.3, top: 2.0, look: Look::Plain(0) });
         let edge = |image: &GrayImage| {
             image.pixels.rows().nth(230).expect("a row").filter(|p| !matches!(p.0[0], 0 | 200)).count()
         };
-        assert_eq!(edge(&photo(&scene, &mut photographer, &Twist::ZERO, &Light::default())), 0);
-        let blurred = edge(&photo(&scene, &mut photographer, &Twist::new(0.0, 0.0, 2.0), &Light::default()));
+        assert_eq!(edge(&photo(&scene, &mut camera, &Twist::ZERO, &Light::default())), 0);
+        let blurred = edge(&photo(&scene, &mut camera, &Twist::new(0.0, 0.0, 2.0), &Light::default()));
         assert_eq!(blurred, 12, "two edges of 2 rad/s · 10 ms · 320 px");
     }
 
     #[test]
     fn light_and_noise_are_as_asked_for() {
-        let (scene, mut photographer) = room();
-        photographer.noise = 4.0;
+        let (scene, mut camera) = room();
+        camera.noise = 4.0;
         let light = Light { gain: 0.5, slope: 0.4, haze: 20.0 };
-        let image = photo(&scene, &mut photographer, &Twist::ZERO, &light);
+        let image = photo(&scene, &mut camera, &Twist::ZERO, &light);
         let part = |from: u32, to: u32| -> (f32, f32) {
             let wall: Vec<f32> = (230..250)
                 .flat_map(|v| (from..to).map(move |u| (u, v)))
@@ -282,13 +282,13 @@ mod tests {
             (middle - 120.0).abs() < 1.0 && (left - 139.0).abs() < 2.0 && (sigma - 4.0).abs() < 0.5,
             "{left} {middle} {sigma}"
         );
-        let dark = photo(&scene, &mut photographer, &Twist::ZERO, &Light { gain: f32::NAN, ..light });
+        let dark = photo(&scene, &mut camera, &Twist::ZERO, &Light { gain: f32::NAN, ..light });
         assert!(dark.pixels.iter().all(|p| *p == 0));
     }
 
     #[test]
     fn a_camera_that_looks_down_is_refused() {
         let camera = Camera { pitch: 0.3, ..Camera::new(64, 48, 1.0) };
-        assert_eq!(Photographer::new(camera).err(), Some(NotLevel(camera)));
+        assert_eq!(CameraSim::new(camera).err(), Some(NotLevel(camera)));
     }
 }

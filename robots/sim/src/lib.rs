@@ -25,7 +25,7 @@ mod world;
 pub use apex_nodes::math::Random;
 pub use base::DifferentialBase;
 #[cfg(feature = "camera")]
-pub use camera::{Light, NotLevel, Photographer, expose};
+pub use camera::{CameraSim, Light, NotLevel, expose};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
 pub use laser::Laser;
 pub use note::Note;

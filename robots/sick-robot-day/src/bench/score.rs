@@ -32,9 +32,9 @@ impl Score {
 
     /// Creates the score of a run with this computing time.
     pub fn of(outcome: &Outcome, took: Duration) -> Self {
-        let report = &outcome.story.report;
+        let report = &outcome.run_report.report;
         Self {
-            seed: outcome.story.seed,
+            seed: outcome.run_report.seed,
             points: report.points(),
             wrong: report.penalties(),
             caused: report.caused(),

@@ -1,7 +1,7 @@
 use crate::{
     contest::START,
     measure::percentile,
-    run::{Moment, Parts, Watch},
+    run::{Parts, StepView, Watch},
 };
 use apex_rt::{Info, Observer, Time};
 use std::{
@@ -106,7 +106,7 @@ impl Observer for Times {
 }
 
 impl Watch for Times {
-    fn reacted(&mut self, moment: &Moment<'_>) {
+    fn reacted(&mut self, moment: &StepView<'_>) {
         let with_map = std::mem::take(&mut self.map_taken);
         for part in 0..self.spent.len() {
             let Some(took) = self.spent[part].take() else { continue };

@@ -3,9 +3,9 @@ use apex_rt::Observer;
 use sick_robot_day::{
     Arena,
     contest::{Fault, Hall},
-    measure::Album,
-    run::{Moment, Outcome, Setup, Watch},
-    story::{Film, Glance, LiveView},
+    measure::ImageWriter,
+    run::{Outcome, Setup, StepView, Watch},
+    run_report::{Film, LiveView, Snapshot},
 };
 use std::{
     fmt::Write as _,
@@ -18,12 +18,13 @@ use std::{
 pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Result<ExitCode, String> {
     let folder = out.unwrap_or_else(free_folder);
     // Checked before the run: the folder of the pictures must be usable.
-    let album = Album::new(&folder)?;
+    let image_writer = ImageWriter::new(&folder)?;
     let mut view = View::of(setup);
     let outcome = setup.run(&mut view)?;
-    outcome.story.write(&album)?;
+    outcome.run_report.write(&image_writer)?;
     if let Some(path) = film {
-        fs::write(path, view.film.svg(&outcome.story)).map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+        fs::write(path, view.film.svg(&outcome.run_report))
+            .map_err(|e| format!("cannot write {}: {e}", path.display()))?;
     }
     say(&summary(setup, &outcome, &folder))?;
     Ok(if outcome.is_fine() { ExitCode::SUCCESS } else { ExitCode::from(1) })
@@ -38,7 +39,7 @@ fn free_folder() -> PathBuf {
 }
 
 fn summary(setup: &Setup, outcome: &Outcome, folder: &Path) -> String {
-    let mut text = format!("{}\n\n", outcome.story.table());
+    let mut text = format!("{}\n\n", outcome.run_report.table());
     // Writing to a `String` cannot fail.
     for failure in &outcome.failures {
         let _ = writeln!(text, "failure: {failure}");
@@ -75,16 +76,16 @@ impl View {
 impl Observer for View {}
 
 impl Watch for View {
-    fn reacted(&mut self, moment: &Moment<'_>) {
+    fn reacted(&mut self, moment: &StepView<'_>) {
         self.film.take(moment.now, || moment.hall.robots());
         let arena = &self.arena;
-        self.live.show(moment.now, || glance(moment, moment.hall, arena));
+        self.live.show(moment.now, || snapshot(moment, moment.hall, arena));
     }
 }
 
-fn glance<'a>(moment: &Moment<'_>, hall: &Hall, arena: &'a Arena) -> Glance<'a> {
+fn snapshot<'a>(moment: &StepView<'_>, hall: &Hall, arena: &'a Arena) -> Snapshot<'a> {
     let ([ours, rivals @ ..], report) = (hall.robots(), hall.report());
-    Glance {
+    Snapshot {
         now: moment.now,
         arena,
         pose: ours.pose,

@@ -5,8 +5,8 @@ mod bench;
 mod compete;
 
 use sick_robot_day::{
-    Eyes,
-    measure::{Album, Progress, cubes, signs, targets},
+    Sensors,
+    measure::{ImageWriter, Progress, cubes, signs, targets},
     run::Setup,
 };
 use std::{
@@ -36,16 +36,16 @@ impl Command {
 }
 
 fn perception(seeds: u64, out: Option<PathBuf>) -> Result<(), String> {
-    let album = out.as_deref().map(Album::new).transpose()?.unwrap_or_default();
-    let mut eyes = Eyes::new().map_err(|e| e.to_string())?;
+    let image_writer = out.as_deref().map(ImageWriter::new).transpose()?.unwrap_or_default();
+    let mut sensors = Sensors::new().map_err(|e| e.to_string())?;
     let progress = Progress::default();
     let tell = |table: String| {
         progress.clear();
         say(&table)
     };
-    tell(format!("{}\n\n", targets(seeds, &mut eyes, &album, &progress)?))?;
-    tell(format!("{}\n\n", signs(seeds, &mut eyes, &album, &progress)?))?;
-    tell(format!("{}\n\n", cubes(seeds, &album, &progress)?))?;
+    tell(format!("{}\n\n", targets(seeds, &mut sensors, &image_writer, &progress)?))?;
+    tell(format!("{}\n\n", signs(seeds, &mut sensors, &image_writer, &progress)?))?;
+    tell(format!("{}\n\n", cubes(seeds, &image_writer, &progress)?))?;
     say(&format!("seeds 1 to {seeds}\n"))?;
     out.map_or(Ok(()), |folder| say(&format!("pictures: {}\n", folder.display())))
 }

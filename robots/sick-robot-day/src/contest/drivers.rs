@@ -6,7 +6,7 @@ use apex_nodes::{
     scan::{Pose2, Scan},
 };
 use apex_rt::{Ctx, Out, node};
-use apex_sim::{Laser, Photographer, Random};
+use apex_sim::{CameraSim, Laser, Random};
 use std::f32::consts::PI;
 
 /// All drivers of a robot in a hall.
@@ -131,7 +131,7 @@ impl WheelOdometry {
 #[derive(Debug)]
 pub struct FrontCamera {
     hall: Hall,
-    photographer: Photographer,
+    camera: CameraSim,
     random: Random,
     /// `true` if the last torn image had pixels.
     torn: bool,
@@ -142,7 +142,7 @@ impl FrontCamera {
     /// Creates the camera of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         let random = hall.contest().stream(33);
-        Self { hall: hall.clone(), photographer: hall.photographer(), random, torn: false }
+        Self { hall: hall.clone(), camera: hall.camera(), random, torn: false }
     }
 
     fn process(&mut self, ctx: &Ctx, image: &mut Out<GrayImage>, camera: &mut Out<Camera>) {
@@ -157,8 +157,8 @@ impl FrontCamera {
             token.reset(ctx.now(), (intrinsics.width, intrinsics.height));
         } else {
             let (robot, scene) = (contest.robots()[0], &contest.arena().scene);
-            let Self { photographer, random, .. } = self;
-            photographer.take(scene, &robot.pose, &robot.twist, contest.light(), ctx.now(), random, token);
+            let Self { camera, random, .. } = self;
+            camera.take(scene, &robot.pose, &robot.twist, contest.light(), ctx.now(), random, token);
         }
     }
 }

@@ -2,14 +2,14 @@ use super::{Contest, Fault, RIVALS, Report, Robot};
 use crate::{Arena, camera};
 use apex_nodes::{nav::Twist, scan::Pose2};
 use apex_rt::Time;
-use apex_sim::{NotLevel, Photographer};
+use apex_sim::{CameraSim, NotLevel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Hall of a [`Contest`]: a handle that all participants share.
 #[derive(Debug, Clone)]
 pub struct Hall {
     contest: Arc<Mutex<Contest>>,
-    photographer: Photographer,
+    camera: CameraSim,
 }
 
 impl Hall {
@@ -18,8 +18,8 @@ impl Hall {
     /// # Errors
     /// If the [`camera`] is not level.
     pub fn new(seed: u64, faults: Vec<Fault>) -> Result<Self, NotLevel> {
-        let photographer = Photographer::new(camera())?;
-        Ok(Self { contest: Arc::new(Mutex::new(Contest::new(seed, faults))), photographer })
+        let camera = CameraSim::new(camera())?;
+        Ok(Self { contest: Arc::new(Mutex::new(Contest::new(seed, faults))), camera })
     }
 
     /// Events up to now.
@@ -69,7 +69,7 @@ impl Hall {
         self.contest.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(super) fn photographer(&self) -> Photographer {
-        self.photographer.clone()
+    pub(super) fn camera(&self) -> CameraSim {
+        self.camera.clone()
     }
 }

@@ -1,4 +1,4 @@
-use super::{Album, Confusion, Progress, Times};
+use super::{Confusion, ImageWriter, Progress, Times};
 use crate::{
     Hopper,
     programs::{CubeByDeviation, CubeByNetwork, CubeNumber},
@@ -36,7 +36,7 @@ struct Programs {
 /// # Errors
 /// If an image cannot be written.
 /// A picture cannot be written.
-pub fn cubes(seeds: u64, album: &Album, progress: &Progress) -> Result<Cubes, String> {
+pub fn cubes(seeds: u64, image_writer: &ImageWriter, progress: &Progress) -> Result<Cubes, String> {
     let empty = Confusion::new(["empty", "full"]);
     let (deviation, network) = (empty.clone(), empty);
     let mut result = Cubes { deviation, network, codes: Default::default(), ghosts: 0, times: Default::default() };
@@ -51,8 +51,8 @@ pub fn cubes(seeds: u64, album: &Album, progress: &Progress) -> Result<Cubes, St
             let hopper = Hopper::random(true, full, &mut random);
             let patterned = hopper.photo(&mut random);
             if seed == 1 {
-                album.add(&format!("hopper-{i:02}-plain"), &plain, None)?;
-                album.add(&format!("hopper-{i:02}-pattern"), &patterned, None)?;
+                image_writer.add(&format!("hopper-{i:02}-plain"), &plain, None)?;
+                image_writer.add(&format!("hopper-{i:02}-pattern"), &patterned, None)?;
             }
             result.look(&mut programs, full, plain, &hopper, patterned);
         }

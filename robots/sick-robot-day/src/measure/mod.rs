@@ -1,16 +1,16 @@
 //! Evaluates the compiled perception on rendered images, with one arena or hopper per seed.
 
-mod album;
 mod cubes;
 mod figures;
+mod image_writer;
 mod places;
 mod progress;
 mod signs;
 mod targets;
 
-pub use album::Album;
 pub use cubes::{Cubes, cubes};
 pub use figures::{Confusion, Times, percentile};
+pub use image_writer::ImageWriter;
 pub use progress::Progress;
 pub use signs::{Signs, signs};
 pub use targets::{Targets, targets};

@@ -1,5 +1,5 @@
-use super::{Album, Confusion, Progress, Times, places};
-use crate::{Arena, Eyes, NumberSign, View, camera, hall_light, programs::FindSign};
+use super::{Confusion, ImageWriter, Progress, Times, places};
+use crate::{Arena, NumberSign, Sensors, View, camera, hall_light, programs::FindSign};
 use apex_nodes::scan::Pose2;
 use apex_rt::Time;
 use apex_sim::Random;
@@ -26,7 +26,12 @@ pub struct Signs {
 ///
 /// # Errors
 /// If an image cannot be written.
-pub fn signs(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) -> Result<Signs, String> {
+pub fn signs(
+    seeds: u64,
+    sensors: &mut Sensors,
+    image_writer: &ImageWriter,
+    progress: &Progress,
+) -> Result<Signs, String> {
     let empty = Confusion::new(["1", "2", "3", "4", "none"]);
     let by_distance = std::array::from_fn(|_| empty.clone());
     let (mut result, mut program) = (Signs { all: empty, by_distance, times: Times::default() }, FindSign::new());
@@ -37,7 +42,7 @@ pub fn signs(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) ->
             for actual in 0..=NONE {
                 let Some(robot) = place(&arena, actual, distance, &mut random) else { continue };
                 let light = hall_light(&mut random);
-                let view = eyes.see(&arena, &robot, 0.0, &light, &mut random);
+                let view = sensors.see(&arena, &robot, 0.0, &light, &mut random);
                 let image = (seed == 1).then(|| view.image.clone());
                 let start = Instant::now();
                 let sign = read(&mut program, view);
@@ -48,7 +53,7 @@ pub fn signs(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) ->
                 if let Some(image) = image {
                     let name = |class: usize| if class == NONE { "none".to_owned() } else { (class + 1).to_string() };
                     let name = format!("sign-{distance:.0}m-{}-read-{}", name(actual), name(found));
-                    album.add(&name, &image, sign.map(|s| s.region).as_ref())?;
+                    image_writer.add(&name, &image, sign.map(|s| s.region).as_ref())?;
                 }
             }
         }

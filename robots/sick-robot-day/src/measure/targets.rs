@@ -1,5 +1,5 @@
-use super::{Album, Progress, Times, percentile, places};
-use crate::{Arena, Eyes, camera, hall_light, programs::FindTarget};
+use super::{ImageWriter, Progress, Times, percentile, places};
+use crate::{Arena, Sensors, camera, hall_light, programs::FindTarget};
 use apex_nodes::{image::Target, scan::Pose2};
 use apex_rt::Time;
 use apex_sim::Random;
@@ -38,7 +38,12 @@ struct Cell {
 ///
 /// # Errors
 /// If an image cannot be written.
-pub fn targets(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) -> Result<Targets, String> {
+pub fn targets(
+    seeds: u64,
+    sensors: &mut Sensors,
+    image_writer: &ImageWriter,
+    progress: &Progress,
+) -> Result<Targets, String> {
     let (mut result, mut program) = (Targets::default(), FindTarget::new());
     for seed in 1..=seeds {
         progress.step("targets", seed, seeds);
@@ -49,7 +54,7 @@ pub fn targets(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) 
             let Some((station, robot)) = found else { continue };
             let light = hall_light(&mut random);
             for (column, turn) in TURNS.into_iter().enumerate() {
-                let view = eyes.see(&arena, &robot, turn, &light, &mut random);
+                let view = sensors.see(&arena, &robot, turn, &light, &mut random);
                 let image = (seed == 1).then(|| view.image.clone());
                 let start = Instant::now();
                 let (target, pose) = locate(&mut program, view);
@@ -57,7 +62,7 @@ pub fn targets(seeds: u64, eyes: &mut Eyes, album: &Album, progress: &Progress) 
                 result.cells[row][column].count(&station.pose.relative_to(&robot), pose);
                 if let Some(image) = image {
                     let name = format!("target-{distance:.1}m-{turn:.0}rad-per-s");
-                    album.add(&name, &image, target.map(|t| t.region).as_ref())?;
+                    image_writer.add(&name, &image, target.map(|t| t.region).as_ref())?;
                 }
             }
         }

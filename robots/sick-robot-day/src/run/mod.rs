@@ -1,23 +1,23 @@
 //! A run of the robot in the competition: its setup and its outcome.
 
-mod diary;
+mod activity_log;
 mod part;
 mod robot;
 
-pub use diary::Failure;
+pub use activity_log::Failure;
 pub use part::Parts;
 pub use robot::Robot;
 
 use crate::{
     contest::{Fault, Hall, START},
     programs::{Competition, SdfCompetition},
-    story::Story,
+    run_report::RunReport,
 };
+use activity_log::ActivityLog;
 use apex_rt::{
     Clock as _, Info, Next, Observer, Program, SimClock, Time,
     record::{Channel, Finished, Recorder, Role, Tap, WhenFull},
 };
-use diary::Diary;
 use std::{path::PathBuf, time::Duration};
 
 /// Period of the reactions of a robot that could always react, because of constants in its graphs. It is the step of
@@ -63,7 +63,7 @@ pub struct Recording {
 #[derive(Debug)]
 pub struct Outcome {
     /// Report of the actions and the knowledge of the robot.
-    pub story: Story,
+    pub run_report: RunReport,
     /// Failures in the robot.
     pub failures: Vec<Failure>,
     /// Finished recording.
@@ -72,18 +72,18 @@ pub struct Outcome {
 
 /// State of a run between two reactions.
 #[derive(Debug)]
-pub struct Moment<'a> {
+pub struct StepView<'a> {
     /// Time of the run.
     pub now: Time,
     /// Hall of the run.
     pub hall: &'a Hall,
-    diary: &'a Diary,
+    activity_log: &'a ActivityLog,
 }
 
 /// Observer of a run.
 pub trait Watch: Observer {
     /// Called after each reaction of the robot.
-    fn reacted(&mut self, moment: &Moment<'_>) {
+    fn reacted(&mut self, moment: &StepView<'_>) {
         let _ = moment;
     }
 }
@@ -122,13 +122,13 @@ impl Setup {
         let start = hall.robots()[0].pose;
         let mut robot = Box::new(R::in_hall(&hall));
         let mut tap = Tapped(self.record.as_ref().map(Recording::begin::<R>).transpose()?);
-        let mut diary = Diary::new(const { &R::INFO });
+        let mut activity_log = ActivityLog::new(const { &R::INFO });
         let mut clock = SimClock::until(self.end()).with_step(STEP);
         loop {
             let now = clock.now();
-            diary.now = now;
-            let next = robot.react_with(now, &mut (&mut diary, (&mut *watch, &mut tap)));
-            watch.reacted(&Moment { now, hall: &hall, diary: &diary });
+            activity_log.now = now;
+            let next = robot.react_with(now, &mut (&mut activity_log, (&mut *watch, &mut tap)));
+            watch.reacted(&StepView { now, hall: &hall, activity_log: &activity_log });
             let time = if let Next::At(time) = next { time } else { now };
             if !clock.wait_until(time) {
                 break;
@@ -136,9 +136,9 @@ impl Setup {
         }
         hall.advance(self.end());
         let recorded = tap.finish()?;
-        let (phases, failures) = diary.finish(self.end());
-        let story = Story::of(self.seed, &hall, start, robot.journal(), phases);
-        Ok(Outcome { story, failures, recorded })
+        let (phases, failures) = activity_log.finish(self.end());
+        let run_report = RunReport::of(self.seed, &hall, start, robot.knowledge_log(), phases);
+        Ok(Outcome { run_report, failures, recorded })
     }
 }
 
@@ -176,14 +176,14 @@ impl Outcome {
     /// Returns `true` if the run has no failures in the robot, no collisions that it caused, and no cubes delivered to
     /// a wrong station.
     pub fn is_fine(&self) -> bool {
-        let report = &self.story.report;
+        let report = &self.run_report.report;
         self.failures.is_empty() && report.caused() == 0 && report.penalties() == 0
     }
 }
 
-impl Moment<'_> {
+impl StepView<'_> {
     /// Active parts of the mission.
     pub fn active(&self) -> Vec<String> {
-        self.diary.active()
+        self.activity_log.active()
     }
 }

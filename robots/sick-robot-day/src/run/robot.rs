@@ -1,5 +1,5 @@
 use crate::{
-    Journal,
+    KnowledgeLog,
     contest::{Drivers, Hall},
     programs::{Competition, CompetitionParts, SdfCompetition, SdfCompetitionParts},
 };
@@ -14,7 +14,7 @@ pub trait Robot: Program {
     fn in_hall(hall: &Hall) -> Self;
 
     /// Knowledge of the robot.
-    fn journal(&self) -> &Journal;
+    fn knowledge_log(&self) -> &KnowledgeLog;
 }
 
 /// The robots differ in their missions only.
@@ -37,8 +37,8 @@ macro_rules! robot {
                 })
             }
 
-            fn journal(&self) -> &Journal {
-                &self.nodes().journal
+            fn knowledge_log(&self) -> &KnowledgeLog {
+                &self.nodes().knowledge_log
             }
         }
     };

@@ -19,7 +19,7 @@ const PACE: Duration = Duration::from_millis(100);
 
 /// Snapshot of a run.
 #[derive(Debug, Clone)]
-pub struct Glance<'a> {
+pub struct Snapshot<'a> {
     /// Time of the run.
     pub now: Time,
     /// Arena of the run.
@@ -67,8 +67,8 @@ impl LiveView {
     }
 
     /// Shows the snapshot at `now`, if a view is due.
-    pub fn show<'a>(&mut self, now: Time, glance: impl FnOnce() -> Glance<'a>) {
-        if let Some(text) = self.text(now, Instant::now(), glance) {
+    pub fn show<'a>(&mut self, now: Time, snapshot: impl FnOnce() -> Snapshot<'a>) {
+        if let Some(text) = self.text(now, Instant::now(), snapshot) {
             let mut terminal = std::io::stderr();
             // Failing to show the view is not a reason to stop.
             let _ = terminal.write_all(text.as_bytes()).and_then(|()| terminal.flush());
@@ -76,7 +76,7 @@ impl LiveView {
     }
 
     /// Text to write now, if any.
-    fn text<'a>(&mut self, now: Time, wall: Instant, glance: impl FnOnce() -> Glance<'a>) -> Option<String> {
+    fn text<'a>(&mut self, now: Time, wall: Instant, snapshot: impl FnOnce() -> Snapshot<'a>) -> Option<String> {
         match self.output {
             Output::Map => {
                 if self.drawn.is_some_and(|drawn| wall.duration_since(drawn) < PACE) {
@@ -84,7 +84,7 @@ impl LiveView {
                 }
                 // Over the previous drawing; the rest of each line is erased.
                 let up = self.drawn.replace(wall).map_or_else(String::new, |_| format!("\x1b[{ROWS}A"));
-                let lines: Vec<String> = glance().lines().iter().map(|line| format!("{line}\x1b[K\n")).collect();
+                let lines: Vec<String> = snapshot().lines().iter().map(|line| format!("{line}\x1b[K\n")).collect();
                 Some(up + &lines.concat())
             }
             Output::Lines => {
@@ -93,14 +93,14 @@ impl LiveView {
                     return None;
                 }
                 self.minute = minute + 1;
-                Some(format!("{}\n", glance().line()))
+                Some(format!("{}\n", snapshot().line()))
             }
             Output::Nothing => None,
         }
     }
 }
 
-impl Glance<'_> {
+impl Snapshot<'_> {
     /// Lines of the arena, with the state of the run beside them.
     fn lines(&self) -> Vec<String> {
         let beside = self.beside();
@@ -165,8 +165,8 @@ impl Chart {
 mod tests {
     use super::*;
 
-    fn glance(arena: &Arena) -> Glance<'_> {
-        Glance {
+    fn snapshot(arena: &Arena) -> Snapshot<'_> {
+        Snapshot {
             now: Time::from_secs(83),
             arena,
             pose: Pose2::new(3.0, 0.0, 0.0),
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn the_view_shows_the_arena_and_the_score() {
         let arena = Arena::new(3);
-        let lines = glance(&arena).lines();
+        let lines = snapshot(&arena).lines();
         assert_eq!(lines.len(), ROWS);
         assert!(lines.iter().all(|line| line.chars().count() < 80));
         let text = lines.join("\n");
@@ -193,7 +193,7 @@ mod tests {
         {
             assert!(text.contains(part), "no `{part}` in:\n{text}");
         }
-        let chart = glance(&arena).chart();
+        let chart = snapshot(&arena).chart();
         assert_eq!(chart[9].chars().nth(27), Some('A'), "{text}");
         assert_eq!(chart[5].chars().nth(10), Some('B'), "{text}");
         let count = |character| chart.iter().flat_map(|row| row.chars()).filter(|c| *c == character).count();
@@ -204,7 +204,7 @@ mod tests {
     fn a_view_is_drawn_over_the_last_one_and_not_too_often() {
         let (arena, start) = (Arena::new(1), Instant::now());
         let mut view = view(Output::Map);
-        let mut at = |ms| view.text(Time::ZERO, start + Duration::from_millis(ms), || glance(&arena));
+        let mut at = |ms| view.text(Time::ZERO, start + Duration::from_millis(ms), || snapshot(&arena));
         let (first, early, second) = (at(0), at(99), at(100));
         let first = first.expect("the first one");
         assert_eq!((first.matches('\n').count(), first.matches('A').count(), early), (ROWS, 1, None));
@@ -216,9 +216,9 @@ mod tests {
         let (arena, wall) = (Arena::new(1), Instant::now());
         let count = |output| {
             let mut view = view(output);
-            (0..300).filter_map(|s| view.text(Time::from_secs(s), wall, || glance(&arena))).count()
+            (0..300).filter_map(|s| view.text(Time::from_secs(s), wall, || snapshot(&arena))).count()
         };
         assert_eq!((count(Output::Lines), count(Output::Nothing)), (5, 0));
-        assert_eq!(glance(&arena).line(), "1:23: points 7, penalties 1");
+        assert_eq!(snapshot(&arena).line(), "1:23: points 7, penalties 1");
     }
 }

@@ -1,6 +1,6 @@
 //! Film of a run: a self-animating SVG without scripts, which browsers also play in a Markdown page.
 
-use super::{Phase, Story, seconds};
+use super::{Phase, RunReport, seconds};
 use crate::{
     Arena,
     contest::{RIVALS, Robot},
@@ -61,15 +61,15 @@ impl Film {
     }
 
     /// Film of a run as SVG.
-    pub fn svg(&self, story: &Story) -> String {
-        Picture { film: self, story, end: story.end().max(1.0) }.to_string()
+    pub fn svg(&self, run_report: &RunReport) -> String {
+        Picture { film: self, run_report, end: run_report.end().max(1.0) }.to_string()
     }
 }
 
 /// Film that is being written.
 struct Picture<'a> {
     film: &'a Film,
-    story: &'a Story,
+    run_report: &'a RunReport,
     /// End of the run, in s.
     end: f32,
 }
@@ -81,7 +81,7 @@ impl fmt::Display for Picture<'_> {
         writeln!(f, r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {side}" width="{width}">"#)?;
         writeln!(f, "<style>\n{STYLE}</style>")?;
         writeln!(f, r##"<rect width="{width}" height="{side}" fill="#f4f5f7"/>"##)?;
-        arena(f, &self.story.arena)?;
+        arena(f, &self.run_report.arena)?;
         for rival in 1..=RIVALS {
             self.robot(f, rival)?;
         }
@@ -169,11 +169,11 @@ impl Picture<'_> {
     fn column(&self, f: &mut fmt::Formatter<'_>, side: f32) -> fmt::Result {
         let left = side + 4.0;
         writeln!(f, r#"<text class="small" x="{left}" y="{:.1}">active in the mission</text>"#, 0.8 * ROW)?;
-        for (row, name) in (1_u8..).zip(self.story.phase_names()) {
+        for (row, name) in (1_u8..).zip(self.run_report.phase_names()) {
             let y = ROW * f32::from(row) + 8.0;
             let width = COLUMN - 16.0;
             write!(f, r#"<rect class="active" x="{left}" y="{y}" width="{width}" height="20" rx="5" opacity="0">"#)?;
-            let phases = self.story.phases.iter().filter(|phase| phase.name == name);
+            let phases = self.run_report.phases.iter().filter(|phase| phase.name == name);
             let changes: Vec<(Time, bool)> = phases.flat_map(ends).collect();
             self.shown(f, &changes)?;
             writeln!(f, r#"</rect><text x="{:.1}" y="{:.1}">{}</text>"#, left + 8.0, y + 15.0, escaped(name))?;
@@ -186,7 +186,7 @@ impl Picture<'_> {
     fn deliveries(&self, f: &mut fmt::Formatter<'_>, left: f32, y: f32) -> fmt::Result {
         const SIZE: f32 = 18.0;
         let in_row = ((COLUMN - 16.0) / SIZE) as usize;
-        let deliveries = &self.story.report.deliveries;
+        let deliveries = &self.run_report.report.deliveries;
         let rows = deliveries.len().div_ceil(in_row);
         let top = y - SIZE * rows as f32;
         writeln!(f, r#"<text class="small" x="{left}" y="{:.1}">delivered</text>"#, top - 6.0)?;
@@ -281,7 +281,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::story::tests::story;
+    use crate::run_report::tests::run_report;
     use apex_nodes::nav::Twist;
 
     fn robot(x: f32, theta: f32, cube: Option<u32>) -> Robot {
@@ -307,7 +307,7 @@ mod tests {
 
     #[test]
     fn keys_are_in_order_and_as_many_as_values() {
-        let svg = filmed().svg(&story());
+        let svg = filmed().svg(&run_report());
         let of = |line: &str, name: &str| {
             let (_, rest) = line.split_once(&format!("{name}=\"")).expect("an attribute");
             rest.split_once('"').expect("its end").0.split(';').map(str::to_owned).collect::<Vec<_>>()
@@ -329,9 +329,9 @@ mod tests {
 
     #[test]
     fn a_run_without_anything_has_a_film_too() {
-        let mut story = story();
-        (story.phases, story.report) = (vec![], crate::contest::Report::default());
-        let svg = Film::default().svg(&story);
+        let mut run_report = run_report();
+        (run_report.phases, run_report.report) = (vec![], crate::contest::Report::default());
+        let svg = Film::default().svg(&run_report);
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"), "{svg}");
     }
 }

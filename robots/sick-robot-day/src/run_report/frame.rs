@@ -62,7 +62,7 @@ fn draw_box(canvas: &mut Canvas, region: &Region, text: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::story::canvas::WHITE;
+    use crate::run_report::canvas::WHITE;
     use image::{ImageBuffer, Luma};
 
     #[test]

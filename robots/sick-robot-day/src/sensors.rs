@@ -5,7 +5,7 @@ use apex_nodes::{
     scan::{Pose2, Scan},
 };
 use apex_rt::Time;
-use apex_sim::{Laser, Light, NotLevel, Photographer, Random};
+use apex_sim::{CameraSim, Laser, Light, NotLevel, Random};
 
 /// Scanner at the front of the robot, at the origin of its frame.
 pub const LASER: Laser = Laser::LMS100;
@@ -26,17 +26,17 @@ pub struct View {
 
 /// Camera and scanner of the robot.
 #[derive(Debug, Clone)]
-pub struct Eyes {
-    photographer: Photographer,
+pub struct Sensors {
+    camera: CameraSim,
 }
 
-impl Eyes {
+impl Sensors {
     /// Creates the camera and the scanner of the robot.
     ///
     /// # Errors
     /// If the [`camera`] is not level.
     pub fn new() -> Result<Self, NotLevel> {
-        Ok(Self { photographer: Photographer::new(camera())? })
+        Ok(Self { camera: CameraSim::new(camera())? })
     }
 
     /// Sensor data at a pose in the arena, for a robot that turns with `turn` rad/s.
@@ -44,7 +44,7 @@ impl Eyes {
         let mut view = View::default();
         LASER.measure(&arena.world, pose, random, &mut view.scan);
         let twist = Twist { omega: turn, ..Twist::ZERO };
-        self.photographer.take(&arena.scene, pose, &twist, light, Time::ZERO, random, &mut view.image);
+        self.camera.take(&arena.scene, pose, &twist, light, Time::ZERO, random, &mut view.image);
         view
     }
 }

@@ -1,5 +1,5 @@
 use super::{
-    Phase, Story,
+    Phase, RunReport,
     canvas::{BLACK, Canvas, Colour, SMALL, Spot, WHITE, text_width},
     clock, seconds, shortened,
 };
@@ -37,10 +37,10 @@ struct Layout {
 }
 
 impl Layout {
-    fn of(story: &Story, names: &[&str]) -> Self {
+    fn of(run_report: &RunReport, names: &[&str]) -> Self {
         let longest = names.iter().map(|name| text_width(&shortened(name, NAME), SMALL)).fold(0.0, f32::max);
         let left = 2.0 * MARGIN + longest.max(text_width("deliveries", SMALL));
-        let scale = (WIDTH as f32 - left - 2.0 * MARGIN) / story.end().max(1.0);
+        let scale = (WIDTH as f32 - left - 2.0 * MARGIN) / run_report.end().max(1.0);
         Self { left, scale, rows: names.len() }
     }
 
@@ -63,7 +63,7 @@ impl Layout {
     }
 }
 
-impl Story {
+impl RunReport {
     /// Diagram of the active phases and the deliveries: a row for each phase, time to the right.
     pub(super) fn draw_activity(&self) -> RgbImage {
         let names = self.phase_names();
@@ -134,24 +134,24 @@ fn outer(name: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{contest::Report, story::tests::story};
+    use crate::{contest::Report, run_report::tests::run_report};
     use apex_rt::Time;
 
     #[test]
     fn phases_are_bars_where_they_were_active() {
-        let story = story();
-        let (picture, names) = (story.draw_activity(), story.phase_names());
-        let layout = Layout::of(&story, &names);
+        let run_report = run_report();
+        let (picture, names) = (run_report.draw_activity(), run_report.phase_names());
+        let layout = Layout::of(&run_report, &names);
         assert_eq!(picture.dimensions(), (WIDTH, layout.height()));
         for (row, name) in (1..).zip(&names) {
             for second in [5, 25, 40, 70, 95, 115] {
                 let time = Time::from_secs(second);
-                let active = story.phases.iter().any(|p| p.name == *name && p.from <= time && time < p.until);
+                let active = run_report.phases.iter().any(|p| p.name == *name && p.from <= time && time < p.until);
                 let pixel = picture[(layout.x(second as f32) as u32, layout.y(row) as u32)];
                 assert_eq!(pixel, if active { colour_of(name, &names) } else { WHITE }, "{name} at {second} s");
             }
         }
-        let time = story.report.deliveries[0].at;
+        let time = run_report.report.deliveries[0].at;
         let (x, y) = (layout.x(seconds(time)) as u32, layout.y(0) as u32);
         assert_eq!(picture[(x, y - 8)], DELIVERY);
     }
@@ -165,10 +165,10 @@ mod tests {
 
     #[test]
     fn a_long_run_and_an_empty_one_have_pictures() {
-        let mut story = story();
-        story.phases.push(Phase { name: "wait".repeat(50), from: Time::ZERO, until: Time::from_secs(100 * 3600) });
-        assert_eq!(story.draw_activity().width(), WIDTH);
-        (story.phases, story.report) = (vec![], Report::default());
-        assert_eq!(story.draw_activity().width(), WIDTH);
+        let mut run_report = run_report();
+        run_report.phases.push(Phase { name: "wait".repeat(50), from: Time::ZERO, until: Time::from_secs(100 * 3600) });
+        assert_eq!(run_report.draw_activity().width(), WIDTH);
+        (run_report.phases, run_report.report) = (vec![], Report::default());
+        assert_eq!(run_report.draw_activity().width(), WIDTH);
     }
 }

@@ -1,5 +1,5 @@
 use super::{
-    Story,
+    RunReport,
     canvas::{BLACK, Canvas, Colour, LARGE, SMALL, Spot, WHITE, text_width},
     clock, seconds,
 };
@@ -31,7 +31,7 @@ const SURE: u32 = 3;
 /// Number of standard deviations that contain 95 % of a Gaussian in the plane.
 const DEVIATIONS: f32 = 2.45;
 
-impl Story {
+impl RunReport {
     /// Draws the robot's map and its detections over the true arena. The origin of the arena is in the middle; x points
     /// to the right.
     pub(super) fn draw_map(&self) -> RgbImage {
@@ -219,7 +219,7 @@ fn draw_scale(canvas: &mut Canvas) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{contest::Report, story::tests::story};
+    use crate::{contest::Report, run_report::tests::run_report};
 
     /// Colour at a place of the arena.
     fn at(picture: &RgbImage, place: Point2) -> Colour {
@@ -229,19 +229,19 @@ mod tests {
 
     #[test]
     fn the_map_shows_what_was_found_where_it_is() {
-        let story = story();
-        let picture = story.draw_map();
+        let run_report = run_report();
+        let picture = run_report.draw_map();
         assert_eq!(picture.dimensions(), (SIDE, SIDE));
-        let outer = |place: Point2| story.start.to_outer(place);
-        let [free, used] = [0, 1].map(|i| outer(story.stations[i].pose.position()));
+        let outer = |place: Point2| run_report.start.to_outer(place);
+        let [free, used] = [0, 1].map(|i| outer(run_report.stations[i].pose.position()));
         assert_eq!((at(&picture, free), at(&picture, used)), (STATION, WHITE));
-        assert_eq!(at(&picture, outer(story.signs[0].mean)), SIGN);
-        assert_eq!(at(&picture, outer(story.signs[1].mean)), DOUBTFUL);
-        let delivered = story.place(story.report.deliveries[0].at).expect("it was somewhere");
+        assert_eq!(at(&picture, outer(run_report.signs[0].mean)), SIGN);
+        assert_eq!(at(&picture, outer(run_report.signs[1].mean)), DOUBTFUL);
+        let delivered = run_report.place(run_report.report.deliveries[0].at).expect("it was somewhere");
         assert_eq!(at(&picture, delivered), DELIVERY);
-        let octagon = story.octagon.expect("it was found");
+        let octagon = run_report.octagon.expect("it was found");
         assert_eq!(at(&picture, outer(octagon.side_pose(1).position())), ISLAND);
-        let wall = story.arena.world.walls()[0];
+        let wall = run_report.arena.world.walls()[0];
         assert_eq!(at(&picture, (wall.a + wall.b).scaled(0.5)), WALL);
     }
 
@@ -260,13 +260,13 @@ mod tests {
 
     #[test]
     fn a_robot_that_knows_nothing_has_a_picture_too() {
-        let mut story = story();
-        (story.map, story.octagon) = (None, None);
-        story.stations.clear();
-        story.signs.clear();
-        story.report = Report::default();
-        story.phases.clear();
-        let picture = story.draw_map();
+        let mut run_report = run_report();
+        (run_report.map, run_report.octagon) = (None, None);
+        run_report.stations.clear();
+        run_report.signs.clear();
+        run_report.report = Report::default();
+        run_report.phases.clear();
+        let picture = run_report.draw_map();
         assert_eq!(at(&picture, Point2::new(3.0, 3.0)), UNKNOWN);
     }
 }

@@ -1,6 +1,6 @@
 use crate::{
     NumberSign,
-    story::{Frame, Mark},
+    run_report::{Frame, Mark},
 };
 use apex_nodes::{
     image::{GrayImage, Target},
@@ -17,7 +17,7 @@ const APART: Duration = Duration::from_secs(10);
 /// Records the knowledge of the robot for inspection after a run: a sink.
 #[node]
 #[derive(Debug, Default)]
-pub struct Journal {
+pub struct KnowledgeLog {
     map: Option<Grid<Occupancy>>,
     island: Option<Octagon>,
     stations: heapless::Vec<Station, 4>,
@@ -36,7 +36,7 @@ struct Frames {
 }
 
 #[node]
-impl Journal {
+impl KnowledgeLog {
     /// Stores the present map.
     #[slot]
     fn map(&mut self, map: &Grid<Occupancy>) {
@@ -82,7 +82,7 @@ impl Journal {
     }
 }
 
-impl Journal {
+impl KnowledgeLog {
     /// Last map, or `None` before the first one.
     pub const fn last_map(&self) -> Option<&Grid<Occupancy>> {
         self.map.as_ref()
@@ -139,17 +139,17 @@ mod tests {
 
     #[test]
     fn images_are_few_and_spread_over_the_run() {
-        let mut journal = Journal::default();
+        let mut knowledge_log = KnowledgeLog::default();
         let region = Region { left: 1, top: 1, width: 2, height: 2, area: 4 };
         for second in 0..600 {
             let ctx = Ctx::new(Time::from_secs(second));
-            journal.image(&GrayImage { stamp: ctx.now(), ..GrayImage::default() });
-            journal.cross(&Target { centre: [1.0, 2.0], region }, &ctx);
+            knowledge_log.image(&GrayImage { stamp: ctx.now(), ..GrayImage::default() });
+            knowledge_log.cross(&Target { centre: [1.0, 2.0], region }, &ctx);
             if second > 300 {
-                journal.sign(&NumberSign { number: 3, confidence: 1.0, region }, &ctx);
+                knowledge_log.sign(&NumberSign { number: 3, confidence: 1.0, region }, &ctx);
             }
         }
-        let frames = journal.frames();
+        let frames = knowledge_log.frames();
         let times: Vec<f64> = frames.iter().map(|frame| frame.image.stamp.as_secs_f64()).collect();
         assert!(frames.len() <= 2 * FRAMES && times.is_sorted(), "{times:?}");
         for part in [0.0..1.0, 100.0..300.0, 300.0..450.0, 450.0..600.0] {

@@ -10,12 +10,12 @@ mod table;
 
 pub use film::Film;
 pub use frame::{Frame, Mark};
-pub use live::{Glance, LiveView};
+pub use live::{LiveView, Snapshot};
 
 use crate::{
-    Arena, Journal,
+    Arena, KnowledgeLog,
     contest::{Hall, Report},
-    measure::Album,
+    measure::ImageWriter,
 };
 use apex_nodes::{
     map::{Grid, Occupancy, Octagon, Signs, Station},
@@ -25,7 +25,7 @@ use apex_rt::Time;
 
 /// Report of a run.
 #[derive(Debug, Clone)]
-pub struct Story {
+pub struct RunReport {
     /// Seed of the run.
     pub seed: u64,
     /// True arena.
@@ -59,20 +59,20 @@ pub struct Phase {
     pub until: Time,
 }
 
-impl Story {
+impl RunReport {
     /// Creates the report of a finished run in the hall of a seed.
-    pub fn of(seed: u64, hall: &Hall, start: Pose2, journal: &Journal, phases: Vec<Phase>) -> Self {
+    pub fn of(seed: u64, hall: &Hall, start: Pose2, knowledge_log: &KnowledgeLog, phases: Vec<Phase>) -> Self {
         Self {
             seed,
             arena: hall.arena(),
             start,
-            map: journal.last_map().cloned(),
-            octagon: journal.last_island(),
-            stations: journal.last_stations().to_vec(),
-            signs: journal.last_signs().clone(),
+            map: knowledge_log.last_map().cloned(),
+            octagon: knowledge_log.last_island(),
+            stations: knowledge_log.last_stations().to_vec(),
+            signs: knowledge_log.last_signs().clone(),
             phases,
             report: hall.report(),
-            frames: journal.frames(),
+            frames: knowledge_log.frames(),
         }
     }
 
@@ -80,11 +80,11 @@ impl Story {
     ///
     /// # Errors
     /// If a picture cannot be written.
-    pub fn write(&self, album: &Album) -> Result<(), String> {
-        album.save("map", &self.draw_map())?;
-        album.save("activity", &self.draw_activity())?;
+    pub fn write(&self, image_writer: &ImageWriter) -> Result<(), String> {
+        image_writer.save("map", &self.draw_map())?;
+        image_writer.save("activity", &self.draw_activity())?;
         let mut frames = self.frames.iter().zip(1..);
-        frames.try_for_each(|(frame, number)| album.save(&format!("frame-{number:02}"), &frame.draw()))
+        frames.try_for_each(|(frame, number)| image_writer.save(&format!("frame-{number:02}"), &frame.draw()))
     }
 
     /// Time of the last event, in s.

@@ -7,7 +7,7 @@ use apex_nodes::{
 use std::fs;
 
 /// An invented run of two minutes.
-pub fn story() -> Story {
+pub fn run_report() -> RunReport {
     let arena = Arena::new(3);
     let start = Pose2::new(3.0, -2.0, 2.0);
     let inner = |pose: &Pose2| pose.relative_to(&start);
@@ -18,7 +18,7 @@ pub fn story() -> Story {
     };
     let stations = arena.filling.iter().zip([true, false, true, true]);
     let stations = stations.map(|(station, free)| Station { pose: inner(&station.pose), free }).collect();
-    Story {
+    RunReport {
         seed: 3,
         start,
         map: Some(seen(&arena, &start)),
@@ -137,33 +137,33 @@ explore                                           20.0     17 %       1
 fetch                                             80.0     67 %       2
 fetch / position                                  22.0     18 %       2
 deliver                                           16.0     13 %       1";
-    assert_eq!(story().table(), expected);
+    assert_eq!(run_report().table(), expected);
 }
 
 #[test]
 fn tables_fit_and_need_nothing() {
-    let mut story = story();
-    story.phases.push(Phase { name: "so / ".repeat(40), from: Time::ZERO, until: Time::from_secs(99_999) });
-    assert!(story.table().lines().all(|line| line.chars().count() <= 80), "{}", story.table());
-    (story.phases, story.report) = (vec![], Report::default());
-    assert!(story.table().contains("Run of seed 3: 0:00 min"), "{}", story.table());
+    let mut run_report = run_report();
+    run_report.phases.push(Phase { name: "so / ".repeat(40), from: Time::ZERO, until: Time::from_secs(99_999) });
+    assert!(run_report.table().lines().all(|line| line.chars().count() <= 80), "{}", run_report.table());
+    (run_report.phases, run_report.report) = (vec![], Report::default());
+    assert!(run_report.table().contains("Run of seed 3: 0:00 min"), "{}", run_report.table());
 }
 
 #[test]
 fn robots_deliver_where_they_are() {
-    let story = story();
-    let expected = |i: usize| Some(story.report.trajectory[i].1.position());
-    assert_eq!(story.place(Time::from_millis(4_800)), expected(48));
-    assert_eq!(story.place(Time::from_secs(9999)), expected(1200));
+    let run_report = run_report();
+    let expected = |i: usize| Some(run_report.report.trajectory[i].1.position());
+    assert_eq!(run_report.place(Time::from_millis(4_800)), expected(48));
+    assert_eq!(run_report.place(Time::from_secs(9999)), expected(1200));
 }
 
 #[test]
 fn pictures_are_written_and_nothing_is_overwritten() {
     let folder = std::env::temp_dir().join(format!("apex-story-{}", std::process::id()));
-    let album = Album::new(&folder).expect("a new folder");
-    let story = story();
-    story.write(&album).expect("room for it");
-    let again = story.write(&album).expect_err("all is there");
+    let image_writer = ImageWriter::new(&folder).expect("a new folder");
+    let run_report = run_report();
+    run_report.write(&image_writer).expect("room for it");
+    let again = run_report.write(&image_writer).expect_err("all is there");
     let mut names: Vec<_> = fs::read_dir(&folder).expect("a folder").flatten().map(|file| file.file_name()).collect();
     names.sort();
     let size = image::image_dimensions(folder.join("map.png"));

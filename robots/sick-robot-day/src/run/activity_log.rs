@@ -1,11 +1,11 @@
 use super::Parts;
-use crate::story::Phase;
+use crate::run_report::Phase;
 use apex_rt::{Info, Observer, Time};
 use std::fmt;
 
 /// Records the active parts of the mission and the failures in the robot.
 #[derive(Debug)]
-pub struct Diary {
+pub struct ActivityLog {
     /// Time of the present reaction.
     pub now: Time,
     info: &'static Info,
@@ -27,7 +27,7 @@ pub struct Failure {
     pub count: u32,
 }
 
-impl Diary {
+impl ActivityLog {
     pub fn new(info: &'static Info) -> Self {
         let parts = Parts::new(info);
         let active = vec![(0, Time::ZERO); parts.names().len()];
@@ -72,7 +72,7 @@ impl Diary {
     }
 }
 
-impl Observer for Diary {
+impl Observer for ActivityLog {
     fn activity(&mut self, node: usize, active: bool) {
         let part = self.parts.of(node);
         if !self.parts.is_of_mission(part) {
@@ -118,15 +118,15 @@ mod tests {
     use apex_rt::Program as _;
 
     /// Phases of a robot in which these nodes become active or inactive.
-    fn written(story: &[(i64, &str, bool)]) -> Vec<Phase> {
+    fn written(run_report: &[(i64, &str, bool)]) -> Vec<Phase> {
         let info = const { &Competition::INFO };
-        let mut diary = Diary::new(info);
-        for (second, name, active) in story {
+        let mut activity_log = ActivityLog::new(info);
+        for (second, name, active) in run_report {
             let node = info.nodes.iter().position(|node| node.name == *name).expect("a node");
-            diary.now = Time::from_secs(*second);
-            diary.activity(node, *active);
+            activity_log.now = Time::from_secs(*second);
+            activity_log.activity(node, *active);
         }
-        diary.finish(Time::from_secs(100)).0
+        activity_log.finish(Time::from_secs(100)).0
     }
 
     #[test]
@@ -153,10 +153,10 @@ mod tests {
 
     #[test]
     fn the_same_failure_is_counted() {
-        let mut diary = Diary::new(const { &Competition::INFO });
-        diary.now = Time::from_millis(1500);
-        ["no light", "no light", "no ink"].iter().for_each(|error| diary.failed(0, error));
-        let texts: Vec<String> = diary.finish(Time::from_secs(2)).1.iter().map(Failure::to_string).collect();
+        let mut activity_log = ActivityLog::new(const { &Competition::INFO });
+        activity_log.now = Time::from_millis(1500);
+        ["no light", "no light", "no ink"].iter().for_each(|error| activity_log.failed(0, error));
+        let texts: Vec<String> = activity_log.finish(Time::from_secs(2)).1.iter().map(Failure::to_string).collect();
         let expected = ["`front` failed: no light (at 1.50 s, 2 times)", "`front` failed: no ink (at 1.50 s)"];
         assert_eq!(texts, expected);
     }

@@ -11,11 +11,11 @@ const FOUND: Rgb<u8> = Rgb([255, 40, 40]);
 
 /// Folder for images with boxes around detections, or none.
 #[derive(Debug, Default)]
-pub struct Album {
+pub struct ImageWriter {
     folder: Option<PathBuf>,
 }
 
-impl Album {
+impl ImageWriter {
     /// Creates an album in a new or empty folder.
     ///
     /// # Errors
@@ -75,12 +75,12 @@ mod tests {
     #[test]
     fn pictures_show_what_was_found_and_overwrite_nothing() {
         let folder = std::env::temp_dir().join(format!("apex-album-{}", std::process::id()));
-        let album = Album::new(&folder).expect("a new folder");
+        let image_writer = ImageWriter::new(&folder).expect("a new folder");
         let image = GrayImage::from(image::ImageBuffer::from_pixel(40, 30, image::Luma([90])));
         let region = Region { left: 10, top: 10, width: 5, height: 5, area: 1 };
-        album.add("seen-1.0m", &image, Some(&region)).expect("room for it");
-        let file = Album::new(&folder.join("seen-1.0m.png")).err();
-        let refused = [Album::new(&folder).err(), album.add("seen-1.0m", &image, None).err(), file];
+        image_writer.add("seen-1.0m", &image, Some(&region)).expect("room for it");
+        let file = ImageWriter::new(&folder.join("seen-1.0m.png")).err();
+        let refused = [ImageWriter::new(&folder).err(), image_writer.add("seen-1.0m", &image, None).err(), file];
         let written = image::open(folder.join("seen-1.0m.png")).map(|i| i.to_rgb8());
         fs::remove_dir_all(&folder).expect("it is ours");
         let picture = written.expect("a picture");

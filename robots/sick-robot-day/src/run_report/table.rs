@@ -1,10 +1,10 @@
-use super::{Story, clock, seconds, shortened};
+use super::{RunReport, clock, seconds, shortened};
 use std::{fmt, fmt::Write as _};
 
 /// Number of columns for the names of phases.
 const NAME: usize = 44;
 
-impl Story {
+impl RunReport {
     /// Table of the result: the score, and the duration of each phase.
     pub fn table(&self) -> String {
         let mut table = String::new();
