@@ -218,7 +218,7 @@ impl<'a> Builder<'a> {
                 item
             }
         };
-        let list = node.ports.get(each.list).map_or("", |p| p.name.as_str());
+        let list = each.list.map_or("", |list| node.ports[list].name.as_str());
         item.words.push(format!("each{}({list})", if each.parallel { " par" } else { "" }));
         item.each = true;
         item

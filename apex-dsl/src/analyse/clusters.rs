@@ -311,7 +311,7 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<
         let is_pulled = |node: &NodeId| demand_driven.iter().any(|p| p.nodes.contains(node));
         // A shared guard is taken by one firing, so all nodes that share it must end up in one cluster. That depends on
         // their other guards, too.
-        let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
+        let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<HeldBack>), usize> = BTreeMap::new();
         for &node in plain.iter().filter(|node| !is_pulled(node)) {
             let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
                 all.push(Guard::React);
@@ -332,16 +332,25 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<
     }
 }
 
+/// Reason for which a source cannot fire again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum HeldBack {
+    /// A guard does not hold.
+    Guard(usize),
+    /// A token that this node has sent stays on its connection.
+    Sender(NodeId),
+}
+
 /// Guards upstream and downstream of each node. A source may fire again only when all nodes downstream have finished
 /// (R4). Two sources without a period may share a cluster only if the same guards downstream hold them back. Otherwise
 /// one would wait for the guards of the other: with `a -> [x, z.p]` and `b -> z.q`, where `x` waits for room for its
 /// event, `b` must not wait for it.
-fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
-    let mut holding = above.to_vec();
+fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<HeldBack>> {
+    let guards = |guards: &BTreeSet<usize>| guards.iter().copied().map(HeldBack::Guard).collect();
+    let mut holding: Vec<BTreeSet<HeldBack>> = above.iter().map(guards).collect();
     for &node in view.order.iter().rev() {
         if view.sends_what_stays(node) {
-            // Not a guard, but it holds back like one: a number that no guard has.
-            holding[node].insert(usize::MAX - node);
+            holding[node].insert(HeldBack::Sender(node));
         }
         for &c in &view.links.out_of[node] {
             let next = holding[view.graph.connections[c].to.node].clone();
@@ -358,13 +367,14 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<No
     let paced = |n: NodeId| own[n].iter().any(|g| matches!(guards[*g], Guard::Timer(_) | Guard::Input(_)));
     let sources = (0..graph.nodes.len()).filter(|n| !paced(*n) && is_source(graph, catalog, links, *n));
     let mut plain: Vec<NodeId> = sources.collect();
-    // A mark flows downstream from these sources. Delays that neither the mark nor a guard reaches are on loops that
-    // nothing feeds. Room for events does not count: it does not begin anything.
-    let mut started = own.to_vec();
-    plain.iter().for_each(|n| started[*n].push(usize::MAX));
-    let reached = accumulate(view, guards, &started);
+    // A further guard flows downstream from these sources. Delays that neither it nor another guard reaches are on
+    // loops that nothing feeds. Room for events does not count: it does not begin anything.
+    let (mut guards, mut started) = (guards.to_vec(), own.to_vec());
+    plain.iter().for_each(|n| started[*n].push(guards.len()));
+    guards.push(Guard::React);
+    let reached = accumulate(view, &guards, &started);
     let delays = (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Delay(_)));
-    let starts = |g: &usize| *g == usize::MAX || !matches!(guards[*g], Guard::Events(_));
+    let starts = |g: &usize| !matches!(guards[*g], Guard::Events(_));
     plain.extend(delays.filter(|n| !reached[*n].iter().any(starts)));
     plain.sort_unstable();
     plain

@@ -14,8 +14,7 @@ pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnosti
             continue;
         }
         let (from, to) = (token_type(graph, connection.from), graph.port(connection.to).ty.clone());
-        let iterates =
-            matches!(&graph.nodes[connection.to.node].kind, NodeKind::Each(each) if each.list == connection.to.port);
+        let iterates = matches!(&graph.nodes[connection.to.node].kind, NodeKind::Each(each) if each.list == Some(connection.to.port));
         let takes = if iterates { format!("a list of `{to}`") } else { format!("`{to}`") };
         let message = format!(
             "`{}` sends `{from}`, but `{}` takes {takes}",
@@ -37,7 +36,7 @@ pub fn compare(graph: &Graph, connection: &Connection) -> Match {
     let from = token_type(graph, connection.from);
     let to = &graph.port(connection.to).ty;
     match &graph.nodes[connection.to.node].kind {
-        NodeKind::Each(each) if each.list == connection.to.port => match (from.list_item(), &from) {
+        NodeKind::Each(each) if each.list == Some(connection.to.port) => match (from.list_item(), &from) {
             (Some(item), _) => item.compare(to),
             (None, Type::Unknown(_) | Type::Param(_)) => Match::Unknown,
             (None, Type::Named(name, _)) if !library::is_standard(name) => Match::Unknown,

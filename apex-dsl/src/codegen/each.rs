@@ -29,7 +29,7 @@ impl Emitter<'_> {
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());
         for (port, p) in self.graph.nodes[node].ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Input) {
             let inside = generator.name(PortId { node: boundary(body, &p.name, PortKind::Input), port: 0 });
-            if port == each.list {
+            if Some(port) == each.list {
                 item = inside;
             } else if p.optional || self.incoming(PortId { node, port }).is_some() {
                 let token = self.incoming(PortId { node, port }).map(|from| match p.optional {
@@ -40,8 +40,9 @@ impl Emitter<'_> {
                 bindings.extend(quote! { let #inside = #token; });
             }
         }
-        let Some(list) = self.incoming(PortId { node, port: each.list }).map(|from| self.reference(from, block)) else {
-            return quote!();
+        let from = each.list.and_then(|port| self.incoming(PortId { node, port }));
+        let Some(list) = from.map(|from| self.reference(from, block)) else {
+            return self.generator.bug(self.graph.nodes[node].span, "nothing leads to the list of an `each`");
         };
         let results: Vec<(syn::Ident, TokenStream, bool)> = self.graph.nodes[node]
             .ports

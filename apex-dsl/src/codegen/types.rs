@@ -144,7 +144,8 @@ impl Generator<'_> {
             let outer = self.inside(graph, end.node);
             outer.token_type(body, c.from)
         });
-        let list = graph.incoming(PortId { node: end.node, port: each.list }).map(|c| self.token_type(graph, c.from));
+        let list = each.list.and_then(|port| graph.incoming(PortId { node: end.node, port }));
+        let list = list.map(|c| self.token_type(graph, c.from));
         match (list, item) {
             (Some(list), Some(item)) => quote!(<#list as ::apex_rt::List>::Of<#item>),
             _ => quote!(()),
@@ -164,7 +165,7 @@ impl Generator<'_> {
         let ports = &graph.nodes[each_node].ports;
         let arriving = ports.iter().position(|p| p.kind == PortKind::Input && p.name == *name);
         let arriving = arriving.and_then(|port| graph.incoming(PortId { node: each_node, port }));
-        let is_list = ports.get(each.list).is_some_and(|p| p.name == *name);
+        let is_list = each.list.is_some_and(|list| ports[list].name == *name);
         match arriving.map(|c| outer.token_type(graph, c.from)) {
             Some(list) if is_list => quote!(<#list as ::apex_rt::List>::Item),
             Some(ty) => ty,

@@ -171,8 +171,8 @@ pub enum TypeArg {
 pub struct Each {
     /// The graph; its boundary nodes have the names of the ports.
     pub body: Box<Graph>,
-    /// The input port of the list.
-    pub list: usize,
+    /// The input port of the list; `None` until it is chosen by the types.
+    pub list: Option<usize>,
     /// `true` if the elements run in parallel.
     pub parallel: bool,
 }
@@ -247,7 +247,7 @@ impl Node {
     /// Makes the list of an `each` a required input, and the element a required input of the body.
     pub fn require_list(&mut self) {
         let NodeKind::Each(each) = &mut self.kind else { return };
-        let Some(list) = self.ports.get_mut(each.list) else { return };
+        let Some(list) = each.list.and_then(|list| self.ports.get_mut(list)) else { return };
         list.optional = false;
         let is_element = |n: &&mut Self| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) && n.name == list.name;
         if let Some(element) = each.body.nodes.iter_mut().find(is_element) {

@@ -430,7 +430,7 @@ impl<'a> State<'a> {
     /// Origin of a sent token. An `each` keeps the origin of its list, whose elements it sends on.
     fn origin(&self, call: Call, end: PortId, taken: &Taken) -> Option<Origin> {
         match &self.graph.nodes[end.node].kind {
-            NodeKind::Each(each) => taken.tokens.get(&each.list).and_then(|t| t.origin),
+            NodeKind::Each(each) => taken.tokens.get(&each.list?).and_then(|t| t.origin),
             _ => Some(Origin { end, call: call.nth }),
         }
     }

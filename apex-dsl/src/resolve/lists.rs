@@ -12,7 +12,7 @@ pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
     for id in 0..graph.nodes.len() {
         let NodeKind::Each(each) = &mut graph.nodes[id].kind else { continue };
         resolve(&mut each.body, diagnostics);
-        if each.list != usize::MAX {
+        if each.list.is_some() {
             continue;
         }
         let inputs: Vec<usize> =
@@ -22,7 +22,7 @@ pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
         if let [only] = lists.as_slice() {
             let only = *only;
             if let NodeKind::Each(each) = &mut graph.nodes[id].kind {
-                each.list = only;
+                each.list = Some(only);
             }
             graph.nodes[id].require_list();
             continue;
@@ -33,7 +33,7 @@ pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
         diagnostics
             .push(Diagnostic::error("each-port", node.span, message).note(format!("name it: {}", names.join(" or "))));
         if let NodeKind::Each(each) = &mut graph.nodes[id].kind {
-            each.list = inputs.first().copied().unwrap_or(0);
+            each.list = inputs.first().copied();
         }
         graph.nodes[id].require_list();
     }
@@ -51,7 +51,7 @@ pub fn token_type(graph: &Graph, from: PortId) -> Type {
     let ty = &graph.port(from).ty;
     match &graph.nodes[from.node].kind {
         NodeKind::Each(each) => {
-            let list = graph.incoming(PortId { node: from.node, port: each.list });
+            let list = each.list.and_then(|port| graph.incoming(PortId { node: from.node, port }));
             match list.map(|c| token_type(graph, c.from)) {
                 Some(Type::Named(name, args)) if args.len() == 1 => Type::Named(name, vec![ty.clone()]),
                 _ => Type::Unknown(format!("list of {ty}")),

@@ -106,7 +106,7 @@ impl Builder<'_> {
         let inputs: Vec<usize> = (0..ports.len()).filter(|p| ports[*p].kind == PortKind::Input).collect();
         let list = match (port, inputs.as_slice()) {
             (Some(port), _) => match inputs.iter().find(|p| ports[**p].name == port.text) {
-                Some(list) => *list,
+                Some(list) => Some(*list),
                 None => {
                     let error = Diagnostic::error(
                         "unknown-port",
@@ -121,7 +121,7 @@ impl Builder<'_> {
                     return None;
                 }
             },
-            (None, [only]) => *only,
+            (None, [only]) => Some(*only),
             (None, []) => {
                 self.diagnostics.push(Diagnostic::error(
                     "each-port",
@@ -131,7 +131,7 @@ impl Builder<'_> {
                 return None;
             }
             // The list is chosen when the connections are known.
-            (None, _) => usize::MAX,
+            (None, _) => None,
         };
         let kind = NodeKind::Each(Each { body: Box::new(inner), list, parallel });
         let node = self.node(name, body.scope, kind, ports, docs)?;
