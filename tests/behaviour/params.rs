@@ -1,5 +1,6 @@
 //! Parameters of a running program: read, set, saved and loaded.
 
+use apex_macros::graph;
 use apex_rt::{
     params::{
         Given, LoadError, ParamError, ParamRange, ParamValue, Problem, Refusal, load, load_file, not_saved,

@@ -1,7 +1,8 @@
 //! One Rust file as the catalog sees it: modules, imports, types and node signatures. This is what is
 //! cached between runs, so it holds no syntax tree and knows nothing of other files.
 
-use super::{signature, ty::Ty};
+use super::ty::Ty;
+use apex_signature as signature;
 use quote::ToTokens as _;
 use serde::{Deserialize, Serialize};
 use syn::{Attribute, Item as Syn, UseTree, Visibility, spanned::Spanned};
