@@ -3,6 +3,7 @@
 use crate::{Format, memory, project, times};
 use apex_dsl::{
     explain::{explain, explain_json},
+    passes::listings,
     petri,
     report::{PAGES, nearest, page},
 };
@@ -15,6 +16,8 @@ use std::{
 pub enum Shown {
     /// What the compiler has decided.
     Decisions,
+    /// The program that Rust is generated from.
+    Program,
     /// The Petri net.
     Net,
     /// How many bytes there are of what.
@@ -33,6 +36,7 @@ pub fn run(what: Option<&Path>, format: Format, shown: Shown) -> Result<ExitCode
     let is_word = what.extension().is_none() && what.components().count() == 1 && !what.exists();
     match (what.to_str().filter(|_| is_word), shown) {
         (Some(code), _) => self::code(code),
+        (None, Shown::Program) => program(what),
         (None, Shown::Net) => net(what),
         (None, Shown::Memory) => memory::run(what, format),
         (None, Shown::Times(profile)) => times::run(what, &profile, format),
@@ -56,6 +60,18 @@ fn code(code: &str) -> Result<ExitCode, String> {
 fn first_sentence(page: &str) -> &str {
     let text = page.split("\n\n").nth(1).unwrap_or_default().trim_end();
     text.split_once(". ").map_or(text.trim_end_matches('.'), |(first, _)| first)
+}
+
+/// Prints each program of a source file as Rust is generated from it.
+fn program(file: &Path) -> Result<ExitCode, String> {
+    let checked = project::check(file)?;
+    checked.print_diagnostics();
+    if checked.diagnostics.has_errors() {
+        return Ok(ExitCode::from(1));
+    }
+    let listings = listings(&checked.programs, &checked.catalog, &checked.sources);
+    project::print(listings.join("\n").trim_end())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Prints what was decided about each program of a text.

@@ -105,6 +105,9 @@ enum Command {
         /// How to say it.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
+        /// Print the program that Rust is generated from instead: conditions, clusters, slots, timers.
+        #[arg(long, conflicts_with_all = ["format", "pnml", "memory", "profile"])]
+        program: bool,
         /// Print the Petri net of each program instead, as PNML.
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
@@ -284,8 +287,9 @@ fn main() -> ExitCode {
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { what, format, pnml, memory, profile, .. } => {
+        Command::Explain { what, format, program, pnml, memory, profile, .. } => {
             let shown = match (pnml, memory, profile) {
+                _ if program => explain::Shown::Program,
                 (true, ..) => explain::Shown::Net,
                 (_, true, _) => explain::Shown::Memory,
                 (_, _, Some(profile)) => explain::Shown::Times(profile),

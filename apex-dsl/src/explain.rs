@@ -1,7 +1,7 @@
 //! Report of the compiler's decisions, as text and as JSON.
 
 use crate::{
-    analyse::{Analysis, Block, Guard, Step},
+    analyse::{Analysis, Block, Step},
     catalog::Catalog,
     claims::Decided,
     codegen::{Storage, storage},
@@ -74,7 +74,7 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         analysis.clusters.len()
     );
     for (index, cluster) in analysis.clusters.iter().enumerate() {
-        let guards: Vec<String> = cluster.own_guards.iter().map(|g| guard(graph, analysis.guards[*g])).collect();
+        let guards: Vec<String> = cluster.own_guards.iter().map(|g| analysis.guards[*g].text(graph)).collect();
         let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {c}")).collect();
         let waits = guards.into_iter().chain(upstream).collect::<Vec<_>>().join(", ");
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
@@ -168,22 +168,6 @@ fn steps(text: &mut String, graph: &Graph, analysis: &Analysis, block: &Block, i
     }
 }
 
-fn guard(graph: &Graph, guard: Guard) -> String {
-    match guard {
-        Guard::Timer(node) => {
-            let modifiers = &graph.nodes[node].modifiers;
-            let every = modifiers.every.map(|period| format!("every {period:?}"));
-            let after = modifiers.after.map(|time| format!("after {time:?}"));
-            let times: Vec<String> = every.into_iter().chain(after).collect();
-            format!("timer of {} ({})", graph.path(node), times.join(" "))
-        }
-        Guard::Token(connection) => format!("event {}", graph.end_name(graph.connections[connection].from)),
-        Guard::Events(node) => format!("events of {} enabled", graph.path(node)),
-        Guard::Input(node) => format!("input {}", graph.path(node)),
-        Guard::React => "each reaction".to_owned(),
-    }
-}
-
 fn characteristics(analysis: &Analysis, node: NodeId) -> Vec<&'static str> {
     let c = analysis.characteristics[node];
     [(c.essential, "essential"), (c.required, "required"), (c.siblings, "has siblings"), (c.joins, "joins")]
@@ -265,7 +249,7 @@ fn object(graph: &Graph, analysis: &Analysis, decided: &Decided, catalog: &Catal
         .clusters
         .iter()
         .map(|c| {
-            let guards: Vec<String> = c.own_guards.iter().map(|g| guard(graph, analysis.guards[*g])).collect();
+            let guards: Vec<String> = c.own_guards.iter().map(|g| analysis.guards[*g].text(graph)).collect();
             let schedule: Vec<String> = c.schedule().into_iter().map(|n| graph.path(n)).collect();
             json!({ "region": c.region, "guards": guards, "upstream": c.upstream, "downstream": c.downstream, "schedule": schedule, "steps": step_list(graph, &c.block) })
         })

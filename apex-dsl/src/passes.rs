@@ -80,6 +80,12 @@ pub fn check_all(
     Checked { texts: resolved.texts, links: resolved.links, programs, parts }
 }
 
+/// The program between analysis and Rust, as text, for each of `programs` that is not a test.
+pub fn listings(programs: &[Program], catalog: &Catalog, sources: &Sources) -> Vec<String> {
+    let graphs = programs.iter().filter(|program| program.script.is_none());
+    graphs.map(|program| codegen::listing(program, catalog, sources)).collect()
+}
+
 /// Memory that each of `programs` uses, in pieces; empty if `diagnostics` has errors.
 pub fn memory<'a>(
     programs: impl Iterator<Item = &'a Program>,
@@ -104,5 +110,5 @@ pub fn generate(
     if diagnostics.has_errors() {
         return TokenStream::new();
     }
-    codegen::text(programs, machines, catalog, sources, place, recordable)
+    codegen::text(programs, machines, catalog, sources, place, recordable, diagnostics)
 }

@@ -1,4 +1,4 @@
-//! The modules of the compiler stand in layers: each uses only those that stand before it in the list.
+//! The modules of the compiler form layers: each module uses only the modules before it in [`LAYERS`].
 #![allow(clippy::disallowed_methods, reason = "it reads the sources of the compiler")]
 
 use std::{
@@ -7,13 +7,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// All modules, from the ground up.
+/// All modules, lowest layer first.
 const LAYERS: [&str; 22] = [
     "source", "units", "report", "syntax", "catalog", "graph", "machine", "script", "resolve", "analyse", "check",
     "claims", "threads", "program", "codegen", "passes", "petri", "explain", "fix", "format", "ide", "lib",
 ];
 
-/// All Rust files in a folder and in those below.
+/// Finds all Rust files in a folder and in the folders below it.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("the sources are there") {
         let path = entry.expect("the folder can be read").path();
@@ -25,7 +25,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The modules behind `crate::` in Rust, also in lists: `crate::{a::B, c}`.
+/// Modules that Rust code names after `crate::`, also in lists: `crate::{a::B, c}`.
 fn used(text: &str) -> BTreeSet<String> {
     let code: String = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
     let name = |rest: &str| -> String { rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };

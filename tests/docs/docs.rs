@@ -17,6 +17,7 @@ use std::{
 mod book;
 mod embedding;
 mod from;
+mod generated;
 mod language;
 #[allow(dead_code)]
 mod nodes;
@@ -94,6 +95,7 @@ struct Checked {
     messages: Vec<String>,
     programs: Vec<Program>,
     machines: Machines,
+    sources: Sources,
 }
 
 impl Package {
@@ -117,7 +119,7 @@ impl Package {
         let checked = passes::check(file, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
         let messages = diagnostics.sorted().into_iter().map(|d| render(d, &sources, false).replace(tour::FOLDER, ""));
         let messages = messages.collect();
-        Checked { messages, programs: checked.programs, machines: checked.texts.machines }
+        Checked { messages, programs: checked.programs, machines: checked.texts.machines, sources }
     }
 }
 

@@ -164,6 +164,8 @@ fn every_code_has_a_text() {
     let compiled = compiled();
     let covered: BTreeSet<&str> =
         compiled.iter().flat_map(|(_, _, c)| c.diagnostics.sorted()).map(|d| d.code).collect();
-    let missing: Vec<&String> = emitted.iter().filter(|c| !covered.contains(c.as_str())).collect();
+    // A fault of the compiler has no text that shows it.
+    let is_shown = |code: &&String| covered.contains(code.as_str()) || *code == "internal-error";
+    let missing: Vec<&String> = emitted.iter().filter(|code| !is_shown(code)).collect();
     assert!(missing.is_empty(), "no text has {missing:?}");
 }

@@ -9,7 +9,8 @@ use apex_dsl::report::{PAGES, render};
 use std::{env, fs};
 
 /// Codes of which no short text is an example.
-const WITHOUT_EXAMPLE: [&str; 5] = ["claim-undecided", "target", "too-deep", "too-large", "unreadable"];
+const WITHOUT_EXAMPLE: [&str; 6] =
+    ["claim-undecided", "internal-error", "target", "too-deep", "too-large", "unreadable"];
 
 const WRONG: &str = "```afg wrong\n";
 const MESSAGE: &str = "```text\n";

@@ -1,4 +1,4 @@
-//! The activity sub-graph (thesis 7.1.2): which nodes can ever be active.
+//! The activity subgraph (thesis 7.1.2): the nodes that can ever be active.
 
 use crate::{
     graph::{Graph, NodeId, NodeKind},
@@ -6,17 +6,17 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// The nodes that activity can reach. All others are never active, and cost nothing.
+/// Nodes that activity can reach. All others are never active, and activity costs them nothing.
 pub fn reachable(graph: &Graph) -> BTreeSet<NodeId> {
     spread(graph, |_| false)
 }
 
-/// The nodes that activity can reach if the graph is a part of another one, which sends it some over its ports.
+/// Nodes that activity can reach if the graph is a part of another graph, which sends activity to its ports.
 pub fn reachable_within(graph: &Graph) -> BTreeSet<NodeId> {
     spread(graph, |kind| matches!(kind, NodeKind::Boundary(PortKind::Input | PortKind::Slot)))
 }
 
-/// The nodes that activity can reach from where it begins, and from nodes of these kinds.
+/// Nodes that activity can reach from its origins, and from nodes of the kinds for which `enters` is `true`.
 fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId> {
     let mut next: Vec<Vec<NodeId>> = vec![vec![]; graph.nodes.len()];
     for c in graph.connections.iter().filter(|c| c.active) {

@@ -1,5 +1,11 @@
-//! What slots, events and hybrid connections mean for the schedule: which connections may stay occupied, and
-//! whether tokens can go round for ever.
+//! Consequences of slots and events for the schedule: connections that may stay occupied, and tokens that can circulate
+//! without end.
+//!
+//! The dispatcher delivers slot tokens before it tests clusters. Most of them are gone then, and their connections need
+//! neither a bit nor a guard. A token remains only if its slot cannot be called, because an event of the slot's node is
+//! not free (R5). With `button.pressed -> lamp.toggle`, `lamp.changed -> log.line` and `log` without events, both
+//! connections are free whenever clusters are tested. If `changed` led to an input, it could be occupied, and so could
+//! `pressed`.
 
 use super::{Delivery, Links, live};
 use crate::{
@@ -9,38 +15,38 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// From so many clusters, slots or timeouts on, code is called by number: rustc takes a time that grows with the square of the
-/// size of a function.
+/// Largest number of clusters, slots or timeouts that are inlined. More are called by number, because the compile time
+/// of rustc grows with the square of the size of a function.
 pub const MANY: usize = 32;
 
 /// The asynchronous part of a graph.
 #[derive(Debug)]
 pub struct Asynchronous {
-    /// For each connection, of whatever kind, whether it can ever carry a token.
+    /// For each connection of any kind, `true` if it can ever carry a token.
     pub live: Vec<bool>,
-    /// The connections to slots that can carry tokens, in the order of the text: slot tokens are told apart by their place
-    /// in it.
+    /// Connections to slots that can carry tokens, in the order of the source file. The number of a slot token is its
+    /// position in this list.
     pub slots: Vec<usize>,
-    /// For each connection whether it may hold a token at a time when clusters are looked at (execution semantics,
-    /// section 3): it leads to an input, out of the program, or to a slot that can itself be held back.
+    /// For each connection, `true` if it may hold a token when clusters are tested: it leads to an input, out of the
+    /// program, or to a slot that can itself be held back.
     pub stays: Vec<bool>,
-    /// For each connection whether it is known at run time that it holds a token: it may stay occupied, a slot of its
-    /// node might be called again before that token was taken (R5), or what feeds its sender is held back by it (R4).
+    /// For each connection, `true` if it has a bit for "free" at run time: it may stay occupied, a slot of its node
+    /// might be called again before the token is taken (R5), or it holds back the nodes that feed its sender (R4).
     pub tracked: Vec<bool>,
-    /// Whether tokens may go round for ever while the time stands still.
+    /// `true` if tokens may circulate without end while time does not advance.
     pub endless: bool,
-    /// How slot tokens are kept in their order.
+    /// Storage of the order of slot tokens.
     pub delivery: Delivery,
-    /// Slots or timeouts are so many that tables serve them: their tokens are queued.
+    /// `true` if tables serve the slots or timeouts, as there are more than [`MANY`]. Slot tokens are queued then.
     pub is_tabled: bool,
-    /// For each connection those on which a token may be sent because of one on it.
+    /// For each connection, the connections on which its token may cause other tokens.
     causes: Vec<Vec<usize>>,
 }
 
 impl Asynchronous {
-    /// Looks at all asynchronous connections of `graph`, and takes those out of `links` that never carry a token.
+    /// Analyses the asynchronous connections of `graph`. Removes the ones that never carry a token from `links`.
     pub fn new(graph: &Graph, catalog: &Catalog, links: &mut Links, regions: &[usize]) -> Self {
-        // A vertex is what a token on a connection causes: a firing of its node, or a call of its slot.
+        // The effect of a token is a firing of the node at the end of its connection, or a call of its slot.
         let mut causes: Vec<Vec<usize>> =
             (0..graph.connections.len()).map(|index| caused(graph, catalog, links, index)).collect();
         let live = live::live(graph, catalog, links, &causes);
@@ -61,7 +67,8 @@ impl Asynchronous {
         if !single {
             let called: BTreeSet<NodeId> = slots.iter().map(|c| graph.connections[*c].to.node).collect();
             called.iter().flat_map(|node| events(graph, links, *node)).for_each(|c| tracked[c] = true);
-            // A slot that is held back must not overtake the one for whose sake its event is not yet free (R4, R7).
+            // A region has finished only when the slots behind its outputs have taken their tokens (R4), and an event
+            // that leads to the region is free only then (R7). Else a slot that waits for it could overtake them.
             if stays.contains(&true) {
                 let from_output = |c: &&usize| graph.port(graph.connections[**c].from).kind == PortKind::Output;
                 slots.iter().filter(from_output).for_each(|c| tracked[*c] = true);
@@ -74,36 +81,37 @@ impl Asynchronous {
         Self { live, slots, stays, tracked, endless: is_endless(&causes), delivery, is_tabled, causes }
     }
 
-    /// Slots take their tokens in an order that is known: nobody has to look whether they are still there.
+    /// Switches to [`Delivery::Ordered`]. Connections to slots then need no bits.
     pub fn order(&mut self) {
         self.delivery = Delivery::Ordered;
         self.slots.iter().for_each(|c| self.tracked[*c] = false);
     }
 
-    /// Whether a connection leads to a slot and can carry tokens.
+    /// Returns `true` if a connection leads to a slot and can carry tokens.
     pub fn is_slot(&self, connection: usize) -> bool {
         self.slots.binary_search(&connection).is_ok()
     }
 
-    /// The connections on which tokens may be sent because of the one on `connection`.
+    /// Connections on which tokens may be sent because of the token on `connection`.
     pub fn causes(&self, connection: usize) -> &[usize] {
         &self.causes[connection]
     }
 
-    /// The slot tokens that may be sent because of the token on `connection`, in the order in which they are emitted.
+    /// Slot tokens that may be sent because of the token on `connection`, in the order in which they are emitted.
     pub fn caused_slots(&self, connection: usize) -> impl Iterator<Item = usize> + Clone + '_ {
         self.causes[connection].iter().copied().filter(|c| self.is_slot(*c))
     }
 
-    /// The slot tokens that may follow, one after the other, from tokens on `connections`; and whether they can go
-    /// round in a circle.
+    /// Slot tokens that may follow one after another from tokens on `connections`. The flag is `true` if they can
+    /// circulate.
     pub fn following(&self, connections: &[usize]) -> (Vec<usize>, bool) {
         let mut found: Vec<usize> = connections.iter().copied().filter(|c| self.is_slot(*c)).collect();
         let mut circle = false;
         let mut at = 0;
         while at < found.len() {
             for next in self.caused_slots(found[at]) {
-                // With one token under way, every connection has one follower: who was seen before comes again.
+                // At most one token is in flight, and it causes at most one other. So a token that was found before
+                // comes again.
                 match found.contains(&next) {
                     true => circle = true,
                     false => found.push(next),
@@ -119,7 +127,7 @@ impl Asynchronous {
         self.slots.partition_point(|c| *c < connection)
     }
 
-    /// The connections of a node's events that may stay occupied: while one does, the node cannot run (R1, R5).
+    /// Connections of a node's events that may stay occupied. While one of them is, the node cannot run (R1, R5).
     pub fn holding_back<'a>(
         &'a self,
         graph: &'a Graph,
@@ -129,32 +137,34 @@ impl Asynchronous {
         events(graph, links, node).filter(|c| self.stays[*c])
     }
 
-    /// The connections that may be occupied when the slot at the end of `connection` is to be called: those of its
-    /// node's events (R5), or of all that `reset` triggers.
+    /// Connections that may be occupied when the slot at the end of `connection` is due: those of its node's events
+    /// (R5), or for `reset` all connections on which a reset sends.
     pub fn not_yet_taken(&self, graph: &Graph, links: &Links, connection: usize) -> Vec<usize> {
         let node = graph.connections[connection].to.node;
         let resets = matches!(graph.nodes[node].kind, NodeKind::Reset);
         let all: Vec<usize> =
             if resets { sent_by_reset(graph).collect() } else { events(graph, links, node).collect() };
-        // The token that `reset` takes is no longer under way.
+        // The token that `reset` takes has left its connection.
         all.into_iter().filter(|c| self.tracked[*c] && !(resets && *c == connection)).collect()
     }
 }
 
-/// The connections of a node's events.
+/// Connections of a node's events.
 pub fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = usize> + 'a {
     links.sends[node].iter().copied().filter(|c| graph.port(graph.connections[*c].from).kind == PortKind::Event)
 }
 
-/// The connections on which a reset sends: `start`, and the events of nodes that activity comes and goes.
+/// Connections on which a reset sends: those of `start`, and of the events `activated` and `deactivated`.
 fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
     let sent =
         |from: End| matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity();
     (0..graph.connections.len()).filter(move |c| sent(graph.connections[*c].from))
 }
 
-/// A node whose events all lead to slots that are served at once is served at once itself. That is found from the
-/// ends of chains of events upwards; what lies on a circle is never found.
+/// For each connection, `true` if it may stay occupied.
+///
+/// A slot is served at once if all events of its node lead to slots that are served at once. The search starts at nodes
+/// without events, the ends of chains, and proceeds upstream. It never finds the nodes on a cycle of events.
 fn stays(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
     let takers: Vec<NodeId> = (0..graph.nodes.len()).collect();
     let mut waits: Vec<usize> = takers.iter().map(|n| events(graph, links, *n).count()).collect();
@@ -180,8 +190,8 @@ fn stays(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
     stays
 }
 
-/// Whether each step sends at most one token to a slot, and every slot is ready when its token comes. A step is a
-/// firing of a region (which is more than a cluster), a slot, a timeout, a token from outside, or the start.
+/// Returns `true` if each step sends at most one token to a slot, and each slot is ready when its token arrives. A step
+/// is a firing of a region (all its clusters), a slot call, a timeout, a token from outside, or the start.
 fn is_single(
     graph: &Graph,
     catalog: &Catalog,
@@ -191,7 +201,7 @@ fn is_single(
     regions: &[usize],
 ) -> bool {
     let to_slot = |c: &usize| slots.binary_search(c).is_ok();
-    // The slot takes the token away: nobody else may want it.
+    // The slot takes the token away, so no other connection may need it.
     let alone = |c: &usize| {
         let from = graph.connections[*c].from;
         links.from(from.node).filter(|other| graph.connections[*other].from == from).count() == 1
@@ -206,6 +216,8 @@ fn is_single(
             NodeKind::Library(library) if !by_process(&catalog.signatures[library.signature], graph, c.from) => {}
             _ => *by_region.entry(regions[c.from.node]).or_default() += 1,
         }
+        // Three cases are excluded: slots that may have to wait, for a region or for a port of the program; `reset`,
+        // which sends several tokens; standard events, which come in addition to other tokens.
         let held_back = events(graph, links, c.to.node).any(|c| graph.flow(&graph.connections[c]) == Flow::ToInput);
         let leaves = matches!(graph.nodes[c.to.node].kind, NodeKind::Boundary(_) | NodeKind::Reset);
         let standard = graph.port(c.from).standard.is_some();
@@ -217,14 +229,15 @@ fn is_single(
     at_start <= 1 && by_region.values().all(|count| *count <= 1)
 }
 
-/// Whether `process` may send on a port.
+/// Returns `true` if `process` may send on a port.
 pub fn by_process(signature: &Signature, graph: &Graph, from: End) -> bool {
     let args = signature.process.as_deref().unwrap_or_default();
     graph.port(from).kind == PortKind::Output || args.contains(&ArgSig::Port(from.port))
 }
 
-/// Whether a token can cause another one on the connection that it came on, in the same instant.
+/// Returns `true` if a token can cause another one on its own connection while time does not advance.
 fn is_endless(causes: &[Vec<usize>]) -> bool {
+    // A topological sort: connections that remain are on a cycle, or behind one.
     let mut waits = vec![0usize; causes.len()];
     causes.iter().flatten().for_each(|c| waits[*c] += 1);
     let mut free: Vec<usize> = (0..causes.len()).filter(|c| waits[*c] == 0).collect();
@@ -241,13 +254,13 @@ fn is_endless(causes: &[Vec<usize>]) -> bool {
     seen < causes.len()
 }
 
-/// The connections on which a token may be sent because of one on `connection`.
+/// Connections on which a token may be sent because of a token on `connection`.
 fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: usize) -> Vec<usize> {
     let to = graph.connections[connection].to;
     let node = &graph.nodes[to.node];
     let by_process = graph.port(to).kind == PortKind::Input;
     let sends = |port: usize| match (&node.kind, node.ports[port].kind, node.ports[port].standard) {
-        // What a delay sends is of the next iteration.
+        // A delay sends its token in a later iteration, and a timeout comes at a later time.
         (NodeKind::Delay(_), ..) => false,
         (_, _, Some(Standard::Timeout)) => false,
         (_, _, Some(Standard::Processed | Standard::Late)) => by_process,

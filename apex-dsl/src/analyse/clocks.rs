@@ -1,5 +1,9 @@
-//! Presence as clocks: a node fires when certain tokens that may be ⊥ are not. As in synchronous languages the
-//! tests are shared and become control flow (clock-directed code generation).
+//! Clocks: the tokens that must be present (not ⊥) for a node to fire.
+//!
+//! If each node tested its own inputs, a ⊥ would cost one branch per node. As in synchronous languages, nodes with the
+//! same clock share one test (clock-directed code generation). With `gate -> f -> g`, where only `gate` may send ⊥, `f`
+//! and `g` both have the clock {`gate.out`}: one `if` skips both. If `f` may send ⊥, too, the clock of `g` is
+//! {`f.out`}. It need not contain `gate.out`, because `f` sends a value only if it fired.
 
 use super::{Links, is_told, may_be_missing};
 use crate::{
@@ -8,10 +12,10 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// The tokens that must be present for a node to fire, without those that others imply.
+/// Tokens that must be present for a node to fire, without those that others in the set imply.
 pub type Clock = BTreeSet<End>;
 
-/// The clock of each node within its cluster.
+/// Clock of each node, seen from its cluster. `order` has producers before consumers.
 pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId], cluster_of: &[usize]) -> Vec<Clock> {
     let mut clocks: Vec<Clock> = vec![Clock::new(); graph.nodes.len()];
     for &node in order {
@@ -22,7 +26,7 @@ pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId],
                 if !is_mandatory(graph, c.to) {
                     continue;
                 }
-                // What another cluster left is always looked at: it may be ⊥.
+                // A token that was not sent in this firing is always tested itself: it may be ⊥.
                 let outside = cluster_of[c.from.node] != cluster_of[node] || !graph.is_synchronous(c);
                 clock.extend(if outside { Clock::from([c.from]) } else { presence(graph, catalog, &clocks, c.from) });
             }
@@ -35,34 +39,35 @@ pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId],
     clocks
 }
 
-/// Whether a node does something in every firing of its cluster: it is told of ⊥ (R3), or it is a place that
-/// ⊥ is written to as any other token.
+/// Returns `true` if a node acts in every firing of its cluster: it has a method for ⊥ (R3), or it stores ⊥ like any
+/// other token.
 fn fires_always(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_)) || is_told(graph, catalog, node)
 }
 
-/// Whether ⊥ at this input keeps the node from firing.
+/// Returns `true` if the node does not run with ⊥ at this input (R3).
 pub fn is_mandatory(graph: &Graph, input: End) -> bool {
     !graph.port(input).optional
 }
 
-/// What must be present for the token at `from` to be present, seen from its own cluster.
+/// Tokens that must be present for the token at `from` to be present, seen from its own cluster.
 pub fn presence(graph: &Graph, catalog: &Catalog, clocks: &[Clock], from: End) -> Clock {
     if may_be_missing(graph, catalog, from) { Clock::from([from]) } else { clocks[from.node].clone() }
 }
 
-/// Removes what others imply: a token is present only if its node fired.
+/// Removes the tokens that others in the clock imply: a token is present only if its node fired.
 fn reduce(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: Clock) -> Clock {
     let implied = implied(clocks, cluster_of, cluster, &clock);
     clock.into_iter().filter(|token| !implied.contains(token)).collect()
 }
 
-/// Everything that is present if `clock` is, except `clock` itself where nothing else implies it.
+/// All tokens that are present if those of `clock` are. A token of `clock` itself is among them only if another one
+/// implies it.
 pub fn implied(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: &Clock) -> BTreeSet<End> {
     let mut implied = BTreeSet::new();
     let mut stack: Vec<End> = clock.iter().copied().collect();
     while let Some(token) = stack.pop() {
-        // A token from another cluster says nothing about tokens in this one.
+        // The clock of a node in another cluster refers to another firing.
         if cluster_of[token.node] != cluster {
             continue;
         }

@@ -1,4 +1,20 @@
-//! Regions, guards and clusters: what runs together as straight-line code (see the execution semantics).
+//! Regions, guards and clusters: the division of a graph into parts that become straight-line code.
+//!
+//! The order of the nodes in a region is known at compile time, but not when they fire. That depends on *guards*: a
+//! timer, an input of the program, the token of an event, room for an event, the next reaction. A node depends on its
+//! own guards and on those of all nodes upstream. The nodes of a region with the same guards fire together: they form
+//! a *cluster*. Example:
+//!
+//! ```text
+//! scan (every 100ms) -> filter -> fuse.scan        scan, filter: guard 1
+//! odometry (every 20ms) -> fuse.pose               odometry: guard 2; fuse: guards 1, 2
+//! ```
+//!
+//! The clusters are {scan, filter}, {odometry} and {fuse}. The last one tests no guard itself. It waits for a token of
+//! each of the other two.
+//!
+//! Clusters are as large as possible, but no node may wait for a condition that the firing rules do not require. This
+//! is why sources without a period are also grouped by the guards downstream of them (see `holding`).
 
 use super::{Analysis, Asynchronous, Block, Links, Step, fires, is_source, pulled::pulled};
 use crate::{
@@ -9,46 +25,67 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Something that a cluster waits for and that the synchronous schedule does not decide.
+/// Condition that a cluster waits for and that the synchronous schedule does not decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Guard {
-    /// The timer of a source with `every`.
+    /// The timer of a source with `every` or `after`.
     Timer(NodeId),
-    /// A graph-level input.
+    /// A token at an input of the program.
     Input(NodeId),
-    /// Sources without a pace of their own: once per `react`. They share a guard where they wait for the same things downstream.
+    /// The next reaction, in which sources without a period fire once. Two of them share this guard if they have the
+    /// same guards upstream and downstream.
     React,
-    /// The token on an asynchronous connection into an input.
+    /// The token on an asynchronous connection to an input.
     Token(usize),
-    /// The events of this node are enabled: it can trigger them (R1).
+    /// The events of this node are enabled, so that it can trigger them (R1).
     Events(NodeId),
+}
+
+impl Guard {
+    /// The guard as text: `input scan`.
+    pub fn text(self, graph: &Graph) -> String {
+        match self {
+            Self::Timer(node) => {
+                let modifiers = &graph.nodes[node].modifiers;
+                let every = modifiers.every.map(|period| format!("every {period:?}"));
+                let after = modifiers.after.map(|time| format!("after {time:?}"));
+                let times: Vec<String> = every.into_iter().chain(after).collect();
+                format!("timer of {} ({})", graph.path(node), times.join(" "))
+            }
+            Self::Token(connection) => format!("event {}", graph.end_name(graph.connections[connection].from)),
+            Self::Events(node) => format!("events of {} enabled", graph.path(node)),
+            Self::Input(node) => format!("input {}", graph.path(node)),
+            Self::React => "each reaction".to_owned(),
+        }
+    }
 }
 
 /// Nodes that fire together.
 #[derive(Debug)]
 pub struct Cluster {
-    /// The region.
+    /// Region of its nodes.
     pub region: usize,
     /// Its nodes, producers before consumers.
     pub nodes: Vec<NodeId>,
-    /// Whether it ever fires: all tokens that it waits for can come.
+    /// `true` if it can fire at all: all tokens that it waits for can arrive.
     pub fires: bool,
     /// All guards that its nodes depend on.
     pub guards: BTreeSet<usize>,
-    /// The guards that it tests itself; the others come with the tokens.
+    /// Guards of its own nodes, which it tests. The clusters upstream have tested the others before they sent their
+    /// tokens.
     pub own_guards: Vec<usize>,
-    /// Clusters that send to it.
+    /// Clusters whose tokens it waits for.
     pub upstream: BTreeSet<usize>,
-    /// Clusters that it sends to.
+    /// Clusters that wait for its tokens.
     pub downstream: BTreeSet<usize>,
-    /// The asynchronous connections that its nodes send on, in the order in which their tokens are emitted.
+    /// Asynchronous connections that its nodes send on, in the order in which their tokens are emitted.
     pub sends: Vec<usize>,
-    /// What a firing does.
+    /// Schedule of a firing.
     pub block: Block,
 }
 
 impl Cluster {
-    /// Its nodes in the order in which they fire.
+    /// Nodes in the order in which they fire.
     pub fn schedule(&self) -> Vec<NodeId> {
         let mut order = vec![];
         let mut blocks: Vec<std::slice::Iter<'_, Step>> = vec![self.block.steps.iter()];
@@ -62,7 +99,8 @@ impl Cluster {
         order
     }
 
-    /// Whether it just runs once per `react`: nothing to wait for, nothing between it and others.
+    /// Returns `true` if the cluster needs no dispatcher: it fires once per reaction, exchanges no synchronous
+    /// tokens with other clusters, and nothing that it sends can hold it back.
     pub fn is_free(&self, graph: &Graph, analysis: &Analysis) -> bool {
         let holds_back = |c: &usize| {
             analysis.asynchronous.stays[*c] && graph.port(graph.connections[*c].from).kind == PortKind::Output
@@ -74,10 +112,10 @@ impl Cluster {
     }
 }
 
-/// More timers and graph-level inputs than one program has; bounds the time and memory for the sets of guards.
+/// Largest number of timers and inputs of a program. It bounds the time and memory for the sets of guards.
 const MAX_PACES: usize = 1_000;
 
-/// Reports a program with more of them; `None` then.
+/// Reports a program with more than [`MAX_PACES`] timers and inputs, and returns `None` then.
 pub fn check_paces(graph: &Graph, diagnostics: &mut Diagnostics) -> Option<()> {
     let sets_a_pace = |n: &&Node| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) || n.modifiers.has_pace();
     let Some(node) = graph.nodes.iter().filter(sets_a_pace).nth(MAX_PACES) else { return Some(()) };
@@ -86,9 +124,10 @@ pub fn check_paces(graph: &Graph, diagnostics: &mut Diagnostics) -> Option<()> {
     None
 }
 
-/// The region of each node, numbered in the order of the text. What enters or leaves a nested graph does so
-/// together, and belongs to one region.
+/// Region of each node, numbered in the order of the source file. All connections to inputs that cross the boundaries
+/// of a nested graph end in one region, as it takes its inputs together and sends its outputs together.
 pub fn regions(graph: &Graph) -> Vec<usize> {
+    // Union-find: the representative of a region is its first node.
     let mut root: Vec<usize> = (0..graph.nodes.len()).collect();
     let mut join = |a: usize, b: usize| {
         let (a, b) = (find(&mut root, a), find(&mut root, b));
@@ -112,6 +151,7 @@ pub fn regions(graph: &Graph) -> Vec<usize> {
         .collect()
 }
 
+/// Representative of a node's region. Shortens the path to it (path halving).
 fn find(root: &mut [usize], mut node: usize) -> usize {
     while root[node] != node {
         root[node] = root[root[node]];
@@ -132,7 +172,7 @@ pub fn clusters(
     let mut guards = vec![];
     let mut own: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
     for (id, node) in graph.nodes.iter().enumerate() {
-        // The body of an `each` runs when it is called, with all its inputs.
+        // The body of an `each` has none of these guards: it runs when it is called, with all its inputs.
         if graph.is_body || !fires(graph, catalog, links, id) {
             continue;
         }
@@ -159,11 +199,13 @@ pub fn clusters(
         by_guards.entry((regions[node], &accumulated[node])).or_default().push(node);
     }
     let mut groups: Vec<_> = by_guards.into_iter().collect();
+    // The dispatcher tests clusters in the order of the source file.
     groups.sort_by_key(|(_, nodes)| nodes.iter().min().copied());
     let mut cluster_of = vec![0; graph.nodes.len()];
     let mut clusters: Vec<Cluster> = vec![];
     for ((region, set), nodes) in groups {
         nodes.iter().for_each(|n| cluster_of[*n] = clusters.len());
+        // A set, as several nodes can share a React guard.
         let own_guards: BTreeSet<usize> = nodes.iter().flat_map(|n| own[*n].iter().copied()).collect();
         let (upstream, downstream) = (BTreeSet::new(), BTreeSet::new());
         let own_guards = own_guards.into_iter().collect();
@@ -183,10 +225,11 @@ pub fn clusters(
     (guards, clusters, cluster_of)
 }
 
-/// Which cluster sends to which: on its connections, and because the inputs of a nested graph are taken together and its
-/// outputs sent together, so that who takes one of them waits for all that send to that side.
+/// Finds the clusters upstream and downstream of each cluster. A nested graph takes its inputs together and sends its
+/// outputs together, so a consumer behind a boundary waits for all clusters that send to the boundary.
 fn join(graph: &Graph, cluster_of: &[usize], clusters: &mut [Cluster]) {
     let synchronous: Vec<&Connection> = graph.connections.iter().filter(|c| graph.is_synchronous(c)).collect();
+    // Boundaries also feed other boundaries, in any order: repeat until nothing is added.
     let mut senders = Sides::new();
     loop {
         let mut changed = false;
@@ -208,10 +251,11 @@ fn join(graph: &Graph, cluster_of: &[usize], clusters: &mut [Cluster]) {
     }
 }
 
-/// For each side of a nested graph what comes to it: clusters, or guards.
+/// For each boundary of a nested graph, the clusters or guards of all tokens that arrive there.
 type Sides = BTreeMap<Crossing, BTreeSet<usize>>;
 
-/// What comes out behind `crossings` where `tokens` go in: at each side all that comes to it goes on together.
+/// Passes `tokens` (clusters or guards) through the boundaries `crossings`, and returns what leaves the last one. At
+/// each boundary all that arrives there goes on together. `changed` is set if a boundary gets something new.
 fn pass_sides(
     crossings: &[Crossing],
     mut tokens: BTreeSet<usize>,
@@ -227,7 +271,7 @@ fn pass_sides(
     tokens
 }
 
-/// What the functions below look at.
+/// Input of the passes that determine guards.
 pub struct View<'a> {
     pub graph: &'a Graph,
     catalog: &'a Catalog,
@@ -238,19 +282,25 @@ pub struct View<'a> {
 }
 
 impl View<'_> {
-    /// Whether a node ever fires.
+    /// Returns `true` if a node fires, and so belongs to a cluster.
     pub fn fires(&self, node: NodeId) -> bool {
         fires(self.graph, self.catalog, self.links, node)
     }
 
-    /// Whether what a node sends to slots may hold back those that feed it.
+    /// Returns `true` if an output of a node leads to a slot that may leave the token there. Until it is taken, the
+    /// nodes upstream are held back (R4).
     fn sends_what_stays(&self, node: NodeId) -> bool {
         let is_output = |c: &usize| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
         self.links.sends[node].iter().any(|c| is_output(c) && self.asynchronous.stays[*c])
     }
 }
 
-/// Adds the guards of what has no pace, if nobody takes its tokens at a pace of his own; all guards that each node depends on.
+/// Adds a [`Guard::React`] to each source without a period that does not fire together with its consumers. Returns the
+/// accumulated guards of each node.
+///
+/// The two kinds depend on each other. A new guard also reaches the consumers downstream, so that those of a pulled
+/// group may no longer have guards in common. The group is dropped then, its sources get guards of their own, and the
+/// next round begins. As groups are only dropped, the rounds end.
 fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<usize>>) -> Vec<BTreeSet<usize>> {
     let above = accumulate(view, guards, own);
     let plain = without_pace(view, guards, own);
@@ -259,7 +309,8 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<
     loop {
         let (mut all, mut with_react) = (guards.clone(), own.clone());
         let is_pulled = |node: &NodeId| pulled.iter().any(|p| p.nodes.contains(node));
-        // What shares a guard has to share a cluster: that depends on the guards of its own, too.
+        // A shared guard is taken by one firing, so all nodes that share it must end up in one cluster. That depends on
+        // their other guards, too.
         let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
         for &node in plain.iter().filter(|node| !is_pulled(node)) {
             let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
@@ -281,13 +332,15 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<
     }
 }
 
-/// All guards upstream and downstream of each node. Sources without a pace fire once per `react`. Two of them may share a cluster
-/// only if the same things downstream hold them back; else one would wait for what holds back the other.
+/// Guards upstream and downstream of each node. A source may fire again only when all nodes downstream have finished
+/// (R4). Two sources without a period may share a cluster only if the same guards downstream hold them back. Otherwise
+/// one would wait for the guards of the other: with `a -> [x, z.p]` and `b -> z.q`, where `x` waits for room for its
+/// event, `b` must not wait for it.
 fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
     let mut holding = above.to_vec();
     for &node in view.order.iter().rev() {
         if view.sends_what_stays(node) {
-            // No guard of its own, but told apart like one.
+            // Not a guard, but it holds back like one: a number that no guard has.
             holding[node].insert(usize::MAX - node);
         }
         for &c in &view.links.out_of[node] {
@@ -298,13 +351,15 @@ fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
     holding
 }
 
-/// Sources without a pace, and the delays of loops that no source feeds: nothing else would ever start them, or
-/// let them rest.
+/// Nodes that fire once per reaction: sources without a period, and delays on loops that nothing feeds. Without a guard
+/// such a loop would not have a condition to wait for, and would fire without end.
 fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<NodeId> {
     let View { graph, catalog, links, .. } = *view;
     let paced = |n: NodeId| own[n].iter().any(|g| matches!(guards[*g], Guard::Timer(_) | Guard::Input(_)));
     let sources = (0..graph.nodes.len()).filter(|n| !paced(*n) && is_source(graph, catalog, links, *n));
     let mut plain: Vec<NodeId> = sources.collect();
+    // A mark flows downstream from these sources. Delays that neither the mark nor a guard reaches are on loops that
+    // nothing feeds. Room for events does not count: it does not begin anything.
     let mut started = own.to_vec();
     plain.iter().for_each(|n| started[*n].push(usize::MAX));
     let reached = accumulate(view, guards, &started);
@@ -315,8 +370,9 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<No
     plain
 }
 
-/// All guards upstream of each node. Nested graphs take their inputs together and send their outputs
-/// together; around a delay the guards go in a circle until nothing changes.
+/// Guards of each node: its own, and those of all nodes upstream. The guards of all tokens that arrive at a boundary go
+/// on together. A token of an event brings its own guard and not those of its sender. Guards also travel around loops
+/// with delays: all nodes are visited until nothing changes.
 fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
     let View { graph, links, order, .. } = *view;
     let tokens: BTreeMap<usize, usize> = guards
@@ -332,6 +388,7 @@ fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTre
             let mut set = sets[node].clone();
             for &index in &links.inputs[node] {
                 let connection = &graph.connections[index];
+                // The token of an event does not bring the guards of the event's node, which fires on its own.
                 let token = match tokens.get(&index) {
                     Some(guard) => BTreeSet::from([*guard]),
                     None => sets[connection.from.node].clone(),

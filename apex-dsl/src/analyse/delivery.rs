@@ -1,25 +1,29 @@
-//! In which order the tokens that a step sends to slots are taken: where that can be told before the program runs, it needs
-//! no queue.
+//! Order in which slots take the tokens that a step sends. If it is known at compile time, the program needs no queue.
+//!
+//! The queue is simulated for each kind of step, as if all tokens that it may send were sent. With `a.e -> [b.s, c.s]`
+//! and `b.f -> d.s`, the order is `b.s`, `c.s`, `d.s`. If `b` does not trigger `f`, the other two keep their order. So
+//! the code of `a` tests and calls the three slots one after another. If the order of two tokens depends on the
+//! presence of a third, the program has a queue.
 
 use super::{Analysis, Asynchronous, Links, asynchronous::events};
 use crate::graph::{End, Flow, Graph, NodeKind};
 use std::collections::{BTreeSet, VecDeque};
 
-/// How slot tokens are kept in their order.
+/// Storage of the order of slot tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Delivery {
-    /// In a queue.
+    /// A queue.
     Queued,
-    /// Never more than one is under way, though perhaps in a circle.
+    /// None: at most one token is in flight. It may circulate.
     Single,
-    /// Each step is followed by the slots that its tokens can come to, in an order that the text decides.
+    /// None: each step is followed by the slots that its tokens can reach, in an order that is known at compile time.
     Ordered,
 }
 
-/// Most slots that may follow one step, before a queue takes less code.
+/// Largest number of slots that may follow one step. For more, a queue takes less code.
 const MAX_ORDERED: usize = 64;
 
-/// Whether the order of slots needs no queue, although several of them may be under way.
+/// Returns `true` if slot tokens need no queue, although several of them may be in flight.
 pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
     let asynchronous = &analysis.asynchronous;
     let resets = graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset));
@@ -33,13 +37,13 @@ pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
         && steps(graph, analysis).iter().all(is_ordered)
 }
 
-/// Whether what is sent to slots is sent to nothing else, so that the last slot can take it away.
+/// Returns `true` if tokens that go to slots go nowhere else, so that the last slot can take them away.
 fn all_alone(graph: &Graph, asynchronous: &Asynchronous) -> bool {
     let sent: BTreeSet<End> = asynchronous.slots.iter().map(|c| graph.connections[*c].from).collect();
     graph.connections.iter().enumerate().all(|(i, c)| asynchronous.is_slot(i) || !sent.contains(&c.from))
 }
 
-/// The connections that each kind of step may send on, in the order in which they are emitted.
+/// Connections that each kind of step may send on, in the order in which tokens are emitted.
 fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<usize>> {
     let firings = analysis.clusters.iter().map(|c| c.sends.clone());
     let alone = |node: &usize| {
@@ -50,7 +54,7 @@ fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<usize>> {
     firings.chain(nodes).chain([at_start(graph, analysis)]).collect()
 }
 
-/// The connections that the start of a program may send on, in the order in which they are emitted.
+/// Connections that the start of a program may send on, in the order in which tokens are emitted.
 pub fn at_start(graph: &Graph, analysis: &Analysis) -> Vec<usize> {
     let starts = |c: &usize| {
         let from = graph.connections[*c].from;
@@ -60,8 +64,9 @@ pub fn at_start(graph: &Graph, analysis: &Analysis) -> Vec<usize> {
     analysis.links.sends.iter().flatten().copied().filter(starts).collect()
 }
 
-/// The slot tokens that follow when a step may have sent on `sends`, in the order in which they are taken (execution
-/// semantics, section 4), whichever of them were really sent; `None` if it depends on that.
+/// Slot tokens that follow a step which may have sent on `sends`, in the order in which they are taken. The first token
+/// whose slot can be called is taken first; the others keep their places. `None` if the order depends on which tokens
+/// were really sent.
 pub fn ordered(graph: &Graph, links: &Links, asynchronous: &Asynchronous, sends: &[usize]) -> Option<Vec<usize>> {
     let mut queue: VecDeque<usize> = sends.iter().copied().filter(|c| asynchronous.is_slot(*c)).collect();
     let mut order = vec![];
@@ -70,6 +75,8 @@ pub fn ordered(graph: &Graph, links: &Links, asynchronous: &Asynchronous, sends:
         order.push(taken);
         let follow = asynchronous.caused_slots(taken);
         let from = graph.connections[taken].from;
+        // Code without a queue calls the slots of one port in the order of its connections, and the last one takes the
+        // token away. A token may not be sent again before it was taken.
         let overtakes = queue.iter().any(|c| *c < taken && graph.connections[*c].from == from);
         if overtakes || order.len() > MAX_ORDERED || follow.clone().any(|c| queue.contains(&c)) {
             return None;
@@ -79,8 +86,9 @@ pub fn ordered(graph: &Graph, links: &Links, asynchronous: &Asynchronous, sends:
     Some(order)
 }
 
-/// The place in the queue of the token that is taken next, wherever others of them are missing. A slot waits for its node's
-/// events to be taken (R5): while the first token does, the second must be what it waits for.
+/// Position in the queue of the token that is taken next, whichever others are absent. A slot waits until the events of
+/// its node are taken (R5). If the first token waits, the second must be the one that it waits for. `None` if the
+/// position is not certain.
 fn next(graph: &Graph, links: &Links, queue: &VecDeque<usize>) -> Option<usize> {
     let waits_for = |c: usize| {
         let events: Vec<usize> = events(graph, links, graph.connections[c].to.node).collect();

@@ -1,4 +1,4 @@
-//! Which connections can ever carry a token. Nothing is generated for the others, nor for what waits for them.
+//! Connections that can ever carry a token. No code is generated for the others, and for nodes that wait for them.
 
 use super::{Cluster, Links, asynchronous::by_process, fires};
 use crate::{
@@ -8,8 +8,12 @@ use crate::{
     syntax::tree::PortKind,
 };
 
-/// For each connection whether it can ever carry a token. `causes` says on which connections a token on one of them may
-/// be followed by others.
+/// For each connection, `true` if it can ever carry a token. `causes` lists for each connection the connections on
+/// which its token may cause others.
+///
+/// The search starts at ports that send without a token before, and follows the tokens. A slot needs one token; a
+/// firing needs one at each input. With `a.e -> n.x` and `b.e -> n.y`, where `b.e` is never triggered, `n` does not
+/// fire, and does not send either.
 pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize>]) -> Vec<bool> {
     let mut search = Search {
         graph,
@@ -32,12 +36,14 @@ pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize
     search.live
 }
 
+/// A search for live connections.
 struct Search<'a> {
     graph: &'a Graph,
     causes: &'a [Vec<usize>],
     live: Vec<bool>,
-    /// How many inputs of each node have no token yet.
+    /// Number of inputs of each node that no token has reached yet.
     missing: Vec<usize>,
+    /// Live connections that have not been followed yet.
     found: Vec<usize>,
 }
 
@@ -48,7 +54,7 @@ impl Search<'_> {
         }
     }
 
-    /// A slot takes each token; a node fires when all its inputs have one.
+    /// Follows a token: a slot takes each one, and a node fires when all its inputs have one.
     fn follow(&mut self, catalog: &Catalog, links: &Links, connection: usize) {
         let c = &self.graph.connections[connection];
         if self.graph.flow(c) == Flow::ToSlot {
@@ -65,7 +71,8 @@ impl Search<'_> {
     }
 }
 
-/// Whether tokens come from a port without a token before: from outside, with time, with activity, from a delay.
+/// Returns `true` if a port sends tokens without a token before: from outside, at a time, with activity, or from a
+/// delay.
 fn begins(graph: &Graph, from: End) -> bool {
     let node = &graph.nodes[from.node];
     let by_itself = match node.kind {
@@ -76,7 +83,7 @@ fn begins(graph: &Graph, from: End) -> bool {
     by_itself || graph.port(from).tells_of_activity() || graph.port(from).standard == Some(Standard::Timeout)
 }
 
-/// Whether a node may send on a port when it fires.
+/// Returns `true` if a node may send on a port when it fires.
 fn is_sent(graph: &Graph, catalog: &Catalog, from: End) -> bool {
     match &graph.nodes[from.node].kind {
         NodeKind::Library(library) => {
@@ -86,7 +93,7 @@ fn is_sent(graph: &Graph, catalog: &Catalog, from: End) -> bool {
     }
 }
 
-/// Marks the clusters that never fire: a token that they wait for never comes.
+/// Marks the clusters that never fire because a token that they wait for never arrives.
 pub fn mark(clusters: &mut [Cluster], links: &Links, live: &[bool]) {
     let lacks = |c: &Cluster| c.nodes.iter().flat_map(|n| &links.inputs[*n]).any(|c| !live[*c]);
     let mut dead: Vec<usize> = (0..clusters.len()).filter(|c| lacks(&clusters[*c])).collect();

@@ -1,4 +1,19 @@
-//! What is decided before a program runs: order, rates, clusters, and what ⊥ can spare.
+//! Decisions that are made before a program runs: the order of nodes, rates, clusters, and the tests for ⊥.
+//!
+//! Comments refer to the rules by which nodes fire, whichever way a graph is run:
+//!
+//! - R1: A node fires when each connected input holds a token, each outgoing connection is free, and its events are
+//!   enabled.
+//! - R2: A firing takes one token from each input and puts one token, a value or ⊥, on each synchronous connection.
+//! - R3: With ⊥ at a mandatory input the node does not run, and sends ⊥. A node with a method for ⊥ runs that method.
+//!   An optional input passes ⊥ to the node.
+//! - R4: A synchronous connection is free again when everything downstream of it has finished. A `pipelined` node
+//!   counts as finished as soon as it has fired.
+//! - R5: A slot is called when its connection holds a token and all events of its node are enabled. The connection is
+//!   free as soon as the token is taken.
+//! - R6: An event is enabled while none of its connections holds a token. No token is overwritten.
+//! - R7: A connection from an event to an input is free again when the region behind it has finished. A connection from
+//!   an output to a slot is free again as soon as the slot has taken the token.
 
 mod activity;
 mod asynchronous;
@@ -33,62 +48,63 @@ pub use rates::{has_rates, is_multirate};
 pub use schedule::{Block, Step};
 pub use stamps::Stamps;
 
-/// Everything that is known about a graph before it runs.
+/// Results of the analysis of a graph.
 #[derive(Debug)]
 pub struct Analysis {
-    /// All nodes, producers before consumers, otherwise in the order of the text.
+    /// All nodes, producers before consumers, otherwise in the order of the source file.
     pub order: Vec<NodeId>,
-    /// How often each node fires in one iteration of its region.
+    /// Number of firings of each node in one iteration of its region.
     pub repetitions: Vec<u64>,
-    /// The region of each node: connected by synchronous connections.
+    /// Region of each node.
     pub regions: Vec<usize>,
-    /// What sets the pace.
+    /// Guards of all clusters.
     pub guards: Vec<Guard>,
-    /// Nodes that fire together, in the order of their first node.
+    /// Clusters, in the order of their first node.
     pub clusters: Vec<Cluster>,
-    /// The cluster of each node.
+    /// Cluster of each node. Nodes that do not fire have the number 0, but are in no cluster.
     pub cluster_of: Vec<usize>,
-    /// What a ⊥ at a node means for others (thesis eqs. 3.6–3.8).
+    /// Characteristics of each node for pruning (thesis eqs. 3.6–3.8).
     pub characteristics: Vec<Characteristics>,
-    /// When each node fires within its cluster.
+    /// Clock of each node.
     pub clocks: Vec<Clock>,
-    /// Slots, events and hybrid connections.
+    /// Connections with slots or events.
     pub asynchronous: Asynchronous,
-    /// What keeps the time when the source fired that a token descends from.
+    /// Clusters and connections that keep stamps.
     pub stamps: Stamps,
-    /// The nodes that activity can reach.
+    /// Nodes that activity can reach.
     pub active: BTreeSet<NodeId>,
-    /// How its nodes hang together.
+    /// Connections of each node.
     pub links: Links,
-    /// The bodies of `each` nodes.
+    /// Analysis of the body of each `each` node.
     pub bodies: BTreeMap<NodeId, Analysis>,
 }
 
 impl Analysis {
-    /// The cluster that a node fires in. A node that only has slots is in none.
+    /// Cluster in which a node fires; `None` for a node that only has slots.
     fn fires_in(&self, node: NodeId) -> Option<usize> {
         let cluster = self.cluster_of[node];
         self.clusters.get(cluster).is_some_and(|c| c.nodes.contains(&node)).then_some(cluster)
     }
 }
 
-/// How nodes hang together: who sends to whom, by node.
+/// Connections of each node, by number.
 #[derive(Debug)]
 pub struct Links {
-    /// Synchronous connections into each node, by number.
+    /// Synchronous connections into each node.
     pub into: Vec<Vec<usize>>,
-    /// Synchronous connections out of each node, by number.
+    /// Synchronous connections out of each node.
     pub out_of: Vec<Vec<usize>>,
     /// All connections into the inputs of each node.
     pub inputs: Vec<Vec<usize>>,
-    /// Asynchronous connections out of each node that can carry tokens, in the order of its ports, then of the text.
+    /// Asynchronous connections out of each node that can carry tokens, in the order of its ports, then of the source
+    /// file.
     pub sends: Vec<Vec<usize>>,
-    /// The loops.
+    /// Loops with delays.
     pub loops: Loops,
 }
 
 impl Links {
-    /// The connections of `graph`.
+    /// Connections of `graph`.
     pub fn new(graph: &Graph) -> Self {
         let none = vec![vec![]; graph.nodes.len()];
         let loops = Loops::default();
@@ -117,23 +133,23 @@ impl Links {
         self.sends[node].iter().chain(&self.out_of[node]).copied()
     }
 
-    /// The nodes that take what `node` sends in the same iteration.
+    /// Nodes that take the synchronous tokens of `node` in the same iteration.
     pub fn successors<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
         let held_back = self.loops.delays.contains(&node);
         self.out_of[node].iter().filter(move |_| !held_back).map(|c| graph.connections[*c].to.node)
     }
 
-    /// The nodes that have to come after `node` in an iteration.
+    /// Nodes that have to come after `node` in an iteration.
     pub fn followers<'a>(&'a self, graph: &'a Graph, node: NodeId) -> impl Iterator<Item = NodeId> + 'a {
         let begun = self.loops.begun_by.get(&node);
         self.successors(graph, node).chain(begun.into_iter().flatten().copied())
     }
 }
 
-/// Connections to slots that a program may have: its queue counts them in 16 bits.
+/// Largest number of connections to slots: the queue of a program counts them in 16 bits.
 const MAX_TO_SLOTS: usize = u16::MAX as usize;
 
-/// Analyses a checked graph. `None` if an error was found that leaves nothing to schedule.
+/// Analyses a checked graph. Returns `None` after an error that leaves nothing to schedule.
 pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Option<Analysis> {
     let mut links = Links::new(graph);
     clusters::check_paces(graph, diagnostics)?;
@@ -188,16 +204,16 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
     Some(analysis)
 }
 
-/// Whether a node of the catalog wants to be told of ⊥ at its mandatory inputs.
+/// Returns `true` if a node has a method for ⊥ at its mandatory inputs (`#[no_message]`).
 pub fn is_told(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     matches!(&graph.nodes[node].kind, NodeKind::Library(library) if catalog.signatures[library.signature].no_message.is_some())
 }
 
-/// Whether a token may be ⊥ although the node that sends it fired.
+/// Returns `true` if a token may be ⊥ although the node that sends it fired.
 pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
     let node = &graph.nodes[from.node];
     match &node.kind {
-        // A node that is disabled, or that failed, sends nothing.
+        // A node that is disabled, or that failed, sends ⊥.
         NodeKind::Library(_) if graph.nodes[from.node].may_be_silent() => true,
         NodeKind::Library(_) if graph.port(from).parameter.is_some() => false,
         NodeKind::Library(library) => {
@@ -205,9 +221,9 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
                 || is_told(graph, catalog, from.node)
                 || refuses(&catalog.signatures[library.signature], node)
         }
-        // What waits in the program itself is looked up where it lies.
+        // The presence of these tokens is stored with them, and tested.
         NodeKind::Delay(_) | NodeKind::Each(_) | NodeKind::Relay => true,
-        // An element of the list is there; what is repeated may be ⊥ where the body takes that.
+        // In the body of an `each` the element of the list is present. Other inputs may be ⊥ if they are optional.
         NodeKind::Boundary(_) => !graph.is_body || graph.port(from).optional,
         NodeKind::Receiver(_) => graph.port(from).optional,
         NodeKind::Start
@@ -219,7 +235,7 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
     }
 }
 
-/// Whether a function node has a parameter that arrives as a token and may be out of its range.
+/// Returns `true` if a function node has a parameter that arrives as a token and may be out of its range.
 fn refuses(signature: &crate::catalog::Signature, node: &crate::graph::Node) -> bool {
     let arrives = |p: &crate::graph::Port| p.kind == PortKind::Input && !p.optional;
     signature.is_function
@@ -230,7 +246,7 @@ fn refuses(signature: &crate::catalog::Signature, node: &crate::graph::Node) -> 
             .any(|p| p.parameter.is_some_and(|i| signature.params[i].range.is_some()))
 }
 
-/// Whether the tokens of a node take activity away.
+/// Returns `true` if the tokens of a node take activity away.
 pub fn takes_activity(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     match &graph.nodes[node].kind {
         NodeKind::Library(library) => catalog.signatures[library.signature].deactivates,
@@ -239,7 +255,7 @@ pub fn takes_activity(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     }
 }
 
-/// Whether a node fires, so that it belongs to a cluster. A node that only has slots does not.
+/// Returns `true` if a node fires, and so belongs to a cluster. A node that only has slots does not.
 pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> bool {
     match &graph.nodes[node].kind {
         NodeKind::Library(library) => {
@@ -257,14 +273,14 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
     }
 }
 
-/// Whether a node starts a region: it fires, and nothing flows into it.
+/// Returns `true` if a node is a source: it fires, and no connection leads to its inputs.
 pub fn is_source(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> bool {
     fires(graph, catalog, links, node)
         && links.inputs[node].is_empty()
         && !matches!(graph.nodes[node].kind, NodeKind::Boundary(PortKind::Output))
 }
 
-/// Whether a port that every node has is connected.
+/// Returns `true` if a node has one of the `wanted` standard ports, which it has only if they are used.
 pub fn has_standard(graph: &Graph, node: NodeId, wanted: &[Standard]) -> bool {
     graph.nodes[node].ports.iter().any(|p| p.standard.is_some_and(|s| wanted.contains(&s)))
 }

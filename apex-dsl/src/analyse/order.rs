@@ -1,4 +1,13 @@
-//! An order in which every node comes after those that send to it. Where there is none, a cycle is named.
+//! An order in which each node comes after the nodes that send to it. If there is none, the error names a cycle.
+//!
+//! A topological sort of the nodes is not enough, for two reasons:
+//!
+//! - A nested graph takes its inputs together and sends its outputs together. Its two boundaries are vertices of their
+//!   own, and connections lead through them. With `a -> n.x`, `n.y -> b` and `b -> n.z`, the nested graph `n` waits for
+//!   `b`, and `b` for `n`, even if no connection inside leads from `z` to `y`.
+//! - A delay on a loop sends tokens of an earlier iteration, so its consumers do not wait for it. They wait for the
+//!   tokens that enter the loop and begin an iteration. With `s -> sum.a`, `f -> sum.b` and `sum -> delay -> f`, the
+//!   order is `s`, `f`, `sum`, `delay`: the edge from `s` to `f` comes from [`Loops::begun_by`].
 
 use super::Links;
 use crate::{
@@ -10,8 +19,8 @@ use std::{
     collections::{BTreeMap, BTreeSet, BinaryHeap},
 };
 
-/// Something to be ordered: a node, or one of the two sides of a nested graph, which takes all its inputs
-/// together and sends all its outputs together (thesis 5.2.3).
+/// Vertex of the order graph: a node, or one of the two boundaries of a nested graph, which takes its inputs together
+/// and sends its outputs together (thesis 5.2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Vertex {
     Node(NodeId),
@@ -19,14 +28,15 @@ enum Vertex {
     Leave(ScopeId),
 }
 
-/// The order graph: vertices by number, edges with the connection that they come from.
+/// Order graph: vertices by number, and edges out of each vertex with the connection that they come from.
 struct Precedence {
     vertices: Vec<Vertex>,
     edges: Vec<Vec<(usize, Option<usize>)>>,
 }
 
 impl Precedence {
-    /// That of one iteration.
+    /// Order graph of one iteration: without the connections from delays on loops, with the edges of
+    /// [`Loops::begun_by`].
     fn new(graph: &Graph, links: &Links) -> Self {
         let is_taken = |c: &usize| !links.loops.delays.contains(&graph.connections[*c].from.node);
         let mut precedence = Self::of(graph, links.into.iter().flatten().copied().filter(is_taken));
@@ -36,7 +46,7 @@ impl Precedence {
         precedence
     }
 
-    /// That of some connections. One to a slot counts as far as the last side that it passes.
+    /// Order graph of some connections. A connection to a slot counts up to the last boundary that it crosses.
     fn of(graph: &Graph, connections: impl Iterator<Item = usize>) -> Self {
         let nodes = graph.nodes.len();
         let scopes = graph.scopes.len();
@@ -52,6 +62,7 @@ impl Precedence {
                 at = next;
             }
         }
+        // Outputs of a nested graph come after its inputs, whatever is connected inside.
         for scope in 1..scopes {
             edges[nodes + scope].push((nodes + scopes + scope, None));
         }
@@ -59,7 +70,8 @@ impl Precedence {
     }
 }
 
-/// The vertices that a connection leads to: the sides that it passes and, unless that is a slot, its end.
+/// Vertices that a connection leads to: the boundaries that it crosses, then the node at its end unless it leads to a
+/// slot.
 fn stations(graph: &Graph, connection: &Connection) -> impl Iterator<Item = usize> {
     let (nodes, scopes) = (graph.nodes.len(), graph.scopes.len());
     let sides = connection.crossings.iter().map(move |crossing| match crossing {
@@ -69,25 +81,27 @@ fn stations(graph: &Graph, connection: &Connection) -> impl Iterator<Item = usiz
     sides.chain((graph.flow(connection) != Flow::ToSlot).then_some(connection.to.node))
 }
 
-/// The loops of a graph, all of which lead through delays.
+/// Loops of a graph that lead through delays.
 #[derive(Debug, Default)]
 pub struct Loops {
-    /// The delays on loops: what they send is of the iteration before.
+    /// Delays on loops. They send tokens of an earlier iteration.
     pub delays: BTreeSet<NodeId>,
-    /// What a delay on a loop sends does not wait for the delay, but for what comes into the loop from elsewhere: that is when
-    /// an iteration of the loop begins. For each node that sends into loops, the nodes that these delays send to.
+    /// Additional edges of the order graph. An iteration of a loop begins when tokens enter the loop, so each node that
+    /// sends into a loop precedes all consumers of the delays on this loop.
     pub begun_by: BTreeMap<NodeId, Vec<NodeId>>,
 }
 
 impl Loops {
-    /// Finds them.
+    /// Loops of `graph`.
     pub fn new(graph: &Graph, links: &Links) -> Self {
+        // `links` has no loops yet, so the order graph also has the connections from delays.
         let mut delays = (0..graph.nodes.len()).filter(|node| graph.nodes[*node].is_delay()).peekable();
         if delays.peek().is_none() {
             return Self::default();
         }
         let edges = Precedence::new(graph, links).edges;
         let part = components(&edges);
+        // A delay is on a loop if it sends to its own strongly connected component.
         let is_on_loop = |delay: &NodeId| edges[*delay].iter().any(|(next, _)| part[*next] == part[*delay]);
         let delays: BTreeSet<NodeId> = delays.filter(is_on_loop).collect();
         let mut behind: BTreeMap<usize, BTreeSet<NodeId>> = BTreeMap::new();
@@ -97,7 +111,7 @@ impl Loops {
         }
         let mut begun_by = BTreeMap::new();
         for (node, out) in links.out_of.iter().enumerate() {
-            // A token also enters a loop at a side of a nested graph that the loop leads through.
+            // A token also enters a loop at a boundary that the loop leads through.
             let stations = out.iter().flat_map(|c| stations(graph, &graph.connections[*c]));
             let entered: BTreeSet<usize> = stations.map(|s| part[s]).filter(|p| *p != part[node]).collect();
             let begun: BTreeSet<NodeId> = entered.iter().filter_map(|p| behind.get(p)).flatten().copied().collect();
@@ -109,7 +123,8 @@ impl Loops {
     }
 }
 
-/// A number for each node; nodes between which tokens flow in a circle have the same one.
+/// For each node the number of its strongly connected component. Two nodes have the same number if they are on a common
+/// cycle of synchronous connections, which may lead through delays and through boundaries of nested graphs.
 pub fn circles(graph: &Graph) -> Vec<usize> {
     let synchronous = (0..graph.connections.len()).filter(|c| graph.is_synchronous(&graph.connections[*c]));
     let mut part = components(&Precedence::of(graph, synchronous).edges);
@@ -117,8 +132,8 @@ pub fn circles(graph: &Graph) -> Vec<usize> {
     part
 }
 
-/// The events that lead to inputs from which tokens flow back to their nodes, by connection: also by way of delays, and of
-/// nested graphs, which take all their inputs together.
+/// Connections from events to inputs that lie on a cycle. The cycle may lead through delays, and through boundaries of
+/// nested graphs.
 pub fn events_on_circles(graph: &Graph) -> Vec<usize> {
     let edges = Precedence::of(graph, 0..graph.connections.len()).edges;
     let part = components(&edges);
@@ -129,7 +144,7 @@ pub fn events_on_circles(graph: &Graph) -> Vec<usize> {
     (0..graph.connections.len()).filter(is_on_circle).collect()
 }
 
-/// The strongly connected component of each vertex (Kosaraju and Sharir).
+/// Strongly connected component of each vertex, as the number of one of its members (Kosaraju and Sharir).
 fn components(edges: &[Vec<(usize, Option<usize>)>]) -> Vec<usize> {
     let after: Vec<Vec<usize>> = edges.iter().map(|e| e.iter().map(|(next, _)| *next).collect()).collect();
     let mut before = vec![vec![]; edges.len()];
@@ -138,6 +153,8 @@ fn components(edges: &[Vec<(usize, Option<usize>)>]) -> Vec<usize> {
     }
     let mut seen = vec![false; edges.len()];
     let finished: Vec<usize> = (0..edges.len()).flat_map(|v| finish(v, &after, &mut seen)).collect();
+    // Against the edges, the vertex that finished last reaches its own component and nothing else. Without this
+    // component, the same holds for the last one that remains.
     let (mut part, mut seen) = (vec![0; edges.len()], vec![false; edges.len()]);
     for &vertex in finished.iter().rev() {
         finish(vertex, &before, &mut seen).into_iter().for_each(|member| part[member] = vertex);
@@ -145,9 +162,10 @@ fn components(edges: &[Vec<(usize, Option<usize>)>]) -> Vec<usize> {
     part
 }
 
-/// What is reached from `start` and was not seen before; a vertex comes after all that is reached from it.
+/// Vertices that are reachable from `start` and were not seen before, in post-order.
 fn finish(start: usize, after: &[Vec<usize>], seen: &mut [bool]) -> Vec<usize> {
     let mut finished = vec![];
+    // An explicit stack: a path can be too long for recursion.
     let mut path = if std::mem::replace(&mut seen[start], true) { vec![] } else { vec![(start, 0)] };
     while let Some((vertex, next)) = path.last_mut() {
         match after[*vertex].get(*next) {
@@ -166,7 +184,8 @@ fn finish(start: usize, after: &[Vec<usize>], seen: &mut [bool]) -> Vec<usize> {
     finished
 }
 
-/// The order of all nodes; among those that are free, the first in the text comes first.
+/// Order of all nodes (Kahn's algorithm). Of several nodes that are ready, the first in the source file comes first.
+/// Reports a cycle and returns `None` if there is no order.
 pub fn order(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<Vec<NodeId>> {
     let precedence = Precedence::new(graph, links);
     let mut waits = vec![0usize; precedence.vertices.len()];
@@ -195,7 +214,7 @@ pub fn order(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Opt
     None
 }
 
-/// Every vertex that still waits has a predecessor that still waits: walking back leads into a cycle.
+/// Reports a cycle. Each vertex that still waits has a predecessor that still waits, so walking back leads into one.
 fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnostics: &mut Diagnostics) {
     let mut back: Vec<Option<(usize, Option<usize>)>> = vec![None; waits.len()];
     for (vertex, edges) in precedence.edges.iter().enumerate().filter(|(v, _)| waits[*v] > 0) {
@@ -208,6 +227,7 @@ fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnos
     while !std::mem::replace(&mut seen[at], true) {
         at = back[at].map_or(at, |(before, _)| before);
     }
+    // The first vertex that is reached twice is on the cycle.
     let (first, mut path, mut connections) = (at, vec![], vec![]);
     while let Some((before, connection)) = back[at] {
         path.push(precedence.vertices[at]);
@@ -219,6 +239,7 @@ fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnos
     }
     path.reverse();
     connections.reverse();
+    // A connection through boundaries has several edges, and a nested graph several vertices.
     connections.dedup();
     let name = |vertex: &Vertex| match vertex {
         Vertex::Node(node) => format!("`{}`", graph.path(*node)),

@@ -1,4 +1,12 @@
-//! The characteristics of thesis 3.3.7: who must be told of a ⊥.
+//! Characteristics of nodes (thesis 3.3.7): do other nodes have to know of a ⊥ that a node sends?
+//!
+//! Yes if an essential node is downstream (the node is *required*), or if a node downstream joins its tokens
+//! with tokens of another origin (the node has *siblings*). Any other ⊥ can be dropped where it arises. With
+//! `a -> [b, c]`, `b -> d.x` and `c -> d.y`, the nodes `b` and `c` have siblings: `d` waits for both. `a` has none: all
+//! tokens that come to `d` descend from it.
+//!
+//! `apex explain` and the table of nodes in a program show the characteristics. The generated code skips nodes by their
+//! clocks (`clocks.rs`).
 
 use super::Links;
 use crate::{
@@ -6,20 +14,20 @@ use crate::{
     graph::{Graph, NodeId, NodeKind},
 };
 
-/// What a ⊥ at a node means for others.
+/// Consequences of a ⊥ at a node for other nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Characteristics {
-    /// It wants to see ⊥ itself (eq. 3.6).
+    /// `true` if ⊥ has an effect on the node: it is marked `essential`, or has a method for ⊥ (eq. 3.6).
     pub essential: bool,
-    /// There is an essential node downstream (eq. 3.7).
+    /// `true` if there is an essential node downstream (eq. 3.7).
     pub required: bool,
-    /// A node downstream joins its stream with one that does not come from it (eq. 3.8).
+    /// `true` if a node downstream joins the tokens of this node with tokens of another origin (eq. 3.8).
     pub siblings: bool,
-    /// It joins streams.
+    /// `true` if the node has several connected inputs.
     pub joins: bool,
 }
 
-/// The characteristics of all nodes.
+/// Characteristics of all nodes.
 pub fn characteristics(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId]) -> Vec<Characteristics> {
     let mut list = vec![Characteristics::default(); graph.nodes.len()];
     let siblings = siblings(graph, links, order);
@@ -33,17 +41,23 @@ pub fn characteristics(graph: &Graph, catalog: &Catalog, links: &Links, order: &
     list
 }
 
-/// A node has siblings if it does not dominate everything downstream of it: some node there also hears of
-/// others. Dominators of an acyclic graph are lowest common ancestors in the dominator tree built so far; an edge
-/// `u → w` leads out of the reach of all nodes between `u` and the dominator of `w`.
+/// For each node, `true` if it has siblings: it does not dominate all nodes downstream. At least one of them also takes
+/// tokens that do not descend from it.
+///
+/// In an acyclic graph, the immediate dominator of a node is the lowest common ancestor of its predecessors in the
+/// dominator tree. The tree grows in the order of the nodes. An edge `u → w` leaves the subtree of `u` and of each
+/// ancestor of `u` below the dominator of `w`: all of these have siblings. The edge counts 1 at `u` and -1 at the
+/// dominator of `w`, so that the sum over a subtree is the number of edges that leave it.
 fn siblings(graph: &Graph, links: &Links, order: &[NodeId]) -> Vec<bool> {
     let root = graph.nodes.len();
     let mut tree = Tree { parent: vec![root; root + 1], jump: vec![root; root + 1], depth: vec![0; root + 1] };
     let mut edges = vec![];
     for &node in order {
+        // The root of the tree dominates all nodes: it stands before each source and each delay.
         let mut dominator = None;
         for &c in &links.into[node] {
             let from = graph.connections[c].from.node;
+            // The token of a delay does not descend from the tokens of this iteration.
             if matches!(graph.nodes[from].kind, NodeKind::Delay(_)) {
                 dominator = Some(root);
                 continue;
@@ -65,7 +79,8 @@ fn siblings(graph: &Graph, links: &Links, order: &[NodeId]) -> Vec<bool> {
     leaks[..root].iter().map(|leaks| *leaks > 0).collect()
 }
 
-/// A growing tree with jump pointers, so that common ancestors are found in logarithmic time.
+/// Growing tree. Each vertex has a second pointer to a farther ancestor, so that common ancestors are found in
+/// logarithmic time (skew-binary jump pointers, Myers 1983).
 struct Tree {
     parent: Vec<usize>,
     jump: Vec<usize>,

@@ -1,22 +1,30 @@
-//! Nodes without a pace of their own whose tokens others take at theirs: they fire with them, so that what they send is
-//! not older than it has to be.
+//! Sources without a period that fire together with the consumers of their tokens.
+//!
+//! Such a source could fire once per reaction. But if its token is joined with the token of a timer, this would be too
+//! early: the token would wait, and the value would be older than necessary. So the source, and the nodes between it
+//! and the join, get the guards of the join. With `scan -> fit.scan` and `latch -> fit.pose`, where `scan` has a
+//! period, `latch` gets the timer of `scan` as its guard. All three nodes form one cluster, and `latch` sends the value
+//! that it holds when the scan arrives.
+//!
+//! Several consumers must agree. With guards {1} and {1, 2}, the source fires under guard 1, and the second consumer
+//! waits for guard 2 with the token. With guards {1} and {2} neither is right, and the source fires once per reaction.
 
 use super::clusters::{Guard, View};
 use crate::graph::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
-/// Nodes that depend on nothing that sets a pace, with those between them, and who takes what they send.
+/// Connected nodes without any guards upstream, and the nodes that take their tokens.
 #[derive(Debug)]
 pub struct Pulled {
-    /// They fire together.
+    /// Nodes, which fire together.
     pub nodes: BTreeSet<NodeId>,
-    /// Who takes their tokens; all of these have guards.
+    /// Consumers of their tokens outside the group. Each has guards.
     pub takers: BTreeSet<NodeId>,
 }
 
 impl Pulled {
-    /// The guards of the taker that depends on the least: all others depend on these, too. `None` if there is none, or if it
-    /// has no pace: room for its events is there all the time.
+    /// Guards of the taker with the fewest, if all other takers have these guards, too. `None` if they have not, or if
+    /// these guards are only [`Guard::Events`]: room for events does not determine a time.
     pub fn guards(&self, guards: &[Guard], accumulated: &[BTreeSet<usize>]) -> Option<BTreeSet<usize>> {
         let sets = || self.takers.iter().map(|taker| &accumulated[*taker]);
         let least = sets().min_by_key(|set| set.len())?;
@@ -25,7 +33,8 @@ impl Pulled {
     }
 }
 
-/// What could fire with its takers, if `above` are the guards that each node depends on: nobody else may notice when it does.
+/// Groups of nodes that could fire with their takers, because nothing else observes the time of their firings. `above`
+/// holds the guards upstream of each node.
 pub fn pulled(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<Pulled> {
     let is_free = |node: &NodeId| above[*node].is_empty() && view.fires(*node);
     let mut seen: BTreeSet<NodeId> = BTreeSet::new();
@@ -42,7 +51,7 @@ pub fn pulled(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<Pulled> {
     found
 }
 
-/// All free nodes that hang together with `node`.
+/// Group of all free nodes that are connected with `node`.
 fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -> Pulled {
     let mut group = Pulled { nodes: BTreeSet::new(), takers: BTreeSet::new() };
     let mut ends = vec![node];
@@ -50,6 +59,7 @@ fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -
         if !group.nodes.insert(node) {
             continue;
         }
+        // Nodes upstream of a free node are free, too: guards are passed downstream.
         let from = view.links.into[node].iter().map(|c| view.graph.connections[*c].from.node);
         ends.extend(from);
         for &c in &view.links.out_of[node] {
@@ -64,7 +74,7 @@ fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -
     group
 }
 
-/// Whether only who takes its tokens can tell when a node fires.
+/// Returns `true` if only the consumers of its synchronous tokens can observe when a node fires.
 fn is_unnoticed(view: &View<'_>, node: NodeId) -> bool {
     let is_library = matches!(view.graph.nodes[node].kind, NodeKind::Library(_));
     is_library && view.links.sends[node].is_empty() && !view.links.out_of[node].is_empty()

@@ -1,4 +1,8 @@
-//! Balance equations (Lee 1987): how often each node fires in one iteration, so that what is sent is what is taken.
+//! Balance equations (Lee 1987): the number of firings of each node in one iteration, with which each connection
+//! carries as many tokens as are taken.
+//!
+//! If `a` sends 2 tokens per firing and `b` takes 3, `a` fires 3 times and `b` twice. On an undirected cycle of
+//! connections the equations can contradict each other. Then there is no solution.
 
 use super::Analysis;
 use super::Links;
@@ -7,10 +11,10 @@ use crate::{
     report::{Diagnostic, Diagnostics},
 };
 
-/// More firings per iteration than anybody needs; also bounds the size of buffers.
+/// Largest number of firings of a node per iteration. It also bounds the size of buffers.
 pub const MAX_REPETITIONS: u64 = 100_000;
 
-/// The smallest repetition vector. Reports a circle of connections whose rates contradict each other.
+/// The smallest repetition vector. Reports a cycle of connections whose rates contradict each other.
 pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<Vec<u64>> {
     let mut rates: Vec<Option<(u64, u64)>> = vec![None; graph.nodes.len()];
     let mut reached: Vec<Option<usize>> = vec![None; graph.nodes.len()];
@@ -19,6 +23,7 @@ pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) 
         if rates[start].is_some() {
             continue;
         }
+        // Fractions relative to the first node, by a breadth-first search through the region.
         rates[start] = Some((1, 1));
         let mut region = vec![start];
         let mut at = 0;
@@ -49,6 +54,7 @@ pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) 
                 }
             }
         }
+        // The least common multiple of the denominators makes all fractions whole numbers.
         let common =
             region.iter().filter_map(|n| rates[*n]).try_fold(1u64, |lcm, (_, d)| (lcm / gcd(lcm, d)).checked_mul(d));
         let counts: Option<Vec<u64>> = common.and_then(|lcm| {
@@ -111,7 +117,7 @@ fn contradiction(
     for mut at in [node, other] {
         while let Some(index) = reached[at] {
             let c = &graph.connections[index];
-            // Both walks meet where their paths become the same.
+            // Behind the node where both walks meet, they are the same: connections that occur twice are removed.
             if let Some(known) = path.iter().position(|p| *p == index) {
                 path.remove(known);
             } else {
@@ -135,13 +141,13 @@ fn contradiction(
     diagnostics.push(error);
 }
 
-/// Whether a cluster has more than one rate.
+/// Returns `true` if a node in the region of a cluster has rates (see [`has_rates`]).
 pub fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
     let region = analysis.clusters[cluster].region;
     (0..graph.nodes.len()).any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
 }
 
-/// Whether a node has another rate than one.
+/// Returns `true` if a node fires several times per iteration, or has a port for several tokens per firing.
 pub fn has_rates(graph: &Graph, analysis: &Analysis, node: NodeId) -> bool {
     analysis.repetitions[node] != 1 || graph.nodes[node].ports.iter().any(|p| p.rate != 1 && p.kind.is_synchronous())
 }

@@ -1,36 +1,48 @@
-//! The order inside a cluster, with shared tests: nodes that fire on the same clock stand in one block.
+//! Schedule of a cluster: the order of its nodes, in nested blocks. Nodes with the same clock share a block, and so the
+//! test for ⊥.
+//!
+//! The order must put producers before consumers, and should open few blocks. With `gate -> a -> b` and an independent
+//! `c`, where `gate` may send ⊥, the schedule is `gate`, `c`, `if gate.out { a, b }`. The order `gate`, `a`, `c`, `b`
+//! would be as valid, but needs two tests.
+//!
+//! This is list scheduling with a stack of open blocks. A node whose producers have all fired goes to the deepest open
+//! block whose clock its own implies. Each block first fires the ready nodes with its own clock. Then it opens an inner
+//! block for the first ready node that needs more tokens.
 
 use super::{Analysis, Clock, Links, clocks::implied};
 use crate::graph::{End, Graph, NodeId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Blocks nest at most this deep; deeper ones test from the outermost level again.
+/// Largest number of nested blocks, with the outermost. Deeper ones are opened further out, with more tests.
 const MAX_DEPTH: usize = 12;
 
-/// Things that are done if certain tokens are present.
+/// Steps that are done if certain tokens are present.
 #[derive(Debug, Default, Clone)]
 pub struct Block {
-    /// The tokens that must be present, besides those of the blocks around.
+    /// Tokens that must be present, in addition to those of the blocks around.
     pub opens: Vec<End>,
-    /// What is done, in order.
+    /// Steps in order.
     pub steps: Vec<Step>,
 }
 
-/// One thing that is done.
+/// A step of a schedule.
 #[derive(Debug, Clone)]
 pub enum Step {
     /// A node fires.
     Fire(NodeId),
-    /// Things that are done only if more tokens are present.
+    /// Steps that are done only if more tokens are present.
     Block(Block),
 }
 
+/// An open block.
 struct Level {
+    /// Tokens that are present in the block.
     clock: Clock,
+    /// Tokens that these imply.
     implied: BTreeSet<End>,
-    /// Nodes whose clock is exactly that of the level.
+    /// Ready nodes whose clock is exactly that of the level.
     here: BTreeSet<(usize, NodeId)>,
-    /// Nodes that need more.
+    /// Ready nodes that need more tokens.
     inner: BTreeMap<(usize, NodeId), Clock>,
 }
 
@@ -44,7 +56,7 @@ struct Scheduler<'a> {
     levels: Vec<Level>,
 }
 
-/// What a firing of a cluster does.
+/// Schedule of a cluster.
 pub fn schedule(graph: &Graph, links: &Links, analysis: &Analysis, cluster: usize) -> Block {
     let nodes = &analysis.clusters[cluster].nodes;
     let rank: BTreeMap<NodeId, usize> = nodes.iter().enumerate().map(|(rank, node)| (*node, rank)).collect();
@@ -64,7 +76,7 @@ pub fn schedule(graph: &Graph, links: &Links, analysis: &Analysis, cluster: usiz
 }
 
 impl Scheduler<'_> {
-    /// A node waits for nothing any more: it goes to the deepest open level whose clock its own implies.
+    /// Adds a node whose producers have all fired to the deepest open level whose clock its own implies.
     fn place(&mut self, node: NodeId) {
         let clock = &self.analysis.clocks[node];
         let key = (self.rank[&node], node);
@@ -72,6 +84,7 @@ impl Scheduler<'_> {
             .into_iter()
             .chain(clock.iter().copied())
             .collect();
+        // A node with the clock of a level needs no further block, so the limit of the depth does not apply.
         let deepest = (0..self.levels.len()).rev().find(|level| {
             let level_clock = &self.levels[*level].clock;
             level_clock == clock || (level + 1 < MAX_DEPTH && level_clock.is_subset(&known))
@@ -110,10 +123,11 @@ impl Scheduler<'_> {
         }
     }
 
-    /// Opens a block for `clock` and moves everything into it that waits on this level and fits.
+    /// Fills a block for `clock`. The ready nodes of the current level with the same clock move into it.
     fn open(&mut self, key: (usize, NodeId), clock: Clock) -> Block {
         let depth = self.levels.len() - 1;
         let outer = &self.levels[depth];
+        // The blocks around have tested the other tokens.
         let opens: Vec<End> =
             clock.iter().filter(|t| !outer.clock.contains(t) && !outer.implied.contains(t)).copied().collect();
         let implied = implied(&self.analysis.clocks, &self.analysis.cluster_of, self.cluster, &clock);

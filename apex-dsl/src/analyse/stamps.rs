@@ -1,5 +1,10 @@
-//! Where it must be known when the source fired that a token descends from (execution semantics, section 1): only where
-//! somebody asks, because a node has a `deadline` or takes the context.
+//! Stamps that a program keeps. The stamp of a token is the firing time of the source from which it descends.
+//!
+//! Only nodes with a `deadline`, and nodes that take the context, use stamps. The search starts at these nodes and goes
+//! upstream, so that all other tokens cost nothing. Its unit is the cluster: a firing of a cluster has one stamp, that
+//! of the oldest token which the cluster takes. Example: `camera -> find`, `find.seen -> drive.goal` and
+//! `drive.stuck -> log.line`, where `seen` and `stuck` are events, `goal` and `line` slots. If `drive` has a
+//! `deadline`, its token from `find` and the cluster of `camera` and `find` have stamps; the token to `log` has none.
 
 use super::{Analysis, Guard};
 use crate::{
@@ -8,22 +13,22 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What keeps stamps.
+/// Clusters and connections that keep stamps.
 #[derive(Debug, Default)]
 pub struct Stamps {
-    /// Clusters with a node that wants to know, or that send to those.
+    /// Clusters with a node that uses stamps, and all from which its tokens come.
     pub clusters: BTreeSet<usize>,
-    /// Asynchronous connections to them.
+    /// Asynchronous connections whose tokens have stamps.
     pub connections: BTreeSet<usize>,
 }
 
-/// Something whose tokens are followed to where they come from.
+/// Part of the graph that needs the stamps of its tokens.
 enum Asks {
     Node(NodeId),
     Cluster(usize),
 }
 
-/// Follows from those who ask to where their tokens come from.
+/// Follows tokens upstream, from all nodes that use stamps to the sources.
 pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
     let mut slots_of: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
     for &slot in &analysis.asynchronous.slots {
@@ -43,6 +48,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
                 }
             }
             Asks::Cluster(cluster) if found.clusters.insert(cluster) => {
+                // A cluster takes tokens from clusters upstream, and from events.
                 let c = &analysis.clusters[cluster];
                 open.extend(c.upstream.iter().copied().map(Asks::Cluster));
                 let tokens = c.own_guards.iter().filter_map(|guard| match analysis.guards[*guard] {
@@ -53,13 +59,15 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
             }
             Asks::Cluster(_) => {}
         }
+        // The sender may have sent in a firing or in a slot call: both need a stamp.
         sent_on.retain(|connection| found.connections.insert(*connection));
         open.extend(sent_on.into_iter().map(|connection| Asks::Node(graph.connections[connection].from.node)));
     }
     found
 }
 
-/// Whether a node can ask for the stamp.
+/// Returns `true` if a node can read stamps from the context. The sending end of a
+/// cell counts if the receiving group needs them.
 fn asks(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     match &graph.nodes[node].kind {
         NodeKind::Library(library) => {

@@ -1,10 +1,10 @@
-//! How many steps the dispatcher takes at most until all that a firing causes has finished.
+//! Upper bound of the steps that the dispatcher takes until all consequences of a firing have finished.
 
 use super::Analysis;
 use crate::graph::{Flow, Graph};
 use std::collections::{BTreeMap, btree_map::Entry};
 
-/// Something that takes a step: a cluster that fires, or the slot at the end of a connection that is called.
+/// Action that takes one step: the firing of a cluster, or the call of the slot at the end of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
     Cluster(usize),
@@ -12,15 +12,16 @@ enum Step {
 }
 
 impl Analysis {
-    /// The most steps from a firing of `cluster` to its notification, and until all slots that it causes to be called have been;
-    /// `None` if there is no bound, because tokens can go round.
+    /// Largest number of steps from a firing of `cluster` until everything downstream has finished and all slots that
+    /// it reaches have been called. `None` if there is no bound, because tokens can circulate.
     pub fn steps_after(&self, graph: &Graph, cluster: usize) -> Option<u64> {
+        // Depth-first search: a step is counted after all that it causes.
         let mut known = BTreeMap::new();
         let mut open = vec![(Step::Cluster(cluster), false)];
         while let Some((step, counted)) = open.pop() {
             let next = self.caused(graph, step);
             if counted {
-                // What is not known by now leads back to this step.
+                // A step that is not known by now leads back to this one.
                 let below = next.iter().map(|next| *known.get(next)?);
                 let steps: Option<u64> =
                     below.into_iter().try_fold(1u64, |sum, steps: Option<u64>| Some(sum.saturating_add(steps?)));
@@ -34,8 +35,8 @@ impl Analysis {
         known.get(&Step::Cluster(cluster)).copied().flatten()
     }
 
-    /// The steps that a step may cause, each once: a cluster that takes tokens from several others fires when all have come, and is
-    /// counted for each of them.
+    /// Steps that a step may cause. A cluster that takes tokens from several clusters fires once, when all tokens have
+    /// arrived, but is counted for each of them.
     fn caused(&self, graph: &Graph, step: Step) -> Vec<Step> {
         let after = |connection: &usize| {
             let c = &graph.connections[*connection];

@@ -1,28 +1,28 @@
-//! `#[cfg(…)]`: which items of a crate are there.
+//! `#[cfg(…)]`: the conditions under which items of a crate exist.
 
 use std::collections::BTreeSet;
 
-/// What is known of a condition.
+/// Knowledge about a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Truth {
-    /// It holds.
+    /// The condition holds.
     Yes,
-    /// It does not.
+    /// The condition does not hold.
     No,
-    /// Only rustc knows.
+    /// Only rustc can decide.
     Unknown,
 }
 
-/// What rustc says of the conditions of a compilation, one a line as `rustc --print cfg` prints them; empty if it was not asked.
+/// Conditions of a compilation that hold, as printed by `rustc --print cfg`, one per line. Empty if rustc was not run.
 #[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Conditions(pub BTreeSet<String>);
 
-/// How deep conditions nest.
+/// Largest depth of nested conditions; deeper ones are unknown.
 const MAX_DEPTH: usize = 16;
 
 impl Conditions {
-    /// Evaluates the tokens of a `cfg` in a crate with these features. In the package's own crates all that holds is known; a build
-    /// script may tell other ones more.
+    /// Evaluates the tokens of a `cfg` in a crate with these features. In the package's own crates all conditions are
+    /// known. For other crates, build scripts may set more.
     pub fn evaluate(&self, cfg: &str, features: &BTreeSet<String>, is_own: bool) -> Truth {
         let compact: String = cfg.chars().filter(|c| !c.is_whitespace()).collect();
         Evaluation { conditions: self, features, is_own }.part(&compact, 0)
@@ -49,7 +49,7 @@ impl Evaluation<'_> {
             return all(&parts(of));
         }
         if let Some(of) = inner("any(") {
-            // Not all are not.
+            // De Morgan: one of them holds if not all do not.
             return all(&parts(of).into_iter().map(Truth::not).collect::<Vec<_>>()).not();
         }
         self.plain(cfg)
@@ -61,7 +61,7 @@ impl Evaluation<'_> {
             Some(feature) => of(self.features.contains(feature)),
             None if cfg == "false" => Truth::No,
             None if cfg == "true" => Truth::Yes,
-            // What others see is never compiled as a test.
+            // A dependency is never compiled as a test.
             None if cfg == "test" && !self.is_own => Truth::No,
             None if cfg == "test" => of(self.conditions.0.contains(cfg)),
             None if self.conditions.0.is_empty() || !(self.is_own || is_of_target(cfg)) => Truth::Unknown,
@@ -70,7 +70,7 @@ impl Evaluation<'_> {
     }
 }
 
-/// Whether a condition is one that rustc sets for a target, whatever else it is told by flags and build scripts.
+/// Returns `true` for a condition that rustc sets for the target, and thus for all crates.
 fn is_of_target(cfg: &str) -> bool {
     cfg == "unix" || cfg == "windows" || cfg.starts_with("target_")
 }
@@ -93,7 +93,7 @@ fn all(parts: &[Truth]) -> Truth {
     }
 }
 
-/// The parts between the commas that are in no bracket.
+/// Parts between the commas outside of brackets.
 fn split(list: &str) -> Vec<&str> {
     let (mut depth, mut start, mut parts) = (0, 0, vec![]);
     for (i, c) in list.char_indices() {

@@ -1,21 +1,22 @@
-//! Constants of Rust that a text names by their path.
+//! Constants of Rust that a source file names by their path.
 
 use super::{Catalog, DefId, ItemKind, PRIMITIVES, Type, library, tree::Def};
 
-/// What a path to a constant leads to.
+/// Result of looking up the path of a constant.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Constant {
     /// A constant, as generated code spells it, and its type.
     Known(Vec<String>, Type),
-    /// It is there, but generated code cannot name it; where it stands.
+    /// A constant that generated code cannot name, and its place.
     Hidden(String),
-    /// Only rustc can say, for example because it is in a crate that is not scanned: the path as generated code spells it.
+    /// Only rustc can decide, for example about a crate that is not scanned. Contains the path as generated code spells
+    /// it.
     Unknown(Vec<String>),
-    /// There is none; the names that are there.
+    /// Not found. Contains the names that exist there.
     Missing(Vec<String>),
 }
 
-/// A constant that Rust gives a type of its own: `f64::MAX`.
+/// An associated constant of a primitive type: `f64::MAX`.
 pub fn of_primitive(of: &str, name: &str) -> Constant {
     let known: &[&str] = match of {
         "f32" | "f64" => &["EPSILON", "INFINITY", "MAX", "MIN", "MIN_POSITIVE", "NAN", "NEG_INFINITY"],
@@ -30,19 +31,19 @@ pub fn of_primitive(of: &str, name: &str) -> Constant {
     Constant::Known(path.into(), Type::Primitive(of.to_owned()))
 }
 
-/// Whether the words of Rust that are no names stand only where a path begins.
+/// Returns `true` if `self`, `Self`, `super` and `crate` occur only at the beginning of a path.
 pub fn is_path(path: &[String]) -> bool {
     !path.iter().skip(1).any(|word| ["self", "Self", "super", "crate"].contains(&word.as_str()))
 }
 
-/// A path to what is not known, as it stands in a text.
+/// An unknown path of a source file as generated code spells it.
 fn spelled(path: &[String]) -> Vec<String> {
     let relative = path.first().is_some_and(|first| first == "crate");
     (!relative).then(String::new).into_iter().chain(path.iter().cloned()).collect()
 }
 
 impl Catalog {
-    /// What `path` leads to.
+    /// Looks up a constant.
     pub fn constant(&self, path: &[String]) -> Constant {
         let unknown = || Constant::Unknown(spelled(path));
         let Some((last, parent)) = path.split_last().filter(|_| is_path(path)) else {
@@ -68,7 +69,7 @@ impl Catalog {
         }
         if !types.is_empty() {
             let known: Vec<String> = types.iter().flat_map(|def| self.associated_names(*def)).collect();
-            // A trait or a macro may give a type more than the scan sees.
+            // A trait or a macro may add constants to the type that the scan does not see.
             return if known.is_empty() { unknown() } else { Constant::Missing(known) };
         }
         if !self.defs(parent).is_empty() {
@@ -93,7 +94,7 @@ impl Catalog {
         }
     }
 
-    /// The type of a constant, or of a struct without fields.
+    /// Type of a constant, or of a struct without fields.
     fn type_of_constant(&self, def: DefId) -> Option<Type> {
         let Def { module, kind, name, .. } = &self.tree.defs[def];
         match kind {
@@ -103,7 +104,7 @@ impl Catalog {
         }
     }
 
-    /// The type of a variant, or of a constant in an `impl`.
+    /// Type of a variant, or of a constant in an `impl`.
     fn type_of_associated(&self, def: DefId, name: &str) -> Option<Type> {
         let Def { module, kind, name: of, .. } = &self.tree.defs[def];
         let this = || Type::Def(def, of.clone(), vec![]);
@@ -125,7 +126,7 @@ impl Catalog {
         variants.into_iter().chain(self.constants_of(def).map(|(name, _)| name.clone())).collect()
     }
 
-    /// The constants in all `impl` of a type that stand in its module.
+    /// Constants in the `impl` blocks of a type in its own module.
     fn constants_of(&self, def: DefId) -> impl Iterator<Item = &(String, super::Ty)> {
         let Def { module, name, .. } = &self.tree.defs[def];
         let all = self.tree.named("").iter().map(|def| &self.tree.defs[*def]);

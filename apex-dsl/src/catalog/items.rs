@@ -1,5 +1,5 @@
-//! One Rust file as the catalog sees it: modules, imports, types and node signatures. This is what is
-//! cached between runs, so it holds no syntax tree and knows nothing of other files.
+//! Items of one Rust file that matter to the catalog: modules, imports, types and node signatures. They are cached
+//! between runs, and so contain no syntax trees and do not depend on other files.
 
 use super::ty::Ty;
 use apex_signature as signature;
@@ -7,22 +7,22 @@ use quote::ToTokens as _;
 use serde::{Deserialize, Serialize};
 use syn::{Attribute, Item as Syn, UseTree, Visibility, spanned::Spanned};
 
-/// An item that matters.
+/// An item that matters to the catalog.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Item {
     /// Name in its module; empty for an `impl` or a glob import.
     pub name: String,
-    /// From where it can be named.
+    /// Visibility.
     pub seen: Seen,
     /// Line of its name, from 1.
     pub line: usize,
     /// Conditions (`#[cfg(…)]`) as tokens.
     pub cfg: Vec<String>,
-    /// What it is.
+    /// Kind of the item.
     pub kind: ItemKind,
 }
 
-/// From where an item can be named.
+/// Visibility of an item.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Seen {
     /// `pub`
@@ -31,16 +31,16 @@ pub enum Seen {
     InCrate,
     /// `pub(super)`, `pub(in path)`
     Within(Vec<String>),
-    /// From its own module and those inside.
+    /// Private: visible in its own module and those inside.
     InModule,
 }
 
-/// What an item is.
+/// Kind of an item.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum ItemKind {
     /// `mod name;` with its `#[path]`.
     ModuleFile(Option<String>),
-    /// `mod name { … }`, which ends in this line.
+    /// `mod name { … }` with its items and its last line.
     Module(Vec<Item>, usize),
     /// `use path as name`.
     Import(Vec<String>),
@@ -62,20 +62,20 @@ pub enum ItemKind {
     Methods(NodeMethods),
     /// `#![no_implicit_prelude]`
     NoPrelude,
-    /// `#![no_std]`; with a condition, the crate can also do without the standard library.
+    /// `#![no_std]`, possibly with a condition.
     NoStd {
-        /// There is no condition.
+        /// `true` without a condition.
         always: bool,
     },
     /// `extern crate name`
     Extern,
-    /// Something marked `#[node]` that is no node, and why.
+    /// An item that is marked `#[node]` but is not a node, and the reason.
     Refused(String),
-    /// `graph!("…")`
+    /// `graph!("…")`; empty if the graph is in the call.
     Call(String),
-    /// A macro call: what it makes cannot be seen. `true` if its tokens hold `#[node]`.
+    /// A macro call, whose items the scan does not see. `true` if its tokens contain `#[node]`.
     Macro(bool),
-    /// What is wrong with a file that is no Rust: nothing in it can be seen.
+    /// The error of a file that cannot be parsed. None of its items are known.
     Broken(String),
 }
 
@@ -84,13 +84,13 @@ pub enum ItemKind {
 pub struct TypeItem {
     /// Its fields, if it derives `Outputs`.
     pub outputs: Option<Vec<OutputField>>,
-    /// How many type arguments it takes at least and at most.
+    /// Smallest and largest number of type arguments.
     pub arguments: (usize, usize),
-    /// Which of them are numbers.
+    /// Positions of the type arguments that are numbers.
     pub numbers: Vec<usize>,
-    /// The variants without fields of an enum; a struct without fields stands for itself.
+    /// Variants without fields of an enum. A struct without fields counts as a variant with an empty name.
     pub values: Vec<String>,
-    /// The last words of the traits that it derives.
+    /// Last segments of the paths of the derived traits.
     pub derives: Vec<String>,
 }
 
@@ -101,7 +101,7 @@ pub struct OutputField {
     pub name: String,
     /// Type of its tokens.
     pub ty: Ty,
-    /// `Option<T>`: may be ⊥.
+    /// `true` for `Option<T>`: the token may be ⊥.
     pub maybe: bool,
     /// Documentation.
     pub docs: String,
@@ -116,13 +116,13 @@ pub struct NodeItem {
     pub generics: Vec<String>,
     /// Parameters.
     pub params: Vec<ParamItem>,
-    /// Whether it has state between firings.
+    /// `true` if the node has state.
     pub stateful: bool,
-    /// The types of its state.
+    /// Types of its state.
     pub state: Vec<Ty>,
     /// Bounds of its type parameters, as written: `T: Add<Output = T>`.
     pub bounds: Vec<String>,
-    /// Whether its events take activity away.
+    /// `true` if its tokens take activity away.
     pub deactivates: bool,
     /// The signature of a function node.
     pub process: Option<Process>,
@@ -133,19 +133,19 @@ pub struct NodeItem {
 pub struct NodeMethods {
     /// Name of the struct.
     pub node: String,
-    /// The type arguments as named in the `impl`, in the order of the struct's parameters.
+    /// Type arguments as named in the `impl`, in the order of the struct's parameters.
     pub generics: Vec<Ty>,
     /// Bounds of the type parameters of the `impl`.
     pub bounds: Vec<String>,
     /// `process`.
     pub process: Option<Process>,
-    /// Slots: name, token, documentation.
+    /// Slots.
     pub slots: Vec<SlotItem>,
-    /// Its `#[no_message]` method.
+    /// `#[no_message]` method.
     pub no_message: Option<String>,
-    /// Its `#[on_activate]` method.
+    /// `#[on_activate]` method.
     pub on_activate: Option<String>,
-    /// Its `#[on_deactivate]` method.
+    /// `#[on_deactivate]` method.
     pub on_deactivate: Option<String>,
 }
 
@@ -160,7 +160,7 @@ pub struct SlotItem {
     pub docs: String,
     /// Arguments in order: the token as an input, events, the context.
     pub args: Vec<ArgItem>,
-    /// `Result`: may fail.
+    /// `true` for a `Result`: the method may fail.
     pub fallible: bool,
 }
 
@@ -171,22 +171,22 @@ pub struct Process {
     pub args: Vec<ArgItem>,
     /// Type and tokens per firing of the returned value.
     pub returns: Option<(Ty, Option<usize>)>,
-    /// `Option`: may be ⊥.
+    /// `true` for an `Option`: the value may be ⊥.
     pub maybe: bool,
-    /// `Result`: may fail.
+    /// `true` for a `Result`: `process` may fail.
     pub fallible: bool,
 }
 
-/// An argument of `process`.
+/// An argument of `process` or of a slot.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ArgItem {
     /// Name of the port or parameter.
     pub name: String,
-    /// What it is.
+    /// Kind of the argument.
     pub kind: ArgKind,
 }
 
-/// What an argument is.
+/// Kind of an argument.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum ArgKind {
     /// `&T`, `&[T; N]`
@@ -214,9 +214,9 @@ pub struct ParamItem {
     pub ty: Ty,
     /// Unit of plain numbers.
     pub unit: Option<String>,
-    /// The value where a text gives none.
+    /// Value of instances without an argument for it.
     pub default: Option<Default>,
-    /// Smallest and largest value, and whether the largest belongs to it.
+    /// Smallest and largest value, and `true` if the largest is included.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
 }
 
@@ -232,7 +232,7 @@ pub enum Default {
 /// A literal of Rust.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Literal {
-    /// A number; the flag says whether it was written as an integer.
+    /// A number, and `true` if it was written as an integer.
     Number(f64, bool),
     /// `true`, `false`
     Bool(bool),
@@ -255,10 +255,10 @@ pub fn read(text: &str) -> Vec<Item> {
     }
 }
 
-/// How deep brackets nest: syn calls itself for each.
+/// Largest depth of nested brackets: syn calls itself for each level.
 const MAX_DEPTH: usize = 128;
 
-/// The line in which brackets nest too deep for syn. `<` is a bracket only as far as the next `;` or brace: it may be an operator.
+/// Line in which brackets nest too deep for syn. `<` may be an operator, so it counts only up to the next `;` or brace.
 fn too_deep(text: &str) -> Option<usize> {
     let (mut depth, mut angles) = (0usize, 0usize);
     let mut before = ' ';
@@ -378,7 +378,7 @@ fn entry(name: String, vis: &Visibility, attrs: &[Attribute], span: proc_macro2:
     Item { name: unraw(name), seen, line: span.start().line, cfg, kind }
 }
 
-/// A name without `r#`: paths are spelled anew for generated code.
+/// Name without `r#`, which generated code adds again where Rust needs it.
 fn plain(name: &syn::Ident) -> String {
     unraw(name.to_string())
 }
@@ -391,7 +391,7 @@ fn is_cfg(attr: &Attribute) -> bool {
     attr.path().is_ident("cfg")
 }
 
-/// How many arguments a generic type takes at least and at most.
+/// Smallest and largest number of arguments of a generic type.
 fn arguments_of(generics: &syn::Generics) -> (usize, usize) {
     let types = generics.params.iter().filter(|p| !matches!(p, syn::GenericParam::Lifetime(_)));
     let has_default = |p: &&syn::GenericParam| match p {
@@ -403,14 +403,14 @@ fn arguments_of(generics: &syn::Generics) -> (usize, usize) {
     (all - types.filter(has_default).count(), all)
 }
 
-/// Which arguments of a generic type are numbers.
+/// Positions of the arguments of a generic type that are numbers.
 fn numbers_of(generics: &syn::Generics) -> Vec<usize> {
     let params = generics.params.iter().filter(|p| !matches!(p, syn::GenericParam::Lifetime(_)));
     let numbers = params.enumerate().filter(|(_, p)| matches!(p, syn::GenericParam::Const(_)));
     numbers.map(|(position, _)| position).collect()
 }
 
-/// `impl`: the methods of a node, or constants.
+/// Adds the items of an `impl`: the methods of a node, or constants.
 fn implementation(item: &syn::ItemImpl, list: &mut Vec<Item>) {
     let plain = |kind| entry(String::new(), &Visibility::Inherited, &item.attrs, item.span(), kind);
     let Ty::Path(path, _) = Ty::from_syn(&item.self_ty) else { return };
@@ -438,7 +438,7 @@ fn macro_call(call: &syn::ItemMacro) -> Item {
     let file = is_graph.then(|| call.mac.parse_body::<syn::LitStr>().ok()).flatten();
     let kind = match file {
         Some(file) => ItemKind::Call(file.value()),
-        // A graph makes nodes, but none that a text could name.
+        // A graph makes nodes, but a source file cannot name them.
         None if is_graph => ItemKind::Call(String::new()),
         None => ItemKind::Macro(call.mac.tokens.to_string().replace(' ', "").contains("#[node]")),
     };
@@ -529,7 +529,7 @@ fn output_field(field: &syn::Field) -> OutputField {
     }
 }
 
-/// The last words of the traits that a type derives.
+/// Last segments of the paths of the traits that a type derives.
 fn derives(attrs: &[Attribute]) -> Vec<String> {
     let lists = attrs.iter().filter(|a| a.path().is_ident("derive")).filter_map(|a| {
         a.parse_args_with(syn::punctuated::Punctuated::<syn::Path, syn::Token![,]>::parse_terminated).ok()
@@ -537,7 +537,7 @@ fn derives(attrs: &[Attribute]) -> Vec<String> {
     lists.flatten().filter_map(|path| path.segments.last().map(|segment| plain(&segment.ident))).collect()
 }
 
-/// The bounds of type parameters, as a person would write them.
+/// Bounds of type parameters, with the usual spaces.
 fn bounds(generics: &syn::Generics) -> Vec<String> {
     let declared = generics.type_params().filter(|p| !p.bounds.is_empty()).map(|p| {
         let (name, bounds) = (&p.ident, &p.bounds);

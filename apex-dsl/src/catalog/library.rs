@@ -1,14 +1,14 @@
-//! Types and constants of crates that are not scanned, as far as texts may name them by their path: the standard library, and
-//! the runtime. All others get a name in Rust first.
+//! Types and constants of the standard library and of the runtime that source files may name by their path. These
+//! crates are not scanned. Their other items, and those of other such crates, need a name in Rust first.
 
 use super::{Constant, DURATION, Type, constants::of_primitive};
 
-/// The names of the standard library.
+/// Names of the standard library.
 const STANDARD: [&str; 3] = ["std", "core", "alloc"];
 /// The crate of the runtime.
 const RUNTIME: &str = "apex_rt";
 
-/// Types of the standard library behind the name of its crate, with the fewest and the most type arguments.
+/// Types of the standard library by their path in it, with the smallest and largest number of type arguments.
 const TYPES: [(&str, usize, usize); 44] = [
     ("borrow::Cow", 1, 1),
     ("boxed::Box", 1, 1),
@@ -65,24 +65,25 @@ const OF_FLOATS: [&str; 19] = [
 ];
 const OF_DURATION: [&str; 2] = ["MAX", "ZERO"];
 
-/// Whether a path begins in a crate of which only the names here are known.
+/// Returns `true` if a path begins with a crate of which only the names in this file are known.
 pub fn is_listed(path: &[String]) -> bool {
     path.first().is_some_and(|name| STANDARD.contains(&name.as_str()) || name == RUNTIME)
 }
 
-/// Whether the name of a type that is not scanned is one of the standard library: it is no other name of a number or a list.
+/// Returns `true` if the name of a type that is not scanned is one of the standard library. Such a type is not an alias
+/// of a number or a list.
 pub fn is_standard(name: &str) -> bool {
     super::STD.contains(&name) || name.split("::").next().is_some_and(|krate| STANDARD.contains(&krate))
 }
 
-/// The name without a path of a type that needs no import.
+/// Name without a path of a type that needs no import.
 pub fn short(path: &[String]) -> Option<&'static str> {
     let [krate, _, name] = path else { return None };
     let is_standard = STANDARD.contains(&krate.as_str()) && type_arguments(path).is_some();
     super::STD.into_iter().find(|short| is_standard && short == name)
 }
 
-/// The fewest and the most type arguments of the type that a path names in one of these crates, if it is listed.
+/// Smallest and largest number of type arguments of a listed type.
 pub fn type_arguments(path: &[String]) -> Option<(usize, usize)> {
     let (krate, rest) = path.split_first()?;
     let rest = rest.join("::");
@@ -92,7 +93,7 @@ pub fn type_arguments(path: &[String]) -> Option<(usize, usize)> {
     TYPES.iter().find(|(name, ..)| *name == rest).map(|(_, fewest, most)| (*fewest, *most))
 }
 
-/// The constant that a path names in one of these crates.
+/// Looks up the constant that a path names in one of these crates.
 pub fn constant(path: &[String]) -> Constant {
     let words: Vec<&str> = path.iter().map(String::as_str).collect();
     let known = |names: &[&str]| Constant::Missing(names.iter().map(|name| (*name).to_owned()).collect());

@@ -1,5 +1,5 @@
-//! Node signatures, read from the Rust sources of the node crates. rustc has the last word on types: the
-//! catalog calls a mismatch only where it has seen both definitions.
+//! Node signatures, read from the Rust sources of the node crates. rustc has the last word on types: the catalog
+//! reports a mismatch only if it has seen both definitions.
 
 mod cfg;
 mod constants;
@@ -33,38 +33,38 @@ use tree::{Def, Tree};
 /// A crate to scan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CrateSpec {
-    /// The name under which code refers to it.
+    /// Name by which code refers to the crate.
     pub name: String,
-    /// Its root file.
+    /// Root file.
     pub root: PathBuf,
     /// Enabled features.
     pub features: BTreeSet<String>,
     /// Names of its dependencies that are not scanned.
     pub externs: BTreeSet<String>,
-    /// Its dependencies among the scanned crates: name in its code → index.
+    /// Dependencies among the scanned crates: name in its code → index.
     pub dependencies: BTreeMap<String, usize>,
 }
 
-/// Which crates there are, and from where the graph is seen.
+/// Crates to scan, and the place from which the graph refers to them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Crates {
-    /// Files below this folder are named by their path in it.
+    /// Folder to which the names of files are relative.
     pub root: PathBuf,
     /// All crates to scan.
     pub all: Vec<CrateSpec>,
     /// The crate that the generated code becomes part of.
     pub here: usize,
-    /// The crates that `crate::` in a text may mean: the package's own, `here` first.
+    /// Crates of the package, `here` first: `crate::` in a source file refers to one of them.
     pub own: Vec<usize>,
-    /// Where generated code stands.
+    /// Place of the generated code.
     pub site: Site,
-    /// What rustc says of the conditions of the compilation.
+    /// Conditions of the compilation, as reported by rustc.
     pub conditions: Conditions,
 }
 
-/// A world with Rust in it.
+/// A world with Rust files.
 pub trait RustFiles: World {
-    /// The items of a Rust file; a world may remember them between runs.
+    /// The items of a Rust file. A world may cache them between runs.
     ///
     /// # Errors
     /// As [`World::read`].
@@ -73,31 +73,31 @@ pub trait RustFiles: World {
     }
 }
 
-/// A node signature.
+/// Number of a node signature.
 pub type SignatureId = usize;
 
-/// A node type: what `#[node]` declares.
+/// Signature of a node type, as declared by `#[node]` or by a state machine.
 #[derive(Debug, Clone, Default)]
 pub struct Signature {
-    /// Its name.
+    /// Name of the node type.
     pub name: String,
     /// Documentation.
     pub docs: String,
-    /// Where it is declared.
+    /// File of the declaration.
     pub file: PathBuf,
     /// Line of its name, from 1.
     pub line: usize,
     /// Path by which generated code reaches it.
     pub path: Vec<String>,
-    /// Whether it is a function (else a struct).
+    /// `true` for a function, `false` for a struct.
     pub is_function: bool,
     /// Names of type parameters and constants.
     pub generics: Vec<String>,
     /// Bounds of its type parameters, as written.
     pub bounds: Vec<String>,
-    /// Whether firings depend on earlier ones.
+    /// `true` if firings depend on earlier ones.
     pub stateful: bool,
-    /// The types of its state.
+    /// Types of its state.
     pub state: Vec<Type>,
     /// Parameters.
     pub params: Vec<ParamSig>,
@@ -105,37 +105,37 @@ pub struct Signature {
     pub ports: Vec<PortSig>,
     /// Arguments of `process`; `None` if it has none.
     pub process: Option<Vec<ArgSig>>,
-    /// What `process` returns.
+    /// Returned value of `process`.
     pub returns: ReturnSig,
-    /// The method that is called instead of `process` when a mandatory input holds ⊥.
+    /// Method that is called instead of `process` when a mandatory input holds ⊥.
     pub no_message: Option<String>,
-    /// Its slots.
+    /// Slots.
     pub slots: Vec<SlotSig>,
-    /// The method that is called when the node becomes active.
+    /// Method that is called when the node becomes active.
     pub on_activate: Option<String>,
-    /// The method that is called when the node is no longer active.
+    /// Method that is called when the node becomes inactive.
     pub on_deactivate: Option<String>,
-    /// Whether its events take activity away instead of passing it on.
+    /// `true` if its tokens take activity away instead of passing it on.
     pub deactivates: bool,
-    /// What it cannot do without, and why.
+    /// Part of the Rust libraries that the node needs, and the reason.
     pub needs: Option<(Need, String)>,
 }
 
-/// A slot of a node type: a method.
+/// A slot of a node type.
 #[derive(Debug, Clone)]
 pub struct SlotSig {
-    /// The port.
+    /// Port, by its number in [`Signature::ports`].
     pub port: usize,
-    /// The method that is called.
+    /// Method that is called.
     pub method: String,
-    /// Its arguments: the port itself stands for the token.
+    /// Arguments. The port of the slot stands for the token.
     pub args: Vec<ArgSig>,
-    /// `Result`: may fail.
+    /// `true` for a `Result`: the method may fail.
     pub fallible: bool,
 }
 
 impl Signature {
-    /// Whether the tokens of a firing at this port stand in an array.
+    /// Returns `true` if the tokens of a firing at this port are in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1
     }
@@ -152,9 +152,9 @@ pub struct ParamSig {
     pub ty: Type,
     /// Unit of plain numbers.
     pub unit: Option<String>,
-    /// The value where a text gives none.
+    /// Value of instances without an argument for it.
     pub default: Option<DefaultValue>,
-    /// Smallest and largest value, and whether the largest belongs to it.
+    /// Smallest and largest value, and `true` if the largest is included.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
 }
 
@@ -169,20 +169,20 @@ pub struct PortSig {
     pub ty: Type,
     /// Tokens per firing.
     pub rate: usize,
-    /// Input: ⊥ reaches the node as `None`. Output: may be ⊥ although the node fired.
+    /// For an input: ⊥ reaches the node as `None`. For an output: it may be ⊥ although the node fired.
     pub optional: bool,
-    /// The token type in generated code: `Input<index>`, `Output<index>`, `Slot<index>` or `Trigger<index>` of the
-    /// node, and the field of a struct of outputs.
+    /// Number among the ports of its kind: in generated code the token type is `Input<index>`, `Output<index>`,
+    /// `Slot<index>` or `Trigger<index>` of the node. All fields of a struct of outputs have the same number.
     pub index: usize,
-    /// The field of a `#[derive(Outputs)]` struct.
+    /// Field of a `#[derive(Outputs)]` struct: its number and name.
     pub field: Option<(usize, String)>,
-    /// Whether that field is an `Option`.
+    /// `true` if this field is an `Option`.
     pub field_is_option: bool,
     /// Documentation.
     pub docs: String,
 }
 
-/// An argument of `process`: the port, the context or the parameter that it stands for.
+/// An argument of `process` or of a slot: the port, the context or the parameter that it stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArgSig {
     /// A port, by its number in [`Signature::ports`].
@@ -193,16 +193,16 @@ pub enum ArgSig {
     Param(usize),
 }
 
-/// What `process` returns.
+/// Returned value of `process`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ReturnSig {
-    /// Whether there is a value.
+    /// `true` if there is a value.
     pub value: bool,
-    /// `Option`
+    /// `true` for an `Option`.
     pub maybe: bool,
-    /// `Result`
+    /// `true` for a `Result`.
     pub fallible: bool,
-    /// A struct of outputs.
+    /// `true` for a struct of outputs.
     pub several: bool,
 }
 
@@ -214,7 +214,7 @@ pub struct Catalog {
     tree: Tree,
     crates: Crates,
     by_def: BTreeMap<DefId, SignatureId>,
-    /// The module in which generated code stands now; `None` is outside of all scanned crates.
+    /// Current module of the generated code; `None` is outside of all scanned crates.
     site: Option<ModuleId>,
     paths: BTreeMap<DefId, Vec<String>>,
 }
@@ -230,29 +230,29 @@ impl Catalog {
         catalog
     }
 
-    /// The node types that are declared in Rust.
+    /// Node types that are declared in Rust.
     pub fn rust_nodes(&self) -> &[Signature] {
         &self.signatures[..self.by_def.len()]
     }
 
-    /// Forgets the machines of texts that were checked before.
+    /// Removes the state machines of source files that were checked before.
     pub fn forget_machines(&mut self) {
         self.signatures.truncate(self.by_def.len());
     }
 
-    /// Makes room for `count` machines and returns the number of the first.
+    /// Makes room for `count` state machines and returns the number of the first.
     pub fn reserve_machines(&mut self, count: usize) -> SignatureId {
         let first = self.signatures.len();
         self.signatures.extend((0..count).map(|_| Signature::default()));
         first
     }
 
-    /// Makes a state machine a node.
+    /// Stores the signature of a state machine, whose number is reserved.
     pub fn add_machine(&mut self, id: SignatureId, signature: Signature) {
         self.signatures[id] = signature;
     }
 
-    /// `name`, if it is a type of a crate other than the runtime in a module.
+    /// Returns `name` if it names a type in a module, but not one of the runtime.
     fn own_type<'n>(&self, module: ModuleId, name: &'n str) -> Option<&'n str> {
         let found = self.tree.resolve(module, &[name.to_owned()]);
         let is_own = |def: &Def| {
@@ -262,6 +262,8 @@ impl Catalog {
         found.iter().any(|def| is_own(&self.tree.defs[*def])).then_some(name)
     }
 
+    /// Makes a signature of each node definition. Definitions that `#[node]` would misunderstand become
+    /// [`ItemKind::Refused`].
     fn collect(&mut self) {
         let mut methods: BTreeMap<(ModuleId, &str), Vec<&NodeMethods>> = BTreeMap::new();
         for def in &self.tree.defs {
@@ -293,7 +295,8 @@ impl Catalog {
         }
     }
 
-    /// The type of an argument that only has the name of one of Apex: `#[node]` knows these by their names.
+    /// Name of a type of Apex among the arguments that means another type here. `#[node]` knows these types by their
+    /// names only.
     fn other_type(&self, def: &Def, methods: &[&NodeMethods]) -> Option<&'static str> {
         let process = match &def.kind {
             ItemKind::Function(node) => node.process.as_ref(),
@@ -321,7 +324,7 @@ impl Catalog {
             ports: vec![],
             events: 0,
         };
-        // The `impl` may call the parameters of the struct by other names.
+        // The `impl` may use other names for the type parameters of the struct.
         let with_process = methods.iter().find(|m| m.process.is_some());
         let renamed: Vec<(String, String)> = with_process
             .map(|m| {
@@ -338,7 +341,7 @@ impl Catalog {
         let ports = builder.ports;
         let params: Vec<ParamSig> = node.params.iter().map(|p| self.param(p, def.module, &node.generics)).collect();
         let state: Vec<Type> = node.state.iter().map(|ty| self.type_of(ty, def.module, &node.generics)).collect();
-        // Most crates lack nothing.
+        // Most crates can use everything.
         let needs = self.lacks().and_then(|_| {
             let ports = ports.iter().map(|p| p.ty.needs());
             self.needs(def, ports.chain(params.iter().map(|p| p.ty.needs())).chain(state.iter().map(Type::needs)))
@@ -367,7 +370,8 @@ impl Catalog {
         }
     }
 
-    /// What a node cannot do without whose tokens, parameters and state need this.
+    /// Part of the Rust libraries that a node needs, and the reason. `types` are the needs of its tokens, parameters
+    /// and state.
     fn needs(&self, def: &Def, types: impl Iterator<Item = Option<(Need, String)>>) -> Option<(Need, String)> {
         let krate = self.tree.modules[def.module].krate;
         let name = &self.crates.all[krate].name;
@@ -384,7 +388,8 @@ impl Catalog {
         Some((need, format!("it has to do with `{of}`")))
     }
 
-    /// What the crate that the program becomes part of does without, if it says so.
+    /// Smallest part of the Rust libraries that the crate of the program does without. `None` if it uses the standard
+    /// library.
     pub fn lacks(&self) -> Option<Need> {
         let here = self.tree.does_without.get(self.crates.here)?;
         match (here.lacks_std, here.has_heap) {
@@ -394,7 +399,7 @@ impl Catalog {
         }
     }
 
-    /// On which condition something of a crate exists that is not there now, if it does.
+    /// Describes the condition under which one of these names would exist, if an item with this name was left out.
     pub fn left_out(&self, names: &[&str]) -> Option<String> {
         let (krate, name, cfg) = self.tree.left_out.iter().find(|(_, name, _)| names.contains(&name.as_str()))?;
         Some(format!("`{name}` of `{}` exists only with `{cfg}`", self.crates.all[*krate].name))
@@ -411,12 +416,12 @@ impl Catalog {
         }
     }
 
-    /// The node types that `path` names where a text stands.
+    /// Node types that `path` names in a source file.
     pub fn nodes(&self, path: &[String]) -> Vec<SignatureId> {
         self.defs(path).iter().filter_map(|def| self.by_def.get(def).copied()).collect()
     }
 
-    /// The types that `path` names, as [`Catalog::nodes`].
+    /// Types that `path` names in a source file.
     pub fn types(&self, path: &[String]) -> Vec<DefId> {
         self.defs(path)
             .into_iter()
@@ -429,7 +434,7 @@ impl Catalog {
         found.unwrap_or_default()
     }
 
-    /// What `path` names in one of the package's own crates. A name without a path may stand in any module.
+    /// Definitions that `path` names in one of the package's own crates. A name without a path may be in any module.
     fn defs_in(&self, krate: usize, path: &[String]) -> Vec<DefId> {
         let found = self.tree.resolve(self.tree.roots[krate], path);
         match path {
@@ -441,18 +446,18 @@ impl Catalog {
         }
     }
 
-    /// Whether `name` is a crate that a text can import from.
+    /// Returns `true` if `name` is a scanned crate that a source file can import from.
     pub fn is_crate(&self, name: &str) -> bool {
         name == "crate" || self.crates.own.iter().any(|own| self.crates.all[*own].dependencies.contains_key(name))
     }
 
-    /// Whether `name` is a crate that is not scanned: its types can be named, and nothing is known of them.
+    /// Returns `true` if `name` is a crate that is not scanned: its types can be named, but nothing else is known.
     pub fn is_extern(&self, name: &str) -> bool {
         ["std", "core", "alloc"].contains(&name)
             || self.crates.own.iter().any(|own| self.crates.all[*own].externs.contains(name))
     }
 
-    /// Whether the crate of the call does without preludes, and so without the attributes of tools.
+    /// Returns `true` if the crate of the program has no preludes, and so no attributes of tools.
     pub fn lacks_prelude(&self) -> bool {
         self.tree.does_without.get(self.crates.here).is_some_and(|without| without.lacks_prelude)
     }
@@ -462,7 +467,7 @@ impl Catalog {
         self.tree.named(name).to_vec()
     }
 
-    /// Why what is marked `#[node]` and called so is no node, and where it stands.
+    /// For an item with this name that is marked `#[node]` but is not a node: the reason, the file and the line.
     pub fn refused(&self, name: &str) -> Option<(&str, &Path, usize)> {
         self.tree.named(name).iter().find_map(|def| match &self.tree.defs[*def] {
             Def { kind: ItemKind::Refused(reason), file, line, .. } => {
@@ -472,7 +477,7 @@ impl Catalog {
         })
     }
 
-    /// Names that may stand behind `path`, for suggestions.
+    /// Names that may follow `path`, for suggestions.
     pub fn names_in(&self, path: &[String]) -> Vec<&str> {
         self.crates.own.iter().flat_map(|own| self.tree.names_in(self.tree.roots[*own], path)).collect()
     }
@@ -482,7 +487,7 @@ impl Catalog {
         &self.tree.hidden
     }
 
-    /// What is wrong with the Rust files that cannot be read, each as a sentence.
+    /// Errors of the Rust files that cannot be read, each as a sentence.
     pub fn broken(&self) -> impl Iterator<Item = String> {
         self.tree.broken.iter().map(|(file, line, reason)| {
             let file = file.strip_prefix(&self.crates.root).unwrap_or(file).display();
@@ -490,38 +495,38 @@ impl Catalog {
         })
     }
 
-    /// Whether a definition is a type.
+    /// Returns `true` if a definition is a type.
     pub fn is_type(&self, def: DefId) -> bool {
         matches!(self.tree.defs[def].kind, ItemKind::Type(_) | ItemKind::Alias(_))
     }
 
-    /// How many type arguments a type takes at least and at most.
+    /// Smallest and largest number of type arguments of a type.
     pub fn arguments(&self, def: DefId) -> (usize, usize) {
         match &self.tree.defs[def].kind {
             ItemKind::Type(ty) => ty.arguments,
             ItemKind::Alias(Some(_)) => (0, 0),
-            // A generic alias is not looked into.
+            // The parameters of a generic alias are not known.
             _ => (0, usize::MAX),
         }
     }
 
-    /// Whether an argument of a type may be a number.
+    /// Returns `true` if an argument of a type may be a number.
     pub fn takes_number(&self, def: DefId, argument: usize) -> bool {
         match &self.tree.defs[def].kind {
             ItemKind::Type(ty) => ty.numbers.contains(&argument),
-            // A generic alias is not looked into.
+            // The parameters of a generic alias are not known.
             _ => true,
         }
     }
 
-    /// The names of the types in the package's own crates.
+    /// Names of the types in the package's own crates.
     pub fn own_types(&self) -> impl Iterator<Item = &str> {
         let is_own = |def: &&Def| self.crates.own.contains(&self.tree.modules[def.module].krate);
         let is_type = |def: &&Def| matches!(def.kind, ItemKind::Type(_) | ItemKind::Alias(_));
         self.tree.defs.iter().filter(is_own).filter(is_type).map(|def| def.name.as_str())
     }
 
-    /// Whether a macro in the module `parent` may make what the scan does not see.
+    /// Returns `true` if the module `parent` may have items that the scan does not see, for example from a macro.
     pub fn may_hide(&self, parent: &[String]) -> bool {
         self.crates.own.iter().any(|own| self.tree.may_hide(self.tree.roots[*own], parent))
     }
@@ -531,19 +536,19 @@ impl Catalog {
         &self.tree.defs[def].name
     }
 
-    /// Where a definition stands: file, and line from 1.
+    /// Place of a definition: file, and line from 1.
     pub fn place(&self, def: DefId) -> (PathBuf, usize) {
         let def = &self.tree.defs[def];
         (def.file.strip_prefix(&self.crates.root).unwrap_or(&def.file).to_owned(), def.line)
     }
 
-    /// The crates that a text can import from.
+    /// Scanned crates that a source file can import from.
     pub fn crate_names(&self) -> BTreeSet<&str> {
         let dependencies = self.crates.own.iter().flat_map(|own| self.crates.all[*own].dependencies.keys());
         dependencies.map(String::as_str).collect()
     }
 
-    /// How generated code reaches a definition.
+    /// Path by which generated code reaches a definition.
     pub fn path(&self, def: DefId) -> Option<&[String]> {
         self.paths.get(&def).map(Vec::as_slice)
     }
@@ -556,7 +561,7 @@ struct SignatureBuilder<'a> {
     generics: &'a [String],
     renamed: &'a [(String, String)],
     ports: Vec<PortSig>,
-    /// How many events there are so far.
+    /// Number of events among the ports.
     events: usize,
 }
 
@@ -647,7 +652,7 @@ impl SignatureBuilder<'_> {
         })
     }
 
-    /// An event is one port, however many methods may trigger it.
+    /// Number of the port of an event. An event is one port, however many methods may trigger it.
     fn event(&mut self, name: &str, ty: &Ty) -> usize {
         let kind = crate::syntax::tree::PortKind::Event;
         if let Some(known) = self.ports.iter().position(|p| p.kind == kind && p.name == name) {

@@ -1,20 +1,20 @@
-//! Where generated code stands, and what it can reach from there.
+//! Place of the generated code, and the items that it can reach from there.
 
 use super::{Catalog, Crates, DefId, ModuleId, Tree};
 use std::path::{Path, PathBuf};
 
-/// Where generated code stands.
+/// Place of the generated code.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Site {
-    /// In the crate that is compiled: in its root module, until [`Catalog::stand_at`] says more.
+    /// The crate that is compiled: its root module, unless [`Catalog::stand_at`] determines a module.
     #[default]
     Crate,
-    /// Where the package calls `graph!` with the text that is checked, or, if it does not, in a program of its own that is made for the
-    /// text (`apex run`, `apex test`), which sees what is public in libraries.
+    /// The module in which the package calls `graph!` with the checked source file. Without such a call, a program that
+    /// is made for the source file (`apex run`, `apex test`), which can reach only public items of libraries.
     Text,
 }
 
-/// The module of the site, as far as it is known before a text is.
+/// Module of the site, if it is known without a source file.
 pub fn site(tree: &Tree, crates: &Crates) -> Option<ModuleId> {
     match &crates.site {
         Site::Crate => tree.roots.get(crates.here).copied(),
@@ -23,7 +23,7 @@ pub fn site(tree: &Tree, crates: &Crates) -> Option<ModuleId> {
 }
 
 impl Catalog {
-    /// The path of generated code as a text of the package writes it: its own crates are `crate`.
+    /// A path of generated code as a source file of the package spells it: with `crate` for its own crates.
     pub fn written(&self, path: &[String]) -> Vec<String> {
         let is_own = |name: &String| self.crates.own.iter().any(|own| self.crates.all[*own].name == *name);
         match path {
@@ -35,7 +35,7 @@ impl Catalog {
         }
     }
 
-    /// Looks from where the text in `file` is compiled.
+    /// Changes the site to the place where the source file `file` is compiled.
     pub fn look_from(&mut self, file: &Path) {
         if self.crates.site != Site::Text {
             return;
@@ -44,12 +44,13 @@ impl Catalog {
         self.look(site);
     }
 
-    /// Looks from the module that a line of a file belongs to: that of a call of `graph!` in the crate that is compiled.
+    /// Changes the site to the module of a line of a file, which calls `graph!` in the crate that is compiled.
     pub fn stand_at(&mut self, file: &Path, line: usize) {
         let root = self.tree.roots.get(self.crates.here).copied();
         self.look(self.tree.module_at(self.crates.here, file, line).or(root));
     }
 
+    /// Changes the site, and the paths by which generated code reaches definitions.
     fn look(&mut self, site: Option<ModuleId>) {
         if site == self.site {
             return;
@@ -62,8 +63,8 @@ impl Catalog {
         }
     }
 
-    /// The modules that call `graph!` with the text in `file`: its name is looked for beside the source file, then in the
-    /// folder of the package, which is around it.
+    /// Modules that call `graph!` with the source file `file`. The name in the call is relative to the folder of the
+    /// Rust file, or to a folder around it, such as that of the package.
     fn calls_of<'a>(&'a self, file: &'a Path) -> impl Iterator<Item = ModuleId> + 'a {
         let own = |module: ModuleId| self.crates.own.contains(&self.tree.modules[module].krate);
         let calls = self.tree.calls.iter().filter(move |(module, _, name)| own(*module) && !name.is_empty());
@@ -72,7 +73,8 @@ impl Catalog {
     }
 }
 
-/// Whether two paths lead to one file, as far as their words say: `src/../a.afg` is `a.afg`, and one may be relative.
+/// Returns `true` if two paths lead to one file, judged by their text: `src/../a.afg` is `a.afg`, and `b` may be
+/// relative.
 fn is_same(a: &Path, b: &Path) -> bool {
     use std::path::Component;
     let plain = |path: &Path| {

@@ -1,20 +1,20 @@
-//! Traits of the standard library that types certainly have. Of all others only rustc knows.
+//! Traits of the standard library that types certainly have. Only rustc can decide about all others.
 
 use super::{Catalog, Type, items::ItemKind};
 
-/// A trait that generated code asks of tokens and of nodes.
+/// A trait that generated code requires of tokens and nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trait {
-    /// Tokens are copied where they are kept.
+    /// Tokens that are stored are cloned.
     Clone,
-    /// State has a value to start with.
+    /// State has an initial value.
     Default,
-    /// Tokens and nodes of another thread group are moved to its thread.
+    /// Tokens and nodes of other thread groups are moved to their threads.
     Send,
 }
 
 impl Catalog {
-    /// Whether a type certainly has a trait; `false` also where the scan cannot tell.
+    /// Returns `true` if a type certainly has a trait, `false` if not, or if the scan cannot decide.
     pub fn has_trait(&self, ty: &Type, wanted: Trait) -> bool {
         let all = |types: &[Type]| types.iter().all(|ty| self.has_trait(ty, wanted));
         match ty {

@@ -1,4 +1,4 @@
-//! The module tree of the scanned crates, and what a path means in it.
+//! The module tree of the scanned crates, and the lookup of paths in it.
 
 use super::{
     CrateSpec, RustFiles,
@@ -12,30 +12,31 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A module, by number.
+/// Number of a module in [`Tree::modules`].
 pub type ModuleId = usize;
-/// A definition, by number.
+/// Number of a definition in [`Tree::defs`].
 pub type DefId = usize;
 
-/// How many imports are followed for one name.
+/// Largest number of imports that are followed for one name.
 const MAX_IMPORTS: usize = 32;
-/// How deep modules nest.
+/// Largest depth of nested modules.
 const MAX_MODULES: usize = 64;
-/// Most files that are read.
+/// Largest number of files that are read.
 const MAX_FILES: usize = 20_000;
 
 /// A module.
 #[derive(Debug)]
 pub struct Module {
-    /// The crate, by number.
+    /// Number of its crate.
     pub krate: usize,
-    /// What it exists only with.
+    /// Feature without which the module does not exist.
     need: Option<Need>,
     parent: Option<ModuleId>,
-    /// The file, and the lines of it that are the module, if it is not all of it.
+    /// File of the module.
     file: PathBuf,
+    /// First and last line of an inline module.
     lines: Option<(usize, usize)>,
-    /// A macro call in it may make what the scan cannot see.
+    /// `true` if a macro call in the module may make items that the scan does not see.
     is_open: bool,
     names: BTreeMap<String, Vec<Entry>>,
     globs: Vec<(Vec<String>, Option<ModuleId>)>,
@@ -43,7 +44,7 @@ pub struct Module {
 
 #[derive(Debug)]
 struct Entry {
-    /// The module in which, with those inside, it can be named; `None` is everywhere.
+    /// The outermost module in which the name is visible; `None` if it is visible everywhere.
     within: Option<ModuleId>,
     target: Target,
 }
@@ -55,20 +56,20 @@ enum Target {
     Import(Vec<String>),
 }
 
-/// What a crate does without.
+/// Parts of the Rust libraries that a crate does without.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Without {
-    /// It can be built without the standard library.
+    /// `true` if the crate can be built without the standard library.
     pub can_lack_std: bool,
     /// `#![no_implicit_prelude]`
     pub lacks_prelude: bool,
-    /// It is never built with it.
+    /// `true` if the crate is always built without the standard library.
     pub lacks_std: bool,
-    /// It uses `alloc`.
+    /// `true` if the crate uses `alloc`.
     pub has_heap: bool,
 }
 
-/// What something cannot do without.
+/// Part of the Rust libraries that an item needs, or the feature for it without which the item does not exist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Need {
     /// A heap.
@@ -77,20 +78,20 @@ pub enum Need {
     Std,
 }
 
-/// A type or node that was seen.
+/// A definition that the scan found, such as a type, a constant or a node.
 #[derive(Debug)]
 pub struct Def {
-    /// What it exists only with, by the conditions on it and on the modules around it.
+    /// Feature without which the definition does not exist, by its conditions and those of the modules around it.
     pub need: Option<Need>,
-    /// Its name.
+    /// Name of the definition.
     pub name: String,
-    /// Where it is defined.
+    /// Module of the definition.
     pub module: ModuleId,
     /// The file.
     pub file: PathBuf,
     /// The line, from 1.
     pub line: usize,
-    /// What it is.
+    /// Kind of the item.
     pub kind: ItemKind,
 }
 
@@ -101,34 +102,36 @@ pub struct Tree {
     pub modules: Vec<Module>,
     /// The root module of each crate.
     pub roots: Vec<ModuleId>,
-    /// What was found.
+    /// Definitions.
     pub defs: Vec<Def>,
-    /// For each crate what it can do without.
+    /// Parts of the Rust libraries that each crate does without.
     pub does_without: Vec<Without>,
-    /// Items that the enabled features leave out: the crate, the name, and the condition.
+    /// Items whose condition does not hold: the crate, the name, and the condition.
     pub left_out: Vec<(usize, String, String)>,
     /// Files in which a macro hides nodes.
     pub hidden: Vec<PathBuf>,
-    /// Calls of `graph!` with a file: the module, the folder of its file, and the name of the text.
+    /// Calls of `graph!`: the module, the folder of its file, and the name of the source file, which is empty if the
+    /// graph is in the call.
     pub calls: Vec<(ModuleId, PathBuf, String)>,
     by_name: BTreeMap<String, Vec<DefId>>,
     files: usize,
-    /// Files that are no Rust: the line of what is wrong, and what.
+    /// Files that cannot be parsed: the file, the line of the error, and the error.
     pub broken: Vec<(PathBuf, usize, String)>,
     names: Vec<String>,
     dependencies: Vec<BTreeMap<String, usize>>,
 }
 
-/// A search for what a path names.
+/// A search for the definitions that a path names.
 struct Walk<'a> {
     tree: &'a Tree,
-    /// Where which rest of the path has been looked for: modules that import all of each other lead there in many ways.
+    /// Modules that have been searched, each with the rest of the path. Modules that import everything from each other
+    /// are reached in many ways.
     seen: BTreeSet<(ModuleId, Vec<String>)>,
     found: BTreeSet<DefId>,
 }
 
 impl Walk<'_> {
-    /// `path` as Rust that stands in `module` means it.
+    /// Follows `path` as Rust code in `module` means it.
     fn path(&mut self, module: ModuleId, path: &[String], imports: usize) {
         let [first, rest @ ..] = path else { return };
         if imports > MAX_IMPORTS {
@@ -159,7 +162,7 @@ impl Walk<'_> {
         }
     }
 
-    /// `path` relative to what stands in `module`.
+    /// Follows `path` from the names in `module`.
     fn enter(&mut self, module: ModuleId, path: &[String], imports: usize) {
         let [first, rest @ ..] = path else { return };
         if !self.seen.insert((module, path.to_vec())) {
@@ -184,13 +187,14 @@ impl Walk<'_> {
                 }
             }
         }
-        // What a module names itself hides what it imports without a name.
+        // Names of the module itself hide names from glob imports.
         if !rest.is_empty() && tree.modules[module].names.contains_key(first) {
             return;
         }
         for (glob, _) in &tree.modules[module].globs {
             if imports < MAX_IMPORTS && glob.first().is_some_and(|g| g != first) {
                 let full: Vec<String> = glob.iter().chain(path).cloned().collect();
+                // A glob counts as several imports, because it is followed for every name.
                 self.path(module, &full, imports + 8);
             }
         }
@@ -198,7 +202,7 @@ impl Walk<'_> {
 }
 
 impl Tree {
-    /// Scans `crates`, of which `own` are the package's own, with what rustc says of the conditions of these.
+    /// Scans `crates`. `own` are the crates of the package; rustc has printed `conditions` for them.
     pub fn scan(crates: &[CrateSpec], own: &[usize], conditions: &Conditions, world: &mut dyn RustFiles) -> Self {
         let mut tree = Self::default();
         for (index, spec) in crates.iter().enumerate() {
@@ -236,19 +240,20 @@ impl Tree {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// The innermost module of crate `krate` in which a line of a file stands.
+    /// The innermost module of crate `krate` that contains a line of a file.
     pub fn module_at(&self, krate: usize, file: &Path, line: usize) -> Option<ModuleId> {
         let holds = |m: &Module| m.lines.is_none_or(|(first, last)| (first..=last).contains(&line));
         let modules = self.modules.iter().enumerate();
         modules.filter(|(_, m)| m.krate == krate && m.file == file && holds(m)).map(|(id, _)| id).next_back()
     }
 
-    /// Whether `module` is `outer`, or stands in it.
+    /// Returns `true` if `module` is `outer` or is inside it.
     fn is_inside(&self, module: ModuleId, outer: ModuleId) -> bool {
         std::iter::successors(Some(module), |m| self.modules[*m].parent).any(|m| m == outer)
     }
 
-    /// The module in which, with those inside, an item of `module` can be named.
+    /// The outermost module in which an item of `module` with this visibility can be named; `None` if it is visible
+    /// everywhere.
     fn within(&self, module: ModuleId, seen: &Seen) -> Option<ModuleId> {
         match seen {
             Seen::Everywhere => None,
@@ -258,27 +263,28 @@ impl Tree {
         }
     }
 
-    /// Whether something in the module that `path` leads to may come from a macro.
+    /// Returns `true` if the module at `path` may have items that the scan does not see: from a macro, or from a glob
+    /// import.
     pub fn may_hide(&self, from: ModuleId, path: &[String]) -> bool {
         match self.find_module(from, path) {
             Some(module) => {
-                // The preludes of these crates have no types and constants that texts name in another crate.
+                // Glob imports from these crates are preludes, without types and constants that source files need.
                 let mut globs = self.modules[module].globs.iter();
                 self.modules[module].is_open || globs.any(|(path, _)| !library::is_listed(path))
             }
-            // It is not there, unless it comes from what is hidden further out.
+            // The module does not exist, unless it is hidden itself, in a module further out.
             None => path.split_last().is_none_or(|(_, parent)| self.may_hide(from, parent)),
         }
     }
 
-    /// The definitions that `path` names in `module`.
+    /// Definitions that `path` names in `module`.
     pub fn resolve(&self, module: ModuleId, path: &[String]) -> Vec<DefId> {
         let mut walk = Walk { tree: self, seen: BTreeSet::new(), found: BTreeSet::new() };
         walk.path(module, path, 0);
         walk.found.into_iter().collect()
     }
 
-    /// The full path of a name that `module` imports from a crate that is not scanned.
+    /// Full path of a name that `module` imports from a crate that is not scanned.
     pub fn external(&self, module: ModuleId, path: &[String]) -> Option<String> {
         let [first, rest @ ..] = path else { return None };
         self.modules[module].names.get(first)?.iter().find_map(|entry| match &entry.target {
@@ -289,7 +295,8 @@ impl Tree {
         })
     }
 
-    /// For each definition the shortest path that generated code can use in the module `site`, or outside of all scanned crates.
+    /// For each definition the shortest path that generated code can use in the module `site`, or outside of all
+    /// scanned crates.
     pub fn paths(&self, site: Option<ModuleId>) -> BTreeMap<DefId, Vec<String>> {
         let here = site.map(|site| self.modules[site].krate);
         let mut paths = BTreeMap::new();
@@ -310,6 +317,7 @@ impl Tree {
         paths
     }
 
+    /// Adds the paths of all definitions in a module that are visible at `site`, and queues the modules in it.
     fn list(
         &self,
         module: ModuleId,
@@ -374,13 +382,13 @@ impl Tree {
         Some(module)
     }
 
-    /// Names that can stand behind `path` in an import, for suggestions.
+    /// Names that can follow `path` in an import, for suggestions.
     pub fn names_in(&self, from: ModuleId, path: &[String]) -> Vec<&str> {
         let module = if path.is_empty() { Some(from) } else { self.find_module(from, path) };
         module.map(|m| self.modules[m].names.keys().map(String::as_str).collect()).unwrap_or_default()
     }
 
-    /// What a type that is an alias stands for.
+    /// Target of a type alias; `None` for other definitions, `Some(None)` for a generic alias.
     pub fn alias(&self, def: DefId) -> Option<&Option<Ty>> {
         match &self.defs[def].kind {
             ItemKind::Alias(target) => Some(target),
@@ -396,18 +404,18 @@ struct Scan<'a> {
     is_own: bool,
     conditions: &'a Conditions,
     world: &'a mut dyn RustFiles,
-    /// The files that are being read, outermost first: one that holds itself has no end.
+    /// Files that are being read, outermost first. A file that includes itself is not read again.
     open: Vec<PathBuf>,
 }
 
 impl Scan<'_> {
-    /// Adds the items of a file; `folder` is where the files of its child modules are.
+    /// Adds the items of a file. `folder` contains the files of its child modules.
     fn file(&mut self, module: ModuleId, file: &Path, folder: &Path) {
         if self.open.len() > MAX_MODULES || self.tree.files >= MAX_FILES || self.open.iter().any(|f| f == file) {
             return;
         }
         self.tree.files += 1;
-        // A file that cannot be read is rustc's to report.
+        // rustc reports files that cannot be read.
         if let Ok(items) = self.world.items(file) {
             self.open.push(file.to_owned());
             self.items(module, &items, file, folder, 0);
@@ -433,7 +441,7 @@ impl Scan<'_> {
         self.conditions.evaluate(cfg, &self.spec.features, self.is_own) == Truth::No
     }
 
-    /// What an item is called for; nothing if it has no name.
+    /// Adds an item that is not left out. Returns the target of its name, if it has a name.
     fn target(&mut self, module: ModuleId, item: &Item, file: &Path, folder: &Path, depth: usize) -> Option<Target> {
         let krate = self.tree.modules[module].krate;
         let need = self.tree.modules[module].need.max(self.need(item));
@@ -484,7 +492,7 @@ impl Scan<'_> {
         None
     }
 
-    /// The file of a module, and the folder of those inside.
+    /// File of a module, and folder of the modules inside.
     fn module_file(&mut self, path: Option<&str>, name: &str, file: &Path, folder: &Path) -> (PathBuf, PathBuf) {
         if let Some(path) = path {
             let path = file.parent().unwrap_or(Path::new("")).join(path);
@@ -497,7 +505,7 @@ impl Scan<'_> {
         (path, inner)
     }
 
-    /// What an item exists only with: without these features it would not be there.
+    /// Feature without which an item does not exist: `std`, or one of `std` and `alloc`.
     fn need(&self, item: &Item) -> Option<Need> {
         let exists_without = |left_out: &[&str]| {
             let features = self.spec.features.iter().filter(|f| !left_out.contains(&f.as_str())).cloned().collect();

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A Rust type as written: text with structure, not yet a type.
+/// A Rust type as written, before its names are looked up.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Ty {
     /// `a::B<C>`
@@ -22,7 +22,7 @@ impl Ty {
         Self::Tuple(vec![])
     }
 
-    /// Reads it from Rust syntax.
+    /// Reads a type from Rust syntax.
     pub fn from_syn(ty: &syn::Type) -> Self {
         use quote::ToTokens as _;
         match ty {
@@ -66,12 +66,12 @@ impl Ty {
         }
     }
 
-    /// Whether it is exactly the type parameter `name`.
+    /// Returns `true` for the type parameter `name`.
     pub fn is_parameter(&self, name: &str) -> bool {
         matches!(self, Self::Path(path, args) if args.is_empty() && path.len() == 1 && path[0] == name)
     }
 
-    /// Whether `name` occurs in it.
+    /// Returns `true` if `name` occurs in the type.
     pub fn mentions(&self, name: &str) -> bool {
         match self {
             Self::Path(_, args) => self.is_parameter(name) || args.iter().any(|a| a.mentions(name)),

@@ -11,7 +11,7 @@ pub enum Type {
     Named(String, Vec<Type>),
     /// A definition that was seen.
     Def(DefId, String, Vec<Type>),
-    /// A `type` of Rust whose meaning the scan cannot see all of.
+    /// A `type` alias whose target the scan knows only in part.
     Alias(DefId, String, Box<Type>),
     /// `[T; N]`, `[T]`
     Array(Box<Type>, Option<String>),
@@ -19,39 +19,39 @@ pub enum Type {
     Tuple(Vec<Type>),
     /// `&T`
     Ref(Box<Type>),
-    /// A type parameter of the signature it stands in.
+    /// A type parameter of the signature around it.
     Param(String),
-    /// Anything that the scan cannot see through; the text is what was written.
+    /// Any other type, as it was written.
     Unknown(String),
 }
 
-/// What is known about two types.
+/// Result of the comparison of two types.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Match {
-    /// They are the same.
+    /// The types are the same.
     Same,
-    /// They are certainly not.
+    /// The types are certainly different.
     Different,
-    /// Only rustc can say.
+    /// Only rustc can decide.
     Unknown,
 }
 
-/// The types that the language itself names.
+/// Primitive types of Rust.
 pub const PRIMITIVES: [&str; 17] = [
     "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
     "f32", "f64",
 ];
 /// Types of the standard library that need no import.
 pub const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
-/// The time that texts know without an import.
+/// The type of durations, which source files can name without an import.
 pub const DURATION: &str = "Duration";
 const LISTS: [&str; 2] = ["Vec", "heapless::Vec"];
 /// Parts of `std` that `core` has under the same name.
 const CORE: [&str; 8] = ["time", "ops", "num", "cmp", "marker", "option", "result", "primitive"];
-/// How many aliases are followed.
+/// Largest number of aliases that are followed.
 const MAX_ALIASES: usize = 16;
 
-/// Whether a path of the standard library is one of `core`, too.
+/// Returns `true` if an item of `std` is also in `core`.
 fn is_in_core(path: &str) -> bool {
     path.split("::").nth(1).is_some_and(|module| CORE.contains(&module)) && !path.ends_with("Instant")
 }
@@ -62,12 +62,12 @@ impl Type {
         Self::Tuple(vec![])
     }
 
-    /// Whether it is `()`.
+    /// Returns `true` for `()`.
     pub fn is_unit(&self) -> bool {
         *self == Self::unit()
     }
 
-    /// The name of a number type, `Duration`, `bool` …: its last word.
+    /// Name without a path and arguments: `f64`, `Duration`. Empty for arrays, tuples and references.
     pub fn name(&self) -> &str {
         match self {
             Self::Primitive(name) | Self::Def(_, name, _) | Self::Alias(_, name, _) | Self::Param(name) => name,
@@ -76,7 +76,7 @@ impl Type {
         }
     }
 
-    /// What it cannot do without, and the type in it that is the reason.
+    /// Part of the Rust libraries that the type needs, and the type in it that is the reason.
     pub fn needs(&self) -> Option<(Need, String)> {
         let of_all = |types: &[Self]| types.iter().filter_map(Self::needs).max_by_key(|(need, _)| *need);
         match self {
@@ -95,7 +95,7 @@ impl Type {
         }
     }
 
-    /// Whether two types are the same, as far as can be seen.
+    /// Compares two types as far as the scan knows them.
     pub fn compare(&self, other: &Self) -> Match {
         use Type::{Alias, Array, Def, Named, Param, Primitive, Ref, Tuple, Unknown};
         match (self, other) {
@@ -114,13 +114,13 @@ impl Type {
                 (None, _) | (_, None) => Match::Different,
                 _ => Match::Unknown,
             },
-            // What stands behind a path into an unscanned crate is not known.
+            // A path into a crate that is not scanned may be an alias of the other type.
             (Named(name, _), _) | (_, Named(name, _)) if !STD.contains(&name.as_str()) => Match::Unknown,
             _ => Match::Different,
         }
     }
 
-    /// The type with type parameters replaced by what `lookup` knows of them.
+    /// The type with its type parameters replaced by the types that `lookup` returns for them.
     pub fn substitute(&self, lookup: &impl Fn(&str) -> Option<Type>) -> Self {
         let each = |types: &[Self]| types.iter().map(|t| t.substitute(lookup)).collect();
         match self {
@@ -142,7 +142,7 @@ impl Type {
         self.substitute(&|name| names.iter().find(|(from, _)| from == name).map(|(_, to)| Self::Param(to.clone())))
     }
 
-    /// What `self`, a pattern, says about the type parameter `name` if it is to match `concrete`.
+    /// The type that the type parameter `name` must have for `self` to match `concrete`.
     pub fn bind(&self, name: &str, concrete: &Self) -> Option<Type> {
         let pairs = |a: &[Self], b: &[Self]| a.iter().zip(b).find_map(|(a, b)| a.bind(name, b));
         match (self, concrete) {
@@ -155,7 +155,7 @@ impl Type {
         }
     }
 
-    /// Whether it may be another name of any type, so that only rustc can say what its values are.
+    /// Returns `true` if the type may be an alias of any other type, so that only rustc knows its values.
     pub fn may_be_another(&self) -> bool {
         match self {
             Self::Unknown(_) | Self::Alias(..) | Self::Param(_) => true,
@@ -164,7 +164,7 @@ impl Type {
         }
     }
 
-    /// Whether it has a part that the scan cannot see through, or an open type parameter.
+    /// Returns `true` if a part of the type is unknown, or is an open type parameter.
     pub fn is_open(&self) -> bool {
         match self {
             Self::Unknown(_) | Self::Param(_) => true,
@@ -175,7 +175,7 @@ impl Type {
         }
     }
 
-    /// Whether the type parameter `name` occurs in it, or may: the scan cannot see through all of it.
+    /// Returns `true` if the type parameter `name` occurs in the type, or may occur in an unknown part of it.
     pub fn may_mention(&self, name: &str) -> bool {
         let any = |types: &[Self]| types.iter().any(|ty| ty.may_mention(name));
         match self {
@@ -188,7 +188,7 @@ impl Type {
         }
     }
 
-    /// The element type of a list; `None` if it is certainly no list that `each` knows.
+    /// The element type of a list; `None` if the type is not known to be a list that `each` supports.
     pub fn list_item(&self) -> Option<Type> {
         match self {
             Self::Alias(.., target) => target.list_item(),
@@ -204,8 +204,8 @@ impl Match {
     }
 }
 
-/// Paths into crates that were not scanned may be aliases of each other, so that only lists and what the
-/// language itself names can be told apart.
+/// Compares two named types. Paths into crates that are not scanned may be aliases of each other, so only lists and the
+/// types of [`STD`] are known to be different.
 fn named(a: &str, x: &[Type], b: &str, y: &[Type]) -> Match {
     let known = |name: &str| STD.contains(&name) || LISTS.contains(&name);
     match all(x, y) {
@@ -256,7 +256,7 @@ impl fmt::Display for Type {
     }
 }
 
-/// What a path names where a type is written: definitions, or the full path of something that is not scanned.
+/// Looks up a path: definitions that it names, or the full path of an item that is not scanned.
 type Resolve<'a> = dyn Fn(&[String]) -> (Vec<DefId>, Option<String>) + 'a;
 
 impl Catalog {
@@ -265,7 +265,7 @@ impl Catalog {
         self.lookup(ty, generics, 0, &|path| (self.tree.resolve(module, path), self.tree.external(module, path)))
     }
 
-    /// Looks up the names of a type that was written in a text of the graph language.
+    /// Looks up the names of a type that was written in a source file.
     pub fn type_in_text(&self, ty: &Ty, generics: &[String]) -> Type {
         self.lookup(ty, generics, 0, &|path| (self.types(path), None))
     }

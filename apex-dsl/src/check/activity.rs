@@ -1,4 +1,4 @@
-//! Activity that never arrives, or never leaves (execution semantics, section 5).
+//! Activity that never arrives, or never leaves.
 
 use crate::{
     analyse::{active_nodes, active_nodes_within},

@@ -8,7 +8,6 @@ use crate::{
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
-use syn::Ident;
 
 /// The conditions of the dispatcher, by number: for each dispatched cluster its guards, "enabled", and for each
 /// connection to another cluster "holds a token" and "free"; for each asynchronous connection that may stay occupied
@@ -115,14 +114,26 @@ impl Bits {
         self.tokens.get(&connection).copied()
     }
 
+    /// What each condition says, by number.
+    pub fn texts(&self, graph: &Graph, clusters: &[String], guard: &dyn Fn(usize) -> String) -> Vec<String> {
+        let mut texts = vec![String::new(); self.count];
+        let connection = |c: usize| graph.connection_text(c);
+        self.guards.iter().for_each(|(g, bit)| texts[*bit] = guard(*g));
+        self.enabled.iter().for_each(|(c, bit)| texts[*bit] = format!("{} is enabled", clusters[*c]));
+        for ((from, to), bit) in &self.edges {
+            let edge = format!("from {} to {}", clusters[*from], clusters[*to]);
+            texts[*bit] = format!("tokens {edge}");
+            texts[*bit + 1] = format!("room {edge}");
+        }
+        self.free.iter().for_each(|(c, bit)| texts[*bit] = format!("free: {}", connection(*c)));
+        self.tokens.iter().for_each(|(c, bit)| texts[*bit] = format!("token: {}", connection(*c)));
+        self.room.iter().for_each(|(node, bit)| texts[*bit] = format!("room: event {}", graph.path(*node)));
+        texts
+    }
+
     /// The row of a cluster in the table.
     pub fn row(&self, cluster: usize) -> Option<usize> {
         self.dispatched.binary_search(&cluster).ok()
-    }
-
-    /// The constant with the number of the condition that a graph-level event has room.
-    pub fn room_name(node: NodeId) -> Ident {
-        format_ident!("ROOM_{node}")
     }
 
     /// At first every cluster is enabled and every connection free.

@@ -9,11 +9,6 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
-/// The struct with a part's ends of cells.
-pub fn ends_name(graph: &Graph) -> Ident {
-    format_ident!("{}Ends", graph.name)
-}
-
 /// The cells that a part takes tokens from, with the nodes where they come in.
 pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
     graph.nodes.iter().enumerate().filter_map(|(id, node)| match node.kind {

@@ -16,6 +16,12 @@ use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
+/// Expression that tells whether there is activity, and the places of the model that it stands for.
+struct Flagged {
+    test: TokenStream,
+    of: BTreeSet<PlaceId>,
+}
+
 impl Generator<'_> {
     /// The claims that the program looks at.
     fn undecided(&self) -> Vec<usize> {
@@ -63,8 +69,7 @@ impl Generator<'_> {
                     quote!((#from) && !(#nearer))
                 }
                 ClaimKind::Conserved => {
-                    let (all, given) = (flags.keys(), model.given);
-                    let all = all.map(|expression| expression.parse::<TokenStream>().unwrap_or_default());
+                    let (all, given) = (flags.values().map(|flag| &flag.test), model.given);
                     quote!([#(#all),*].into_iter().filter(|active| *active).count() != #given)
                 }
             };
@@ -77,7 +82,7 @@ impl Generator<'_> {
                 state.#name = broken;
             }
         });
-        let state = format_ident!("{}State", whole.graph.name);
+        let state = self.item(whole.graph, "State");
         quote! {
             fn check_claims<O: ::apex_rt::Observer>(state: &mut #state, observer: &mut O) { #(#looks)* }
         }
@@ -105,9 +110,9 @@ impl Generator<'_> {
         }
     }
 
-    /// The expressions that say where activity is, with the places that each of them stands for.
-    fn place_flags(&self, whole: Whole<'_>, model: &Model) -> BTreeMap<String, BTreeSet<PlaceId>> {
-        let mut flags: BTreeMap<String, BTreeSet<PlaceId>> = BTreeMap::new();
+    /// The expressions that say where activity is, by their text.
+    fn place_flags(&self, whole: Whole<'_>, model: &Model) -> BTreeMap<String, Flagged> {
+        let mut flags: BTreeMap<String, Flagged> = BTreeMap::new();
         for (place, what) in (0..).zip(&model.places) {
             let flag = match *what {
                 Place::Node(node) => self.is_active_now(whole, node),
@@ -123,7 +128,8 @@ impl Generator<'_> {
                     self.is_set(flag)
                 }
             };
-            flags.entry(flag.to_string()).or_default().insert(place);
+            let flagged = Flagged { test: flag.clone(), of: BTreeSet::new() };
+            flags.entry(flag.to_string()).or_insert(flagged).of.insert(place);
         }
         flags
     }
@@ -135,8 +141,8 @@ fn broken(claim: usize) -> Ident {
 }
 
 /// Whether there is activity in one of `places`. A flag that also stands for other places says nothing.
-fn any(flags: &BTreeMap<String, BTreeSet<PlaceId>>, places: &[PlaceId]) -> TokenStream {
-    let meant = flags.iter().filter(|(_, of)| of.iter().all(|place| places.contains(place)));
-    let meant = meant.map(|(flag, _)| flag.parse::<TokenStream>().unwrap_or_default());
+fn any(flags: &BTreeMap<String, Flagged>, places: &[PlaceId]) -> TokenStream {
+    let meant = flags.values().filter(|flag| flag.of.iter().all(|place| places.contains(place)));
+    let meant = meant.map(|flag| &flag.test);
     quote!(false #(|| #meant)*)
 }

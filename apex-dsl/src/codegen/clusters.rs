@@ -1,6 +1,6 @@
 //! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
 
-use super::{Generator, activity::Whole, fire::Emitter};
+use super::{Generator, activity::Whole, fire::Emitter, types::ident};
 use crate::analyse::{Guard, MANY, is_multirate};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -27,10 +27,20 @@ pub fn fire(whole: Whole<'_>, cluster: usize) -> TokenStream {
             quote! { self.#name(#cluster, ctx, observer); }
         }
         false => {
-            let name = format_ident!("cluster_{cluster}");
+            let name = ident(&whole.wiring.clusters[cluster]);
             quote! { self.#name(ctx, observer); }
         }
     }
+}
+
+/// Documentation of a cluster: its nodes, in the order in which they fire.
+fn docs(whole: Whole<'_>, cluster: usize) -> String {
+    const MOST: usize = 12;
+    let nodes = whole.analysis.clusters[cluster].schedule();
+    let names = nodes.iter().map(|node| format!("`{}`", whole.graph.path(*node)));
+    let names: Vec<String> = names.take(MOST).collect();
+    let more = if nodes.len() > MOST { format!(", … ({} nodes)", nodes.len()) } else { String::new() };
+    format!(" Fires {}{more}.", names.join(", "))
 }
 
 impl Generator<'_> {
@@ -42,8 +52,10 @@ impl Generator<'_> {
             return firing.chunk_by(|a, b| a / CHUNK == b / CHUNK).map(|chunk| self.chunk(whole, chunk)).collect();
         }
         let functions = firing.into_iter().map(|cluster| {
-            let (name, code) = (format_ident!("cluster_{cluster}"), self.cluster(whole, cluster));
+            let (name, code) = (ident(&whole.wiring.clusters[cluster]), self.cluster(whole, cluster));
+            let docs = docs(whole, cluster);
             quote! {
+                #[doc = #docs]
                 #[inline]
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, inputs, outputs, .. } = self;

@@ -1,12 +1,12 @@
 //! How slot tokens come to their slots: from a queue, or in an order that is known.
 
-use super::{Generator, activity::Whole};
+use super::{Generator, activity::Whole, types::ident, wiring::Slot};
 use crate::{
     analyse::{Delivery, ordered},
     graph::NodeKind,
 };
-use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 impl Generator<'_> {
     /// Serves slots until none is ready; says whether there was one.
@@ -17,8 +17,8 @@ impl Generator<'_> {
         let call = match wiring.is_tabled {
             true => quote! { self.slot(slot as usize, ctx, observer); },
             false => {
-                let arms = (0..count).map(|slot| {
-                    let (number, name) = (slot as u16, format_ident!("slot_{slot}"));
+                let arms = wiring.slots.iter().enumerate().map(|(slot, Slot { name, .. })| {
+                    let (number, name) = (Literal::usize_unsuffixed(slot), ident(name));
                     quote! { #number => self.#name(ctx, observer), }
                 });
                 quote! { match slot { #(#arms)* _ => {} } }
@@ -84,7 +84,7 @@ impl Generator<'_> {
         let asynchronous = &whole.analysis.asynchronous;
         let slot = asynchronous.slot(connection);
         let waits = self.waits(whole.graph, whole.graph.connections[connection].from);
-        let name = format_ident!("slot_{slot}");
+        let name = ident(&whole.wiring.slots[slot].name);
         let step = asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
         let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
         quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }

@@ -3,8 +3,7 @@
 use super::{
     Generator,
     activity::Whole,
-    bits::Bits,
-    cells::{ends_name, receivers},
+    cells::receivers,
     clusters::{Firing, fire, table},
     state::{Kept, Kind},
     types::ident,
@@ -15,7 +14,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 use syn::Ident;
 
 impl Generator<'_> {
@@ -85,10 +84,6 @@ impl Generator<'_> {
             let count = missing.len();
             code.extend(quote! { const MISSING: [::apex_rt::Missing<#set>; #count] = [#(#missing),*]; });
         }
-        for (node, bit) in bits.room() {
-            let name = Bits::room_name(*node);
-            code.extend(quote! { const #name: usize = #bit; });
-        }
         if !analysis.asynchronous.slots.is_empty() {
             if !wiring.is_tabled {
                 code.extend(self.slot_functions(whole));
@@ -111,8 +106,8 @@ impl Generator<'_> {
             });
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
-            let (name, reset) = (&graph.name, self.reset(whole));
-            let (nodes, state) = (format_ident!("{name}Nodes"), format_ident!("{name}State"));
+            let reset = self.reset(whole);
+            let (nodes, state) = (self.nodes_type(whole), self.item(graph, "State"));
             code.extend(quote! {
                 fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     #reset
@@ -247,7 +242,7 @@ impl Generator<'_> {
     fn signature(&self, graph: &Graph) -> TokenStream {
         match self.part {
             Some(_) => {
-                let ends = ends_name(graph);
+                let ends = self.item(graph, "Ends");
                 quote! {
                     fn react_part<O: ::apex_rt::Observer, W: ::apex_rt::threads::Wake>(
                         &mut self,

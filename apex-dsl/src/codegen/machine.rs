@@ -12,9 +12,14 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
+/// Name of the enum of states: `State`, unless the machine is called so.
+pub fn states_name(machine: &Machine) -> Ident {
+    ident(if machine.name == "State" { "States" } else { "State" })
+}
+
 /// Rust for a state machine.
 pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
-    let (name, states_name) = (ident(&machine.name), format_ident!("{}State", machine.name));
+    let (name, states_name) = (ident(&machine.name), states_name(machine));
     let docs =
         if machine.docs.is_empty() { format!("The state machine `{}`.", machine.name) } else { machine.docs.clone() };
     let states = states(machine);
@@ -90,7 +95,7 @@ fn event_arg(name: &str) -> Ident {
 }
 
 fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -> TokenStream {
-    let (name, states_name) = (ident(&Machine::method(&slot.name)), format_ident!("{}State", machine.name));
+    let (name, states_name) = (ident(&Machine::method(&slot.name)), states_name(machine));
     let token = slot.uses_token().then(|| {
         let ty = token_type(&slot.ty, catalog);
         quote!(token: &#ty,)

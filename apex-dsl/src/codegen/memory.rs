@@ -1,19 +1,17 @@
 //! What a program consists of in memory, piece by piece. How large the pieces are is known to rustc alone.
 
 use super::{
-    Generator, Names,
+    Generator,
     activity::Whole,
     cells::cell_name,
+    each_part,
     program::{Field, boundaries},
     state::Kind,
     threads::part_name,
     types::ident,
-    wiring::Wiring,
 };
-use crate::{
-    analyse::Analysis, catalog::Catalog, graph::Graph, program::Program, source::Sources, syntax::tree::PortKind,
-};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::{catalog::Catalog, program::Program, source::Sources, syntax::tree::PortKind};
+use std::collections::BTreeMap;
 
 /// A piece of the memory of a program.
 #[derive(Debug, PartialEq, Eq)]
@@ -29,31 +27,14 @@ pub struct Piece {
 /// The pieces of `program`, which is no test, kind after kind. Together they are all of it, but for padding.
 pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
     let graph = &program.graph;
-    let mut used = BTreeSet::new();
-    let names = Names::new(graph, "", &mut 0, &mut used);
-    let place = |_| proc_macro2::Span::call_site();
-    let generator = Generator {
-        catalog,
-        sources,
-        names: &names,
-        place: &place,
-        outer: None,
-        part: None,
-        parts: &[],
-        cells: &[],
-        claims: program.split.is_none().then_some(&program.claims),
-        channels: None,
-    };
-    let Some(split) = &program.split else { return generator.pieces(graph, &program.analysis) };
     let mut pieces = vec![];
-    for (part, number) in split.parts.iter().zip(names.count()..) {
-        let names = names.of_part(part, number, &mut used);
-        let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
-        let field = part_name(part);
-        let own = generator.pieces(&part.graph, &part.analysis).into_iter();
-        pieces.extend(own.map(|piece| Piece { place: format!("{field}.{}", piece.place), ..piece }));
-    }
-    pieces.extend(split.cells.iter().enumerate().map(|(cell, c)| Piece {
+    each_part(program, catalog, sources, &mut |generator, whole, part| {
+        let place = part.map(|part| format!("{}.", part_name(part))).unwrap_or_default();
+        let own = generator.pieces(whole).into_iter();
+        pieces.extend(own.map(|piece| Piece { place: format!("{place}{}", piece.place), ..piece }));
+    });
+    let cells = program.split.iter().flat_map(|split| split.cells.iter().map(move |cell| (split, cell)));
+    pieces.extend(cells.enumerate().map(|(cell, (split, c))| Piece {
         what: "cells",
         of: format!("{} to {}", graph.end_name(c.from), split.parts[c.receiver].group),
         place: format!("cells.{}", cell_name(cell)),
@@ -68,7 +49,8 @@ const KINDS: [&str; 9] = ["nodes", "ports", "tokens", "timers", "activity", "sta
 
 impl Generator<'_> {
     /// The pieces of a program on one thread, or of what runs on one of several.
-    fn pieces(&self, graph: &Graph, analysis: &Analysis) -> Vec<Piece> {
+    fn pieces(&self, whole: Whole<'_>) -> Vec<Piece> {
+        let Whole { graph, analysis, .. } = whole;
         let mut fields = BTreeMap::new();
         self.node_fields(graph, analysis, &mut fields, &mut vec![]);
         let mut pieces = vec![];
@@ -84,8 +66,7 @@ impl Generator<'_> {
                 Piece { what: "ports", of: name.clone(), place: format!("{place}.{}", ident(name)) }
             }));
         }
-        let wiring = Wiring::new(self, graph, analysis);
-        let mut state = self.state(Whole::new(graph, analysis, &wiring));
+        let mut state = self.state(whole);
         state.sort_by_key(|kept| kept.kind);
         for kept in &state {
             pieces.extend(kept.places().map(|(place, of)| Piece {

@@ -2,6 +2,7 @@
 
 mod activity;
 mod bits;
+mod bugs;
 mod cells;
 mod claims;
 mod clusters;
@@ -10,8 +11,10 @@ mod deliver;
 mod dispatch;
 mod each;
 mod fire;
+mod listing;
 mod machine;
 mod memory;
+mod names;
 mod parallel;
 mod params;
 mod plan;
@@ -30,6 +33,7 @@ mod types;
 mod wiring;
 mod witness;
 
+pub use listing::listing;
 pub use memory::{Piece, memory};
 pub use plan::{Storage, storage};
 pub use text::{module_name, text};
@@ -37,13 +41,18 @@ pub use text::{module_name, text};
 use crate::{
     catalog::Catalog,
     claims::Decided,
-    graph::{End, Graph, Node, NodeId, NodeKind},
+    graph::{Graph, NodeId},
     program::Program,
+    report::Diagnostics,
     source::{Sources, Span},
-    threads::{Cell, Origin, Part},
+    threads::{Cell, Part},
 };
+use activity::Whole;
+use bugs::Bugs;
+use names::Names;
 use proc_macro2::TokenStream;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use wiring::Wiring;
 
 /// Generates programs.
 #[derive(Clone, Copy)]
@@ -51,6 +60,8 @@ pub struct Generator<'a> {
     catalog: &'a Catalog,
     sources: &'a Sources,
     names: &'a Names,
+    /// Faults of the compiler itself.
+    bugs: &'a Bugs,
     /// Where a piece of the text stands in the code that called `graph!`.
     place: &'a dyn Fn(Span) -> proc_macro2::Span,
     /// The graph around the body of an `each`, and the node that the body belongs to.
@@ -67,108 +78,6 @@ pub struct Generator<'a> {
     channels: Option<&'a record::Channels>,
 }
 
-/// Names of locals and fields: those of the text, made unique.
-#[derive(Clone, Default)]
-pub struct Names {
-    /// What tells a program, its parts and the bodies of its `each` apart.
-    number: usize,
-    /// The number of each node in the table of all nodes.
-    numbers: Vec<usize>,
-    tokens: BTreeMap<End, String>,
-    /// Where delays hold tokens back.
-    held: BTreeMap<NodeId, String>,
-    /// Where delays keep the activity of these tokens.
-    held_activity: BTreeMap<NodeId, String>,
-    inner: BTreeMap<NodeId, Names>,
-}
-
-impl Names {
-    fn new(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
-        // No other graph has nodes with these numbers.
-        let mut names = Self { number: *count, ..Self::default() };
-        names.numbers = (*count..*count + graph.nodes.len()).collect();
-        *count += graph.nodes.len();
-        for (node, n) in graph.nodes.iter().enumerate() {
-            let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
-            names.add(node, n, &path, used);
-            if let NodeKind::Each(each) = &n.kind {
-                names.inner.insert(node, Self::new(&each.body, &format!("{path}_"), count, used));
-            }
-        }
-        names
-    }
-
-    /// More than any number in it.
-    fn count(&self) -> usize {
-        let inner = self.inner.values().map(Self::count).max().unwrap_or(0);
-        self.numbers.iter().map(|number| number + 1).max().unwrap_or(0).max(inner)
-    }
-
-    /// The names of a node and its tokens.
-    fn add(&mut self, node: NodeId, n: &Node, path: &str, used: &mut BTreeSet<String>) {
-        for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
-            let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
-            let name = if plain { path.to_owned() } else { format!("{path}_{}", p.name) };
-            self.tokens.insert(End { node, port }, local(name, used));
-        }
-        if let NodeKind::Delay(_) = &n.kind {
-            self.held.insert(node, local(format!("{path}_held"), used));
-            self.held_activity.insert(node, local(format!("{path}_held_activity"), used));
-        }
-    }
-
-    /// The names of a thread group's part of the program with these names.
-    fn of_part(&self, part: &Part, number: usize, used: &mut BTreeSet<String>) -> Self {
-        let mut names = Self { number, ..Self::default() };
-        for (node, n) in part.graph.nodes.iter().enumerate() {
-            let Origin::Node(origin) = part.origins[node] else {
-                // It is not a node of the program: its number lies beyond those that observers know.
-                names.numbers.push(self.count() + node);
-                names.add(node, n, &format!("cell_{node}"), used);
-                continue;
-            };
-            names.numbers.push(self.numbers[origin]);
-            let tokens = self.tokens.range(End { node: origin, port: 0 }..).take_while(|(end, _)| end.node == origin);
-            names.tokens.extend(tokens.map(|(end, name)| (End { node, port: end.port }, name.clone())));
-            names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
-            names.held_activity.extend(self.held_activity.get(&origin).map(|name| (node, name.clone())));
-            names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
-        }
-        names
-    }
-}
-
-/// Names that the generated code itself uses, and those that stand for values in every module.
-#[rustfmt::skip]
-const OWN: [&str; 64] = [
-    "Err", "None", "Ok", "Some", "active", "agenda", "begins", "bits", "carries", "code", "counts",
-    "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains",
-    "i", "inputs", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
-    "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue", "quiet",
-    "recorded", "result", "results", "round", "row", "self", "sent", "stamp", "stamps", "started",
-    "state", "step", "steps", "tap", "timeouts", "timers", "token", "tokens", "told", "value",
-    "wake", "woken",
-];
-/// Beginnings of names that the generated code itself uses.
-const OWN_PREFIXES: [&str; 10] =
-    ["param_", "token_", "claim_", "stamp_", "recorded_", "result_", "cell_", "holding_", "sender_", "receiver_"];
-
-/// The name of a local, which no name that the generated code itself uses hides.
-fn local(mut name: String, used: &mut BTreeSet<String>) -> String {
-    if OWN.contains(&name.as_str()) || OWN_PREFIXES.iter().any(|own| name.starts_with(own)) {
-        name.push('_');
-    }
-    unused(name, used)
-}
-
-/// `name`, or something like it that is not used yet.
-fn unused(mut name: String, used: &mut BTreeSet<String>) -> String {
-    while !used.insert(name.clone()) {
-        name.push('_');
-    }
-    name
-}
-
 /// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be recorded.
 fn program(
     program: &Program,
@@ -176,8 +85,10 @@ fn program(
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
     recordable: bool,
+    diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let graph = &program.graph;
+    let bugs = Bugs::new(graph.span);
     let mut used = BTreeSet::new();
     let names = Names::new(graph, "", &mut 0, &mut used);
     let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
@@ -185,15 +96,65 @@ fn program(
     let channels = record::Channels::new(graph, &program.analysis, catalog, parts);
     let channels = recordable.then_some(&channels);
     let claims = program.split.is_none().then_some(&program.claims);
-    let generator =
-        Generator { catalog, sources, names: &names, place, outer: None, part: None, parts, cells, claims, channels };
+    let generator = Generator {
+        catalog,
+        sources,
+        names: &names,
+        bugs: &bugs,
+        place,
+        outer: None,
+        part: None,
+        parts,
+        cells,
+        claims,
+        channels,
+    };
     let code = match &program.split {
         Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
         None => generator.program(graph, &program.analysis),
     };
-    match &program.script {
+    let code = match &program.script {
         Some(script) => generator.test(graph, script, code),
         None => code,
+    };
+    bugs.report(diagnostics);
+    code
+}
+
+/// Calls `visit` for the program, or for each of its thread groups.
+fn each_part(
+    program: &Program,
+    catalog: &Catalog,
+    sources: &Sources,
+    visit: &mut dyn FnMut(&Generator<'_>, Whole<'_>, Option<&Part>),
+) {
+    let graph = &program.graph;
+    let mut used = BTreeSet::new();
+    let names = Names::new(graph, "", &mut 0, &mut used);
+    let bugs = Bugs::new(graph.span);
+    let place = |_| proc_macro2::Span::call_site();
+    let generator = Generator {
+        catalog,
+        sources,
+        names: &names,
+        bugs: &bugs,
+        place: &place,
+        outer: None,
+        part: None,
+        parts: &[],
+        cells: &[],
+        claims: program.split.is_none().then_some(&program.claims),
+        channels: None,
+    };
+    let Some(split) = &program.split else {
+        let wiring = Wiring::new(&generator, graph, &program.analysis);
+        return visit(&generator, Whole::new(graph, &program.analysis, &wiring), None);
+    };
+    for (part, number) in split.parts.iter().zip(names.count()..) {
+        let names = names.of_part(part, number, &mut used);
+        let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
+        let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
+        visit(&generator, Whole::new(&part.graph, &part.analysis, &wiring), Some(part));
     }
 }
 
@@ -220,20 +181,5 @@ impl<'a> Generator<'a> {
             Some((_, part)) => part.connections[connection],
             None => Some(connection),
         }
-    }
-
-    /// The name of a token.
-    fn name(&self, end: End) -> syn::Ident {
-        types::ident(self.names.tokens.get(&end).map_or("token", String::as_str))
-    }
-
-    /// The name of the place where a delay keeps the activity of the tokens that it holds.
-    fn held_activity(&self, node: NodeId) -> syn::Ident {
-        types::ident(self.names.held_activity.get(&node).map_or("held_activity", String::as_str))
-    }
-
-    /// The name of the place where a delay holds tokens back.
-    fn held(&self, node: NodeId) -> syn::Ident {
-        types::ident(self.names.held.get(&node).map_or("held", String::as_str))
     }
 }

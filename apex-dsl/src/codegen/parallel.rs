@@ -2,8 +2,9 @@
 
 use super::{
     Generator,
-    program::{Field, insert, node_structs},
+    program::{Field, Struct, insert, node_structs},
     state,
+    types::ident,
 };
 use crate::{
     analyse::Analysis,
@@ -24,14 +25,14 @@ pub struct Local {
 impl Generator<'_> {
     /// What a thread needs to run `body`, for which this is the generator.
     pub fn local(&self, body: &Graph, analysis: &Analysis) -> Local {
-        let (fields, makes) = state::fields(&self.token_state(body, analysis));
+        let tokens = state::fields(&self.token_state(body, analysis));
+        let state = Struct::new(&ident("LocalState"), "Tokens.", &tokens);
         let (mut nodes, mut params) = (BTreeMap::new(), vec![]);
         self.local_nodes(body, analysis, &mut nodes, &mut params);
-        let (node_items, nodes_make) = node_structs("LocalNodes", &nodes, false);
-        Local {
-            items: quote! { struct LocalState { #fields } #node_items #(#params)* },
-            make: quote!((LocalState { #makes }, #nodes_make)),
-        }
+        let (name, program) = (ident("LocalNodes"), ident(&body.name));
+        let nodes = node_structs(&name, &program, &nodes, false);
+        let (state_item, state_make, node_items, nodes_make) = (state.item, state.make, nodes.item, nodes.make);
+        Local { items: quote! { #state_item #node_items #(#params)* }, make: quote!((#state_make, #nodes_make)) }
     }
 
     /// Nodes with the parameters that they have at this moment.

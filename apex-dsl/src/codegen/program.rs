@@ -3,6 +3,7 @@
 use super::{
     Generator,
     activity::Whole,
+    names::unused,
     state,
     threads::{end_if_hung, group_info},
     types::ident,
@@ -14,18 +15,64 @@ use crate::{
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
-/// The mailboxes of a program, which are those of the struct `name` at `place`.
-pub fn mailboxes(name: &str, place: &TokenStream) -> TokenStream {
-    let (inputs, events) = (format_ident!("{name}Inputs"), format_ident!("{name}Events"));
+/// The mailboxes of a program, which are kept at `place`.
+pub fn mailboxes(inputs: &TokenStream, events: &TokenStream, place: &TokenStream) -> TokenStream {
     quote! {
         type Inputs = #inputs;
         type Events = #events;
         fn mailboxes(&mut self) -> (&mut #inputs, &mut #events) { (&mut #place.inputs, &mut #place.events) }
     }
+}
+
+/// One of the structs that a program consists of: `Nodes`, `State`, `Inputs`, `Outputs`, `Events`. Without fields it is `()`.
+pub struct Struct {
+    /// Declaration, with that of the structs below it.
+    pub item: TokenStream,
+    /// Its type.
+    pub ty: TokenStream,
+    /// Expression with the initial value.
+    pub make: TokenStream,
+}
+
+impl Struct {
+    /// A struct of these fields: declarations, and expressions with the initial values.
+    pub fn new(name: &Ident, docs: &str, fields: &[(TokenStream, TokenStream)]) -> Self {
+        let (declared, made): (Vec<&TokenStream>, Vec<&TokenStream>) = fields.iter().map(|(d, m)| (d, m)).unzip();
+        if fields.is_empty() {
+            return Self { item: quote!(), ty: quote!(()), make: quote!(()) };
+        }
+        let docs = format!(" {docs}");
+        Self {
+            item: quote! { #[doc = #docs] pub struct #name { #(#declared,)* } },
+            ty: quote!(#name),
+            make: quote!(#name { #(#made,)* }),
+        }
+    }
+
+    /// Method that gives access to it where it is kept at `place`; none if it has no fields.
+    fn accessor(&self, docs: &str, name: &str, place: &TokenStream) -> TokenStream {
+        if self.item.is_empty() {
+            return quote!();
+        }
+        let (ty, mutable) = (&self.ty, ["inputs", "events"].contains(&name).then(|| quote!(mut)));
+        let (name, docs) = (ident(name), format!(" {docs}"));
+        quote! {
+            #[doc = #docs]
+            pub fn #name(&#mutable self) -> &#mutable #ty { &#mutable #place.#name }
+        }
+    }
+}
+
+/// Methods that give access to the ports of a program: [`Generator::port_structs`], which are kept at `place`.
+pub fn port_accessors([inputs, outputs, events]: &[Struct; 3], place: &TokenStream) -> TokenStream {
+    let inputs = inputs.accessor("The graph-level inputs and slots.", "inputs", place);
+    let outputs = outputs.accessor("The graph-level outputs.", "outputs", place);
+    let events = events.accessor("The graph-level events.", "events", place);
+    quote! { #inputs #outputs #events }
 }
 
 /// A field of the struct of nodes: a node, or the nodes of a nested graph.
@@ -37,7 +84,7 @@ pub enum Field {
 impl Generator<'_> {
     /// All items of a program on one thread.
     pub fn program(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
-        let name = ident(&graph.name);
+        let name = self.program_name(graph);
         let wiring = Wiring::new(self, graph, analysis);
         let whole = Whole::new(graph, analysis, &wiring);
         let items = self.items(whole);
@@ -50,7 +97,8 @@ impl Generator<'_> {
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
         let info = self.info(graph, analysis, &clusters, &groups);
         let parameters = self.parameters(graph, analysis, &|_| quote!(self.nodes));
-        let mailboxes = mailboxes(&graph.name, &quote!(self));
+        let [inputs, _, events] = self.port_structs(graph);
+        let mailboxes = mailboxes(&inputs.ty, &events.ty, &quote!(self));
         quote! {
             #items
             impl #name {
@@ -84,95 +132,103 @@ impl Generator<'_> {
     /// serve its slots.
     pub fn items(&self, whole: Whole<'_>) -> TokenStream {
         let Whole { graph, analysis, .. } = whole;
-        let name = ident(&graph.name);
-        let mut fields = BTreeMap::new();
-        let mut handed_in = vec![];
+        let name = self.program_name(graph);
+        let (mut fields, mut handed_in) = (BTreeMap::new(), vec![]);
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
-        let (nodes_items, nodes_make) = node_structs(&format!("{}Nodes", graph.name), &fields, false);
-        let (state_fields, state_make) = state::fields(&self.state(whole));
-        let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
-        let inputs = boundaries(graph, comes_in);
-        let outputs = boundaries(graph, |kind| kind == PortKind::Output);
-        let events = boundaries(graph, |kind| kind == PortKind::Event);
-        let (nodes_name, state_name) = (format_ident!("{}Nodes", name), format_ident!("{}State", name));
-        let (inputs_name, outputs_name, parts_name) =
-            (format_ident!("{}Inputs", name), format_ident!("{}Outputs", name), format_ident!("{}Parts", name));
-        let events_name = format_ident!("{}Events", name);
-        let port_types = |ports: &[NodeId]| -> Vec<TokenStream> {
-            ports.iter().map(|n| self.token_type(graph, End { node: *n, port: 0 })).collect()
-        };
-        let port_names =
-            |ports: &[NodeId]| -> Vec<Ident> { ports.iter().map(|n| ident(&graph.nodes[*n].name)).collect() };
-        let (input_names, input_types) = (port_names(&inputs), port_types(&inputs));
-        let (output_names, output_types) = (port_names(&outputs), port_types(&outputs));
-        let probes: Vec<NodeId> = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).collect();
-        let (probe_names, probe_types): (Vec<Ident>, Vec<TokenStream>) =
-            (probes.iter().map(|n| self.probe(*n)).collect(), port_types(&probes));
-        let (event_names, event_types) = (port_names(&events), port_types(&events));
-        let (part_names, part_types): (Vec<Ident>, Vec<TokenStream>) = handed_in.into_iter().unzip();
+        let nodes = node_structs(&self.item(graph, "Nodes"), &name, &fields, false);
+        let state =
+            Struct::new(&self.item(graph, "State"), "Tokens, activity and timers.", &state::fields(&self.state(whole)));
+        let ports = self.port_structs(graph);
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
-        let (new_args, parts_item, default) = if part_names.is_empty() {
-            let default = quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } };
-            (quote!(), quote!(), default)
-        } else {
-            let doc = format!("The nodes of [`{}`] that are made in Rust.", graph.name);
-            let item = quote! {
-                #[doc = #doc]
-                pub struct #parts_name { #(pub #part_names: #part_types,)* }
-            };
-            (quote!(parts: #parts_name), item, quote!())
+        let parts = self.parts_struct(graph, &handed_in);
+        let (argument, default) = match &parts {
+            Some((ty, _)) => (quote!(parts: #ty), quote!()),
+            None => {
+                (quote!(), quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } })
+            }
         };
+        let parts_item = parts.map(|(_, item)| item);
+        let place = quote!(self);
+        let accessors =
+            [nodes.accessor("The nodes, by instance name.", "nodes", &place), port_accessors(&ports, &place)];
+        let fields = ["nodes", "state", "inputs", "outputs", "events"].map(ident);
+        let [inputs, outputs, events] = ports;
+        let all = [nodes, state, inputs, outputs, events];
+        let (types, makes, items) =
+            (all.iter().map(|s| &s.ty), all.iter().map(|s| &s.make), all.iter().map(|s| &s.item));
         let clusters = self.clusters(whole);
         let (dispatcher, claims) = (self.dispatcher(whole), self.claim_function(whole));
         let witnesses = self.witnesses(graph);
         let inner = around_text();
         quote! {
             #[doc = #docs]
-            pub struct #name {
-                #inner nodes: #nodes_name,
-                #inner state: #state_name,
-                #inner inputs: #inputs_name,
-                #inner outputs: #outputs_name,
-                #inner events: #events_name,
-            }
+            pub struct #name { #(#inner #fields: #types,)* }
             #parts_item
-            #nodes_items
-            #[doc = "Where tokens are put in."]
-            pub struct #inputs_name { #(pub #input_names: ::apex_rt::Mailbox<#input_types>,)* }
-            #[doc = "The tokens that came out last; `None` is ⊥."]
-            pub struct #outputs_name {
-                #(pub #output_names: ::core::option::Option<#output_types>,)*
-                #(#inner #probe_names: ::apex_rt::testing::Probe<#probe_types>,)*
-            }
-            #[doc = "Events that wait to be taken. As long as one waits, what triggers it is held back."]
-            pub struct #events_name { #(pub #event_names: ::apex_rt::Mailbox<#event_types>,)* }
-            #inner struct #state_name { #state_fields }
-            #witnesses
+            #(#items)*
             impl #name {
                 /// The program before its first reaction.
-                pub fn new(#new_args) -> Self {
-                    Self {
-                        nodes: #nodes_make,
-                        state: #state_name { #state_make },
-                        inputs: #inputs_name { #(#input_names: ::apex_rt::Mailbox::new(),)* },
-                        outputs: #outputs_name { #(#output_names: None,)* #(#probe_names: ::apex_rt::testing::Probe::new(),)* },
-                        events: #events_name { #(#event_names: ::apex_rt::Mailbox::new(),)* },
-                    }
-                }
-                /// The nodes, by instance name.
-                pub fn nodes(&self) -> &#nodes_name { &self.nodes }
-                /// The graph-level inputs and slots.
-                pub fn inputs(&mut self) -> &mut #inputs_name { &mut self.inputs }
-                /// The graph-level outputs.
-                pub fn outputs(&self) -> &#outputs_name { &self.outputs }
-                /// The graph-level events.
-                pub fn events(&mut self) -> &mut #events_name { &mut self.events }
+                pub fn new(#argument) -> Self { Self { #(#fields: #makes,)* } }
+                #(#accessors)*
                 #clusters
                 #dispatcher
                 #claims
             }
             #default
+            #witnesses
         }
+    }
+
+    /// Type of the struct of nodes.
+    pub fn nodes_type(&self, whole: Whole<'_>) -> TokenStream {
+        let (mut fields, mut handed_in) = (BTreeMap::new(), vec![]);
+        self.node_fields(whole.graph, whole.analysis, &mut fields, &mut handed_in);
+        let name = self.item(whole.graph, "Nodes");
+        if fields.is_empty() { quote!(()) } else { quote!(#name) }
+    }
+
+    /// The structs with the ports of a program: inputs and slots, outputs, events.
+    pub fn port_structs(&self, graph: &Graph) -> [Struct; 3] {
+        let inner = around_text();
+        let of = |is_meant: &dyn Fn(PortKind) -> bool| -> Vec<(Ident, TokenStream)> {
+            let ports = boundaries(graph, is_meant).into_iter();
+            ports.map(|n| (ident(&graph.nodes[n].name), self.token_type(graph, End { node: n, port: 0 }))).collect()
+        };
+        let mailboxes = |ports: Vec<(Ident, TokenStream)>| -> Vec<(TokenStream, TokenStream)> {
+            let field =
+                |(name, ty)| (quote!(pub #name: ::apex_rt::Mailbox<#ty>), quote!(#name: ::apex_rt::Mailbox::new()));
+            ports.into_iter().map(field).collect()
+        };
+        let outputs = of(&|kind| kind == PortKind::Output).into_iter();
+        let outputs = outputs.map(|(name, ty)| (quote!(pub #name: ::core::option::Option<#ty>), quote!(#name: None)));
+        let probes = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).map(|n| {
+            let (name, ty) = (self.probe(n), self.token_type(graph, End { node: n, port: 0 }));
+            let make = quote!(#name: ::apex_rt::testing::Probe::new());
+            (quote!(#inner #name: ::apex_rt::testing::Probe<#ty>), make)
+        });
+        let outputs: Vec<_> = outputs.chain(probes).collect();
+        let inputs = mailboxes(of(&|kind| matches!(kind, PortKind::Input | PortKind::Slot)));
+        let events = mailboxes(of(&|kind| kind == PortKind::Event));
+        let held_back = "Events that wait to be taken. As long as one waits, what triggers it is held back.";
+        [
+            Struct::new(&self.item(graph, "Inputs"), "Where tokens are put in.", &inputs),
+            Struct::new(&self.item(graph, "Outputs"), "The tokens that came out last; `None` is ⊥.", &outputs),
+            Struct::new(&self.item(graph, "Events"), held_back, &events),
+        ]
+    }
+
+    /// The struct of the nodes that are made in Rust, and its name; `None` if there are none.
+    pub fn parts_struct(&self, graph: &Graph, handed_in: &[(Ident, TokenStream)]) -> Option<(Ident, TokenStream)> {
+        if handed_in.is_empty() {
+            return None;
+        }
+        let (names, types): (Vec<&Ident>, Vec<&TokenStream>) = handed_in.iter().map(|(name, ty)| (name, ty)).unzip();
+        let (name, doc) =
+            (self.item(graph, "Parts"), format!(" The nodes of [`{}`] that are made in Rust.", graph.name));
+        let item = quote! {
+            #[doc = #doc]
+            pub struct #name { #(pub #names: #types,)* }
+        };
+        Some((name, item))
     }
 
     /// Where a node of the catalog is kept: `nodes.fast.planner`.
@@ -363,47 +419,37 @@ pub fn around_text() -> TokenStream {
     quote!(pub(in super::super))
 }
 
-/// The struct of a level of nodes with all below it, and the expression that makes it.
+/// The struct of a level of nodes with all below it. No struct of it is called like the program.
 ///
 /// If `borrowed`, it has references to nodes that are kept elsewhere.
-pub fn node_structs(name: &str, fields: &BTreeMap<String, Field>, borrowed: bool) -> (TokenStream, TokenStream) {
-    let mut used = BTreeSet::from([name.to_owned()]);
+pub fn node_structs(name: &Ident, program: &Ident, fields: &BTreeMap<String, Field>, borrowed: bool) -> Struct {
+    let mut used = BTreeSet::from([name.to_string(), program.to_string()]);
     node_struct(name, fields, borrowed, &mut used)
 }
 
-fn node_struct(
-    name: &str,
-    fields: &BTreeMap<String, Field>,
-    borrowed: bool,
-    used: &mut BTreeSet<String>,
-) -> (TokenStream, TokenStream) {
-    let struct_name = ident(name);
-    let (mut items, mut declared, mut made) = (quote!(), quote!(), quote!());
+fn node_struct(name: &Ident, fields: &BTreeMap<String, Field>, borrowed: bool, used: &mut BTreeSet<String>) -> Struct {
     let life = borrowed.then(|| quote!(<'a>));
-    // There may be no node.
-    let phantom = borrowed.then(|| quote! { life: ::core::marker::PhantomData<&'a ()>, });
-    let phantom_made = borrowed.then(|| quote! { life: ::core::marker::PhantomData, });
+    let (mut below, mut own) = (quote!(), vec![]);
     for (field, content) in fields {
         let field_name = ident(field);
-        match content {
-            Field::Node { ty, make } => {
-                declared.extend(quote! { pub #field_name: #ty, });
-                made.extend(quote! { #field_name: #make, });
-            }
+        own.push(match content {
+            Field::Node { ty, make } => (quote!(pub #field_name: #ty), quote!(#field_name: #make)),
             Field::Nested(inner) => {
                 // `a` with `b` inside and `a_b` would have the same name.
-                let inner_name = super::unused(format!("{name}{}", camel(field)), used);
-                let (inner_items, inner_make) = node_struct(&inner_name, inner, borrowed, used);
-                let inner_type = ident(&inner_name);
-                items.extend(inner_items);
-                declared.extend(quote! { pub #field_name: #inner_type #life, });
-                made.extend(quote! { #field_name: #inner_make, });
+                let inner_name = ident(&unused(format!("{name}{}", camel(field)), used));
+                let Struct { item, make, .. } = node_struct(&inner_name, inner, borrowed, used);
+                below.extend(item);
+                (quote!(pub #field_name: #inner_name #life), quote!(#field_name: #make))
             }
-        }
+        });
     }
-    let item = quote! {
-        pub struct #struct_name #life { #declared #phantom }
-        #items
-    };
-    (item, quote!(#struct_name { #made #phantom_made }))
+    let docs = " Nodes, by instance name.";
+    let mut made = Struct::new(name, docs.trim_start(), &own);
+    if borrowed && !own.is_empty() {
+        let declared = own.iter().map(|(declared, _)| declared);
+        made.item = quote! { #[doc = #docs] pub struct #name<'a> { #(#declared,)* } };
+        made.ty = quote!(#name<'_>);
+    }
+    made.item.extend(below);
+    made
 }

@@ -68,13 +68,17 @@ impl Generator<'_> {
                 quote! { for i in 0..#count { #code } #late }
             }
             NodeKind::Delay(_) => {
-                let (held, Some(from)) = (self.held(node), from(0)) else { return quote!() };
+                let (held, Some(from)) = (self.held(node), from(0)) else {
+                    return self.bug(graph.nodes[node].span, "nothing leads to the delay");
+                };
                 let name = self.name(from);
                 let token = self.cloned(graph, from, &quote!(#name[i].as_ref()));
                 quote! { for i in 0..#count { state.#held.put(#token); } }
             }
             NodeKind::Boundary(PortKind::Output) => {
-                let (port, Some(from)) = (ident(&graph.nodes[node].name), from(0)) else { return quote!() };
+                let (port, Some(from)) = (ident(&graph.nodes[node].name), from(0)) else {
+                    return self.bug(graph.nodes[node].span, "nothing leads to the output");
+                };
                 let name = self.name(from);
                 let store = self.store(graph, from, &quote!(outputs.#port), &quote!(#name[i].as_ref()));
                 quote! { for i in 0..#count { #store } }

@@ -3,7 +3,6 @@
 use super::{
     Generator,
     activity::{Carries, Whole},
-    bits::Bits,
     clusters::inlined,
     plan::is_buffer,
     stamps,
@@ -17,7 +16,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use quote::{quote, quote_spanned};
 
 /// Where no queue says which tokens wait, the last slot that a token comes to takes it away.
 fn takes(whole: Whole<'_>, connection: usize) -> bool {
@@ -135,8 +134,10 @@ impl Generator<'_> {
         let slots = &whole.wiring.slots;
         let inline = inlined(slots.len());
         let functions = slots.iter().enumerate().map(|(number, slot)| {
-            let (name, code) = (format_ident!("slot_{number}"), self.slot(whole, number, slot));
+            let (name, code) = (ident(&slot.name), self.slot(whole, number, slot));
+            let docs = self.docs_of_connection(whole.graph, slot.connection);
             quote! {
+                #[doc = #docs]
                 #inline
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, inputs, outputs, events } = self;
@@ -145,6 +146,11 @@ impl Generator<'_> {
             }
         });
         functions.collect()
+    }
+
+    /// Documentation of what a connection leads to: ``` `stopped => waiting.enable`, mission.afg:27 ```.
+    fn docs_of_connection(&self, graph: &Graph, connection: usize) -> String {
+        format!(" `{}`, {}.", graph.connection_text(connection), self.line(graph.connections[connection].span))
     }
 
     fn slot(&self, whole: Whole<'_>, number: usize, slot: &Slot) -> TokenStream {
@@ -209,11 +215,11 @@ impl Generator<'_> {
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
                 let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, connection));
-                let room = Bits::room_name(node);
+                let room = whole.wiring.bits.room().get(&node).map(|bit| quote! { state.dispatcher.clear(#bit); });
                 let copy = self.clone(graph, graph.connections[connection].from, &quote!(token));
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(#copy); }
-                    state.dispatcher.clear(Self::#room);
+                    #room
                 }
             }
             _ => quote!(),
@@ -235,7 +241,13 @@ impl Generator<'_> {
         let graph = whole.graph;
         let c = &graph.connections[connection];
         let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
-        let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else { return quote!() };
+        let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else {
+            // `enable` of a node that nothing disables is called only for the activity that it carries.
+            return match graph.port(c.to).standard {
+                Some(_) => quote!(),
+                None => self.bug(c.span, "the slot has no method"),
+            };
+        };
         let mut takes = false;
         let args: Vec<TokenStream> = slot
             .args

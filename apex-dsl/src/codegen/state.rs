@@ -67,12 +67,11 @@ impl Kept {
     }
 }
 
-/// Fields as they stand in the struct, and in the expression that makes it.
-pub fn fields(kept: &[Kept]) -> (TokenStream, TokenStream) {
+/// Fields of the state: declarations, and expressions with the initial values.
+pub fn fields(kept: &[Kept]) -> Vec<(TokenStream, TokenStream)> {
     let inner = around_text();
-    let declared = kept.iter().map(|Kept { name, ty, .. }| quote! { #inner #name: #ty, });
-    let made = kept.iter().map(|Kept { name, make, .. }| quote! { #name: #make, });
-    (declared.collect(), made.collect())
+    let field = |Kept { name, ty, make, .. }: &Kept| (quote!(#inner #name: #ty), quote!(#name: #make));
+    kept.iter().map(field).collect()
 }
 
 impl Generator<'_> {

@@ -46,6 +46,7 @@ impl<'a> Ports<'a> {
     }
 
     fn range(&self, node: NodeId) -> TokenStream {
+        // Nodes without rows have no events to send.
         let (first, end) = self.of.get(&node).copied().unwrap_or_default();
         let (first, end) = (Literal::usize_unsuffixed(first), Literal::usize_unsuffixed(end));
         quote!(#first, #end)
@@ -78,7 +79,10 @@ impl Generator<'_> {
     }
 
     fn port_row(&self, whole: Whole<'_>, ports: &Ports<'_>, port: &Port) -> TokenStream {
-        let token = Literal::usize_unsuffixed(ports.tokens.binary_search(&port.end).unwrap_or_default());
+        let Ok(token) = ports.tokens.binary_search(&port.end) else {
+            return self.bug(whole.graph.nodes[port.end.node].span, "the token of an event is in no table");
+        };
+        let token = Literal::usize_unsuffixed(token);
         let mut row = quote!(Port::new(#token));
         let mut add = |method: &str, lists: &[TokenStream]| {
             let method = format_ident!("{method}");
@@ -135,7 +139,7 @@ impl Generator<'_> {
 
     /// The function that says where the token of an event lies.
     fn token_function(&self, whole: Whole<'_>, ports: &Ports<'_>) -> TokenStream {
-        let state = format_ident!("{}State", whole.graph.name);
+        let state = self.item(whole.graph, "State");
         let Some((last, tokens)) = ports.tokens.split_last() else { return quote!() };
         let arms = tokens.iter().enumerate().map(|(number, end)| {
             let (number, name) = (Literal::usize_unsuffixed(number), self.name(*end));

@@ -1,15 +1,16 @@
 //! The Rust module of a text: each state machine, program and test has a module of its own in it, so that names of the text
 //! meet neither each other nor those of the Rust around the call of `graph!`.
 
-use super::{machine, program, types::ident};
+use super::{machine, names::item, program, types::ident};
 use crate::{
     catalog::Catalog,
     graph::{Graph, Library, NodeKind},
     machine::{Machine, Machines},
     program::Program,
+    report::Diagnostics,
     source::{FileId, Sources, Span},
 };
-use proc_macro2::{Group, TokenStream, TokenTree};
+use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::path::Path;
 use syn::Ident;
@@ -18,7 +19,9 @@ use syn::Ident;
 struct Export {
     /// The module.
     module: Ident,
-    /// The name in it.
+    /// The item in it.
+    item: Ident,
+    /// The name in the Rust around.
     name: String,
 }
 
@@ -30,11 +33,12 @@ pub fn text(
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
     recordable: bool,
+    diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let machines: Vec<&Machine> = machines.values().collect();
     let modules = machines.iter().map(|m| module(&ident(&m.module), &m.name, machine::item(m, catalog)));
     let programs_of = programs.iter().map(|p| {
-        let code = program(p, catalog, sources, place, recordable);
+        let code = program(p, catalog, sources, place, recordable, diagnostics);
         match &p.script {
             None => module(&graph_module(&p.graph.name), &p.graph.name, code),
             Some(_) => code,
@@ -42,12 +46,13 @@ pub fn text(
     });
     let graphs = programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
     let own = machines.iter().filter(|m| m.is_own);
-    let names = graphs.flat_map(exports).chain(own.flat_map(|m| machine_exports(&m.module, &m.name)));
+    let names = graphs.flat_map(exports).chain(own.flat_map(|m| machine_exports(m)));
     let source = sources.get(FileId(0));
     let around = ident(&module_name(&source.path, source.origin.0 + 1));
-    let uses = names.map(|Export { module, name }| {
+    let uses = names.map(|Export { module, item, name }| {
         let name = ident(&name);
-        quote! { #[allow(unused_imports)] pub use #around::#module::#name; }
+        let alias = (item != name).then(|| quote!(as #name));
+        quote! { #[allow(unused_imports)] pub use #around::#module::#item #alias; }
     });
     quote! {
         #[doc(hidden)]
@@ -70,7 +75,7 @@ pub fn module(name: &Ident, graph: &str, items: TokenStream) -> TokenStream {
 /// What the runtime is called in the module of a program.
 const RUNTIME: &str = "rt";
 
-/// `rt` instead of `::apex_rt`.
+/// `rt` instead of `::apex_rt`, and numbers without the suffix `usize`, which the types around them say.
 fn abbreviated(code: TokenStream) -> TokenStream {
     let mut tokens = code.into_iter().peekable();
     let mut short: Vec<TokenTree> = vec![];
@@ -85,10 +90,20 @@ fn abbreviated(code: TokenStream) -> TokenStream {
                 short.truncate(short.len() - 2);
                 short.push(Ident::new(RUNTIME, name.span()).into());
             }
+            TokenTree::Literal(literal) => short.push(plain(literal).into()),
             token => short.push(token),
         }
     }
     short.into_iter().collect()
+}
+
+/// A number of type `usize` without its suffix.
+fn plain(literal: Literal) -> Literal {
+    let number = literal.to_string().strip_suffix("usize").and_then(|digits| digits.parse().ok());
+    let Some(number) = number else { return literal };
+    let mut plain = Literal::usize_unsuffixed(number);
+    plain.set_span(literal.span());
+    plain
 }
 
 /// Whether the path begins here: `::`, and no name before it.
@@ -103,14 +118,18 @@ fn ends_in_colons(tokens: &[TokenTree]) -> bool {
 /// The names that a program has in Rust.
 fn exports(graph: &Graph) -> Vec<Export> {
     let is_handed_in = |kind: &NodeKind| matches!(kind, NodeKind::Library(Library { handed_in: true, .. }));
-    let parts = graph.nodes.iter().any(|n| is_handed_in(&n.kind)).then(|| format!("{}Parts", graph.name));
-    let export = |name| Export { module: graph_module(&graph.name), name };
-    [Some(graph.name.clone()), parts].into_iter().flatten().map(export).collect()
+    let export = |item, name| Export { module: graph_module(&graph.name), item, name };
+    let program = export(ident(&graph.name), graph.name.clone());
+    let has_parts = graph.nodes.iter().any(|n| is_handed_in(&n.kind));
+    let parts = has_parts.then(|| export(item(graph, None, "Parts"), format!("{}Parts", graph.name)));
+    [Some(program), parts].into_iter().flatten().collect()
 }
 
 /// The names that a state machine has in Rust.
-fn machine_exports(module: &str, name: &str) -> Vec<Export> {
-    [name.to_owned(), format!("{name}State")].map(|name| Export { module: ident(module), name }).into()
+fn machine_exports(machine: &Machine) -> [Export; 2] {
+    let export = |item, name| Export { module: ident(&machine.module), item, name };
+    let (name, states) = (ident(&machine.name), machine::states_name(machine));
+    [export(name, machine.name.clone()), export(states, format!("{}State", machine.name))]
 }
 
 fn graph_module(name: &str) -> Ident {

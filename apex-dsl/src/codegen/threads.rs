@@ -4,8 +4,8 @@
 use super::{
     Generator, Names,
     activity::Whole,
-    cells::{cell_name, ends_name},
-    program::{Field, around_text, mailboxes, node_structs},
+    cells::cell_name,
+    program::{Field, around_text, mailboxes, node_structs, port_accessors},
     types::{duration, ident},
     wiring::Wiring,
 };
@@ -24,11 +24,6 @@ pub fn part_name(part: &Part) -> Ident {
     format_ident!("on_{}", part.group)
 }
 
-/// The struct by which a part is handed out.
-fn handle_name(graph: &Graph) -> Ident {
-    format_ident!("{}Group", graph.name)
-}
-
 impl Generator<'_> {
     /// All items of a program on several threads.
     pub fn threads(
@@ -41,7 +36,7 @@ impl Generator<'_> {
         let parts = split.parts.iter().zip(self.names.count()..);
         let names: Vec<Names> = parts.map(|(part, number)| self.names.of_part(part, number, used)).collect();
         let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
-        let all = Program { generator: self, graph, split };
+        let all = Program { generator: self, graph, split, parts: (0..names.len()).map(of_part).collect() };
         let mut code = quote!();
         let mut views = vec![];
         for (number, part) in split.parts.iter().enumerate() {
@@ -56,7 +51,7 @@ impl Generator<'_> {
                 fields: generator.fields(&part.graph, &part.analysis),
             };
             let View { is_active, is_graph_active, waiting, .. } = &view;
-            let name = ident(&part.graph.name);
+            let name = generator.program_name(&part.graph);
             let handle = all.handle(number);
             code.extend(quote! {
                 #items
@@ -97,6 +92,8 @@ struct Program<'a> {
     generator: &'a Generator<'a>,
     graph: &'a Graph,
     split: &'a Split,
+    /// The generators of the parts.
+    parts: Vec<Generator<'a>>,
 }
 
 impl Program<'_> {
@@ -104,14 +101,25 @@ impl Program<'_> {
         ident(&self.graph.name)
     }
 
+    /// Name of the struct of a part.
+    fn part_struct(&self, number: usize) -> Ident {
+        self.parts[number].program_name(&self.split.parts[number].graph)
+    }
+
+    /// Names of the structs of a part that is handed out: its ends of cells, and the part with them.
+    fn handle_structs(&self, number: usize) -> [Ident; 2] {
+        ["Ends", "Group"].map(|kind| self.parts[number].item(&self.split.parts[number].graph, kind))
+    }
+
     /// What a thread group is to whoever runs it: the part with its ends of cells.
     fn handle(&self, number: usize) -> TokenStream {
         let part = &self.split.parts[number];
-        let (program, name) = (self.name(), ident(&part.graph.name));
-        let (ends, handle) = (ends_name(&part.graph), handle_name(&part.graph));
+        let (program, name) = (self.name(), self.part_struct(number));
+        let [ends, handle] = self.handle_structs(number);
         let call = quote!(self.part.react_part(now, true, &mut self.ends, &self.wake, observer));
         let ports = quote!(self.part);
-        let mailboxes = mailboxes(&part.graph.name, &ports);
+        let [inputs, _, events] = self.parts[number].port_structs(&part.graph);
+        let mailboxes = mailboxes(&inputs.ty, &events.ty, &ports);
         let react = self.generator.recorded_group(self.graph, (number == 0).then_some(&ports), &call);
         let fields = self.ends(number).map(|(cell, sends)| {
             let ty = self.generator.token_type(self.graph, self.split.cells[cell].from);
@@ -139,8 +147,9 @@ impl Program<'_> {
     /// The struct of the program, its cells, and the views on its nodes.
     fn structs(&self, views: &[View]) -> TokenStream {
         let (graph, name) = (self.graph, self.name());
-        let (parts, part_types): (Vec<Ident>, Vec<Ident>) =
-            self.split.parts.iter().map(|part| (part_name(part), ident(&part.graph.name))).unzip();
+        let numbers = 0..self.split.parts.len();
+        let parts: Vec<Ident> = self.split.parts.iter().map(part_name).collect();
+        let part_types: Vec<Ident> = numbers.clone().map(|number| self.part_struct(number)).collect();
         let (cells, cell_types): (Vec<Ident>, Vec<TokenStream>) = self
             .split
             .cells
@@ -148,44 +157,31 @@ impl Program<'_> {
             .enumerate()
             .map(|(cell, c)| (cell_name(cell), self.generator.token_type(graph, c.from)))
             .unzip();
-        let cells_name = format_ident!("{}Cells", graph.name);
+        let cells_name = self.generator.item(graph, "Cells");
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
         let mut nodes = BTreeMap::new();
         for (part, view) in parts.iter().zip(views) {
             view_nodes(&view.fields.nodes, &quote!(self.#part.nodes), &mut nodes);
         }
-        let nodes_name = format!("{}Nodes", graph.name);
-        let (node_items, nodes_make) = node_structs(&nodes_name, &nodes, true);
-        let nodes_name = ident(&nodes_name);
-        let handed_in: Vec<&(Ident, TokenStream)> = views.iter().flat_map(|v| &v.fields.handed_in).collect();
-        let makes = self.split.parts.iter().zip(views).map(|(part, view)| {
-            let name = ident(&part.graph.name);
-            let (given, fields) =
-                (format_ident!("{}Parts", part.graph.name), view.fields.handed_in.iter().map(|(f, _)| f));
-            match view.fields.handed_in.is_empty() {
-                true => quote!(#name::new()),
-                false => quote!(#name::new(#given { #(#fields: parts.#fields),* })),
+        let nodes = node_structs(&self.generator.item(graph, "Nodes"), &name, &nodes, true);
+        let (node_items, nodes_type, nodes_make) = (&nodes.item, &nodes.ty, &nodes.make);
+        let handed_in: Vec<(Ident, TokenStream)> = views.iter().flat_map(|v| v.fields.handed_in.clone()).collect();
+        let makes = numbers.zip(views).map(|(number, view)| {
+            let own = &view.fields.handed_in;
+            let (name, fields) = (&part_types[number], own.iter().map(|(field, _)| field));
+            match self.parts[number].parts_struct(&self.split.parts[number].graph, own) {
+                None => quote!(#name::new()),
+                Some((given, _)) => quote!(#name::new(#given { #(#fields: parts.#fields),* })),
             }
         });
-        let (argument, item, default) = match handed_in.is_empty() {
-            true => (
-                quote!(),
-                quote!(),
-                quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } },
-            ),
-            false => {
-                let (given, doc) = (
-                    format_ident!("{}Parts", graph.name),
-                    format!("The nodes of [`{}`] that are made in Rust.", graph.name),
-                );
-                let (fields, types) = (handed_in.iter().map(|(f, _)| f), handed_in.iter().map(|(_, ty)| ty));
-                let item = quote! {
-                    #[doc = #doc]
-                    pub struct #given { #(pub #fields: #types,)* }
-                };
-                (quote!(parts: #given), item, quote!())
+        let parts_struct = self.generator.parts_struct(graph, &handed_in);
+        let (argument, default) = match &parts_struct {
+            Some((given, _)) => (quote!(parts: #given), quote!()),
+            None => {
+                (quote!(), quote! { impl ::core::default::Default for #name { fn default() -> Self { Self::new() } } })
             }
         };
+        let item = parts_struct.map(|(_, item)| item);
         let ports = self.ports();
         let inner = around_text();
         quote! {
@@ -203,7 +199,7 @@ impl Program<'_> {
                     }
                 }
                 /// The nodes, by instance name.
-                pub fn nodes(&self) -> #nodes_name<'_> { #nodes_make }
+                pub fn nodes(&self) -> #nodes_type { #nodes_make }
                 #ports
             }
             #default
@@ -214,16 +210,9 @@ impl Program<'_> {
     fn ports(&self) -> TokenStream {
         let main = &self.split.parts[0];
         let part = part_name(main);
-        let [inputs, outputs, events] =
-            ["Inputs", "Outputs", "Events"].map(|kind| format_ident!("{}{kind}", main.graph.name));
-        quote! {
-            /// The graph-level inputs and slots.
-            pub fn inputs(&mut self) -> &mut #inputs { &mut self.#part.inputs }
-            /// The graph-level outputs.
-            pub fn outputs(&self) -> &#outputs { &self.#part.outputs }
-            /// The graph-level events.
-            pub fn events(&mut self) -> &mut #events { &mut self.#part.events }
-        }
+        let structs = self.parts[0].port_structs(&main.graph);
+        let place = quote!(self.#part);
+        port_accessors(&structs, &place)
     }
 
     /// How the program reacts.
@@ -277,7 +266,8 @@ impl Program<'_> {
                 }
         };
         let main = part_name(&parts[0]);
-        let mailboxes = mailboxes(&parts[0].graph.name, &quote!(self.#main));
+        let [inputs, _, events] = self.parts[0].port_structs(&parts[0].graph);
+        let mailboxes = mailboxes(&inputs.ty, &events.ty, &quote!(self.#main));
         let (own_react, react) = self.generator.around(self.graph, react, &quote!(self.#main));
         let recording = self.generator.recording(self.graph);
         let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
@@ -323,7 +313,7 @@ impl Program<'_> {
         });
         let (mut types, mut makes) = (vec![], vec![]);
         for (number, part) in self.split.parts.iter().enumerate() {
-            let (handle, ends, field) = (handle_name(&part.graph), ends_name(&part.graph), part_name(part));
+            let ([ends, handle], field) = (self.handle_structs(number), part_name(part));
             let own = self.ends(number).map(|(cell, sends)| {
                 let (name, side) = (cell_name(cell), if sends { "sender" } else { "receiver" });
                 let end = format_ident!("{side}_{cell}");

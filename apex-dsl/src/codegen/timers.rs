@@ -5,7 +5,7 @@ use super::{
     activity::Whole,
     clusters::inlined,
     state::{Kept, Kind},
-    types::nanos,
+    types::{ident, nanos},
     wiring::Flag,
 };
 use crate::{
@@ -142,7 +142,7 @@ impl Generator<'_> {
     /// when it is enabled, if it is still active.
     pub fn expires(&self, whole: Whole<'_>, index: usize) -> TokenStream {
         let timeout = &whole.wiring.timeouts[index];
-        let expire = format_ident!("expire_{index}");
+        let expire = ident(&timeout.name);
         let mut test = self.allows(whole, &timeout.needs);
         if whole.graph.nodes[timeout.node].can_be_disabled() {
             let is_enabled = self.is_set(Flag::Enabled(timeout.node));
@@ -158,8 +158,9 @@ impl Generator<'_> {
     }
 
     fn expire(&self, whole: Whole<'_>, index: usize, inline: &TokenStream) -> TokenStream {
-        let (graph, node) = (whole.graph, whole.wiring.timeouts[index].node);
-        let expire = format_ident!("expire_{index}");
+        let (graph, timeout) = (whole.graph, &whole.wiring.timeouts[index]);
+        let (node, expire) = (timeout.node, ident(&timeout.name));
+        let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
         let (clear, open) = (self.clear_events(whole, node), self.open_agenda(whole));
         let trigger = self.trigger(graph, node, Standard::Timeout);
         let pass = self.pass_activity(whole, node, &|end| {
@@ -170,6 +171,7 @@ impl Generator<'_> {
         let emit = self.emit(whole, node, false);
         let serve = self.deliver(whole, &whole.links.sends[node]);
         quote! {
+            #[doc = #docs]
             #inline
             fn #expire<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                 let Self { nodes, state, .. } = self;

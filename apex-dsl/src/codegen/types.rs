@@ -72,7 +72,7 @@ impl Generator<'_> {
         }
         let args = library.types.iter().map(|arg| match arg {
             TypeArg::Known(ty) => spell(ty, self.catalog).unwrap_or_else(|| quote!(_)),
-            TypeArg::Spelled(ty, text) => spell(ty, self.catalog).unwrap_or_else(|| text.parse().unwrap_or_default()),
+            TypeArg::Spelled(ty, text) => spell(ty, self.catalog).unwrap_or_else(|| self.parsed(graph, text)),
             TypeArg::TokenOf(end) => self.token_type(graph, *end),
             TypeArg::ItemOf(end) => {
                 let list = self.token_type(graph, *end);
@@ -105,8 +105,13 @@ impl Generator<'_> {
                 Some(ty) => ty,
                 None => self.projection(graph, library, end),
             },
-            _ => spell(&port.ty, self.catalog).unwrap_or_else(|| port.ty.to_string().parse().unwrap_or_default()),
+            _ => spell(&port.ty, self.catalog).unwrap_or_else(|| self.parsed(graph, &port.ty.to_string())),
         }
+    }
+
+    /// A type as it is written.
+    fn parsed(&self, graph: &Graph, text: &str) -> TokenStream {
+        text.parse().unwrap_or_else(|_| self.bug(graph.span, &format!("`{text}` is not a type of Rust")))
     }
 
     /// A type that only rustc can spell, by way of the node's ports.

@@ -4,7 +4,7 @@
 //! It is made once from graph and analysis. Few slots become straight-line code, many become tables: both are written from
 //! this.
 
-use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing};
+use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
 use crate::{
     analyse::{Analysis, Delivery, Guard, takes_activity},
     graph::{End, Flow, Graph, NodeId, NodeKind},
@@ -61,6 +61,8 @@ pub struct Send {
 /// The call of a slot because of the token on a connection.
 #[derive(Debug)]
 pub struct Slot {
+    /// Name of its function: `stopped_to_waiting_enable`.
+    pub name: String,
     pub connection: usize,
     pub node: NodeId,
     /// The condition that the connection is free again.
@@ -85,6 +87,8 @@ impl Slot {
 /// The `timeout` of a node: how long it may be active.
 #[derive(Debug)]
 pub struct Timeout {
+    /// Name of its function: `expire_waiting`.
+    pub name: String,
     pub node: NodeId,
     pub after: Duration,
     /// The conditions under which its event can be triggered.
@@ -103,6 +107,8 @@ pub struct Wiring {
     pub slots: Vec<Slot>,
     /// The sources with timers, and the conditions that these are due.
     pub timers: Vec<(NodeId, usize)>,
+    /// Names of the functions of clusters: `fire_camera`, by the first node of its schedule.
+    pub clusters: Vec<String>,
     /// The timeouts, in the order of the nodes.
     pub timeouts: Vec<Timeout>,
     /// Slots and timeouts are so many that tables serve them.
@@ -113,6 +119,11 @@ impl Wiring {
     /// The wiring of a program or of a part of one.
     pub fn new(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis) -> Self {
         let links = &analysis.links;
+        let mut used = BTreeSet::new();
+        // Relays, probes and hidden slots have names that are not identifiers.
+        let valid = |c: char| if c.is_alphanumeric() { c } else { '_' };
+        let mut named = |name: String| unused(name.chars().map(valid).collect(), &mut used);
+        let path = |node: NodeId| graph.path(node).replace('.', "_");
         let bits = Bits::new(graph, analysis);
         let needs = bits.needs(graph, analysis, links);
         let slots = analysis.asynchronous.slots.iter().zip(needs).map(|(&connection, needs)| {
@@ -120,7 +131,9 @@ impl Wiring {
             let frees = bits.free(connection);
             // What an output sent on is notified as soon as the slot took it.
             let settles = graph.port(c.from).kind == PortKind::Output && frees.is_some();
+            let (from, to) = (generator.name(c.from), path(c.to.node));
             Slot {
+                name: named(format!("{from}_to_{to}_{}", graph.port(c.to).name)),
                 connection,
                 node: c.to.node,
                 frees,
@@ -129,7 +142,7 @@ impl Wiring {
                 needs,
             }
         });
-        let slots = slots.collect();
+        let slots: Vec<Slot> = slots.collect();
         let rows = (0..graph.nodes.len()).map(|node| (node, rows(generator, graph, analysis, &bits, node)));
         let ports = rows.filter(|(_, rows)| !rows.is_empty()).collect();
         let timers = analysis.guards.iter().enumerate().filter_map(|(guard, what)| match what {
@@ -141,11 +154,20 @@ impl Wiring {
         let timeouts = (0..graph.nodes.len()).filter_map(|node| {
             let holding = analysis.asynchronous.holding_back(graph, links, node);
             let needs = holding.filter_map(|connection| bits.free(connection)).collect();
-            Some(Timeout { node, after: generator.timeout(graph, analysis, node)?, needs })
+            let name = format!("expire_{}", path(node));
+            Some(Timeout { name, node, after: generator.timeout(graph, analysis, node)?, needs })
         });
-        let timeouts = timeouts.collect();
+        let mut timeouts: Vec<Timeout> = timeouts.collect();
+        for timeout in &mut timeouts {
+            timeout.name = named(std::mem::take(&mut timeout.name));
+        }
+        let clusters = analysis.clusters.iter().map(|cluster| {
+            let first = cluster.schedule().first().map(|node| path(*node)).unwrap_or_default();
+            named(format!("fire_{first}"))
+        });
+        let clusters = clusters.collect();
         let is_tabled = analysis.asynchronous.is_tabled;
-        Self { bits, ports, slots, timers, timeouts, is_tabled }
+        Self { bits, ports, slots, timers, clusters, timeouts, is_tabled }
     }
 
     /// The number of a source's timer.

@@ -319,7 +319,14 @@ impl Generator<'_> {
         (!self.catalog.lacks_prelude()).then(|| quote!(#[diagnostic::do_not_recommend]))
     }
 
-    /// Where a piece of the text stands, as `file:line:column`.
+    /// Name of the source file and line of a place in it: `mission.afg:17`.
+    pub fn line(&self, span: Span) -> String {
+        let (line, _) = self.sources.line_column(span.file, span.start);
+        let path = &self.sources.get(span.file).path;
+        format!("{}:{line}", path.file_name().unwrap_or(path.as_os_str()).to_string_lossy())
+    }
+
+    /// Position of a piece of text: `robots/mission.afg:17:10`.
     pub fn position(&self, span: Span) -> String {
         let (line, column) = self.sources.line_column(span.file, span.start);
         format!("{}:{line}:{column}", self.sources.get(span.file).path.display())

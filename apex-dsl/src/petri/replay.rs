@@ -375,8 +375,8 @@ impl<'a> Replay<'a> {
         (0..self.net.transitions.len()).for_each(|transition| self.release(transition));
     }
 
-    /// Lets one deferred node take its tokens: `last` only if there is no other, and nodes whose activity does not change
-    /// first. Returns `false` if nothing is deferred.
+    /// Lets one deferred node take its tokens: `last` only if there is no other, and nodes whose activity does not
+    /// change first. Returns `false` if nothing is deferred.
     fn take_deferred(&mut self, last: Option<NodeId>) -> bool {
         let deferred = self.lazy();
         let rank =

@@ -25,6 +25,7 @@ pages! {
     "essential-without-hook"
     "every-on-driven"
     "fsm-port"
+    "internal-error"
     "missing-argument"
     "missing-modifier"
     "missing-unit"

@@ -16,7 +16,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Largest number of innermost states. Nobody would understand a larger machine.
+/// Largest number of innermost states. A larger machine would not be readable.
 const MAX_STATES: usize = 1_000;
 
 /// Resolves `item`. `ty` determines the types of its ports, `scope` the meaning of names in values and guards.

@@ -23,7 +23,7 @@ pub fn unknown(char: char, span: Span) -> Diagnostic {
 }
 
 /// Returns `true` for byte order marks, characters without width and marks of the writing direction, which other
-/// programs leave in a text.
+/// programs leave in a source file.
 fn is_invisible(char: char) -> bool {
     matches!(char, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }

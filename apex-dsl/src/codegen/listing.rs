@@ -1,0 +1,176 @@
+//! The program between analysis and Rust as text: state, conditions, clusters, slots, timers, and what follows from tokens.
+
+use super::{
+    Generator,
+    activity::{Carries, Whole},
+    each_part,
+    wiring::{Flag, Port, Slot, Timeout},
+};
+use crate::{
+    analyse::{Block, Step},
+    catalog::Catalog,
+    graph::NodeId,
+    program::Program,
+    source::Sources,
+    syntax::tree::PortKind,
+};
+use std::fmt::Write as _;
+
+/// Lines with their indentation.
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    fn add(&mut self, depth: usize, line: &str) {
+        let _ = writeln!(self.0, "{:1$}{line}", "", 2 * depth);
+    }
+}
+
+/// The program that Rust is written from, as text.
+pub fn listing(program: &Program, catalog: &Catalog, sources: &Sources) -> String {
+    let mut lines = Lines::default();
+    lines.add(0, &format!("program {}", program.graph.name));
+    each_part(program, catalog, sources, &mut |generator, whole, part| {
+        if let Some(part) = part {
+            lines.add(0, &format!("thread {}", part.group));
+        }
+        generator.list_state(&mut lines, whole);
+        generator.list_clusters(&mut lines, whole);
+        generator.list_slots(&mut lines, whole);
+        generator.list_timers(&mut lines, whole);
+    });
+    lines.0
+}
+
+/// Numbers in a list: `2, 5`.
+fn numbers(numbers: impl IntoIterator<Item = usize>) -> String {
+    numbers.into_iter().map(|number| number.to_string()).collect::<Vec<_>>().join(", ")
+}
+
+impl Generator<'_> {
+    fn list_state(&self, lines: &mut Lines, whole: Whole<'_>) {
+        let state = self.state(whole);
+        if !state.is_empty() {
+            lines.add(1, "state");
+        }
+        let places = state.iter().flat_map(|kept| kept.places().map(move |(place, of)| (kept.kind, place, of)));
+        for (kind, place, of) in places {
+            let kind = format!("{kind:?}").to_lowercase();
+            lines.add(2, &format!("{place}: {kind} {of}"));
+        }
+        let guard = |guard: usize| whole.analysis.guards[guard].text(whole.graph);
+        let conditions = whole.wiring.bits.texts(whole.graph, &whole.wiring.clusters, &guard);
+        if !conditions.is_empty() {
+            lines.add(1, "conditions");
+        }
+        for (bit, text) in conditions.iter().enumerate() {
+            lines.add(2, &format!("{bit} {text}"));
+        }
+    }
+
+    fn list_clusters(&self, lines: &mut Lines, whole: Whole<'_>) {
+        for (index, cluster) in whole.analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires) {
+            let guards = cluster.own_guards.iter().map(|guard| whole.analysis.guards[*guard].text(whole.graph));
+            let when: Vec<String> = guards.chain((!cluster.upstream.is_empty()).then(|| "tokens".to_owned())).collect();
+            lines.add(1, &format!("cluster {}: {}", whole.wiring.clusters[index], when.join(", ")));
+            self.list_block(lines, whole, &cluster.block, 2);
+        }
+    }
+
+    fn list_block(&self, lines: &mut Lines, whole: Whole<'_>, block: &Block, depth: usize) {
+        for step in &block.steps {
+            match step {
+                Step::Fire(node) => {
+                    let times = match whole.analysis.repetitions.get(*node) {
+                        Some(&count) if count > 1 => format!(", {count} times"),
+                        _ => String::new(),
+                    };
+                    lines.add(depth, &format!("fire {}{times}", whole.graph.path(*node)));
+                    self.list_ports(lines, whole, *node, depth + 1, |_| true);
+                }
+                Step::Block(inner) => {
+                    let tokens: Vec<String> = inner.opens.iter().map(|end| self.name(*end).to_string()).collect();
+                    lines.add(depth, &format!("if {}", tokens.join(" and ")));
+                    self.list_block(lines, whole, inner, depth + 1);
+                }
+            }
+        }
+    }
+
+    /// Lists the effects of tokens at the ports of a node of which `sends` is `true`. A slot sends on events only.
+    fn list_ports(
+        &self,
+        lines: &mut Lines,
+        whole: Whole<'_>,
+        node: NodeId,
+        depth: usize,
+        sends: impl Fn(PortKind) -> bool,
+    ) {
+        for port in whole.wiring.of(node).iter().filter(|port| sends(whole.graph.port(port.end).kind)) {
+            lines.add(depth, &format!("if {}", self.name(port.end)));
+            for effect in effects(whole, port) {
+                lines.add(depth + 1, &effect);
+            }
+        }
+    }
+
+    fn list_slots(&self, lines: &mut Lines, whole: Whole<'_>) {
+        let served = if whole.wiring.is_tabled { " (from tables)" } else { "" };
+        for (number, slot) in whole.wiring.slots.iter().enumerate() {
+            let Slot { name, connection, node, frees, carries, settles, needs } = slot;
+            lines.add(1, &format!("slot {number} {name}{served}: {}", whole.graph.connection_text(*connection)));
+            if !needs.is_empty() {
+                lines.add(2, &format!("needs {}", numbers(needs.iter().copied())));
+            }
+            if let Some(bit) = frees {
+                lines.add(2, &format!("raise {bit}"));
+            }
+            let node_name = whole.graph.path(*node);
+            match carries {
+                Carries::Nothing => {}
+                Carries::Always => lines.add(2, &format!("activate {node_name}")),
+                Carries::Sometimes => lines.add(2, &format!("activate {node_name} if carries {number}")),
+                Carries::Away => lines.add(2, &format!("deactivate {node_name}")),
+            }
+            let call = whole.graph.end_name(whole.graph.connections[*connection].to);
+            lines.add(2, &format!("call {call}"));
+            self.list_ports(lines, whole, *node, 2, |kind| kind == PortKind::Event);
+            if let Some(row) = settles {
+                lines.add(2, &format!("settle row {row}"));
+            }
+        }
+    }
+
+    fn list_timers(&self, lines: &mut Lines, whole: Whole<'_>) {
+        for (number, (node, bit)) in whole.wiring.timers.iter().enumerate() {
+            lines.add(1, &format!("timer {number} of {}: raises {bit}", whole.graph.path(*node)));
+        }
+        for (number, Timeout { name, node, after, needs }) in whole.wiring.timeouts.iter().enumerate() {
+            let needs = if needs.is_empty() { String::new() } else { format!(", needs {}", numbers(needs.clone())) };
+            lines.add(1, &format!("timeout {number} {name}: {} active for {after:?}{needs}", whole.graph.path(*node)));
+            self.list_ports(lines, whole, *node, 2, |kind| kind == PortKind::Event);
+        }
+    }
+}
+
+/// What a token at a port does besides being there.
+fn effects(whole: Whole<'_>, port: &Port) -> Vec<String> {
+    let flag = |flag: &Flag| match *flag {
+        Flag::Active(node) => format!("active {}", whole.graph.path(node)),
+        Flag::Gains(node) => format!("gains {}", whole.graph.path(node)),
+        Flag::Loses(node) => format!("loses {}", whole.graph.path(node)),
+        Flag::Enabled(node) => format!("enabled {}", whole.graph.path(node)),
+        Flag::Carries(slot) => format!("carries {slot}"),
+    };
+    let mut effects: Vec<String> = port.takes_away.iter().map(|set| format!("set {}", flag(set))).collect();
+    if let Some(along) = &port.passes {
+        effects.push(format!("deactivate {}", whole.graph.path(port.end.node)));
+        effects.extend(along.iter().map(|set| format!("set {} if it was active", flag(set))));
+    }
+    for send in &port.sends {
+        effects.extend(send.queued.map(|slot| format!("queue slot {slot}")));
+        effects.extend(send.raises.map(|bit| format!("raise {bit}")));
+        effects.extend(send.occupies.map(|bit| format!("clear {bit}")));
+    }
+    effects
+}

@@ -1,0 +1,152 @@
+//! Names in generated code: those of the text for locals and fields, and those of the items of a program.
+
+use super::{Generator, types::ident};
+use crate::{
+    graph::{End, Graph, Node, NodeId, NodeKind},
+    threads::{Origin, Part},
+};
+use std::collections::{BTreeMap, BTreeSet};
+use syn::Ident;
+
+/// Names of locals and fields: those of the text, made unique.
+#[derive(Clone, Default)]
+pub struct Names {
+    /// What tells a program, its parts and the bodies of its `each` apart.
+    pub number: usize,
+    /// The number of each node in the table of all nodes.
+    pub numbers: Vec<usize>,
+    tokens: BTreeMap<End, String>,
+    /// Where delays hold tokens back.
+    held: BTreeMap<NodeId, String>,
+    /// Where delays keep the activity of these tokens.
+    held_activity: BTreeMap<NodeId, String>,
+    pub inner: BTreeMap<NodeId, Names>,
+}
+
+impl Names {
+    pub fn new(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
+        // No other graph has nodes with these numbers.
+        let mut names = Self { number: *count, ..Self::default() };
+        names.numbers = (*count..*count + graph.nodes.len()).collect();
+        *count += graph.nodes.len();
+        for (node, n) in graph.nodes.iter().enumerate() {
+            let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
+            names.add(node, n, &path, used);
+            if let NodeKind::Each(each) = &n.kind {
+                names.inner.insert(node, Self::new(&each.body, &format!("{path}_"), count, used));
+            }
+        }
+        names
+    }
+
+    /// More than any number in it.
+    pub fn count(&self) -> usize {
+        let inner = self.inner.values().map(Self::count).max().unwrap_or(0);
+        self.numbers.iter().map(|number| number + 1).max().unwrap_or(0).max(inner)
+    }
+
+    /// The names of a node and its tokens.
+    fn add(&mut self, node: NodeId, n: &Node, path: &str, used: &mut BTreeSet<String>) {
+        for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
+            let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
+            let name = if plain { path.to_owned() } else { format!("{path}_{}", p.name) };
+            self.tokens.insert(End { node, port }, local(name, used));
+        }
+        if let NodeKind::Delay(_) = &n.kind {
+            self.held.insert(node, local(format!("{path}_held"), used));
+            self.held_activity.insert(node, local(format!("{path}_held_activity"), used));
+        }
+    }
+
+    /// The names of a thread group's part of the program with these names.
+    pub fn of_part(&self, part: &Part, number: usize, used: &mut BTreeSet<String>) -> Self {
+        let mut names = Self { number, ..Self::default() };
+        for (node, n) in part.graph.nodes.iter().enumerate() {
+            let Origin::Node(origin) = part.origins[node] else {
+                // It is not a node of the program: its number lies beyond those that observers know.
+                names.numbers.push(self.count() + node);
+                names.add(node, n, &format!("cell_{node}"), used);
+                continue;
+            };
+            names.numbers.push(self.numbers[origin]);
+            let tokens = self.tokens.range(End { node: origin, port: 0 }..).take_while(|(end, _)| end.node == origin);
+            names.tokens.extend(tokens.map(|(end, name)| (End { node, port: end.port }, name.clone())));
+            names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
+            names.held_activity.extend(self.held_activity.get(&origin).map(|name| (node, name.clone())));
+            names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
+        }
+        names
+    }
+}
+
+/// Names that the generated code itself uses, and those that stand for values in every module.
+#[rustfmt::skip]
+const OWN: [&str; 64] = [
+    "Err", "None", "Ok", "Some", "active", "agenda", "begins", "bits", "carries", "code", "counts",
+    "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains",
+    "i", "inputs", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
+    "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue", "quiet",
+    "recorded", "result", "results", "round", "row", "self", "sent", "stamp", "stamps", "started",
+    "state", "step", "steps", "tap", "timeouts", "timers", "token", "tokens", "told", "value",
+    "wake", "woken",
+];
+/// Beginnings of names that the generated code itself uses.
+const OWN_PREFIXES: [&str; 10] =
+    ["param_", "token_", "claim_", "stamp_", "recorded_", "result_", "cell_", "holding_", "sender_", "receiver_"];
+
+/// The name of a local, which no name that the generated code itself uses hides.
+fn local(mut name: String, used: &mut BTreeSet<String>) -> String {
+    if OWN.contains(&name.as_str()) || OWN_PREFIXES.iter().any(|own| name.starts_with(own)) {
+        name.push('_');
+    }
+    unused(name, used)
+}
+
+/// `name`, or something like it that is not used yet.
+pub fn unused(mut name: String, used: &mut BTreeSet<String>) -> String {
+    while !used.insert(name.clone()) {
+        name.push('_');
+    }
+    name
+}
+
+/// Name of an item of a program: `Nodes`. In a part of a program it begins with the thread group: `On_visionNodes`.
+pub fn item(program: &Graph, part: Option<&Part>, kind: &str) -> Ident {
+    let group = part.map(|part| format!("On_{}", part.group)).unwrap_or_default();
+    let name = format!("{group}{kind}");
+    // The program has the name that the text gives it.
+    ident(&if name == program.name { name + "_" } else { name })
+}
+
+impl Generator<'_> {
+    /// Name of an item of the program, or of the part of one, that `graph` is.
+    pub fn item(&self, graph: &Graph, kind: &str) -> Ident {
+        match self.part {
+            Some((program, part)) => item(program, Some(part), kind),
+            None => item(graph, None, kind),
+        }
+    }
+
+    /// Name of the struct of the program, or of the part of one, that `graph` is.
+    pub fn program_name(&self, graph: &Graph) -> Ident {
+        match self.part {
+            Some((program, part)) => item(program, Some(part), ""),
+            None => ident(&graph.name),
+        }
+    }
+
+    /// The name of a token.
+    pub fn name(&self, end: End) -> Ident {
+        self.names.tokens.get(&end).map_or_else(|| self.nameless("a token"), |name| ident(name))
+    }
+
+    /// The name of the place where a delay keeps the activity of the tokens that it holds.
+    pub fn held_activity(&self, node: NodeId) -> Ident {
+        self.names.held_activity.get(&node).map_or_else(|| self.nameless("the activity of a delay"), |name| ident(name))
+    }
+
+    /// The name of the place where a delay holds tokens back.
+    pub fn held(&self, node: NodeId) -> Ident {
+        self.names.held.get(&node).map_or_else(|| self.nameless("a delay"), |name| ident(name))
+    }
+}
