@@ -5,7 +5,7 @@ mod outputs;
 
 use proc_macro::TokenStream;
 
-/// Marks a function, a struct or its `impl` as a node: the signature is the interface.
+/// Makes a function, a struct or its `impl` a node. The signature is the interface.
 #[proc_macro_attribute]
 pub fn node(args: TokenStream, item: TokenStream) -> TokenStream {
     node::expand(args.into(), item.into()).unwrap_or_else(|error| error.into_compile_error()).into()

@@ -1,4 +1,4 @@
-//! `#[node]`: leaves the item as it is but for its marks, and adds what generated code calls.
+//! `#[node]`: keeps the item except for its attributes, and adds the implementations that generated code uses.
 
 use apex_signature::{self as signature, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -20,7 +20,7 @@ pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> 
     }
 }
 
-/// A function keeps its name; a type of the same name carries the types of its ports.
+/// Expands a function. It keeps its name; a type of the same name has the types of its ports.
 fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
     for arg in &mut item.sig.inputs {
@@ -40,7 +40,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
         callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(&**p) } else { None }).collect();
     let names: Vec<Ident> = callable.args.iter().filter(|a| matches!(a.form, Form::Param(_))).map(ident).collect();
     let params = params(&decls, &names, generics, &quote!(#name #type_args));
-    // A token of type `Vec<T>` is taken as `&Vec<T>`, the type that is sent; and a node may have many ports.
+    // An input of type `Vec<T>` is taken as `&Vec<T>`, the type that is sent, and a node may have many ports.
     Ok(quote! {
         #[inline]
         #[allow(clippy::ptr_arg, clippy::too_many_arguments)]
@@ -55,7 +55,8 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     })
 }
 
-/// Type parameters without bounds: a type that does not meet them can be named, and rustc asked about it.
+/// Returns the type parameters without bounds: a type that does not satisfy them can still be named, so that rustc can
+/// check the bounds.
 fn unbound(generics: &Generics) -> Generics {
     let mut unbound = Generics { where_clause: None, ..generics.clone() };
     let is_relaxed = |bound: &TypeParamBound| matches!(bound, TypeParamBound::Trait(bound) if bound.maybe.is_some());
@@ -65,7 +66,7 @@ fn unbound(generics: &Generics) -> Generics {
     unbound
 }
 
-/// A struct gets a constructor from its parameters; all other fields start at their default.
+/// Expands a struct. It gets a constructor from its parameters, in which all other fields have their defaults.
 fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     let declared = signature::params(&item)?;
     let fields: Vec<Ident> = declared.iter().filter_map(|(field, _)| field.ident.clone()).collect();
@@ -85,7 +86,7 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     });
     let state: Vec<&Ident> =
         item.fields.iter().filter_map(|f| f.ident.as_ref()).filter(|name| !fields.contains(name)).collect();
-    // Names that nothing of the Rust around is called by: a tuple struct of the same name would be a pattern.
+    // Numbers instead of names, which may collide with user code: a tuple struct of the same name would be a pattern.
     let numbers: Vec<syn::Index> = (0..fields.len()).map(syn::Index::from).collect();
     let constructor = match &item.fields {
         syn::Fields::Named(_) => {
@@ -96,8 +97,8 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
             return Err(syn::Error::new_spanned(&item.fields, "a node has named fields"));
         }
     };
-    // Without `Default` for all of its state a node cannot be made by a graph, only handed in. The lifetime puts
-    // the check off until a graph makes one.
+    // Without `Default` for all of its state a node cannot be constructed by a graph, only passed to it. The lifetime
+    // defers the check until a graph constructs the node.
     let state_types =
         item.fields.iter().filter(|f| f.ident.as_ref().is_some_and(|n| !fields.contains(n))).map(|f| &f.ty);
     let mut where_fresh = item.generics.clone();
@@ -126,7 +127,7 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     })
 }
 
-/// The methods that a graph calls become public; the rest stays as it is.
+/// Expands an `impl`. The methods that a graph calls become public; the rest stays as it is.
 fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
     if let Some((path, _)) = &item.trait_ {
         return Err(syn::Error::new_spanned(
@@ -184,7 +185,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
     })
 }
 
-/// Names the types of a node's ports (`apex_rt::Input`, `apex_rt::Output`).
+/// Implements the traits for the types of a node's ports (`apex_rt::Input`, `apex_rt::Output`).
 fn ports(callable: &Callable, generics: &TokenStream, node: &TokenStream, bounds: &TokenStream) -> TokenStream {
     let inputs =
         callable.args.iter().filter_map(|a| if let Form::Input(i) = &a.form { Some(&i.token.ty) } else { None });
@@ -205,7 +206,7 @@ fn ports(callable: &Callable, generics: &TokenStream, node: &TokenStream, bounds
     quote! { #(#inputs)* #(#outputs)* }
 }
 
-/// Names the types of a node's events (`apex_rt::Trigger`).
+/// Implements the trait for the types of a node's events (`apex_rt::Trigger`).
 fn triggers(events: &[&Type], generics: &TokenStream, node: &TokenStream, bounds: &TokenStream) -> TokenStream {
     let events = events.iter().enumerate().map(|(i, ty)| {
         quote! {
@@ -216,7 +217,7 @@ fn triggers(events: &[&Type], generics: &TokenStream, node: &TokenStream, bounds
     quote! { #(#events)* }
 }
 
-/// Names the types of a node's parameters (`apex_rt::Param`), and makes defaults callable.
+/// Implements the trait for the types of a node's parameters (`apex_rt::Param`), and functions for their defaults.
 fn params(decls: &[&ParamDecl], names: &[Ident], generics: &Generics, node: &TokenStream) -> TokenStream {
     let (impl_generics, _, bounds) = generics.split_for_impl();
     let impls = decls.iter().enumerate().map(|(i, decl)| {

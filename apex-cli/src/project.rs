@@ -8,7 +8,7 @@ use apex_dsl::{
     passes,
     program::Program,
     report::{Diagnostics, Severity, render},
-    resolve::Texts,
+    resolve::SourceSet,
     source::{Sources, World as _},
 };
 use apex_host::{Disk, Seen, Workspace};
@@ -30,7 +30,7 @@ pub struct Checked {
     /// The graphs in it that are no programs.
     pub parts: Vec<Graph>,
     /// It and the texts that it imports.
-    pub texts: Texts,
+    pub texts: SourceSet,
     /// The node types it can use.
     pub catalog: Catalog,
 }

@@ -7,7 +7,7 @@ use crate::{
 use apex_dsl::{
     analyse,
     catalog::Catalog,
-    graph::{Each, End, Graph, Library, Node, NodeId, NodeKind, Place, ScopeId, Wire},
+    graph::{Each, Graph, Library, Node, NodeId, NodeKind, PortId, ScopeId, Wire, WireEnd},
     machine::Machines,
     syntax::tree::PortKind,
 };
@@ -37,7 +37,7 @@ struct Builder<'a> {
     /// The nodes that activity can reach.
     active: BTreeSet<NodeId>,
     /// All ends of connections.
-    connected: BTreeSet<Place>,
+    connected: BTreeSet<WireEnd>,
 }
 
 impl<'a> Builder<'a> {
@@ -54,7 +54,7 @@ impl<'a> Builder<'a> {
     fn boundary_port(&self, id: NodeId) -> Port {
         let node = &self.graph.nodes[id];
         let NodeKind::Boundary(kind) = node.kind else { unreachable!("only called for ports of the graph") };
-        let connected = self.connected.contains(&Place::Port(End { node: id, port: 0 }));
+        let connected = self.connected.contains(&WireEnd::Port(PortId { node: id, port: 0 }));
         Port {
             name: node.name.clone(),
             side: side(kind),
@@ -66,7 +66,7 @@ impl<'a> Builder<'a> {
     /// Everything in a scope, in the order of the text.
     fn frame(&self, scope: ScopeId) -> Frame {
         let mut frame = Frame::default();
-        let mut places: BTreeMap<Place, Anchor> = self.own_places(scope);
+        let mut places: BTreeMap<WireEnd, Anchor> = self.own_places(scope);
         let mut waiting = vec![];
         for member in self.members(scope) {
             let at = frame.items.len();
@@ -85,10 +85,10 @@ impl<'a> Builder<'a> {
         frame
     }
 
-    fn own_places(&self, scope: ScopeId) -> BTreeMap<Place, Anchor> {
-        let places: Vec<Place> = match scope {
-            0 => self.boundaries().map(|node| Place::Port(End { node, port: 0 })).collect(),
-            _ => self.pins(scope).map(Place::Pin).collect(),
+    fn own_places(&self, scope: ScopeId) -> BTreeMap<WireEnd, Anchor> {
+        let places: Vec<WireEnd> = match scope {
+            0 => self.boundaries().map(|node| WireEnd::Port(PortId { node, port: 0 })).collect(),
+            _ => self.pins(scope).map(WireEnd::Pin).collect(),
         };
         places.into_iter().enumerate().map(|(port, place)| (place, Anchor::Own(port))).collect()
     }
@@ -113,11 +113,11 @@ impl<'a> Builder<'a> {
     }
 
     /// A wire whose ends both belong to the scope that `places` are of.
-    fn line(&self, wire: &Wire, places: &BTreeMap<Place, Anchor>) -> Option<Line> {
+    fn line(&self, wire: &Wire, places: &BTreeMap<WireEnd, Anchor>) -> Option<Line> {
         let (from, to) = (*places.get(&wire.from)?, *places.get(&wire.to)?);
-        let sends = |place: Place| match place {
-            Place::Port(end) => self.graph.port(end).kind,
-            Place::Pin(pin) => self.graph.pins[pin].kind,
+        let sends = |place: WireEnd| match place {
+            WireEnd::Port(end) => self.graph.port(end).kind,
+            WireEnd::Pin(pin) => self.graph.pins[pin].kind,
         };
         let flow = match (sends(wire.from).is_synchronous(), sends(wire.to).is_synchronous()) {
             (true, true) => Flow::Synchronous,
@@ -128,14 +128,14 @@ impl<'a> Builder<'a> {
     }
 
     /// A nested graph with its pins.
-    fn scope(&self, id: ScopeId) -> (Item, Vec<Place>) {
+    fn scope(&self, id: ScopeId) -> (Item, Vec<WireEnd>) {
         let scope = &self.graph.scopes[id];
         let mut item = Item::new(Shape::Node, &scope.name);
         item.words = [scope.graph.clone()].into_iter().chain(words::arguments(&scope.args)).collect();
         item.docs.clone_from(&scope.docs);
         let pins: Vec<usize> = self.pins(id).collect();
         let port = |pin: &usize| {
-            let (place, pin) = (Place::Pin(*pin), &self.graph.pins[*pin]);
+            let (place, pin) = (WireEnd::Pin(*pin), &self.graph.pins[*pin]);
             let connected = self.connected.contains(&place);
             Port { name: pin.name.clone(), side: side(pin.kind), docs: pin.docs.clone(), connected }
         };
@@ -143,11 +143,11 @@ impl<'a> Builder<'a> {
         let frame = self.frame(id);
         item.active = frame.items.iter().any(|inner| inner.active);
         item.inside = Some(frame);
-        (item, pins.into_iter().map(Place::Pin).collect())
+        (item, pins.into_iter().map(WireEnd::Pin).collect())
     }
 
     /// A node, with the places of the ports that are shown.
-    fn node(&self, id: NodeId) -> (Item, Vec<Place>) {
+    fn node(&self, id: NodeId) -> (Item, Vec<WireEnd>) {
         let node = &self.graph.nodes[id];
         let mut item = match &node.kind {
             NodeKind::Library(library) => self.library(node, library),
@@ -160,14 +160,14 @@ impl<'a> Builder<'a> {
                 item
             }
             NodeKind::Start => Item::new(Shape::Start, "start"),
-            NodeKind::Hung => Item::new(Shape::Event, "hung"),
-            NodeKind::Exit(_) => Item::new(Shape::End, &node.name),
+            NodeKind::Watchdog => Item::new(Shape::Event, "hung"),
+            NodeKind::Exit(_) => Item::new(Shape::PortId, &node.name),
             NodeKind::Reset => Item::new(Shape::Reset, &node.name),
             _ => unreachable!("these are no members"),
         };
         item.active = self.active.contains(&id);
         let ports = 0..node.ports.len();
-        let places: Vec<Place> = ports.map(|port| Place::Port(End { node: id, port })).collect();
+        let places: Vec<WireEnd> = ports.map(|port| WireEnd::Port(PortId { node: id, port })).collect();
         let shown: Vec<usize> = (0..places.len())
             .filter(|p| {
                 let port = &node.ports[*p];
@@ -263,6 +263,6 @@ fn shape_side(shape: Shape, kind: PortKind) -> Side {
     match shape {
         Shape::Node | Shape::State => side(kind),
         Shape::Start | Shape::Event => Side::Right,
-        Shape::End | Shape::Reset => Side::Left,
+        Shape::PortId | Shape::Reset => Side::Left,
     }
 }

@@ -24,7 +24,7 @@ fn draw(out: &mut String, item: &Item, id: &str, depth: usize) {
             Shape::Node => writeln!(out, "{pad}{id} [label={label}{colour}];"),
             Shape::State => writeln!(out, "{pad}{id} [label={label} style=\"rounded,filled\" fillcolor=\"#fdf0d5\"];"),
             Shape::Start => writeln!(out, "{pad}{id} [label=\"\" shape=point width=0.15];"),
-            Shape::End => writeln!(out, "{pad}{id} [label=\"\" xlabel={label} shape=doublecircle width=0.1];"),
+            Shape::PortId => writeln!(out, "{pad}{id} [label=\"\" xlabel={label} shape=doublecircle width=0.1];"),
             Shape::Event => {
                 writeln!(out, "{pad}{id} [label=\"\" xlabel={label} shape=circle peripheries=2 width=0.1];")
             }

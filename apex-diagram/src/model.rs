@@ -36,7 +36,7 @@ pub enum Shape {
     /// A filled dot: where activity begins.
     Start,
     /// A dot in a ring: the program ends.
-    End,
+    PortId,
     /// A ring: the slot `reset`.
     Reset,
     /// Two rings: an event that every program has, such as `hung`.

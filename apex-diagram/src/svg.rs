@@ -107,7 +107,7 @@ fn shape(out: &mut String, item: &Item, placed: &Placed) {
             writeln!(out, "<rect class=\"box\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>")
         }
         Shape::Start => writeln!(out, "<circle class=\"dot\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>", middle - 1),
-        Shape::End => writeln!(
+        Shape::PortId => writeln!(
             out,
             "<circle class=\"ring\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/><circle class=\"dot\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>",
             middle - 1,
@@ -249,7 +249,7 @@ fn words(out: &mut String, text: &Text) {
     let anchor = match text.align {
         Align::Begin => "start",
         Align::Middle => "middle",
-        Align::End => "end",
+        Align::PortId => "end",
     };
     let (x, y) = text.at;
     let _ = write!(out, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\">", text.size);

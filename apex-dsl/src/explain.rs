@@ -5,7 +5,7 @@ use crate::{
     catalog::Catalog,
     claims::Decided,
     codegen::{Storage, storage},
-    graph::{End, Flow, Graph, Node, NodeId, NodeKind},
+    graph::{Flow, Graph, Node, NodeId, NodeKind, PortId},
     machine::{self, Machines},
     program::Program,
     syntax::tree::PortKind,
@@ -52,7 +52,7 @@ fn signature(node: &Node) -> Option<usize> {
 /// Writes the asynchronous connections in the order of the source, and for how long each one is occupied by a token.
 fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
     for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
-        let how = match (graph.flow(c), analysis.asynchronous.stays[index]) {
+        let how = match (graph.flow(c), analysis.asynchronous.may_block[index]) {
             _ if is_cell(graph, c.to.node) => "occupied until the other thread is done with it",
             (Flow::ToInput, _) => "occupied until the region behind it has finished",
             (_, true) => "occupied until the slot can be served",
@@ -179,7 +179,7 @@ fn characteristics(analysis: &Analysis, node: NodeId) -> Vec<&'static str> {
 
 /// The nodes that do not fire if `node` sends ⊥ on all its outputs.
 fn skipped(graph: &Graph, analysis: &Analysis, node: NodeId) -> Vec<NodeId> {
-    let own = |end: &End| end.node == node;
+    let own = |end: &PortId| end.node == node;
     let mut skipped: BTreeSet<NodeId> = BTreeSet::new();
     for &next in &analysis.order {
         let clock = &analysis.clocks[next];
@@ -194,13 +194,13 @@ fn skipped(graph: &Graph, analysis: &Analysis, node: NodeId) -> Vec<NodeId> {
 }
 
 /// Tokens that outlive a firing of their cluster, or that a node writes in place.
-fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(End, String)> {
+fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(PortId, String)> {
     let mut kept = vec![];
     for (node, n) in graph.nodes.iter().enumerate() {
         for port in
             (0..n.ports.len()).filter(|p| n.ports[*p].kind == PortKind::Output && n.ports[*p].parameter.is_none())
         {
-            let end = End { node, port };
+            let end = PortId { node, port };
             let crosses = graph
                 .connections
                 .iter()

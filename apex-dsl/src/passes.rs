@@ -10,7 +10,7 @@ use crate::{
     machine::Machines,
     program::Program,
     report::Diagnostics,
-    resolve::{self, Link, Texts},
+    resolve::{self, Link, SourceSet},
     source::{FileId, Sources, Span, World},
     threads,
 };
@@ -19,7 +19,7 @@ use proc_macro2::TokenStream;
 /// Results of all checks of a source file.
 pub struct Checked {
     /// The source file and all that it imports.
-    pub texts: Texts,
+    pub texts: SourceSet,
     /// The connections in it, as written.
     pub links: Vec<Link>,
     /// The programs in it that could be built and analysed.

@@ -14,7 +14,7 @@ use std::{
     time::UNIX_EPOCH,
 };
 
-/// Changes when the cached items do.
+/// Version of the cached items: increment it whenever their format changes.
 const VERSION: u32 = 11;
 
 #[derive(Serialize, Deserialize, Default)]
@@ -30,21 +30,22 @@ struct Entry {
     items: Arc<[Item]>,
 }
 
-/// What tells one state of a file from another: time and length; `None` if there is no such file.
+/// Stamp that identifies the state of a file: its time of modification, in ns since the Unix epoch, and its length in
+/// bytes; `None` if there is no such file.
 pub(crate) type Stamp = Option<(u128, u64)>;
 
-/// The file system, with a cache of what was found in Rust files (by path, time and length).
+/// The file system, with a cache of the items in Rust files by path, time and length.
 pub struct Disk {
     file: Option<PathBuf>,
-    /// Read when it is first asked for.
+    /// The cache, once it was needed.
     cache: Option<Cache>,
     changed: bool,
-    /// The files on which what was answered so far depends.
+    /// The files on which the answers since the last [`Disk::take_asked`] depend.
     asked: BTreeMap<PathBuf, Stamp>,
 }
 
 impl Disk {
-    /// Uses the cache in `folder`; without one nothing is remembered. A cache that cannot be read is made anew.
+    /// Returns the file system with the cache in `folder`, or without a cache. A cache that cannot be read is replaced.
     pub fn new(folder: Option<&Path>) -> Self {
         Self { file: folder.map(|f| f.join("catalog.json")), cache: None, changed: false, asked: BTreeMap::new() }
     }
@@ -57,18 +58,18 @@ impl Disk {
         })
     }
 
-    /// The files that were asked for since this was called last, as they were then.
+    /// Takes the files that were requested since the last call, with their stamps at that time.
     pub(crate) fn take_asked(&mut self) -> BTreeMap<PathBuf, Stamp> {
         mem::take(&mut self.asked)
     }
 
-    /// Whether it was asked for the items of a file.
+    /// Returns `true` if the items of a file were requested.
     #[cfg(test)]
     pub(crate) fn has_read_items(&self) -> bool {
         self.cache.is_some()
     }
 
-    /// Writes the cache if it changed. It is only a cache: where it cannot be written, nothing is lost.
+    /// Writes the cache if it changed. Errors are ignored, because the cache only saves time.
     pub fn save(&mut self) {
         let Some(file) = self.file.as_ref().filter(|_| self.changed) else { return };
         if let Some(cache) = &self.cache {
@@ -78,7 +79,7 @@ impl Disk {
     }
 }
 
-/// Writes `value` so that other processes see the old file or the new one, never a part.
+/// Writes `value` atomically: other processes see the old file or the new one, never a part.
 pub(crate) fn write_whole(file: &Path, value: &impl Serialize) -> io::Result<()> {
     let folder = file.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;
@@ -93,10 +94,10 @@ pub(crate) fn stamp(path: &Path) -> Stamp {
     Some((modified.as_nanos(), metadata.len()))
 }
 
-/// The text in the file `path`, if it has at most `most` bytes.
+/// Returns the text in the file `path`.
 ///
 /// # Errors
-/// Says why it cannot be read.
+/// The file cannot be read, has more than `most` bytes, or is not UTF-8.
 pub fn read_text(path: &Path, most: usize) -> Result<String, String> {
     let metadata = fs::metadata(path).map_err(|e| reason(&e))?;
     if metadata.is_dir() {
@@ -108,14 +109,13 @@ pub fn read_text(path: &Path, most: usize) -> Result<String, String> {
     read_from(fs::File::open(path).map_err(|e| reason(&e))?, most)
 }
 
-/// The text that comes from `source`, if it has at most `most` bytes. How much will come is not known before: what looks
-/// like an empty file may have no end.
+/// Returns the text of `source`. Its length is not known in advance: a file that looks empty may have no end.
 ///
 /// # Errors
-/// Says why it cannot be read.
+/// `source` cannot be read, has more than `most` bytes, or is not UTF-8.
 pub fn read_from(source: impl Read, most: usize) -> Result<String, String> {
     let mut bytes = vec![];
-    // One byte more than is allowed is enough to know.
+    // One byte more than allowed is enough to detect a longer text.
     source.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|e| reason(&e))?;
     if bytes.len() > most {
         return Err(format!("at most {most} bytes are read"));

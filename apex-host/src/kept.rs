@@ -8,8 +8,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What a process has loaded, so that a crate with hundreds of graphs is not scanned for each of them. Tools live
-/// longer than a compilation: whatever depends on a file holds only as long as that file does not change.
+/// Workspace and catalog that a process has loaded, so that a crate with hundreds of graphs is not scanned for each of
+/// them. Tools run longer than a compilation: everything is loaded again when a file changes on which it depends.
 #[derive(Default)]
 pub struct Kept {
     workspace: Option<(PathBuf, Workspace)>,
@@ -23,10 +23,10 @@ struct Scanned {
 }
 
 impl Kept {
-    /// As [`Workspace::load`].
+    /// Returns the workspace of the package in `folder`, as [`Workspace::load`] does.
     ///
     /// # Errors
-    /// As there.
+    /// The errors of [`Workspace::load`].
     pub fn workspace(&mut self, folder: &Path) -> Result<&Workspace, String> {
         let kept = self.workspace.take().filter(|(of, workspace)| of == folder && workspace.is_current());
         let current = match kept {
@@ -36,7 +36,7 @@ impl Kept {
         Ok(&self.workspace.insert(current).1)
     }
 
-    /// The catalog of `crates`, which `disk` can read.
+    /// Returns the catalog of `crates`, whose files are read through `disk`.
     pub fn catalog(&mut self, crates: Crates, disk: &mut Disk) -> &mut Catalog {
         let kept = self.catalog.take().filter(|scanned| scanned.holds_for(&crates));
         let scanned = kept.unwrap_or_else(|| Scanned::new(crates, disk));
@@ -81,7 +81,7 @@ mod tests {
         write("lib.rs", "#[node] fn one() -> u8 { 1 } mod drive;");
         write("drive/mod.rs", "#[node] pub fn two() -> u8 { 2 }");
         let mut kept = Kept::default();
-        // The nodes, and whether a file was read for them.
+        // Returns the names of the nodes, and `true` if a file was read for them.
         let mut nodes = || -> (Vec<String>, bool) {
             let mut disk = Disk::new(None);
             let catalog = kept.catalog(crates(folder.clone()), &mut disk);
@@ -90,7 +90,7 @@ mod tests {
         };
         assert_eq!(nodes(), (vec!["one".to_owned(), "two".to_owned()], true));
         assert_eq!(nodes(), (vec!["one".to_owned(), "two".to_owned()], false));
-        // Cargo takes this file before the one in the folder.
+        // Cargo prefers this file to the one in the folder.
         write("drive.rs", "#[node] pub fn three() -> u8 { 3 }");
         assert_eq!(nodes(), (vec!["one".to_owned(), "three".to_owned()], true));
         write("lib.rs", "#[node] fn four() -> u8 { 4 }");

@@ -1,5 +1,5 @@
-//! What the Apex compiler needs from the machine it runs on. The compiler itself is pure; `graph!` and the
-//! `apex` command share this crate to give it files and the crates that cargo knows of.
+//! Access of the Apex compiler to its machine. The compiler itself does no input or output; `graph!` and the `apex`
+//! command share this crate, which reads files and asks cargo for crates.
 
 mod disk;
 mod kept;

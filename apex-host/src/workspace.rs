@@ -16,28 +16,28 @@ use std::{
 /// The crates that every program needs: the runtime, and the macro `graph!`.
 const APEX: [&str; 2] = ["apex-rt", "apex-macros"];
 
-/// From where a graph is seen: decides what `crate` means.
+/// Place from which a graph is seen; decides the meaning of `crate`.
 pub enum Seen<'a> {
-    /// From a crate that is being compiled: its name, and whether it is a binary or an example.
+    /// A crate that is being compiled: its name, and `true` if it is a binary or an example.
     Crate(&'a str, bool),
-    /// From outside: all targets of the package count.
+    /// The outside: all targets of the package count.
     Package,
 }
 
-/// The packages of a dependency graph, as far as they matter.
+/// The relevant packages of a dependency graph.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Workspace {
     /// The root folder of the workspace.
     pub root: PathBuf,
-    /// Where cargo builds.
+    /// The folder in which cargo builds.
     pub target: PathBuf,
     /// The manifests of those of `APEX` that a package of the workspace depends on.
     apex: BTreeMap<String, PathBuf>,
     packages: Vec<Package>,
     here: usize,
-    /// What rustc says of the conditions of a compilation for this machine.
+    /// Conditions (`cfg`) of a compilation for this machine, from rustc.
     conditions: Conditions,
-    /// The files and folders that decide about all this.
+    /// Stamps of the files and folders on which all of this depends.
     stamps: Vec<(PathBuf, Stamp)>,
 }
 
@@ -47,7 +47,7 @@ struct Package {
     manifest: PathBuf,
     features: BTreeSet<String>,
     targets: Vec<Target>,
-    /// Name in code → index of the package, or nothing if it is not scanned.
+    /// Index of each package by its name in code; `None` if it is not scanned.
     dependencies: BTreeMap<String, Option<usize>>,
 }
 
@@ -65,10 +65,10 @@ struct Cached {
 }
 
 impl Workspace {
-    /// The workspace of the package in `folder`. Asks cargo, unless nothing changed since it was asked last.
+    /// Returns the workspace of the package in `folder`. Runs cargo, unless nothing has changed since the last time.
     ///
     /// # Errors
-    /// Says what cargo says, or why it could not be asked.
+    /// Cargo reports an error, or cannot be run.
     pub fn load(folder: &Path) -> Result<Self, String> {
         let manifest = folder.join("Cargo.toml");
         let lock = folder.ancestors().map(|a| a.join("Cargo.lock")).find(|p| p.is_file());
@@ -91,18 +91,18 @@ impl Workspace {
         let watched = manifests.chain(lock).chain([workspace.root.join("Cargo.toml")]).chain(folders);
         workspace.stamps = watched.map(|path| (path.clone(), stamp(&path))).collect();
         if let Some(cache) = cache {
-            // Only a cache: where it cannot be written, cargo is asked again.
+            // An error is ignored: cargo is run again the next time.
             let _ = write_whole(&cache, &Cached { manifest, workspace: workspace.clone() });
         }
         Ok(workspace)
     }
 
-    /// Whether nothing changed since cargo was asked.
+    /// Returns `true` if nothing has changed since cargo was run.
     pub(crate) fn is_current(&self) -> bool {
         self.stamps.iter().all(|(path, old)| stamp(path) == *old)
     }
 
-    /// The folder for caches.
+    /// Returns the folder for caches.
     pub fn cache_folder(&self) -> PathBuf {
         self.target.join("apex")
     }
@@ -166,8 +166,8 @@ impl Workspace {
         })
     }
 
-    /// The crates to scan for a text that stands in `file`. `crate` in it means the package that it belongs to, even if
-    /// another one compiles it.
+    /// Returns the crates to scan for the source file `file`. `crate` in it means the package to which it belongs, even
+    /// if another package compiles it.
     pub fn crates_for(&self, seen: &Seen<'_>, file: &Path) -> Crates {
         let mut crates = self.crates(seen);
         let folder = |package: &Package| {
@@ -185,7 +185,7 @@ impl Workspace {
         crates
     }
 
-    /// The crates to scan.
+    /// Returns the crates to scan.
     pub fn crates(&self, seen: &Seen<'_>) -> Crates {
         let root = self.root.clone();
         let mut all: Vec<CrateSpec> = vec![];
@@ -211,7 +211,7 @@ impl Workspace {
                     None => krate.externs.insert(name.clone()).then_some(()),
                 };
             }
-            // Binaries and tests see the library of their package.
+            // Binaries and tests can use the library of their package.
             if let Some(&lib) =
                 library.get(&self.here).filter(|lib| index >= library.len() && index < count && **lib != index)
             {
@@ -240,18 +240,18 @@ impl Workspace {
         }
     }
 
-    /// The name of the package and of the binary that it has, if it has one.
+    /// Returns the name of the package and of its binary, if there is one.
     pub fn binary(&self) -> (&str, Option<&str>) {
         let package = &self.packages[self.here];
         (&package.name, package.targets.iter().find(|t| t.kind == "bin").map(|t| t.name.as_str()))
     }
 
-    /// What cargo can build of the package: kind, name and root file.
+    /// Returns the targets of the package: kind, name and root file.
     pub fn targets(&self) -> impl Iterator<Item = (&str, &str, &Path)> {
         self.packages[self.here].targets.iter().map(|t| (t.kind.as_str(), t.name.as_str(), t.root.as_path()))
     }
 
-    /// The crates that a program outside of the package would need for a graph in it: name and folder.
+    /// Returns the crates that a program outside of the package needs for a graph in it: name and folder.
     pub fn libraries(&self) -> Vec<(&str, &Path)> {
         let libraries = self.packages.iter().filter(|p| p.targets.iter().any(|t| is_library(&t.kind)));
         let apex = self.apex.iter().map(|(name, manifest)| (name.as_str(), manifest));
@@ -260,7 +260,7 @@ impl Workspace {
     }
 }
 
-/// The packages that `package` needs, itself included: the metadata speaks of the whole workspace.
+/// Returns the packages on which `package` depends, including itself. The metadata describe the whole workspace.
 fn needed(nodes: &[Value], package: &str) -> BTreeSet<String> {
     let id = |v: &Value| v.as_str().unwrap_or_default().to_owned();
     let needs: BTreeMap<String, Vec<String>> = nodes
@@ -290,8 +290,8 @@ fn spec(package: &Package, target: &Target) -> CrateSpec {
     }
 }
 
-/// Where the answer about one package is kept. Cargo itself may be told another folder by its configuration, too, but asking it is
-/// what the cache avoids.
+/// Returns the cache file for one package. The configuration of cargo may set another target folder, but reading it
+/// would need a run of cargo, which the cache avoids.
 fn cache_file(root: &Path, manifest: &Path) -> PathBuf {
     let target = env::var_os("CARGO_TARGET_DIR").map(PathBuf::from).filter(|folder| folder.is_absolute());
     target.unwrap_or_else(|| root.join("target")).join("apex").join(cache_name(manifest))
@@ -302,8 +302,8 @@ fn cache_name(manifest: &Path) -> String {
     format!("{}.json", name_of(&format!("crates {}", package.to_string_lossy()), &[manifest.as_os_str()]))
 }
 
-/// A name for a file or a package that stands for `what` alone: what a person can read of `shown`, and a number of
-/// all of `what`. It has small letters, digits and `-`, and is short enough for any file system.
+/// Returns a name for a file or a package that is unique to `what`: a readable part of `shown`, and a hash of `what`.
+/// It has small letters, digits and `-`, and is short enough for any file system.
 pub fn name_of(shown: &str, what: &[&OsStr]) -> String {
     const MOST: usize = 48;
     let mut name = String::new();
@@ -320,10 +320,10 @@ pub fn name_of(shown: &str, what: &[&OsStr]) -> String {
     format!("{}-{:016x}{:016x}", name.trim_end_matches('-'), number(0), number(1))
 }
 
-/// `cargo metadata`, without network if that is possible: a build of one package downloads only what that package
-/// needs, but the metadata speaks of the whole workspace. `--locked` is left out if there is no lock file yet.
+/// Runs `cargo metadata`, without network access if possible: a build of one package downloads only the dependencies of
+/// that package, but the metadata describe the whole workspace. `--locked` is left out if there is no lock file yet.
 fn metadata(manifest: &Path) -> Result<Value, String> {
-    // Without the filter cargo wants crates of platforms that were never downloaded.
+    // Without the filter cargo needs crates for platforms that were never downloaded.
     let host = host_triple();
     let filter = host.iter().flat_map(|h| ["--filter-platform", h]);
     let mut reason = String::new();
@@ -343,12 +343,12 @@ fn metadata(manifest: &Path) -> Result<Value, String> {
     Err(format!("cargo does not know the package: {reason}"))
 }
 
-/// The cargo that started this, or the one that is found.
+/// Returns a command that runs the cargo which started this process, or else `cargo`.
 pub fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Says why cargo could not be run.
+/// Returns the message if cargo could not be run.
 pub fn no_cargo(reason: &io::Error) -> String {
     match reason.kind() {
         ErrorKind::NotFound => {
@@ -358,8 +358,8 @@ pub fn no_cargo(reason: &io::Error) -> String {
     }
 }
 
-/// The conditions of a compilation inside of rustc, whose arguments tell more: those of this machine are `host`. For another
-/// machine none are known.
+/// Returns the conditions (`cfg`) of the current compilation, inside of rustc: those of this machine, `host`, changed
+/// by rustc's arguments. For another target none are known.
 fn told(host: &Conditions) -> Conditions {
     let args: Vec<String> = env::args().collect();
     if args.iter().any(|arg| arg == "--target") {
@@ -383,7 +383,7 @@ fn told(host: &Conditions) -> Conditions {
     Conditions(set)
 }
 
-/// The conditions of a compilation for this machine; none if rustc cannot be asked.
+/// Returns the conditions (`cfg`) of a compilation for this machine; none if rustc cannot be run.
 fn conditions() -> Conditions {
     Conditions(rustc(&["--print", "cfg"]).unwrap_or_default().lines().map(str::to_owned).collect())
 }
@@ -401,7 +401,7 @@ fn host_triple() -> Option<String> {
 mod tests {
     use super::*;
 
-    /// Paths that differ in one sign, in what a file system may take for one, or in length only.
+    /// Paths that differ in one character, in characters that a file system may not distinguish, or only in length.
     #[test]
     fn what_differs_has_another_name() {
         let long = "x".repeat(4000);

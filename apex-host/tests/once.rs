@@ -1,12 +1,12 @@
-//! What macros are built from is also what commands and tests are built from: cargo compiles a library once if settings and
-//! features of all that it needs are the same for both.
+//! Libraries are compiled once for macros, commands and tests. Cargo compiles a library once if settings and features
+//! of all its dependencies are the same for all users.
 
 use serde_json::Value;
 use std::{collections::BTreeMap, path::Path};
 
-/// What cargo would compile for `arguments`: name and version of each library, with settings and features.
+/// Returns the libraries that cargo would compile for `arguments`: settings and features by package id.
 fn libraries(arguments: &[&str]) -> BTreeMap<String, Vec<String>> {
-    // Cargo says it without compiling, but calls that unstable.
+    // The unit graph needs no compilation, but is an unstable feature.
     let output = apex_host::cargo()
         .args(arguments)
         .args(["--unit-graph", "-Zunstable-options", "--offline"])
@@ -19,7 +19,7 @@ fn libraries(arguments: &[&str]) -> BTreeMap<String, Vec<String>> {
     let mut libraries: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for unit in graph["units"].as_array().unwrap() {
         if unit["mode"] == "build" && unit["target"]["kind"][0] == "lib" {
-            // Cargo builds nothing again for the name of a profile alone.
+            // The name of a profile alone does not cause another compilation.
             let mut profile = unit["profile"].clone();
             profile.as_object_mut().map(|profile| profile.remove("name"));
             let settings = format!("{profile} with features {}", unit["features"]);
@@ -39,7 +39,7 @@ fn the_compiler_is_compiled_once() {
     }
 }
 
-/// Tests that give programs to rustc use libraries that the tests themselves have been built of.
+/// Tests that run rustc link libraries with which the tests themselves were built.
 #[test]
 fn the_libraries_of_the_tests_are_compiled_once() {
     let used = libraries(&["build", "--package", "apex-tests", "--lib"]);

@@ -12,7 +12,7 @@ use apex_dsl::{
     ide::{self, Occurrence, View},
     passes::{self, Checked},
     report::Diagnostics,
-    resolve::{Link, Texts},
+    resolve::{Link, SourceSet},
     source::{Sources, World},
     syntax,
 };
@@ -52,7 +52,7 @@ pub struct Names {
     pub occurrences: Vec<Occurrence>,
     /// The places.
     pub places: Places,
-    texts: Texts,
+    texts: SourceSet,
     links: Vec<Link>,
 }
 
@@ -73,10 +73,10 @@ impl Analysis {
         if !thorough {
             diagnostics.retain(|d| d.code != "claim-undecided");
         }
-        let names = match syntax::mended(text) {
-            Some(mended) => {
+        let names = match syntax::repaired(text) {
+            Some(repaired) => {
                 let mut said_already = Diagnostics::default();
-                let (sources, checked) = check(path, &mended.into(), catalog, world, states, &mut said_already);
+                let (sources, checked) = check(path, &repaired.into(), catalog, world, states, &mut said_already);
                 Names::new(checked, places(sources), catalog)
             }
             None => Names::new(checked, places(sources.clone()), catalog),

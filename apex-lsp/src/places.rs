@@ -18,7 +18,7 @@ pub struct Places {
 
 impl Places {
     /// The places of `sources`, the first of which is `root` as the editor has it. What was checked in its place may
-    /// differ from it (see `syntax::mended`), but every place in the one is the same place in the other.
+    /// differ from it (see `syntax::repaired`), but every place in the one is the same place in the other.
     pub fn new(sources: Sources, root: &str, encoding: Encoding) -> Self {
         let mut lines = vec![OnceCell::from(Lines::new(root, encoding))];
         lines.resize_with(sources.iter().count(), OnceCell::new);

@@ -5,7 +5,7 @@ use apex_dsl::{
     source::FileId,
     syntax::{
         self,
-        words::{Place, WORDS, words_at},
+        keywords::{KEYWORDS, KeywordPosition, words_at},
     },
     units,
 };
@@ -16,7 +16,7 @@ fn read(path: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../editors").join(path)).unwrap()
 }
 
-fn words(place: Place) -> BTreeSet<&'static str> {
+fn words(place: KeywordPosition) -> BTreeSet<&'static str> {
     words_at(place).map(|w| w.text).collect()
 }
 
@@ -24,15 +24,15 @@ fn words(place: Place) -> BTreeSet<&'static str> {
 fn words_of_the_textmate_grammar() {
     let grammar: Value = serde_json::from_str(&read("vscode/syntaxes/afg.tmLanguage.json")).unwrap();
     for (name, place) in [
-        ("item", Place::Item),
-        ("graph", Place::Graph),
-        ("machine", Place::Machine),
-        ("test", Place::Test),
-        ("modifier", Place::Modifier),
-        ("inside", Place::Inside),
-        ("value", Place::Value),
-        ("node", Place::Node),
-        ("claim", Place::Claim),
+        ("item", KeywordPosition::Item),
+        ("graph", KeywordPosition::Graph),
+        ("machine", KeywordPosition::Machine),
+        ("test", KeywordPosition::Test),
+        ("modifier", KeywordPosition::Modifier),
+        ("inside", KeywordPosition::Inside),
+        ("value", KeywordPosition::Value),
+        ("node", KeywordPosition::Node),
+        ("claim", KeywordPosition::Claim),
     ] {
         let pattern = grammar["repository"][format!("words-{name}")]["match"].as_str().unwrap();
         // The words are the only plain group.
@@ -48,16 +48,16 @@ fn words_of_the_textmate_grammar() {
 fn words_of_the_tree_sitter_grammar() {
     let found = words_in(&read("tree-sitter-afg/grammar.js"));
     // These are no words of its own there: a claim and a node are named, a crate is a path.
-    let named = |place| matches!(place, Place::Claim | Place::Node);
-    let wanted = WORDS.iter().filter(|w| !named(w.place) && w.text != "crate").map(|w| w.text.to_owned());
+    let named = |place| matches!(place, KeywordPosition::Claim | KeywordPosition::Node);
+    let wanted = KEYWORDS.iter().filter(|w| !named(w.position) && w.text != "crate").map(|w| w.text.to_owned());
     let wanted: BTreeSet<String> = wanted.collect();
     assert_eq!(found, wanted);
 
     let colours = read("tree-sitter-afg/queries/highlights.scm");
-    for word in wanted.iter().filter(|w| !words(Place::Value).contains(w.as_str())) {
+    for word in wanted.iter().filter(|w| !words(KeywordPosition::Value).contains(w.as_str())) {
         assert!(colours.contains(&format!("\"{word}\"")), "`{word}` has no colour");
     }
-    for word in words(Place::Node) {
+    for word in words(KeywordPosition::Node) {
         assert!(colours.contains(&format!("\"{word}\"")), "`{word}` has no colour");
     }
 }
@@ -101,8 +101,11 @@ fn snippets() {
         assert!(around.iter().any(|text| is_syntax(text)), "{name}: {text}");
         assert_eq!(snippet["prefix"], name.as_str());
     }
-    let missing: Vec<&str> =
-        words(Place::Item).into_iter().chain(words(Place::Graph)).filter(|w| !snippets.contains_key(*w)).collect();
+    let missing: Vec<&str> = words(KeywordPosition::Item)
+        .into_iter()
+        .chain(words(KeywordPosition::Graph))
+        .filter(|w| !snippets.contains_key(*w))
+        .collect();
     assert_eq!(missing, Vec::<&str>::new());
 }
 

@@ -1,4 +1,4 @@
-//! `graph!`: finds the text, calls the compiler, hands back tokens.
+//! `graph!`: finds the source, calls the compiler, and returns tokens.
 
 use apex_dsl::{
     passes,
@@ -15,11 +15,11 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-/// The text of a call and how to point into it.
+/// Source of a call, with the positions of its tokens.
 struct Text {
     sources: Sources,
     root: FileId,
-    /// The tokens of an inline text with their line and column; empty for a file.
+    /// Tokens of an inline source with their line and column; empty for a file.
     tokens: Vec<((usize, usize), proc_macro2::Span)>,
 }
 
@@ -35,14 +35,15 @@ fn try_expand(input: proc_macro::TokenStream) -> Result<TokenStream, String> {
     let folder = env::var_os("CARGO_MANIFEST_DIR")
         .map(PathBuf::from)
         .ok_or("`graph!` needs cargo: `CARGO_MANIFEST_DIR` is not set")?;
-    // Whoever calls while another one has it, as editors may, begins with nothing; so does whoever comes after a panic.
+    // The value is taken out while it is used: a concurrent call, as in editors, begins with nothing. So does the next
+    // call after a panic.
     let mut kept = lock().take().unwrap_or_default();
     let expanded = expand_with(input, &folder, &mut kept);
     *lock() = Some(kept);
     expanded
 }
 
-/// What is kept from one call to the next.
+/// Locks the state that is kept between calls.
 fn lock() -> MutexGuard<'static, Option<Kept>> {
     static KEPT: Mutex<Option<Kept>> = Mutex::new(None);
     KEPT.lock().unwrap_or_else(PoisonError::into_inner)
@@ -58,7 +59,7 @@ fn expand_with(input: proc_macro::TokenStream, folder: &Path, kept: &mut Kept) -
     let name = env::var("CARGO_CRATE_NAME").unwrap_or_default();
     let seen = Seen::Crate(&name, env::var_os("CARGO_BIN_NAME").is_some());
     let crates = workspace.crates_for(&seen, &workspace.root.join(&text.sources.get(text.root).path));
-    // The positions of the compiler's own tokens would all be on line 1.
+    // With rustc's tokens, all positions would be on line 1.
     proc_macro2::fallback::force();
     let catalog = kept.catalog(crates, &mut disk);
     proc_macro2::fallback::unforce();
@@ -77,14 +78,14 @@ fn expand_with(input: proc_macro::TokenStream, folder: &Path, kept: &mut Kept) -
     // Only the runtime knows whether it can record.
     let (recordable, plain) = (generate(true), generate(false));
     let code = quote! { ::apex_rt::__if_record! { { #recordable } { #plain } } };
-    // They belong to this text.
+    // The state machines belong to this source.
     catalog.forget_machines();
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error).map(|d| error(d, &text));
     let watched = watched(&text, &workspace);
     Ok(quote! { #(#errors)* #(#watched)* #code })
 }
 
-/// `"robot.afg"`, if the call has nothing else.
+/// Returns the file name if the call has only a string literal: `"robot.afg"`.
 fn file_name(input: &proc_macro::TokenStream) -> Option<String> {
     let mut tokens = input.clone().into_iter();
     match (tokens.next(), tokens.next()) {
@@ -95,7 +96,7 @@ fn file_name(input: &proc_macro::TokenStream) -> Option<String> {
     }
 }
 
-/// The file is looked for beside the source file first, then in the folder of the package.
+/// Reads the file, which is beside the Rust file of the call, or else in the folder of the package.
 fn from_file(name: &str, folder: &Path, workspace: &Workspace, disk: &mut Disk) -> Result<Text, String> {
     let source = proc_macro::Span::call_site().local_file();
     let beside =
@@ -109,7 +110,7 @@ fn from_file(name: &str, folder: &Path, workspace: &Workspace, disk: &mut Disk) 
     })?;
     let shown = path.strip_prefix(&workspace.root).unwrap_or(&path).to_owned();
     let mut sources = Sources::default();
-    // Messages show the path from the root of the workspace, where cargo runs rustc.
+    // Messages show the path relative to the root of the workspace, in which cargo runs rustc.
     let here = env::current_dir().is_ok_and(|d| d == workspace.root);
     let root = sources.add(if here { shown } else { path }, text);
     Ok(Text { sources, root, tokens: vec![] })
@@ -120,7 +121,7 @@ fn inline(input: proc_macro::TokenStream) -> Text {
     let path = call.local_file().unwrap_or_else(|| "graph!".into());
     let mut sources = Sources::default();
     let whole = call.source_text();
-    // The text between the brackets of the call; everything before becomes blank, so that positions stay.
+    // The text between the brackets of the call. Everything before it is blanked, so that positions stay the same.
     let body = whole.as_ref().and_then(|text| {
         let open = text.find(['{', '(', '['])?;
         let close = text.rfind(['}', ')', ']']).filter(|c| *c > open)?;
@@ -149,7 +150,7 @@ fn collect(stream: proc_macro::TokenStream, tokens: &mut Vec<((usize, usize), pr
     }
 }
 
-/// The token at a place of the text, for rustc to underline.
+/// Returns the token at a place of the source, for rustc to underline.
 fn place(text: &Text, span: Span) -> proc_macro2::Span {
     let at = text.sources.line_column(span.file, span.start);
     let token = text.tokens.iter().filter(|(position, _)| *position <= at).max_by_key(|(position, _)| *position);
@@ -178,7 +179,7 @@ fn error(diagnostic: &Diagnostic, text: &Text) -> TokenStream {
     quote_spanned! { span=> ::core::compile_error!(#message); }
 }
 
-/// Makes cargo build again when a text changes.
+/// Makes cargo build again when a source file changes.
 fn watched(text: &Text, workspace: &Workspace) -> Vec<TokenStream> {
     let files = text.sources.iter().filter(|s| s.path.extension().is_some_and(|e| e == "afg"));
     files

@@ -1,10 +1,10 @@
-//! `graph!`: a thin shell around the compiler, `apex-dsl`. The code that it generates calls the runtime, `apex-rt`.
+//! `graph!`: a thin wrapper around the compiler, `apex-dsl`. The code that it generates calls the runtime, `apex-rt`.
 
 mod graph;
 
 use proc_macro::TokenStream;
 
-/// Compiles a graph: `graph!("robot.afg")`, or the text itself in braces.
+/// Compiles a graph: `graph!("robot.afg")`, or the source itself in braces.
 #[proc_macro]
 pub fn graph(text: TokenStream) -> TokenStream {
     graph::expand(text).into()

@@ -1,59 +1,60 @@
-//! Room for one token on its way from one thread to another. Nobody ever waits in it: every operation is a few
-//! instructions, whatever the other side does.
+//! Storage for one token between two threads. Its operations never block: each takes a few instructions, independent of
+//! the other thread.
 #![allow(unsafe_code)]
 
 use crate::sync::{AtomicU8, Ordering, UnsafeCell};
 
-/// The sender may write.
+/// The cell is empty: the sender may write.
 const FREE: u8 = 0;
-/// A token lies there: the receiver may read and write.
+/// The cell holds a token: the receiver may read and write.
 const FULL: u8 = 1;
-/// The receiver took the token, and is not done with it.
+/// The receiver took the token, but has not released it.
 const TAKEN: u8 = 2;
 
-/// A single-token cell: one thread puts a token in, another takes it out, and says when it is done with it. Only then
-/// there is room for the next one.
+/// A single-token cell. One thread puts a token in; another takes it out and then releases the cell, which frees it for
+/// the next token.
 ///
-/// The place is never emptied: what was in it stays, so that its storage is used again.
+/// The old token stays in the cell, so that its storage is reused.
 #[derive(Debug)]
 pub struct TokenCell<T> {
     state: AtomicU8,
     place: UnsafeCell<T>,
 }
 
-// SAFETY: the place is only reached through the two ends, of which there is one each (`ends` borrows the cell for as long as
-// they live). The sender reaches it while the state is `FREE`, which only the sender ends; the receiver while it is `FULL`,
-// which only the receiver ends. Both end it with `Release` and find it with `Acquire`.
+// SAFETY: the place is only reached through the two ends, of which there is one each (`ends` borrows the cell for as
+// long as they live). The sender reaches it while the state is `FREE`, which only the sender ends; the receiver reaches
+// it while the state is `FULL`, which only the receiver ends. Both end their state with `Release` and load it with
+// `Acquire`.
 unsafe impl<T: Send> Sync for TokenCell<T> {}
 
-/// The end where tokens are put in.
+/// The sending end of a cell.
 #[derive(Debug)]
 pub struct CellSender<'a, T>(&'a TokenCell<T>);
 
-/// The end where tokens are taken out.
+/// The receiving end of a cell.
 #[derive(Debug)]
 pub struct CellReceiver<'a, T>(&'a TokenCell<T>);
 
 impl<T> TokenCell<T> {
-    /// A cell without a token; `place` is what the first one is written over.
+    /// Returns a cell without a token. The first token is written over `place`.
     pub fn new(place: T) -> Self {
         Self { state: AtomicU8::new(FREE), place: UnsafeCell::new(place) }
     }
 
-    /// Its two ends.
+    /// Returns the two ends of the cell.
     pub fn ends(&mut self) -> (CellSender<'_, T>, CellReceiver<'_, T>) {
         (CellSender(self), CellReceiver(self))
     }
 }
 
 impl<T> CellSender<'_, T> {
-    /// Whether there is room for a token: the receiver is done with the one before.
+    /// Returns `true` if there is room for a token: the receiver has released the previous one.
     #[inline(always)]
     pub fn is_free(&self) -> bool {
         self.0.state.load(Ordering::Acquire) == FREE
     }
 
-    /// Writes a token over what is left of the one before; `false` if there is no room.
+    /// Writes a token over the previous one. Returns `false` if there is no room.
     #[inline(always)]
     pub fn put(&mut self, write: impl FnOnce(&mut T)) -> bool {
         let free = self.is_free();
@@ -67,7 +68,7 @@ impl<T> CellSender<'_, T> {
 }
 
 impl<T> CellReceiver<'_, T> {
-    /// Whether a token waits to be taken.
+    /// Returns `true` if there is a token to take.
     #[inline(always)]
     pub fn is_full(&self) -> bool {
         self.0.state.load(Ordering::Acquire) == FULL
@@ -85,10 +86,10 @@ impl<T> CellReceiver<'_, T> {
         })
     }
 
-    /// The receiver is done with the token that it took.
+    /// Releases the cell after [`take`](Self::take).
     #[inline(always)]
     pub fn release(&mut self) {
-        // Nobody else changes the state while it is `TAKEN`.
+        // Only the receiver changes the state while it is `TAKEN`.
         if self.0.state.load(Ordering::Relaxed) == TAKEN {
             self.0.state.store(FREE, Ordering::Release);
         }

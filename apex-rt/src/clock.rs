@@ -1,38 +1,38 @@
 use crate::Time;
 
-/// Where a program's time comes from.
+/// Source of a program's time.
 pub trait Clock {
-    /// Whether its time stands still while nobody asks for it.
+    /// `true` if time only passes while the program waits.
     const SIMULATED: bool = false;
 
-    /// The time now.
+    /// Returns the current time.
     fn now(&mut self) -> Time;
 
-    /// Lets the time pass until `time`; returns `false` if the clock ends before.
+    /// Waits until `time`. Returns `false` if the clock ends before.
     fn wait_until(&mut self, time: Time) -> bool;
 
-    /// Lets the time pass until `until`, for ever if that is `None`, but only as long as `woken` says no: it is asked
-    /// at the beginning, and again whenever the thread was unparked. Returns `false` if the clock ends before, or if
-    /// nothing could end the wait.
+    /// Waits until `until`, forever if that is `None`, or until `woken` returns `true`. `woken` is called at the
+    /// beginning and whenever the thread was unparked. Returns `false` if the clock ends before, or if nothing could
+    /// end the wait.
     ///
-    /// As it is here, it is for clocks that stand still while a program reacts: nothing comes from outside then, so
-    /// that a wait without end is one in vain. The clock of a machine parks the thread.
+    /// The default is for simulated clocks: nothing comes from outside then, so that a wait without an end would be in
+    /// vain. [`WallClock`] parks the thread.
     #[cfg(feature = "std")]
     fn wait(&mut self, until: Option<Time>, woken: &dyn Fn() -> bool) -> bool {
         let _ = woken;
         until.is_some_and(|time| self.wait_until(time))
     }
 
-    /// What sets the pace of threads, if this is the machine's clock.
+    /// Returns the timing of the program's threads if this is the machine's clock.
     #[cfg(feature = "std")]
     fn pace(&self) -> Option<crate::threads::Pace> {
         None
     }
 }
 
-/// Simulated time: jumps to where the program wants to be called next, and ends at a given time.
+/// Simulated clock: jumps to the time of the next reaction, and ends at a given time.
 ///
-/// A program that wants to be called again at once advances it by `step`.
+/// A program that asks for another reaction at once advances the clock by `step`.
 #[derive(Debug, Clone, Copy)]
 pub struct SimClock {
     now: Time,
@@ -41,12 +41,12 @@ pub struct SimClock {
 }
 
 impl SimClock {
-    /// A clock from zero to `end` (exclusive), one millisecond a step.
+    /// Returns a clock from zero to `end` (exclusive) with a step of one millisecond.
     pub const fn until(end: Time) -> Self {
         Self { now: Time::ZERO, end, step: core::time::Duration::from_millis(1) }
     }
 
-    /// The same clock with another step.
+    /// Returns the clock with another step.
     #[must_use]
     pub const fn with_step(self, step: core::time::Duration) -> Self {
         Self { step, ..self }
@@ -66,7 +66,7 @@ impl Clock for SimClock {
     }
 }
 
-/// The machine's monotonic clock; zero is when it was made.
+/// The machine's monotonic clock. Its zero is the time of its construction.
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct WallClock {
@@ -75,7 +75,7 @@ pub struct WallClock {
 
 #[cfg(feature = "std")]
 impl WallClock {
-    /// A clock that starts now.
+    /// Returns a clock that starts now.
     pub fn new() -> Self {
         Self { start: std::time::Instant::now() }
     }

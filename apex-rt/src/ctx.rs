@@ -1,7 +1,7 @@
 use crate::{Observer, Time};
 use core::time::Duration;
 
-/// What a node may ask about the firing it is in.
+/// Context of a firing: time, stamp and activity.
 #[derive(Debug, Clone, Copy)]
 pub struct Ctx {
     now: Time,
@@ -10,45 +10,45 @@ pub struct Ctx {
 }
 
 impl Ctx {
-    /// The context of a reaction at `now`.
+    /// Returns the context of a reaction at `now`.
     pub const fn new(now: Time) -> Self {
         Self { now, stamp: now, active: false }
     }
 
-    /// The same for a node that is `active` or not.
+    /// Returns the context of a node that is `active` or not.
     #[doc(hidden)]
     #[inline(always)]
     pub const fn of_node(self, active: bool) -> Self {
         Self { active, ..self }
     }
 
-    /// The same for a firing whose oldest token descends from a source that fired at `stamp`.
+    /// Returns the context of a firing whose oldest token descends from a source that fired at `stamp`.
     #[doc(hidden)]
     #[inline(always)]
     pub const fn since(self, stamp: Time) -> Self {
         Self { stamp, ..self }
     }
 
-    /// When the source fired that the oldest token of this firing descends from; for a source, now. Earlier than
-    /// [`now`](Self::now) if a token had to wait on its way.
+    /// Returns the firing time of the source from which the oldest token of this firing descends; for a source, the
+    /// current time. It is earlier than [`now`](Self::now) if a token had to wait on its way.
     #[inline(always)]
     pub const fn stamp(&self) -> Time {
         self.stamp
     }
 
-    /// Whether the node is active (thesis eq. 7.1). Tokens that it takes in this firing have already counted.
+    /// Returns `true` if the node is active (thesis eq. 7.1). Tokens that this firing takes are already accounted for.
     #[inline(always)]
     pub const fn active(&self) -> bool {
         self.active
     }
 
-    /// The logical time of this reaction. It stands still until the graph is quiet.
+    /// Returns the logical time of this reaction, which is constant during the reaction.
     #[inline(always)]
     pub const fn now(&self) -> Time {
         self.now
     }
 
-    /// Whether node `node` has finished later than its `deadline` allows, which the observer is told.
+    /// Returns `true` if node `node` has finished later than its `deadline` allows, and reports that to the observer.
     #[doc(hidden)]
     pub fn is_late<O: Observer>(&self, node: usize, deadline: Duration, observer: &mut O) -> bool {
         let age = self.now.since(self.stamp).saturating_add(elapsed(observer));
@@ -60,7 +60,7 @@ impl Ctx {
     }
 }
 
-/// How long the reaction has been going on; in a replay, what it was then.
+/// Returns the time since the beginning of the reaction; in a replay, the recorded one.
 #[inline(always)]
 fn elapsed<O: Observer>(observer: &mut O) -> Duration {
     let elapsed = observer.elapsed();

@@ -1,5 +1,5 @@
-//! Decides at run time which cluster fires: for every cluster the set of things it waits for is a set of
-//! bits, and it is ready when all of them are set. All state has a size known at compile time.
+//! Dispatcher: decides at run time which cluster fires. The conditions that a cluster waits for are a set of bits; the
+//! cluster is ready when all of them are set. The size of all state is known at compile time.
 
 /// A set of `64·W` conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,7 +9,7 @@ impl<const W: usize> Bits<W> {
     /// The empty set.
     pub const NONE: Self = Self([0; W]);
 
-    /// The set of the given conditions.
+    /// Returns the set of the given conditions.
     pub const fn of(bits: &[u32]) -> Self {
         let mut words = [0; W];
         let mut i = 0;
@@ -20,20 +20,20 @@ impl<const W: usize> Bits<W> {
         Self(words)
     }
 
-    /// Whether a condition holds.
+    /// Returns `true` if a condition holds.
     #[inline(always)]
     pub const fn has(&self, bit: usize) -> bool {
         self.0[bit / 64] & 1 << (bit % 64) != 0
     }
 
-    /// Makes a condition hold, or ends it.
+    /// Sets or clears a condition.
     #[inline(always)]
     pub const fn set(&mut self, bit: usize, holds: bool) {
         let (word, mask) = (&mut self.0[bit / 64], 1 << (bit % 64));
         if holds { *word |= mask } else { *word &= !mask }
     }
 
-    /// Ends a condition. Returns `true` if it held.
+    /// Clears a condition. Returns `true` if it held.
     #[inline(always)]
     pub const fn take(&mut self, bit: usize) -> bool {
         let held = self.has(bit);
@@ -41,7 +41,7 @@ impl<const W: usize> Bits<W> {
         held
     }
 
-    /// Whether all conditions of `other` hold.
+    /// Returns `true` if all conditions of `other` hold.
     #[inline(always)]
     pub fn contains(&self, other: &Self) -> bool {
         self.0.iter().zip(&other.0).all(|(a, b)| a & b == *b)
@@ -60,8 +60,8 @@ impl<const W: usize> Bits<W> {
     }
 }
 
-/// Conditions that are known at compile time: a set of bits where a program has few conditions, a list of their numbers where it
-/// has many, so that neither data nor time grow with those that are not meant.
+/// Conditions that are known at compile time: a set of bits in a program with few conditions, a list of their numbers
+/// in one with many. The list keeps size and time independent of the conditions that it does not contain.
 pub trait Conditions<const W: usize> {
     /// Returns `true` if all of them are in `holds`.
     fn hold_in(&self, holds: &Bits<W>) -> bool;
@@ -105,47 +105,48 @@ impl<const W: usize> Conditions<W> for &[u32] {
     }
 }
 
-/// A token from an event that a cluster needs besides others (static data).
+/// A token of an event that a cluster needs besides other tokens (static data).
 #[derive(Debug)]
 pub struct Missing<S> {
-    /// The bits of the cluster's other tokens.
+    /// Bits of the cluster's other tokens.
     pub others: S,
-    /// The bit of the token.
+    /// Bit of the token.
     pub token: usize,
-    /// The connection that it comes on.
+    /// Connection of the token.
     pub connection: usize,
 }
 
-/// A cluster's place among the others (static data).
+/// Dependencies of a cluster (static data).
 ///
-/// Conditions: each timer and each graph-level input has a bit; each connection between clusters, and each
-/// asynchronous one that may stay occupied, has one for "free" and, if it leads to an input, one for "holds a
-/// token"; each cluster has one for "enabled".
+/// Conditions: each timer and each graph-level input has a bit. Each connection between clusters, and each asynchronous
+/// one that may stay occupied, has a bit "free" and, if it leads to an input, a bit "holds a token". Each cluster has a
+/// bit "enabled".
 #[derive(Debug)]
 pub struct Cluster<S> {
-    /// Its events are free: what must hold for it to fire besides `takes`.
+    /// Conditions for firing besides `takes`: the cluster's events are free.
     waits_for: S,
-    /// Its guards, the tokens on all incoming connections, and itself enabled: they must hold, and firing uses them up.
+    /// Conditions that firing requires and clears: the guards, the tokens on all incoming connections, and "enabled".
     takes: S,
-    /// Set when it fires: tokens on its outgoing synchronous connections.
+    /// Conditions that firing sets: tokens on the outgoing synchronous connections.
     sends: S,
-    /// Cleared when it fires: its outgoing synchronous connections are free.
+    /// Conditions that firing clears: the outgoing synchronous connections are free.
     occupies: S,
-    /// When all of these hold after it fired, everything downstream has finished, and it is enabled again.
+    /// Conditions that all hold when everything downstream has finished after a firing. Then the cluster is enabled
+    /// again.
     notified_by: S,
-    /// Set when it is enabled again: itself enabled, its incoming connections free (R4).
+    /// Conditions that this sets: "enabled", and the incoming connections are free (R4).
     notifies: S,
-    /// The bit "enabled".
+    /// Bit "enabled".
     enabled: usize,
-    /// All clusters from which tokens come to it, also by way of others: those that send to others of them last.
+    /// All transitive predecessors, in reverse topological order.
     above: &'static [u32],
 }
 
-/// Numbers of conditions in a row of a table.
+/// Numbers of conditions or clusters in a row of a table.
 type List = &'static [u32];
 
 impl<const W: usize> Cluster<Bits<W>> {
-    /// A row of the table, its sets in the order of the fields.
+    /// Returns a row of the table, with the sets in the order of the fields.
     pub const fn dense(enabled: usize, sets: [List; 6], above: List) -> Self {
         let [waits_for, takes, sends, occupies, notified_by, notifies] = sets;
         Self {
@@ -162,26 +163,26 @@ impl<const W: usize> Cluster<Bits<W>> {
 }
 
 impl Cluster<List> {
-    /// A row of the table of a program with many conditions.
+    /// Returns a row of the table of a program with many conditions.
     pub const fn sparse(enabled: usize, sets: [List; 6], above: List) -> Self {
         let [waits_for, takes, sends, occupies, notified_by, notifies] = sets;
         Self { waits_for, takes, sends, occupies, notified_by, notifies, enabled, above }
     }
 }
 
-/// Which conditions hold, and how firing changes them. With `TRACKS` it knows whether a cluster may have become ready since the
-/// clusters were looked at last, which is worth its code where there are several.
+/// The conditions that hold, and their changes by firings. With `TRACKS`, the dispatcher knows if a cluster may have
+/// become ready since the last search, which is worth its code if there are several clusters.
 #[derive(Debug, Clone)]
 pub struct Dispatcher<const W: usize, const TRACKS: bool> {
-    /// The highest bit is no condition: it says that one holds that did not when the clusters were looked at last.
+    /// The highest bit is not a condition. It is set if a condition has become true since the last search.
     holds: Bits<W>,
 }
 
-/// The bit for news, in the last word.
+/// Bit of the last word that is set if a cluster may have become ready.
 const NEWS: u64 = 1 << 63;
 
 impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
-    /// The dispatcher of a program that has not fired: `initial` holds.
+    /// Returns the dispatcher of a program before its first reaction, in which `initial` holds.
     pub const fn new(initial: Bits<W>) -> Self {
         let mut holds = initial;
         if TRACKS {
@@ -190,7 +191,7 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         Self { holds }
     }
 
-    /// Makes a condition hold: a guard, or a connection that is free again.
+    /// Sets a condition: a guard, or a connection that is free again.
     #[inline(always)]
     pub fn raise(&mut self, bit: usize) {
         if TRACKS && !self.has(bit) {
@@ -199,7 +200,7 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         self.holds.set(bit, true);
     }
 
-    /// Whether a cluster may have become ready since this was asked last.
+    /// Returns `true` if a cluster may have become ready since the last call.
     #[inline(always)]
     pub fn take_news(&mut self) -> bool {
         if !TRACKS {
@@ -210,7 +211,7 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         news
     }
 
-    /// A cluster that is ready was not fired.
+    /// Requests another search, for example because a cluster that is ready was not fired.
     #[inline(always)]
     pub fn look_again(&mut self) {
         if TRACKS {
@@ -218,30 +219,30 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         }
     }
 
-    /// Ends a condition: a connection is occupied.
+    /// Clears a condition: a connection is occupied.
     #[inline(always)]
     pub fn clear(&mut self, bit: usize) {
         self.holds.set(bit, false);
     }
 
-    /// Whether one condition holds.
+    /// Returns `true` if a condition holds.
     #[inline(always)]
     pub fn has(&self, bit: usize) -> bool {
         self.holds.has(bit)
     }
 
-    /// Whether all of `conditions` hold.
+    /// Returns `true` if all of `conditions` hold.
     #[inline(always)]
     pub fn holds(&self, conditions: &impl Conditions<W>) -> bool {
         conditions.hold_in(&self.holds)
     }
 
-    /// Whether others of a cluster's tokens are there, and this one is not.
+    /// Returns `true` if at least one of a cluster's other tokens is there, but this one is not.
     pub fn misses(&self, missing: &Missing<impl Conditions<W>>) -> bool {
         missing.others.meet(&self.holds) && !self.has(missing.token)
     }
 
-    /// If `cluster` is ready, takes its tokens and guards and returns `true`: it is to be fired now.
+    /// Takes the tokens and guards of `cluster` and returns `true` if it is ready. The caller then fires it.
     #[inline(always)]
     pub fn start(&mut self, cluster: &Cluster<impl Conditions<W>>) -> bool {
         let ready = cluster.takes.hold_in(&self.holds) && cluster.waits_for.hold_in(&self.holds);
@@ -251,9 +252,9 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         ready
     }
 
-    /// `clusters[index]` has fired: its tokens are sent, and notifications travel upstream.
+    /// Ends a firing of `clusters[index]`: its tokens are sent, and notifications travel upstream.
     ///
-    /// Always inlined: the table and the index are constants, so that mostly a few bit operations are left.
+    /// Always inlined: table and index are constants, so that mostly only a few bit operations remain.
     #[inline(always)]
     pub fn finish(&mut self, clusters: &[Cluster<impl Conditions<W>>], index: usize) {
         let cluster = &clusters[index];
@@ -263,8 +264,8 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         self.settle(clusters, index);
     }
 
-    /// If everything downstream of `clusters[index]` has finished, notifies it, and those above for which that was
-    /// the last.
+    /// Enables `clusters[index]` again if everything downstream of it has finished, and also each cluster upstream for
+    /// which it was the last one.
     #[inline(always)]
     pub fn settle(&mut self, clusters: &[Cluster<impl Conditions<W>>], index: usize) {
         let cluster = &clusters[index];
@@ -274,7 +275,7 @@ impl<const W: usize, const TRACKS: bool> Dispatcher<W, TRACKS> {
         cluster.notifies.put_into(&mut self.holds, true);
         self.look_again();
         for above in cluster.above.iter().map(|&above| &clusters[above as usize]) {
-            // It has fired, and everything downstream of it has finished.
+            // The cluster has fired, and everything downstream of it has finished.
             if !self.has(above.enabled) && above.notified_by.hold_in(&self.holds) {
                 above.notifies.put_into(&mut self.holds, true);
             }

@@ -1,11 +1,11 @@
-/// An event that a node may trigger, at most once per firing: it is given by value and used up by [`Event::emit`].
+/// An event that a node may trigger at most once per firing: it is passed by value, and [`Event::emit`] consumes it.
 #[derive(Debug)]
 pub struct Event<'a, T> {
     slot: Option<&'a mut Option<T>>,
 }
 
 impl<'a, T> Event<'a, T> {
-    /// An event that nobody listens to.
+    /// Returns an event without connections.
     #[doc(hidden)]
     pub const fn unconnected() -> Self {
         Self { slot: None }
@@ -19,7 +19,7 @@ impl<'a, T> Event<'a, T> {
     }
 }
 
-/// An event whose token is put into `slot`.
+/// Returns an event whose token is put into `slot`.
 #[doc(hidden)]
 pub const fn event<T>(slot: &mut Option<T>) -> Event<'_, T> {
     Event { slot: Some(slot) }

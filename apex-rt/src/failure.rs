@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display, Write};
 
-/// What a node said when it failed: the text of its error or of its panic, as far as there is room for it.
+/// The failure of a node: the text of its error or of its panic, cut to [`Failure::ROOM`] bytes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Failure {
     text: [u8; Failure::ROOM],
@@ -10,18 +10,18 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// So many bytes of the text are kept.
+    /// Maximum length of the text, in bytes.
     pub const ROOM: usize = 112;
 
-    /// The failure with the text of `error`.
+    /// Returns the failure with the text of `error`.
     pub fn new(error: &impl Display) -> Self {
         let mut failure = Self { text: [0; Self::ROOM], len: 0 };
-        // What does not fit is left out: that is no failure of its own.
+        // Text that does not fit is cut off: that is not an error.
         let _ = write!(failure, "{error}");
         failure
     }
 
-    /// The text.
+    /// Returns the text.
     pub fn text(&self) -> &str {
         core::str::from_utf8(&self.text[..usize::from(self.len)]).unwrap_or_default()
     }
@@ -52,7 +52,7 @@ impl fmt::Debug for Failure {
     }
 }
 
-/// Calls a node; a panic is its failure, where panics unwind.
+/// Calls a node. A panic becomes its failure.
 #[cfg(all(feature = "std", panic = "unwind"))]
 #[inline(always)]
 pub fn contain<T>(call: impl FnOnce() -> T) -> Result<T, Failure> {
@@ -62,14 +62,14 @@ pub fn contain<T>(call: impl FnOnce() -> T) -> Result<T, Failure> {
     })
 }
 
-/// Calls a node. Where panics do not unwind, there is nothing to contain.
+/// Calls a node. Panics cannot be caught on this target: there is nothing to contain.
 #[cfg(not(all(feature = "std", panic = "unwind")))]
 #[inline(always)]
 pub fn contain<T>(call: impl FnOnce() -> T) -> Result<T, Failure> {
     Ok(call())
 }
 
-/// As [`contain`], for a node that says itself when it fails.
+/// Calls a node that returns a `Result`. An error becomes its failure, as does a panic (see [`contain`]).
 #[inline(always)]
 pub fn contain_fallible<T, E: Display>(call: impl FnOnce() -> Result<T, E>) -> Result<T, Failure> {
     contain(call)?.map_err(|error| Failure::new(&error))

@@ -1,34 +1,34 @@
-/// What a compiled graph is made of: a static table for recorders, monitors and `explain`.
+/// Description of a compiled graph: a static table for recorders, monitors and `explain`.
 #[derive(Debug)]
 pub struct Info {
-    /// The graph or robot.
+    /// Name of the graph or robot.
     pub name: &'static str,
-    /// All nodes in the order of the text.
+    /// All nodes in the order of the source file.
     pub nodes: &'static [NodeInfo],
-    /// The names of all nested graphs, with those around them: `fast.avoid`.
+    /// Full names of all nested graphs: `fast.avoid`.
     pub graphs: &'static [&'static str],
     /// All connections.
     pub connections: &'static [ConnectionInfo],
-    /// The nodes of each cluster in the order in which they fire.
+    /// Nodes of each cluster, in firing order.
     pub clusters: &'static [&'static [usize]],
-    /// The thread groups, if there are several or something is said about them: the main group first.
+    /// The thread groups, the main group first. Empty if there is only one, without settings.
     pub groups: &'static [GroupInfo],
-    /// The code with which the program ends when a node hangs, if it does.
+    /// Exit code if the program ends when a node hangs.
     pub end_if_hung: Option<u8>,
-    /// All claims, as they stand in the text with full names: `exclusive(fast, slow)`.
+    /// All claims as written in the source file, with full names: `exclusive(fast, slow)`.
     pub claims: &'static [&'static str],
 }
 
 /// A node of a compiled graph.
 #[derive(Debug)]
 pub struct NodeInfo {
-    /// Instance name, with the names of the nested graphs around it: `fast.planner`.
+    /// Full name of the instance, with the names of the nested graphs around it: `fast.planner`.
     pub name: &'static str,
-    /// The node type as the text names it.
+    /// The node type as written in the source file.
     pub kind: &'static str,
-    /// A ⊥ at this node must be passed on for an essential node downstream (thesis eq. 3.7).
+    /// `true` if a ⊥ at this node must be passed on for an essential node downstream (thesis eq. 3.7).
     pub required: bool,
-    /// A ⊥ at this node must be passed on for a join downstream (thesis eq. 3.8).
+    /// `true` if a ⊥ at this node must be passed on for a join downstream (thesis eq. 3.8).
     pub siblings: bool,
 }
 
@@ -48,29 +48,29 @@ pub struct ConnectionInfo {
 /// A thread group of a compiled graph.
 #[derive(Debug)]
 pub struct GroupInfo {
-    /// Its name.
+    /// Name of the group.
     pub name: &'static str,
-    /// The cores that its thread may run on; all, if none is named.
+    /// Cores that its thread may run on; empty for all.
     pub cores: &'static [usize],
-    /// Its real-time priority, 1 (lowest) to 99.
+    /// Real-time priority of its thread, 1 (lowest) to 99.
     pub priority: Option<u8>,
-    /// Threads of the same priority run in turn, instead of each until it sleeps.
+    /// `true` if threads of the same priority take turns (round robin), instead of each running until it sleeps (FIFO).
     pub round_robin: bool,
-    /// Without the right to that the program ends; else it says so and goes on.
+    /// Effect of missing scheduling rights: the program ends (`true`), or warns and continues (`false`).
     pub strict: bool,
-    /// A node that runs for longer than this hangs.
+    /// Running time after which a node counts as hanging.
     pub hang: Option<core::time::Duration>,
 }
 
 impl NodeInfo {
-    /// One row of the table.
+    /// Returns a row of the table of nodes.
     pub const fn new(name: &'static str, kind: &'static str, required: bool, siblings: bool) -> Self {
         Self { name, kind, required, siblings }
     }
 }
 
 impl ConnectionInfo {
-    /// One row of the table.
+    /// Returns a row of the table of connections.
     pub const fn new(from: usize, output: &'static str, to: usize, input: &'static str) -> Self {
         Self { from, output, to, input }
     }

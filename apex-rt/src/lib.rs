@@ -1,7 +1,7 @@
 //! The runtime of Apex: everything that a compiled graph calls.
 //!
-//! `no_std`, without a heap, and without `unsafe` but in the cell between two threads. The feature `std` adds a wall clock, a runner that sleeps
-//! between reactions, and messages on standard error.
+//! `no_std`, without a heap, and without `unsafe` except in the cell between two threads. The feature `std` adds a wall
+//! clock, a runner that sleeps between reactions, and messages on standard error.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "alloc")]
@@ -82,7 +82,7 @@ pub use time::Time;
 pub use timer::{Agenda, Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
-/// Everything that a user of Apex needs besides `apex_macros::graph`.
+/// The items that most users of Apex need besides `apex_macros::graph`.
 pub mod prelude {
     pub use crate::{
         Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, node,

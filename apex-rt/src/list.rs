@@ -1,16 +1,16 @@
-/// A list that `each` can iterate over, and the list of the same kind that its results are collected in.
+/// A list that `each` can iterate over, and the list of the same kind that collects its results.
 pub trait List {
     /// The type of one element.
     type Item;
     /// The same kind of list with other elements.
     type Of<U>: List<Item = U> + Default;
 
-    /// The elements in order.
+    /// Returns the elements in order.
     fn items(&self) -> &[Self::Item];
     /// Removes all elements and keeps the storage.
     fn clear(&mut self);
-    /// Appends `items`. A list of fixed size panics when it is full; results of `each` over a list of the
-    /// same size always fit.
+    /// Appends `items`. A list of fixed size panics when it is full; the results of `each` over a list of the same size
+    /// always fit.
     fn append(&mut self, items: impl Iterator<Item = Self::Item>);
 }
 

@@ -1,22 +1,22 @@
-/// The way into a graph and out of it: room for one token of a graph-level input, slot or event.
+/// Storage for one token at a graph-level input, slot or event.
 ///
-/// Like every connection it holds at most one token; nothing is ever overwritten. As long as nobody takes the token
-/// of an event, what sends it is held back.
+/// As in every connection, there is at most one token and nothing is ever overwritten. The sender of an event is held
+/// back until the token in the mailbox has been taken.
 #[derive(Debug, Clone)]
 pub struct Mailbox<T> {
     token: Option<T>,
 }
 
 impl<T> Mailbox<T> {
-    /// An empty mailbox.
+    /// Returns an empty mailbox.
     pub const fn new() -> Self {
         Self { token: None }
     }
 
-    /// Puts a token in, to be taken by a following reaction.
+    /// Puts a token in, for a later reaction.
     ///
     /// # Errors
-    /// Gives the token back while the one before has not been taken.
+    /// Returns the token if the previous one has not been taken.
     pub fn put(&mut self, token: T) -> Result<(), T> {
         if self.token.is_some() {
             return Err(token);
@@ -25,17 +25,17 @@ impl<T> Mailbox<T> {
         Ok(())
     }
 
-    /// The token that waits in it.
+    /// Returns the token in the mailbox.
     pub const fn peek(&self) -> Option<&T> {
         self.token.as_ref()
     }
 
-    /// Whether a token waits in it.
+    /// Returns `true` if there is a token in the mailbox.
     pub const fn is_full(&self) -> bool {
         self.token.is_some()
     }
 
-    /// Takes the token out: the graph does so with what comes in, its user with the events that come out.
+    /// Takes the token out: the graph those of its inputs and slots, its user those of events.
     pub fn take(&mut self) -> Option<T> {
         self.token.take()
     }

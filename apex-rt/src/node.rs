@@ -1,25 +1,25 @@
 //! The types of a node's ports and parameters, as associated types: `#[node]` writes these implementations,
 //! and generated code names the type of a token through them, so that it never has to spell a user's type.
 
-/// Input number `I` of a node takes tokens of this type.
+/// Input number `I` of a node.
 pub trait Input<const I: usize> {
     /// The type of one token.
     type Token: ?Sized;
 }
 
-/// Output number `I` of a node sends tokens of this type. The returned value comes after all `&mut Out<T>`.
+/// Output number `I` of a node. The returned value comes after all `&mut Out<T>`.
 pub trait Output<const I: usize> {
     /// The type of one token.
     type Token;
 }
 
-/// Slot number `I` of a node takes tokens of this type.
+/// Slot number `I` of a node.
 pub trait Slot<const I: usize> {
     /// The type of one token.
     type Token: ?Sized;
 }
 
-/// Event number `I` of a node carries tokens of this type.
+/// Event number `I` of a node.
 pub trait Trigger<const I: usize> {
     /// The type of one token.
     type Token;
@@ -36,34 +36,34 @@ pub trait Param<const I: usize> {
     /// The type of the value.
     type Value;
 
-    /// Whether `value` lies in the declared range.
+    /// Returns `true` if `value` is in the declared range.
     fn accepts(value: &Self::Value) -> bool;
 }
 
-/// A parameter that the node keeps in a field, so that it can change at run time.
+/// A parameter that the node stores in a field, so that it can change at run time.
 pub trait ParamField<const I: usize>: Param<I> {
-    /// The field.
+    /// Returns the field.
     fn field(&mut self) -> &mut Self::Value;
 }
 
-/// A node that a graph can make from the values of its parameters, in the order of their declaration.
+/// A node that a graph can construct from the values of its parameters, in the order of their declaration.
 pub trait Construct<Params> {
-    /// The node with all its other state at its default.
+    /// Returns the node. All its other state has its default.
     fn construct(params: Params) -> Self;
 }
 
-/// A node from its parameters, which are a tuple in their order.
+/// Constructs a node from the tuple of its parameters.
 #[doc(hidden)]
 pub fn construct<N: Construct<Params>, Params>(params: Params) -> N {
     N::construct(params)
 }
 
-/// State that has a value to start with: everything with a `Default`.
+/// State with an initial value: every type with a `Default`.
 ///
-/// The lifetime has no meaning of its own. A bound `for<'a> State: Fresh<'a>` is checked where a node is made, not
-/// where its type is declared, so that a node that is only handed in needs no default.
+/// The lifetime only defers the check. A bound `for<'a> State: Fresh<'a>` is checked where a node is constructed, not
+/// where its type is declared, so that a node that is passed to the program needs no default.
 pub trait Fresh<'a>: Sized {
-    /// The value to start with.
+    /// Returns the initial value.
     fn fresh() -> Self;
 }
 

@@ -3,85 +3,86 @@ use core::{
     time::Duration,
 };
 
-/// Watches a program while it reacts. Every method does nothing unless it is overridden; with `()` a
-/// program is compiled as if nobody watched.
+/// Observer of a program's reactions. Every method does nothing unless it is overridden; with `()` a program is
+/// compiled as if there were no observer.
 ///
-/// Nodes are given by their index in [`Info::nodes`](crate::Info::nodes), connections by theirs in
+/// Nodes are given by their index in [`Info::nodes`](crate::Info::nodes), connections by their index in
 /// [`Info::connections`](crate::Info::connections).
 pub trait Observer {
-    /// Node `node` is about to fire.
+    /// Called before node `node` fires.
     #[inline(always)]
     fn fired(&mut self, node: usize) {
         let _ = node;
     }
 
-    /// Node `node` has finished what it began: a firing, or a call of its slot.
+    /// Called after a firing of node `node`, or after a call of its slot.
     #[inline(always)]
     fn finished(&mut self, node: usize) {
         let _ = node;
     }
 
-    /// The slot at the end of connection `connection` is about to take its token.
+    /// Called before the slot at the end of connection `connection` takes its token.
     #[inline(always)]
     fn handled(&mut self, connection: usize) {
         let _ = connection;
     }
 
-    /// Node `node` became active, or is no longer.
+    /// Called when node `node` becomes active or inactive.
     #[inline(always)]
     fn activity(&mut self, node: usize, active: bool) {
         let _ = (node, active);
     }
 
-    /// A reaction used up its steps, because tokens go round while the time stands still. `nodes` took part in the
-    /// last steps, each as often as `counts` says.
+    /// Called when a reaction has used up its steps, because tokens cycle without time passing. `nodes` took part in
+    /// the last steps, each as often as `counts` says.
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let _ = (nodes, counts);
     }
 
-    /// The program can do nothing more, and the end of connection `connection` waits for its event.
+    /// Called when nothing can happen any more while the node at the end of connection `connection` still waits for its
+    /// event.
     fn waits(&mut self, connection: usize) {
         let _ = connection;
     }
 
-    /// Node `node` returned an error, or panicked where that is contained; its outputs carry ⊥.
+    /// Called when node `node` returned an error, or panicked and the panic was caught. Its outputs carry ⊥.
     #[inline(always)]
     fn failed(&mut self, node: usize, error: &impl Display) {
         let _ = (node, error);
     }
 
-    /// Node `node` had finished only this `age` after the firing of the source that its oldest token descends from, which is
-    /// more than its `deadline`.
+    /// Called when node `node` missed its deadline: it finished `age` after the source of its oldest token fired.
     #[inline(always)]
     fn late(&mut self, node: usize, age: Duration) {
         let _ = (node, age);
     }
 
-    /// Node `node` has been running for so long, and is still running: it hangs. Told on another thread.
+    /// Called when node `node` hangs: it has been running for `running` and has not finished. The call comes from
+    /// another thread.
     fn hung(&mut self, node: usize, running: Duration) {
         let _ = (node, running);
     }
 
-    /// How long this reaction has been going on, by the machine's clock: what a deadline counts besides the time that
-    /// tokens waited. Zero, where nobody measures it.
+    /// Returns the duration of this reaction so far, by the machine's clock. A deadline adds it to the time that tokens
+    /// waited. Zero if it is not measured.
     #[inline(always)]
     fn elapsed(&mut self) -> Duration {
         Duration::ZERO
     }
 
-    /// A token at the parameter port `parameter` of node `node` was out of range; the node keeps the value it has.
+    /// Called when a token at the parameter port `parameter` of node `node` was out of range. The node keeps its value.
     #[inline(always)]
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let _ = (node, parameter, value);
     }
 
-    /// Claim `claim` (by its index in [`Info::claims`](crate::Info::claims)) was broken. It is reported again only
-    /// after it held in between. Claims that the compiler decided are not looked at.
+    /// Called when claim `claim` (by its index in [`Info::claims`](crate::Info::claims)) is violated. It is reported
+    /// again only after it held in between. Claims that the compiler has decided are not checked.
     fn claim_failed(&mut self, claim: usize) {
         let _ = claim;
     }
 
-    /// Where a program lets tokens out, to be recorded, or takes recorded ones in.
+    /// Returns the tap through which the program's tokens are recorded or replayed.
     #[cfg(feature = "record")]
     #[inline(always)]
     fn tap(&mut self) -> Option<&mut crate::record::Tap> {
@@ -91,7 +92,7 @@ pub trait Observer {
 
 impl Observer for () {}
 
-/// Passes on what an observer is told to others.
+/// Implements all methods by calling those of other observers.
 macro_rules! pass_on {
     ($self:ident, $($to:expr),+) => {
         #[inline(always)]
@@ -110,7 +111,7 @@ macro_rules! pass_on {
     };
 }
 
-/// The same, but for the beginning and the end of what nodes do.
+/// Implements all methods except those for the beginning and end of firings by calling those of other observers.
 macro_rules! pass_on_others {
     ($self:ident, $($to:expr),+) => {
         #[inline(always)]
@@ -154,7 +155,7 @@ macro_rules! pass_on_others {
 }
 
 #[cfg(feature = "std")]
-impl<O: Observer> Observer for crate::threads::Felt<'_, O> {
+impl<O: Observer> Observer for crate::threads::WatchdogObserver<'_, O> {
     #[inline(always)]
     fn fired(&mut self, node: usize) {
         self.runs(node + 1);
@@ -177,13 +178,13 @@ impl<O: Observer> Observer for &mut O {
     pass_on!(self, (**self));
 }
 
-/// Both are told, the first one first.
+/// Calls both observers, the first one first.
 impl<A: Observer, B: Observer> Observer for (A, B) {
     pass_on!(self, self.0, self.1);
 }
 
-/// Writes failures, late nodes, refused parameter values, endless loops and broken claims to standard error, with the
-/// names of the nodes.
+/// Observer that writes failures, missed deadlines, hanging nodes, refused parameter values, deadlocks, endless loops
+/// and violated claims to standard error, with the names of the nodes.
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct StdErr(pub &'static crate::Info);

@@ -1,7 +1,7 @@
-/// The storage of an output that a node writes in place.
+/// Storage of an output that a node writes in place.
 ///
-/// The value written last stays in it, so that a node which refills it (`get_mut`) allocates nothing in
-/// steady state. An output that is not written during a firing carries ⊥ ("no message").
+/// The last value stays in the storage, so that a node which refills it ([`Out::get_mut`]) allocates nothing in steady
+/// state. An output that is not written during a firing carries ⊥ ("no message").
 #[derive(Debug, Clone)]
 pub struct Out<T> {
     value: Option<T>,
@@ -9,7 +9,7 @@ pub struct Out<T> {
 }
 
 impl<T> Out<T> {
-    /// An output that holds nothing yet.
+    /// Returns an empty output.
     pub const fn new() -> Self {
         Self { value: None, present: false }
     }
@@ -21,8 +21,8 @@ impl<T> Out<T> {
         self.present = true;
     }
 
-    /// Sends what the returned reference holds in the end. It still holds the value sent last (at first
-    /// `T::default()`), so that its storage can be used again.
+    /// Sends the value that the returned reference holds at the end of the firing. At first it holds the value that was
+    /// sent last, or `T::default()`, so that its storage can be reused.
     #[inline(always)]
     pub fn get_mut(&mut self) -> &mut T
     where
@@ -32,19 +32,19 @@ impl<T> Out<T> {
         self.value.get_or_insert_with(T::default)
     }
 
-    /// The value of this firing; `None` is ⊥.
+    /// Returns the value of this firing; `None` is ⊥.
     #[inline(always)]
     pub fn get(&self) -> Option<&T> {
         if self.present { self.value.as_ref() } else { None }
     }
 
-    /// Takes back what was set in this firing: the output carries ⊥.
+    /// Withdraws the value that was set in this firing: the output carries ⊥.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.present = false;
     }
 
-    /// Called by generated code before a firing.
+    /// Resets the output to ⊥. Generated code calls this before a firing.
     #[doc(hidden)]
     #[inline(always)]
     pub fn begin(&mut self) -> &mut Self {

@@ -1,5 +1,5 @@
-/// Runs `body` for all `items` and gives the results in order, `None` left out. `make` makes what a thread needs for
-/// it. Without the feature `parallel` the items come one after the other, with the same results.
+/// Runs `body` for all `items` and returns the results in order, without `None`. `make` creates the local state of
+/// `body` for each thread. Without the feature `parallel` the items run in sequence, with the same results.
 #[cfg(feature = "parallel")]
 pub fn par_map<T: Sync, L, R: Send>(
     items: &[T],
@@ -11,7 +11,8 @@ pub fn par_map<T: Sync, L, R: Send>(
     results.into_iter().flatten()
 }
 
-/// Runs `body` for all `items` and gives the results in order, `None` left out. `make` makes what is needed for it.
+/// Runs `body` for all `items` and returns the results in order, without `None`. `make` creates the local state of
+/// `body`.
 #[cfg(not(feature = "parallel"))]
 #[inline]
 pub fn par_map<T: Sync, L, R: Send>(

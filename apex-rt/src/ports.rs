@@ -1,4 +1,4 @@
-//! Ways into a program while it is driven, and out of it, for other threads.
+//! Ports of a running program for other threads.
 
 use crate::{
     Clock, Mailbox, Program, Time,
@@ -10,19 +10,19 @@ use std::sync::{
     atomic::{AtomicUsize, Ordering},
 };
 
-/// The ports of a program that other threads use while [`drive_from`](crate::drive_from) drives it. What they put in
-/// wakes the program, which waits for it as long as one of the [`PortSender`]s is there.
+/// The ports of a program that other threads use while [`drive_from`](crate::drive_from) drives it. A token that they
+/// put in wakes the program. A program that waits for input does not end while one of the [`PortSender`]s exists.
 ///
-/// Between such an end and the mailbox of the program there is room for one token, as everywhere.
+/// As in every connection, there is room for one token between a sender or receiver and the mailbox of the program.
 pub struct Ports<P: Program>(pub(crate) Ways<P::Inputs, P::Events>);
 
 impl<P: Program> Ports<P> {
-    /// None yet.
+    /// Returns ports without senders and receivers.
     pub fn new() -> Self {
         Self(Ways { inputs: vec![], events: vec![], outside: Arc::default(), kept: false })
     }
 
-    /// The end of a graph-level input or slot: `ports.input(|inputs| &mut inputs.stop)`.
+    /// Returns the sender for a graph-level input or slot: `ports.input(|inputs| &mut inputs.stop)`.
     pub fn input<T: Send + 'static>(&mut self, port: fn(&mut P::Inputs) -> &mut Mailbox<T>) -> PortSender<T>
     where
         P::Inputs: 'static,
@@ -33,7 +33,7 @@ impl<P: Program> Ports<P> {
         PortSender { cell, outside: Arc::clone(&self.0.outside) }
     }
 
-    /// The end of an event of the program: `ports.event(|events| &mut events.done)`.
+    /// Returns the receiver for an event of the program: `ports.event(|events| &mut events.done)`.
     pub fn event<T: Send + 'static>(&mut self, port: fn(&mut P::Events) -> &mut Mailbox<T>) -> PortReceiver<T>
     where
         P::Events: 'static,
@@ -50,7 +50,7 @@ impl<P: Program> Default for Ports<P> {
     }
 }
 
-/// The end of a graph-level input or slot that another thread has.
+/// Sender of tokens to a graph-level input or slot, for another thread.
 pub struct PortSender<T> {
     cell: Arc<Cell<T>>,
     outside: Arc<Others>,
@@ -60,7 +60,7 @@ impl<T> PortSender<T> {
     /// Puts a token in, and wakes the program.
     ///
     /// # Errors
-    /// Gives the token back while the one before has not been taken, and when the program has ended.
+    /// Returns the token if the previous one has not been taken, or if the program has ended.
     pub fn put(&self, token: T) -> Result<(), T> {
         self.put_into(self.cell.state(), token)
     }
@@ -68,7 +68,7 @@ impl<T> PortSender<T> {
     /// Waits until there is room for a token, and puts it in.
     ///
     /// # Errors
-    /// Gives the token back when the program has ended.
+    /// Returns the token if the program has ended.
     pub fn send(&self, token: T) -> Result<(), T> {
         let is_full = |state: &mut State<T>| state.token.is_some() && !state.ended;
         let state = self.cell.changed.wait_while(self.cell.state(), is_full).unwrap_or_else(PoisonError::into_inner);
@@ -101,19 +101,19 @@ impl<T> Drop for PortSender<T> {
     }
 }
 
-/// The end of an event of a program that another thread has.
+/// Receiver of the tokens of a program's event, for another thread.
 pub struct PortReceiver<T> {
     cell: Arc<Cell<T>>,
     outside: Arc<Others>,
 }
 
 impl<T> PortReceiver<T> {
-    /// Takes the token out that has come, if one has.
+    /// Takes the token out, if there is one.
     pub fn take(&self) -> Option<T> {
         self.take_from(self.cell.state())
     }
 
-    /// Waits for a token and takes it out; `None` when the program has ended.
+    /// Waits for a token and takes it out. Returns `None` if the program has ended.
     pub fn receive(&self) -> Option<T> {
         let is_empty = |state: &mut State<T>| state.token.is_none() && !state.ended;
         let state = self.cell.changed.wait_while(self.cell.state(), is_empty).unwrap_or_else(PoisonError::into_inner);
@@ -137,7 +137,7 @@ impl<T> Drop for PortReceiver<T> {
     }
 }
 
-/// What the ends of all ports share.
+/// State that all senders and receivers of a program share.
 #[derive(Default)]
 pub(crate) struct Others {
     bell: Bell,
@@ -145,13 +145,14 @@ pub(crate) struct Others {
 }
 
 impl Others {
-    /// This thread is unparked when somebody does something at the other end of a port.
+    /// Registers this thread: it is unparked when another thread uses a sender or receiver, as long as the result
+    /// lives.
     pub fn listen(&self) -> Listens<'_> {
         self.bell.listen()
     }
 }
 
-/// Room for a token between a mailbox and the end that another thread has.
+/// Storage for a token between a mailbox and the sender or receiver of another thread.
 struct Cell<T> {
     state: Mutex<State<T>>,
     changed: Condvar,
@@ -159,7 +160,7 @@ struct Cell<T> {
 
 struct State<T> {
     token: Option<T>,
-    /// The program has ended, or who takes its events is gone.
+    /// `true` if the program has ended, or the receiver of its events is dropped.
     ended: bool,
 }
 
@@ -170,21 +171,21 @@ impl<T> Default for Cell<T> {
 }
 
 impl<T> Cell<T> {
-    /// A thread that panicked while it had this left nothing half done.
+    /// Locks the state. A poisoned lock is used as it is: a thread that panicked has left nothing half done.
     fn state(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A way between the mailboxes `M` of a program and another thread.
+/// Path of tokens between the mailboxes `M` of a program and another thread.
 trait Way<M>: Send {
-    /// Moves a token on, if there is one, and room for it.
+    /// Moves a token, if there is one and there is room for it. Returns `true` if it did.
     fn pass(&self, mailboxes: &mut M) -> bool;
 
-    /// Whether a token waits for room, which may come.
+    /// Returns `true` if a token waits for room that may become free.
     fn holds_back(&self, mailboxes: &mut M) -> bool;
 
-    /// The program has ended.
+    /// Reports to the other thread that the program has ended.
     fn end(&self);
 }
 
@@ -247,20 +248,20 @@ impl<M, T: Send> Way<M> for WayOut<M, T> {
     }
 }
 
-/// The near ends of all ports of a program with the mailboxes `I` and `E`.
+/// The program's ends of all ports, for the mailboxes `I` and `E`.
 pub(crate) struct Ways<I, E> {
     inputs: Vec<Box<dyn Way<I>>>,
     events: Vec<Box<dyn Way<E>>>,
     outside: Arc<Others>,
-    /// Whether somebody could wake the program, when tokens were moved last.
+    /// Value of [`Ways::is_open`], as of the last call of [`Ways::pass`].
     kept: bool,
 }
 
 impl<I, E> Ways<I, E> {
-    /// Moves all tokens on that can be moved; whether there were some. The program has something to do then.
+    /// Moves all tokens that can be moved. Returns `true` if there were any: the program then has something to do.
     pub fn pass(&mut self, (inputs, events): (&mut I, &mut E)) -> bool {
         self.outside.bell.take();
-        // Not lazily: all of them.
+        // Not `any`, which stops at the first: all of them are called.
         let came = self.inputs.iter().fold(false, |any, way| way.pass(inputs) | any);
         let went = self.events.iter().fold(false, |any, way| way.pass(events) | any);
         let held = self.events.iter().any(|way| way.holds_back(events));
@@ -268,17 +269,17 @@ impl<I, E> Ways<I, E> {
         came | went
     }
 
-    /// Whether somebody could still put a token in or take one out that the program waits with.
+    /// Returns `true` if another thread may still put a token in, or take out one that the program waits with.
     pub const fn is_open(&self) -> bool {
         self.kept
     }
 
-    /// Whether somebody did something at the other ends since tokens were moved.
+    /// Returns `true` if another thread used a sender or receiver since tokens were moved last.
     pub fn rings(&self) -> bool {
         self.outside.bell.rings()
     }
 
-    /// What rings then, for the thread that drives the program to listen to.
+    /// Returns the state with the bell that rings then. The thread that drives the program listens to it.
     pub fn bell(&self) -> Arc<Others> {
         Arc::clone(&self.outside)
     }

@@ -1,5 +1,5 @@
-//! Where the time goes: how long every firing and every call of a slot takes, as a table by node and as a trace that
-//! Perfetto and Chrome show (`ui.perfetto.dev`, `chrome://tracing`), active nodes in another colour.
+//! Profiles: the durations of all firings and calls of slots, as a table by node and as a trace for Perfetto and Chrome
+//! (`ui.perfetto.dev`, `chrome://tracing`). The trace shows active nodes in another colour.
 
 use crate::{Clock, Info, Observer, Ports, Program, StdErr, UntilStopped, run::drive_groups};
 use hdrhistogram::Histogram;
@@ -12,46 +12,46 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Most calls that the trace shows; the table counts all of them.
+/// Maximum number of calls in the trace. The table counts all calls.
 pub const MAX_TRACED: u64 = 1_000_000;
 
-/// What was measured of a program.
+/// Measured times of a program.
 pub struct Profile {
     info: &'static Info,
     start: Instant,
-    /// For each thread group the calls that are going on: the last one, before it those that made it (`each`).
+    /// Calls in progress of each thread group, innermost last: an `each` contains the calls of its body.
     running: Vec<Vec<Call>>,
-    /// Which nodes are active.
+    /// `true` for each active node.
     active: Vec<bool>,
-    /// Nanoseconds of each node's calls; `None` before the first.
+    /// Durations of each node's calls, in ns; `None` before the first call.
     calls: Vec<Option<Histogram<u64>>>,
-    /// Nanoseconds of each node, without those that it runs.
+    /// Total duration of each node's calls in ns, without the calls inside them.
     own: Vec<u64>,
     traced: u64,
     trace: BufWriter<File>,
-    /// What went wrong with the file, the first time.
+    /// The first error of the file.
     error: Option<io::Error>,
 }
 
-/// A call that is going on.
+/// A call in progress.
 struct Call {
     node: usize,
     start: Instant,
-    /// The nanoseconds of those that it made.
+    /// Duration of the calls inside this one, in ns.
     inner: u64,
 }
 
-/// An observer that measures one thread group.
+/// Observer that measures one thread group.
 pub struct Measures<'a> {
     profile: &'a Mutex<Profile>,
     group: usize,
 }
 
 impl Profile {
-    /// A profile whose trace is written to `path`.
+    /// Returns a profile whose trace is written to `path`.
     ///
     /// # Errors
-    /// The file cannot be made.
+    /// The file cannot be created.
     pub fn to_file(info: &'static Info, path: &Path) -> io::Result<Self> {
         let mut trace = BufWriter::new(File::create(path)?);
         write!(trace, "[{{\"ph\":\"M\",\"pid\":1,\"name\":\"process_name\",\"args\":{{\"name\":\"{}\"}}}}", info.name)?;
@@ -76,7 +76,7 @@ impl Profile {
         })
     }
 
-    /// The observer of a thread group.
+    /// Returns the observer of a thread group.
     pub fn of_group(profile: &Mutex<Self>, group: usize) -> Measures<'_> {
         Measures { profile, group }
     }
@@ -95,7 +95,7 @@ impl Profile {
         if let Some(outer) = self.running[group].last_mut() {
             outer.inner += took;
         }
-        // Three digits, whatever comes: the counts grow with the longest call.
+        // Three significant digits for all durations: the histogram grows with the longest call.
         let calls = self.calls[node].get_or_insert_with(|| Histogram::new(3).expect("three digits are allowed"));
         calls.saturating_record(took);
         if self.traced < MAX_TRACED && self.error.is_none() {
@@ -115,7 +115,7 @@ impl Profile {
         )
     }
 
-    /// Ends the trace.
+    /// Completes the trace.
     ///
     /// # Errors
     /// The file could not be written.
@@ -127,13 +127,14 @@ impl Profile {
         self.trace.flush()
     }
 
-    /// Whether calls are missing in the trace because there were too many.
+    /// Returns `true` if the trace has [`MAX_TRACED`] calls, so that later ones may be missing.
     pub fn is_cut(&self) -> bool {
         self.traced == MAX_TRACED
     }
 
-    /// A line for each node that ran, those that took most of the time first: how often, mean, median, 99 %, longest, and
-    /// the share of the time of all nodes. The time of an `each` includes its body; its share does not.
+    /// Returns a table with a line for each node that ran, sorted by its share of the time: number of calls, mean,
+    /// median, 99 % quantile, maximum, and share of the time of all nodes. The times of an `each` include its body; its
+    /// share does not.
     pub fn table(&self) -> String {
         let total: u64 = self.own.iter().sum();
         let mut rows: Vec<(usize, &Histogram<u64>)> =
@@ -162,7 +163,7 @@ impl Profile {
     }
 }
 
-/// Drives a program and says where its time went.
+/// Drives a program, writes its trace to `path` and its table to standard error. Returns the exit code.
 pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, path: &Path) -> u8 {
     let cannot_write = |error: io::Error| eprintln!("error: cannot write `{}`: {error}", path.display());
     let info = const { &P::INFO };

@@ -1,7 +1,7 @@
-//! What waits for its turn: slot tokens, and how many steps a reaction may take.
+//! Queue of slot tokens, and the step budget of a reaction.
 
-/// The slot tokens that wait, in the order in which they were emitted. Each of the `N` connections to slots holds
-/// at most one token, so that there is room for all.
+/// Numbers of the slots with waiting tokens, in the order in which these were emitted. Each of the `N` connections to
+/// slots holds at most one token, so that there is room for all.
 #[derive(Debug, Clone)]
 pub struct Queue<const N: usize> {
     waiting: [u16; N],
@@ -10,25 +10,25 @@ pub struct Queue<const N: usize> {
 }
 
 impl<const N: usize> Queue<N> {
-    /// An empty queue.
+    /// Returns an empty queue.
     pub const fn new() -> Self {
         Self { waiting: [0; N], start: 0, len: 0 }
     }
 
-    /// The token for `slot` was emitted.
+    /// Adds a token for `slot`.
     #[inline(always)]
     pub fn push(&mut self, slot: u16) {
         self.waiting[(self.start + self.len) % N] = slot;
         self.len += 1;
     }
 
-    /// Whether no token waits.
+    /// Returns `true` if no token waits.
     #[inline(always)]
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Takes the first token out whose slot `is_ready`; the others keep their places.
+    /// Takes out the first token whose slot `is_ready`; the others keep their order.
     #[inline(always)]
     pub fn next(&mut self, is_ready: impl Fn(u16) -> bool) -> Option<u16> {
         for at in 0..self.len {
@@ -52,7 +52,7 @@ impl<const N: usize> Default for Queue<N> {
     }
 }
 
-/// How many steps a reaction may still take, in programs whose tokens can go round for ever without time passing.
+/// Step budget of a reaction, for programs whose tokens may cycle endlessly without time passing.
 #[derive(Debug, Clone)]
 pub struct Steps<const N: usize> {
     budget: u32,
@@ -61,34 +61,34 @@ pub struct Steps<const N: usize> {
 }
 
 impl<const N: usize> Steps<N> {
-    /// So many steps of a reaction are taken as the sign of an endless loop, unless the program says otherwise.
+    /// Default budget: a reaction with more steps is taken for an endless loop.
     pub const BUDGET: u32 = 1_000_000;
-    /// So many of the last steps are counted, to tell what goes round.
+    /// Number of steps at the end of the budget that are counted by kind, to identify the nodes of an endless loop.
     const WATCHED: u32 = 1_000;
 
-    /// The full budget.
+    /// Returns a full budget.
     pub const fn new() -> Self {
         Self { budget: Self::BUDGET, left: Self::BUDGET, counts: [0; N] }
     }
 
-    /// Sets how many steps a reaction may take, at least one.
+    /// Sets the number of steps that a reaction may take, at least one.
     pub fn set_budget(&mut self, steps: u32) {
         self.budget = if steps == 0 { 1 } else { steps };
     }
 
-    /// A reaction begins.
+    /// Refills the budget when a reaction begins.
     #[inline(always)]
     pub fn begin(&mut self) {
         self.left = self.budget;
     }
 
-    /// Whether the budget is used up.
+    /// Returns `true` if the budget is used up.
     #[inline(always)]
     pub const fn is_used_up(&self) -> bool {
         self.left == 0
     }
 
-    /// Step number `kind` is taken.
+    /// Takes one step of this `kind`.
     #[inline(always)]
     pub fn take(&mut self, kind: usize) {
         self.left -= 1;
@@ -102,7 +102,8 @@ impl<const N: usize> Steps<N> {
         self.counts[kind] += 1;
     }
 
-    /// How often each kind of step was taken towards the end of a reaction that used up its budget. Counts anew then.
+    /// Returns how often each kind of step was taken at the end of a reaction that used up its budget, and resets the
+    /// counts.
     pub fn counts(&mut self) -> [u32; N] {
         core::mem::replace(&mut self.counts, [0; N])
     }

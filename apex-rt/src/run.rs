@@ -2,14 +2,14 @@
 use crate::Ports;
 use crate::{
     Clock, Info, Observer, Time,
-    threads::{Alone, Spawn, Wake},
+    threads::{SingleGroup, Spawn, Wake},
 };
 use core::time::Duration;
 
-/// When a program wants to be called again.
+/// Time of a program's next reaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Next {
-    /// At once: it has a source that sets no pace of its own.
+    /// At once: a source without a period is to fire again.
     Now,
     /// At this time, or when a token is put into a mailbox.
     At(Time),
@@ -20,7 +20,7 @@ pub enum Next {
 }
 
 impl Next {
-    /// The earlier of two wishes.
+    /// Returns the earlier of two times. An exit comes first.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         match (self, other) {
@@ -33,54 +33,54 @@ impl Next {
     }
 }
 
-/// A compiled graph: what `graph!` makes a struct for.
+/// A compiled graph. `graph!` generates a struct that implements this trait.
 pub trait Program {
-    /// Its static description.
+    /// Static description of the graph.
     const INFO: Info;
 
-    /// The mailboxes of its graph-level inputs and slots.
+    /// Mailboxes of the graph-level inputs and slots.
     type Inputs;
 
-    /// The mailboxes of its events.
+    /// Mailboxes of the events.
     type Events;
 
-    /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
+    /// Reacts at `now`: runs until nothing is ready. Returns the time of the next reaction.
     fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next;
 
-    /// Its mailboxes, between two reactions.
+    /// Returns the mailboxes, for use between two reactions.
     fn mailboxes(&mut self) -> (&mut Self::Inputs, &mut Self::Events);
 
-    /// The file in which the program is recorded, by its `record` statement.
+    /// File for recordings of the program, from its `record` statement.
     #[cfg(feature = "record")]
     const RECORD: Option<&'static str> = None;
 
-    /// What can be recorded of it.
+    /// Returns the channels that can be recorded.
     #[cfg(feature = "record")]
     fn channels() -> std::vec::Vec<crate::record::Channel> {
         std::vec::Vec::new()
     }
 
-    /// Records the parameters before threads begin, or says which were others.
+    /// Records the parameters before the threads start. In a replay, compares them with the recorded ones.
     #[cfg(feature = "record")]
     #[doc(hidden)]
     fn share_params(&mut self, tap: &mut crate::record::Tap) {
         let _ = tap;
     }
 
-    /// The connections (by index) whose events a node waits for although other tokens for it have come. Where nothing
-    /// else is to happen, that is a deadlock.
+    /// Calls `found` with each connection (by index) whose event is missing at a node that has other tokens. If nothing
+    /// else can happen, that is a deadlock.
     fn waiting(&self, found: impl FnMut(usize)) {
         let _ = found;
     }
 
-    /// Whether node `node` is active (thesis eq. 7.1).
+    /// Returns `true` if node `node` is active (thesis eq. 7.1).
     fn is_active(&self, node: usize) -> bool {
         let _ = node;
         false
     }
 
-    /// Hands out the thread groups of a program that has several, the main group last. `wake` is told when one of them has
-    /// something to look at.
+    /// Passes the thread groups of a program to `spawn`, the main group last. `wake` is called when a group has to
+    /// react.
     fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
     where
         W: Wake + Copy + Send + 'a,
@@ -88,11 +88,11 @@ pub trait Program {
         Self: Sized,
     {
         let _ = wake;
-        spawn.stay(0, Alone(self));
+        spawn.stay(0, SingleGroup(self));
     }
 
-    /// Whether nested graph `graph`, by its index in [`Info::graphs`], is active: a node in it is, or activity is under way
-    /// between two of them.
+    /// Returns `true` if nested graph `graph`, by its index in [`Info::graphs`], is active: one of its nodes is active,
+    /// or activity is on its way between two of them.
     fn is_graph_active(&self, graph: usize) -> bool {
         let _ = graph;
         false
@@ -146,7 +146,7 @@ impl<P: Program> Program for &mut P {
     }
 }
 
-/// Measures by the clock that drives a program how long a reaction has been going on.
+/// Observer that measures the duration of a reaction by the clock that drives the program.
 pub struct Stopwatch<'a, C> {
     pub clock: &'a mut C,
     pub start: Time,
@@ -158,15 +158,16 @@ impl<C: Clock> Observer for Stopwatch<'_, C> {
     }
 }
 
-/// What a program that is driven has to do with besides its clock: here with nobody.
+/// Environment of a running program besides its clock. `()` is an empty one.
 pub(crate) trait Outside<P> {
-    /// Moves tokens into the program and out of it; whether there were some.
+    /// Moves tokens into the program and out of it. Returns `true` if there were any.
     fn exchange(&mut self, program: &mut P) -> bool;
 
-    /// Whether a program that waits for input alone may still get some.
+    /// Returns `true` if a program that only waits for input may still get some.
     fn is_open(&self) -> bool;
 
-    /// Waits for the time, or for ever, or until there are tokens to be moved; `false` if the clock ends before.
+    /// Waits until `until`, forever if that is `None`, or until there are tokens to be moved. Returns `false` if the
+    /// clock ends before.
     fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool;
 }
 
@@ -184,19 +185,19 @@ impl<P> Outside<P> for () {
     }
 }
 
-/// Drives `program` by `clock` until nothing can happen any more: no source is left to fire, the clock ends, or a
-/// token comes to `exit`. Returns the exit code: 0, or 1 after a token came to `abort`.
+/// Drives `program` by `clock` until nothing can happen any more: no source will fire again, the clock ends, or a token
+/// comes to `exit` or `abort`. Returns the exit code: 1 after `abort`, else 0.
 ///
-/// Nobody can put a token into the program meanwhile: one that waits for nothing else has ended. [`drive_from`] is for
-/// programs that other threads give their tokens to.
+/// No other thread can put a token into the program meanwhile, so that a program that only waits for input has ended.
+/// Use [`drive_from`] for programs that get tokens from other threads.
 ///
-/// The thread groups of a program each run on a thread of their own if the clock is the machine's
-/// ([`Clock::pace`]); in simulated time they run in turn, so that the result is always the same.
+/// Each thread group of a program runs on a thread of its own if the clock is the machine's ([`Clock::pace`]). In
+/// simulated time the groups run in turn, so that the result is always the same.
 ///
 /// With the feature `profile` and a file in the environment variable `APEX_PROFILE`, the trace of a
-/// [`Profile`](crate::profile::Profile) is written there, and its table to standard error; Ctrl-C then ends the program.
-/// With the feature `record`, the run is recorded in the file that the environment variable `APEX_RECORD` names, or else a
-/// `record` statement of the text; or, if `APEX_REPLAY` names a recording, that is replayed instead.
+/// [`Profile`](crate::profile::Profile) is written to that file, and its table to standard error; Ctrl-C then ends the
+/// program. With the feature `record`, the run is recorded in the file in the environment variable `APEX_RECORD`, or
+/// else in that of the program's `record` statement. If `APEX_REPLAY` names a recording, that is replayed instead.
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
     #[cfg(feature = "std")]
     return drive_from(program, clock, Ports::new());
@@ -204,11 +205,11 @@ pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
     drive_with(program, clock, ())
 }
 
-/// As [`drive`], with `ports` by which other threads put tokens in and take the program's events out. As long as one of
-/// the senders of `ports` is there, a program that waits for input waits, and sleeps: any of them wakes it.
+/// Drives a program as [`drive`] does, with `ports` through which other threads put tokens in and take events out.
+/// While one of the senders of `ports` exists, a program that waits for input sleeps; each token wakes it.
 ///
-/// In simulated time a program that waits for input alone ends nevertheless: its time stands still, and what others do
-/// meanwhile would come at no time.
+/// In simulated time a program that only waits for input ends nevertheless: its time does not advance, so that tokens
+/// of other threads would come at no defined time.
 #[cfg(feature = "std")]
 pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -> u8 {
     #[cfg(feature = "profile")]
@@ -216,13 +217,13 @@ pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -
         return crate::profile::drive(program, clock, ports, path.as_ref());
     }
     #[cfg(feature = "record")]
-    if let Some(wish) = crate::record::Wish::of::<P>() {
+    if let Some(wish) = crate::record::RunMode::of::<P>() {
         return crate::record::drive(program, clock, ports, &wish);
     }
     drive_groups(program, clock, ports, |_| crate::StdErr(const { &P::INFO }))
 }
 
-/// Drives a program with an observer for each of its thread groups: on threads if it has groups and the clock is the
+/// Drives a program with an observer for each of its thread groups: on threads if there are groups and the clock is the
 /// machine's, else in turn.
 #[cfg(feature = "std")]
 pub(crate) fn drive_groups<P: Program, C: Clock, O: Observer + Send>(
@@ -237,7 +238,7 @@ pub(crate) fn drive_groups<P: Program, C: Clock, O: Observer + Send>(
     }
 }
 
-/// What sets the pace of the threads of a program, if it runs on threads of its own.
+/// Returns the timing of the program's threads, if it runs on threads of its own.
 #[cfg(feature = "std")]
 pub(crate) fn pace_of_threads<P: Program, C: Clock>(clock: &C) -> Option<crate::threads::Pace> {
     clock.pace().filter(|_| !P::INFO.groups.is_empty())
@@ -251,8 +252,8 @@ pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(program: P, clock: 
     drive_beside(program, clock, observer, ports.0)
 }
 
-/// As [`drive`], with an observer of one's own. Nothing is written to standard error then: that is what
-/// [`StdErr`](crate::StdErr) does, which can be a part of it.
+/// Drives a program as [`drive`] does, with an observer. Nothing is then written to standard error, unless
+/// [`StdErr`](crate::StdErr) is a part of the observer.
 pub fn drive_with<P: Program, C: Clock, O: Observer>(program: P, clock: C, observer: O) -> u8 {
     drive_beside(program, clock, observer, ())
 }
@@ -286,7 +287,7 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
     }
 }
 
-/// As [`drive`], for a `main` that ends with it: after `abort` the process ends with code 1.
+/// Drives a program as [`drive`] does, for the end of `main`: after `abort` the process exits with code 1.
 pub fn run<P: Program, C: Clock>(program: P, clock: C) {
     let code = drive(program, clock);
     #[cfg(feature = "std")]
@@ -301,7 +302,7 @@ pub fn run<P: Program, C: Clock>(program: P, clock: C) {
 mod tests {
     use super::*;
 
-    /// A program that says of each question that it was asked.
+    /// A program that records its calls.
     struct Asked(std::vec::Vec<&'static str>);
 
     impl Program for Asked {
@@ -338,7 +339,7 @@ mod tests {
         const RECORD: Option<&'static str> = Some("a.mcap");
     }
 
-    /// Asks a program for all that has a default.
+    /// Calls all methods of a program that have a default.
     fn ask<P: Program>(program: &P) {
         let mut found = std::vec![];
         program.waiting(|connection| found.push(connection));

@@ -7,32 +7,34 @@ pub struct UntilStopped<C> {
     switch: &'static Switch,
 }
 
-/// Turned by the signals that ask the process to end.
+/// Switch that the signals turn that end a process.
 #[cfg(feature = "ctrl-c")]
 static STOPPED: Switch = Switch::new();
 
-/// The exit code of a process that was asked to end twice: that of one that Ctrl-C ends, as shells see it.
+/// Exit code after a second signal, which is that of Ctrl-C in shells.
 #[cfg(feature = "ctrl-c")]
 const INTERRUPTED: i32 = 130;
 
 impl<C: Clock> UntilStopped<C> {
-    /// `clock` until `switch` is turned. A clock of one's own hears of it while it waits if it has [`Clock::wait`].
+    /// Returns `clock` with an end when `switch` is turned. A custom clock notices that during a wait only if it
+    /// implements [`Clock::wait`].
     pub const fn new(clock: C, switch: &'static Switch) -> Self {
         Self { clock, switch }
     }
 
-    /// `clock` until Ctrl-C or another signal asks the process to end, which it then does not do by itself. A second
-    /// one ends the process at once: a node that hangs does not come back. Only one clock of a process can be made so.
+    /// Returns `clock` with an end at Ctrl-C or another signal that would otherwise end the process. A second signal
+    /// ends the process at once, in case a node hangs. A process can have only one such clock.
     ///
     /// # Errors
-    /// The signals cannot be handled, or are handled by somebody else.
+    /// The signals cannot be handled, or already have another handler.
     #[cfg(feature = "ctrl-c")]
     pub fn ctrl_c(clock: C) -> Result<Self, String> {
         ctrlc::set_handler(asked).map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
         Ok(Self::new(clock, &STOPPED))
     }
 
-    /// The same, unless somebody else handles the signals, who then has to end the clock.
+    /// Returns `clock` as [`ctrl_c`](Self::ctrl_c) does. If the signals already have another handler, that has to end
+    /// the clock.
     #[cfg(any(feature = "profile", feature = "record"))]
     pub(crate) fn ctrl_c_if_free(clock: C) -> Self {
         let _ = ctrlc::set_handler(asked);
@@ -40,7 +42,7 @@ impl<C: Clock> UntilStopped<C> {
     }
 }
 
-/// A signal asks the process to end.
+/// Handles a signal that is to end the process.
 #[cfg(feature = "ctrl-c")]
 fn asked() {
     if STOPPED.is_set() {
@@ -65,7 +67,7 @@ impl<C: Clock> Clock for UntilStopped<C> {
         if self.switch.is_set() {
             return false;
         }
-        // A program that sets no pace is called again at once: it has no time to listen.
+        // A program that does not wait reacts again at once: listening would only cost time.
         let _listens = until.is_none_or(|time| time > self.clock.now()).then(|| self.switch.listen());
         let woken = || self.switch.is_set() || woken();
         self.clock.wait(until, &woken) && !self.switch.is_set()
@@ -81,7 +83,7 @@ mod tests {
     use super::*;
     use std::{cell::Cell, thread};
 
-    /// Counts how often it waits, and is unparked as the machine's clock is.
+    /// Clock that counts its waits, and is unparked as the machine's clock is.
     struct Counting<'a> {
         waits: &'a Cell<u32>,
         now: Time,

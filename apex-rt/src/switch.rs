@@ -1,4 +1,4 @@
-//! What ends the wait of a thread: a switch that others turn, and the bell that is behind it.
+//! Switch that ends the waits of threads, and the bell on which it is built.
 
 use std::{
     sync::{
@@ -8,7 +8,7 @@ use std::{
     thread::{self, Thread, ThreadId},
 };
 
-/// Rings until somebody takes note of it, and unparks all threads that listen.
+/// Flag that stays set until [`Bell::take`], and unparks all listening threads when it is set.
 #[derive(Debug, Default)]
 pub(crate) struct Bell {
     rung: AtomicBool,
@@ -20,8 +20,8 @@ impl Bell {
         Self { rung: AtomicBool::new(false), listening: Mutex::new(Vec::new()) }
     }
 
-    /// Rings. A thread that began to listen before is unparked; one that begins later sees that it rang, because both
-    /// lock the list.
+    /// Sets the flag. A thread that already listens is unparked. A thread that begins to listen later sees the flag,
+    /// because both lock the list.
     pub fn ring(&self) {
         self.rung.store(true, Ordering::Release);
         self.listening().iter().for_each(Thread::unpark);
@@ -31,12 +31,12 @@ impl Bell {
         self.rung.load(Ordering::Acquire)
     }
 
-    /// Whether it rang since this was asked last. What was done before it was rung is seen then.
+    /// Clears the flag. Returns `true` if it was set; everything before the call of [`Bell::ring`] is then visible.
     pub fn take(&self) -> bool {
         self.rung.swap(false, Ordering::AcqRel)
     }
 
-    /// This thread is unparked when it rings, as long as the result lives.
+    /// Registers this thread: it is unparked by [`Bell::ring`] as long as the result lives.
     pub fn listen(&self) -> Listens<'_> {
         let current = thread::current();
         let id = current.id();
@@ -49,7 +49,7 @@ impl Bell {
     }
 }
 
-/// A thread that listens.
+/// A listening thread.
 pub(crate) struct Listens<'a> {
     bell: &'a Bell,
     id: ThreadId,
@@ -65,23 +65,23 @@ impl Drop for Listens<'_> {
     }
 }
 
-/// A switch that ends programs, whatever they wait for: it is turned by the handler of a signal or by another thread,
-/// and stays as it is.
+/// A switch that ends programs, even while they wait. The handler of a signal or another thread turns it; it cannot be
+/// turned back.
 #[derive(Debug)]
 pub struct Switch(Bell);
 
 impl Switch {
-    /// A switch that was not turned.
+    /// Returns a switch that is not turned.
     pub const fn new() -> Self {
         Self(Bell::new())
     }
 
-    /// Turns it: whoever waits with a clock [`UntilStopped`](crate::UntilStopped) wakes up and ends.
+    /// Turns the switch: programs with a clock [`UntilStopped`](crate::UntilStopped) end, even while they wait.
     pub fn set(&self) {
         self.0.ring();
     }
 
-    /// Whether it was turned.
+    /// Returns `true` if the switch was turned.
     #[inline]
     pub fn is_set(&self) -> bool {
         self.0.rings()

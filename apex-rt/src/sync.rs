@@ -1,10 +1,10 @@
-//! What is shared between threads is built on: the model checker of the tests puts its own in this place.
+//! Atomics and cells for code that threads share. The model checker of the tests replaces this module.
 
 #[cfg(feature = "std")]
 pub use core::sync::atomic::{AtomicBool, AtomicUsize};
 pub use core::sync::atomic::{AtomicU8, Ordering};
 
-/// A place that several threads can reach.
+/// A place that several threads can access.
 #[derive(Debug, Default)]
 pub struct UnsafeCell<T>(core::cell::UnsafeCell<T>);
 

@@ -1,8 +1,8 @@
-//! Rows of the tables of a program with many slots or timeouts: generated code serves them by number.
+//! Rows of the tables of a program with many slots or timeouts, which generated code processes by number.
 
 use core::time::Duration;
 
-/// A token that lies in the state of a program.
+/// A token in the state of a program.
 pub trait Token {
     /// Returns `true` unless it is ⊥.
     fn is_there(&self) -> bool;
@@ -27,24 +27,24 @@ pub struct Port {
     pub token: usize,
     /// Slots whose tokens are queued.
     pub queued: &'static [u16],
-    /// Conditions "holds a token" that begin to hold.
+    /// Conditions "holds a token" that are set.
     pub raises: &'static [u32],
-    /// Conditions "is free" that end.
+    /// Conditions "is free" that are cleared.
     pub occupies: &'static [u32],
     /// Stamps of connections that are set.
     pub stamps: &'static [u32],
-    /// Nodes that activity is taken from.
+    /// Nodes that lose activity.
     pub takes_away: &'static [u32],
-    /// Activity goes along.
+    /// `true` if the token passes activity on.
     pub passes: bool,
-    /// Slots whose tokens then carry activity.
+    /// Slots whose tokens carry activity if the token does.
     pub carries: &'static [u32],
-    /// Nodes whose inputs then hold activity.
+    /// Nodes whose inputs hold activity if the token carries it.
     pub gains: &'static [u32],
 }
 
 impl Port {
-    /// The port of a token that goes nowhere yet.
+    /// Returns the port of a token without connections.
     pub const fn new(token: usize) -> Self {
         Self {
             token,
@@ -59,31 +59,31 @@ impl Port {
         }
     }
 
-    /// It goes to slots, over connections that are then occupied.
+    /// Adds slots to which the token goes, and the connections that are then occupied.
     #[must_use]
     pub const fn queues(self, queued: &'static [u16], occupies: &'static [u32]) -> Self {
         Self { queued, occupies, ..self }
     }
 
-    /// It goes to inputs.
+    /// Adds inputs to which the token goes.
     #[must_use]
     pub const fn raises(self, raises: &'static [u32]) -> Self {
         Self { raises, ..self }
     }
 
-    /// Its age is kept.
+    /// Adds connections that store the stamp of the token.
     #[must_use]
     pub const fn stamps(self, stamps: &'static [u32]) -> Self {
         Self { stamps, ..self }
     }
 
-    /// It takes activity from nodes.
+    /// Adds nodes that lose activity.
     #[must_use]
     pub const fn takes_away(self, takes_away: &'static [u32]) -> Self {
         Self { takes_away, ..self }
     }
 
-    /// Activity goes along to slots and to nodes with inputs.
+    /// Passes activity on to slots and to nodes with inputs.
     #[must_use]
     pub const fn passes(self, carries: &'static [u32], gains: &'static [u32]) -> Self {
         Self { passes: true, carries, gains, ..self }
@@ -99,33 +99,33 @@ pub enum Carries {
     Always,
     /// Activates the node if the sender was active.
     Sometimes,
-    /// Takes activity away.
+    /// Deactivates the node.
     Away,
 }
 
-/// The call of a slot (static data).
+/// Call of a slot (static data).
 #[derive(Debug)]
 pub struct Slot {
     /// Number of the node.
     pub node: usize,
-    /// First of the node's ports, and the end of them.
+    /// Range of the node's ports: first and end (exclusive).
     pub ports: (usize, usize),
-    /// Conditions under which it is served.
+    /// Conditions for the call.
     pub needs: &'static [u32],
-    /// Number of the connection, unless it comes from another thread group.
+    /// Number of the connection, unless the token comes from another thread group.
     pub connection: Option<usize>,
     /// Condition "is free" of the connection.
     pub frees: Option<usize>,
-    /// What the token does to the activity of the node.
+    /// Effect of the token on the activity of the node.
     pub carries: Carries,
-    /// Cluster that may have finished with this call.
+    /// Cluster that may have finished after this call.
     pub settles: Option<usize>,
     /// Stamp of the connection.
     pub stamp: Option<usize>,
 }
 
 impl Slot {
-    /// A slot of a node with the ports from `first` to `end`.
+    /// Returns a slot of a node with the ports `first..end`.
     pub const fn new(node: usize, first: usize, end: usize, needs: &'static [u32]) -> Self {
         Self {
             node,
@@ -139,66 +139,66 @@ impl Slot {
         }
     }
 
-    /// The connection has a number.
+    /// Sets the number of the connection.
     #[must_use]
     pub const fn on(self, connection: usize) -> Self {
         Self { connection: Some(connection), ..self }
     }
 
-    /// The connection is free again.
+    /// Sets the condition "is free" of the connection.
     #[must_use]
     pub const fn frees(self, bit: usize) -> Self {
         Self { frees: Some(bit), ..self }
     }
 
-    /// The token is from `start` and activates the node.
+    /// Declares that the token comes from `start` and activates the node.
     #[must_use]
     pub const fn always_activates(self) -> Self {
         Self { carries: Carries::Always, ..self }
     }
 
-    /// The token activates the node if its sender was active.
+    /// Declares that the token activates the node if its sender was active.
     #[must_use]
     pub const fn activates(self) -> Self {
         Self { carries: Carries::Sometimes, ..self }
     }
 
-    /// The token takes activity away.
+    /// Declares that the token deactivates the node.
     #[must_use]
     pub const fn deactivates(self) -> Self {
         Self { carries: Carries::Away, ..self }
     }
 
-    /// A cluster may have finished.
+    /// Sets the cluster that may have finished after the call.
     #[must_use]
     pub const fn settles(self, cluster: usize) -> Self {
         Self { settles: Some(cluster), ..self }
     }
 
-    /// The age of the token is known.
+    /// Sets the stamp of the connection.
     #[must_use]
     pub const fn stamp(self, stamp: usize) -> Self {
         Self { stamp: Some(stamp), ..self }
     }
 }
 
-/// The `timeout` of a node (static data).
+/// Timeout of a node (static data).
 #[derive(Debug)]
 pub struct Timeout {
     /// Number of the node.
     pub node: usize,
-    /// First of the node's ports, and the end of them.
+    /// Range of the node's ports: first and end (exclusive).
     pub ports: (usize, usize),
-    /// Time that the node may be active.
+    /// Longest time that the node may be active.
     pub after: Duration,
     /// Conditions under which the event can be triggered.
     pub needs: &'static [u32],
-    /// The node must be enabled.
+    /// `true` if the node must be enabled.
     pub gated: bool,
 }
 
 impl Timeout {
-    /// The timeout of a node after a number of nanoseconds.
+    /// Returns the timeout of a node after `after` nanoseconds.
     pub const fn new(node: usize, first: usize, end: usize, after: u64, needs: &'static [u32], gated: bool) -> Self {
         Self { node, ports: (first, end), after: Duration::from_nanos(after), needs, gated }
     }

@@ -1,4 +1,4 @@
-//! What generated tests call: a program on simulated time, tokens for its ports, and what is expected of it.
+//! Runtime of generated tests: a program in simulated time, tokens for its ports, and expectations.
 
 use crate::{Next, Observer, Program, Time};
 use core::{
@@ -6,31 +6,31 @@ use core::{
     time::Duration,
 };
 
-/// A program without a pace of its own is called again after so long.
+/// Time between two reactions of a program that has sources without a period.
 const STEP: Duration = Duration::from_millis(1);
-/// So many moments of a failed test are shown.
+/// Number of moments in the message of a failed test.
 const SHOWN: usize = 20;
-/// So many characters of a token are shown: a laser scan has thousands.
+/// Number of characters of a token in that message: a laser scan has thousands.
 const LONGEST: usize = 120;
 
-/// The tokens that came to a place where a test looks, in one reaction.
+/// Tokens at a place that a test observes, in one reaction.
 #[derive(Debug)]
 pub struct Probe<T> {
     tokens: Vec<T>,
 }
 
 impl<T> Probe<T> {
-    /// Nothing came yet.
+    /// Returns a probe without tokens.
     pub const fn new() -> Self {
         Self { tokens: Vec::new() }
     }
 
-    /// A token came.
+    /// Adds a token.
     pub fn saw(&mut self, token: T) {
         self.tokens.push(token);
     }
 
-    /// Whether a token came for which `test` holds.
+    /// Returns `true` if `test` holds for one of the tokens.
     pub fn any(&self, test: impl Fn(&T) -> bool) -> bool {
         self.tokens.iter().any(test)
     }
@@ -47,12 +47,12 @@ impl<T> Default for Probe<T> {
     }
 }
 
-/// A token as text, also if its type has no `Debug`.
+/// Wrapper that shows a token as text, even if its type has no `Debug`.
 pub struct Shown<'a, T>(pub &'a T);
 
-/// Tokens with `Debug`.
+/// Text of tokens with `Debug`.
 pub trait ByDebug {
-    /// The token as text.
+    /// Returns the token as text.
     fn shown(&self) -> String;
 }
 
@@ -62,9 +62,9 @@ impl<T: Debug> ByDebug for Shown<'_, T> {
     }
 }
 
-/// All other tokens.
+/// Text of all other tokens.
 pub trait ByType {
-    /// The token as text.
+    /// Returns the token as text.
     fn shown(&self) -> String;
 }
 
@@ -74,14 +74,14 @@ impl<T> ByType for &Shown<'_, T> {
     }
 }
 
-/// What happened at one moment.
+/// Events of one point in time.
 #[derive(Debug, Default, Clone, PartialEq)]
 struct Moment {
     fired: Vec<&'static str>,
     notes: Vec<String>,
 }
 
-/// What happened so far, for the message of a test that fails.
+/// Events of a test until now, for the message of a failure.
 #[derive(Debug)]
 pub struct Timeline {
     names: Vec<&'static str>,
@@ -90,7 +90,7 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// A token came to a place where the test looks.
+    /// Adds a token at a place that the test observes.
     pub fn token(&mut self, port: &str, token: &str) {
         match token.char_indices().nth(LONGEST) {
             Some((end, _)) => self.now.notes.push(format!("{port}: {} …", &token[..end])),
@@ -147,17 +147,17 @@ impl Observer for Timeline {
     }
 }
 
-/// Tokens that a test feeds: puts the next one in, and says when the one after it is due.
+/// Function that puts the next token of a test in, and returns the time of the one after it.
 type Feed<P> = Box<dyn FnMut(&mut P, Time) -> Option<Time>>;
-/// Something that a test looks for.
+/// Condition that a test checks.
 type Seen<P> = fn(&P) -> bool;
 
-/// Until when something is expected.
+/// Time limit of an expectation.
 #[derive(Debug, Clone, Copy)]
 pub enum Until {
-    /// So long after the start.
+    /// Time after the start.
     By(Duration),
-    /// So long after the step before.
+    /// Time after the previous statement of the test.
     Within(Duration),
 }
 
@@ -173,15 +173,15 @@ pub struct Test<P> {
 }
 
 impl<P: Program + 'static> Test<P> {
-    /// Test `name` of `program`; `drain` empties its probes.
+    /// Returns the test `name` of `program`; `drain` empties its probes.
     pub fn new(name: &'static str, program: P, drain: fn(&mut P, &mut Timeline)) -> Self {
         let names = P::INFO.nodes.iter().map(|n| n.name).collect();
         let timeline = Timeline { names, now: Moment::default(), moments: vec![] };
         Self { name, program, now: Time::ZERO, feeds: vec![], nevers: vec![], timeline, drain }
     }
 
-    /// Feeds `tokens` from now on, one every `period`; a single one with a period again and again. A token that
-    /// finds no room is put in as soon as there is some.
+    /// Feeds `tokens` from now on, one every `period`. A single token with a period is repeated. A token that finds no
+    /// room is put in as soon as there is some.
     pub fn feed<T: Clone + 'static>(
         &mut self,
         tokens: impl IntoIterator<Item = T>,
@@ -201,7 +201,7 @@ impl<P: Program + 'static> Test<P> {
         self.feeds.push((self.now, Box::new(feed)));
     }
 
-    /// Feeds each of `tokens` at its time, counted from now. One that finds no room is put in as soon as there is some.
+    /// Feeds each of `tokens` at its time after now. A token that finds no room is put in as soon as there is some.
     pub fn feed_at<T: Clone + 'static>(&mut self, tokens: Vec<(Duration, T)>, put: fn(&mut P, T) -> Result<(), T>) {
         let (start, mut at) = (self.now, 0);
         let Some((first, _)) = tokens.first() else { return };
@@ -223,10 +223,10 @@ impl<P: Program + 'static> Test<P> {
         self.now = until;
     }
 
-    /// Runs until `seen`.
+    /// Runs until `seen` holds.
     ///
     /// # Panics
-    /// If that does not happen in time: with what happened instead.
+    /// If that does not happen in time. The message has all events until then.
     pub fn expect(&mut self, seen: Seen<P>, until: Option<Until>, text: &'static str, place: &'static str) {
         let end = match until {
             Some(Until::By(time)) => Time::ZERO + time,
@@ -243,12 +243,12 @@ impl<P: Program + 'static> Test<P> {
         }
     }
 
-    /// From now on `seen` must not happen.
+    /// Declares that `seen` must not hold from now on.
     pub fn never(&mut self, seen: Seen<P>, text: &'static str, place: &'static str) {
         self.nevers.push((seen, text, place));
     }
 
-    /// Runs up to `end`, or until `stop`.
+    /// Runs until `stop` holds, or up to `end`. Returns `true` if `stop` holds.
     fn run(&mut self, end: Time, stop: Option<Seen<P>>) -> bool {
         loop {
             let next = self.react();
@@ -274,7 +274,7 @@ impl<P: Program + 'static> Test<P> {
         }
     }
 
-    /// One reaction, with the tokens that are due.
+    /// Executes one reaction, after feeding the tokens that are due.
     fn react(&mut self) -> Next {
         for (due, feed) in core::mem::take(&mut self.feeds) {
             let mut feed = feed;

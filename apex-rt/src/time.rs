@@ -17,44 +17,44 @@ impl Time {
     /// Later than any other time.
     pub const MAX: Self = Self(i64::MAX);
 
-    /// `ns` nanoseconds after zero.
+    /// Returns the time `ns` nanoseconds after zero.
     pub const fn from_nanos(ns: i64) -> Self {
         Self(ns)
     }
 
-    /// `us` microseconds after zero.
+    /// Returns the time `us` microseconds after zero.
     pub const fn from_micros(us: i64) -> Self {
         Self(us.saturating_mul(1_000))
     }
 
-    /// `ms` milliseconds after zero.
+    /// Returns the time `ms` milliseconds after zero.
     pub const fn from_millis(ms: i64) -> Self {
         Self(ms.saturating_mul(1_000_000))
     }
 
-    /// `s` seconds after zero.
+    /// Returns the time `s` seconds after zero.
     pub const fn from_secs(s: i64) -> Self {
         Self(s.saturating_mul(1_000_000_000))
     }
 
-    /// Nanoseconds since zero.
+    /// Returns the nanoseconds since zero.
     pub const fn as_nanos(self) -> i64 {
         self.0
     }
 
-    /// Seconds since zero.
+    /// Returns the seconds since zero.
     pub const fn as_secs_f64(self) -> f64 {
         self.0 as f64 / 1e9
     }
 
-    /// The time from `earlier` to `self`; zero if `earlier` is later.
+    /// Returns the time from `earlier` to `self`; zero if `earlier` is later.
     pub const fn since(self, earlier: Self) -> Duration {
         let ns = self.0.saturating_sub(earlier.0);
         Duration::from_nanos(if ns < 0 { 0 } else { ns as u64 })
     }
 }
 
-/// The nanoseconds of a duration, as far as they fit.
+/// Returns the nanoseconds of a duration, at most `i64::MAX`.
 pub(crate) const fn nanos(d: Duration) -> i64 {
     let ns = d.as_nanos();
     if ns > i64::MAX as u128 { i64::MAX } else { ns as i64 }

@@ -1,9 +1,9 @@
-//! What generated code does with tokens.
+//! Functions on tokens that generated code calls.
 
 use crate::{Observer, ParamField};
 use core::fmt::{Debug, Display};
 
-/// Copies of the `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
+/// Returns copies of the `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
 #[inline(always)]
 pub fn gather<T, const N: usize>(tokens: &[Option<T>], firing: usize, copy: impl Fn(&T) -> T) -> Option<[T; N]> {
     let mut gathered: [Option<T>; N] = [const { None }; N];
@@ -22,7 +22,7 @@ pub fn spread<T, const N: usize>(places: &mut [Option<T>], firing: usize, tokens
     }
 }
 
-/// Keeps a copy of a token for later, reusing the storage of the one before.
+/// Stores a copy of a token. The storage of the previous one is reused.
 #[inline(always)]
 pub fn store<T: Clone>(place: &mut Option<T>, token: Option<&T>) {
     match (place, token) {
@@ -50,7 +50,7 @@ pub fn set_param<const I: usize, N, O>(
     }
 }
 
-/// The value of a parameter of a function node that arrives as a token; `None` if it is out of its range.
+/// Returns the value of a function node's parameter that arrives as a token; `None` if it is out of its range.
 #[inline]
 pub fn checked_param<const I: usize, N, O>(
     value: &N::Value,
@@ -69,7 +69,7 @@ where
     None
 }
 
-/// What a node that may fail sends; an error is reported and leaves ⊥.
+/// Returns the token that a node which may fail sends. An error is reported, and becomes ⊥.
 #[inline(always)]
 pub fn sent<T, E: Display, O: Observer>(result: Result<T, E>, index: usize, observer: &mut O) -> Option<T> {
     match result {
@@ -81,7 +81,7 @@ pub fn sent<T, E: Display, O: Observer>(result: Result<T, E>, index: usize, obse
     }
 }
 
-/// Holds back `N` tokens: what is put in comes out `N` iterations later.
+/// Delay by `N` iterations: a token that is put in comes out `N` iterations later.
 #[derive(Debug, Clone)]
 pub struct Delay<T, const N: usize> {
     tokens: [Option<T>; N],
@@ -89,7 +89,7 @@ pub struct Delay<T, const N: usize> {
 }
 
 impl<T, const N: usize> Delay<T, N> {
-    /// A delay that first gives `initial`.
+    /// Returns a delay that sends the tokens of `initial` first.
     pub const fn new(initial: [Option<T>; N]) -> Self {
         Self { tokens: initial, at: 0 }
     }
@@ -100,13 +100,13 @@ impl<T, const N: usize> Delay<T, N> {
         self.tokens[self.at].take()
     }
 
-    /// Takes the token out that is `ahead` iterations younger than the oldest.
+    /// Takes out the token that is `ahead` iterations younger than the oldest.
     #[inline(always)]
     pub fn take_at(&mut self, ahead: usize) -> Option<T> {
         self.tokens[(self.at + ahead) % N].take()
     }
 
-    /// Whether it holds a token.
+    /// Returns `true` if the delay holds a token.
     pub fn holds_any(&self) -> bool {
         self.tokens.iter().any(Option::is_some)
     }

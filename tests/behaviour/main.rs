@@ -14,6 +14,7 @@ mod figures;
 mod forms;
 mod handed;
 mod hygiene;
+mod large;
 mod lifecycle;
 mod machines;
 mod missing;

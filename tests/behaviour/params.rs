@@ -3,7 +3,7 @@
 use apex_macros::graph;
 use apex_rt::{
     params::{
-        Given, LoadError, ParamError, ParamRange, ParamValue, Problem, Refusal, load, load_file, not_saved,
+        LoadError, ParamError, ParamRange, ParamRef, ParamValue, Problem, Rejection, load, load_file, not_saved,
         run_with_files, save, save_file, set_text,
     },
     prelude::*,
@@ -364,7 +364,7 @@ fn parameters_are_set_and_read_between_reactions() {
     assert_eq!(program.nodes().late.seen, [1, 9]);
 
     let error = program.set_param("late.gain", 11).unwrap_err();
-    assert!(matches!(error, ParamError::Refused { refusal: Refusal::Range, .. }));
+    assert!(matches!(error, ParamError::Refused { refusal: Rejection::Range, .. }));
     assert_eq!(error.to_string(), "the value of `late.gain` is out of range: its range is 0..=10");
     let error = program.set_param("late.gian", 1).unwrap_err();
     assert_eq!(error.to_string(), "there is no parameter of this name; did you mean `late.gain`?");
@@ -389,8 +389,8 @@ fn single_precision_survives() {
     for _ in 0..100_000 {
         bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let value = f32::from_bits(bits);
-        let text = Given::Single(value).to_string();
-        let read = f32::take(Given::Float(text.parse().unwrap())).unwrap();
+        let text = ParamRef::Single(value).to_string();
+        let read = f32::take(ParamRef::Float(text.parse().unwrap())).unwrap();
         assert!(read == value || value.is_nan() && read.is_nan(), "{text}");
     }
 }

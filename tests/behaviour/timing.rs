@@ -166,6 +166,7 @@ fn a_slot_that_waited_is_late() {
     let mut program = LateSlot::new();
     let log = simulate(&mut program, Time::ZERO, Time::from_millis(40));
     assert_eq!(log.late, [("p", 15)], "sent at 10 ms, taken when the join had fired at 25 ms");
+    assert_eq!(program.nodes().said.late.len(), 1, "the event of a node that has only slots");
 }
 
 #[test]

@@ -190,7 +190,7 @@ robot Runner {
     let item = Drawer::new().one(text);
     let frame = item.inside.as_ref().unwrap();
     let shapes = ["start", "hung", "abort"].map(|name| named(frame, name).1.shape);
-    assert_eq!(shapes, [Shape::Start, Shape::Event, Shape::End]);
+    assert_eq!(shapes, [Shape::Start, Shape::Event, Shape::PortId]);
     assert!(lines(&item).contains(&"hung. -> abort. Asynchronous".to_owned()), "{:?}", lines(&item));
 }
 

@@ -3,7 +3,7 @@
 use super::{
     Wrong, known,
     names::{self, Taken},
-    ports::{End, Kind, Port},
+    ports::{Kind, Port, PortId},
     text::MESSAGE,
     yaml::{Value, Yaml},
 };
@@ -41,8 +41,8 @@ pub struct Node {
 
 #[derive(Debug)]
 pub struct Connection {
-    pub from: End,
-    pub to: End,
+    pub from: PortId,
+    pub to: PortId,
     pub active: bool,
 }
 
@@ -163,7 +163,7 @@ impl Graph {
     /// Reads the connections of one source.
     fn connect(&mut self, yaml: &Yaml, node: impl Fn(&str) -> Option<usize>) -> Result<(), Wrong> {
         let from = yaml.need("uuid", "a connection")?;
-        let source = End::read(from.scalar("`uuid`")?, from.line, &node)?;
+        let source = PortId::read(from.scalar("`uuid`")?, from.line, &node)?;
         if !source.is_source() {
             return Err(Wrong::new(from.line, format!("`{}` sends nothing", from.scalar("")?)));
         }
@@ -174,7 +174,7 @@ impl Graph {
             return Err(Wrong::new(yaml.line, message));
         }
         for (index, target) in targets.iter().enumerate() {
-            let to = End::read(target.scalar("a target")?, target.line, &node)?;
+            let to = PortId::read(target.scalar("a target")?, target.line, &node)?;
             if to.is_source() {
                 return Err(Wrong::new(target.line, format!("`{}` takes nothing", target.scalar("")?)));
             }
@@ -194,11 +194,11 @@ impl Graph {
     }
 
     /// A port of a graph is there because something is connected to it.
-    fn note_ports(&mut self, end: &End) {
+    fn note_ports(&mut self, end: &PortId) {
         match end {
-            End::Own(kind, k) => drop(self.ports.insert((*kind, *k))),
-            End::Whole(_) => {}
-            End::Node(index, port) => {
+            PortId::Own(kind, k) => drop(self.ports.insert((*kind, *k))),
+            PortId::Whole(_) => {}
+            PortId::Node(index, port) => {
                 let graph = self.nodes[*index].graph.as_mut();
                 graph.and_then(|graph| port.of_graph().map(|port| graph.ports.insert(port)));
             }
@@ -209,7 +209,7 @@ impl Graph {
     pub fn connected(&self) -> Vec<BTreeSet<&Port>> {
         let mut connected = vec![BTreeSet::new(); self.nodes.len()];
         for end in self.connections.iter().flat_map(|c| [&c.from, &c.to]) {
-            if let End::Node(node, port) = end {
+            if let PortId::Node(node, port) = end {
                 connected[*node].insert(port);
             }
         }

@@ -22,7 +22,7 @@ pub enum Port {
 
 /// An end of a connection.
 #[derive(Debug, Clone, PartialEq)]
-pub enum End {
+pub enum PortId {
     /// A node, by its place in the graph.
     Node(usize, Port),
     /// A port of the graph itself, seen from inside.
@@ -31,7 +31,7 @@ pub enum End {
     Whole(&'static Whole),
 }
 
-impl End {
+impl PortId {
     /// Whether its tokens are of type `()`, whatever they are there.
     pub fn sends_signals(&self) -> bool {
         match self {
@@ -111,7 +111,7 @@ impl Kind {
     }
 }
 
-impl End {
+impl PortId {
     /// Reads an id; `node` finds a node by its own.
     pub fn read(id: &str, line: usize, node: impl Fn(&str) -> Option<usize>) -> Result<Self, Wrong> {
         let unknown = |what: String| Wrong::new(line, format!("unknown id `{id}`: {what}"));

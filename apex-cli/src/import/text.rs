@@ -3,7 +3,7 @@
 use super::{
     graph::{Connection, Graph, Node, Param},
     known, names,
-    ports::{End, Kind, Port},
+    ports::{Kind, Port, PortId},
 };
 use std::{collections::BTreeSet, fmt::Write as _};
 
@@ -57,7 +57,7 @@ fn write_graph(graph: &Graph, text: &mut String) {
 fn write_connection(graph: &Graph, connection: &Connection, text: &mut String) {
     let Connection { from, to, active } = connection;
     // What the language has no port for stays in the text for whoever knows better.
-    for whole in [from, to].into_iter().filter_map(End::without_counterpart) {
+    for whole in [from, to].into_iter().filter_map(PortId::without_counterpart) {
         let _ = write!(text, "// `{whole}` of CS::APEX itself has nothing like it here: ");
     }
     let arrow = if *active { "=>" } else { "->" };
@@ -116,11 +116,11 @@ pub fn value(param: &Param) -> String {
     }
 }
 
-fn end(graph: &Graph, end: &End) -> String {
+fn end(graph: &Graph, end: &PortId) -> String {
     match end {
-        End::Own(kind, k) => format!("{}_{k}", kind.word()),
-        End::Whole(whole) => whole.ours.unwrap_or(whole.theirs).to_owned(),
-        End::Node(index, port) => {
+        PortId::Own(kind, k) => format!("{}_{k}", kind.word()),
+        PortId::Whole(whole) => whole.ours.unwrap_or(whole.theirs).to_owned(),
+        PortId::Node(index, port) => {
             let node = &graph.nodes[*index];
             format!("{}.{}", node.name, port_name(node, port))
         }

@@ -62,7 +62,7 @@ pub enum Align {
     /// It has its middle there.
     Middle,
     /// It ends there.
-    End,
+    PortId,
 }
 
 /// Sizes of fonts: names, types, ports.
@@ -85,7 +85,7 @@ impl Text {
         let left = match self.align {
             Align::Begin => self.at.0,
             Align::Middle => self.at.0 - self.width() / 2,
-            Align::End => self.at.0 - self.width(),
+            Align::PortId => self.at.0 - self.width(),
         };
         (left, self.at.1 - self.size + 1, left + self.width(), self.at.1 + self.size / 4)
     }

@@ -10,7 +10,7 @@
 use super::{Delivery, Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
-    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,10 +29,10 @@ pub struct Asynchronous {
     pub slots: Vec<usize>,
     /// For each connection, `true` if it may hold a token when clusters are tested: it leads to an input, out of the
     /// program, or to a slot that can itself be held back.
-    pub stays: Vec<bool>,
+    pub may_block: Vec<bool>,
     /// For each connection, `true` if it has a bit for "free" at run time: it may stay occupied, a slot of its node
     /// might be called again before the token is taken (R5), or it holds back the nodes that feed its sender (R4).
-    pub tracked: Vec<bool>,
+    pub has_occupancy_bit: Vec<bool>,
     /// `true` if tokens may circulate without end while time does not advance.
     pub endless: bool,
     /// Storage of the order of slot tokens.
@@ -58,33 +58,33 @@ impl Asynchronous {
         let timeouts = graph.nodes.iter().filter(|node| node.modifiers.timeout.is_some()).count();
         let is_tabled = slots.len().max(timeouts) > MANY;
         let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
-        let mut stays = stays(graph, links, &slots);
-        live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| stays[c] = false);
+        let mut may_block = may_block(graph, links, &slots);
+        live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);
         if single {
-            slots.iter().for_each(|c| stays[*c] = false);
+            slots.iter().for_each(|c| may_block[*c] = false);
         }
-        let mut tracked = stays.clone();
+        let mut has_occupancy_bit = may_block.clone();
         if !single {
             let called: BTreeSet<NodeId> = slots.iter().map(|c| graph.connections[*c].to.node).collect();
-            called.iter().flat_map(|node| events(graph, links, *node)).for_each(|c| tracked[c] = true);
+            called.iter().flat_map(|node| events(graph, links, *node)).for_each(|c| has_occupancy_bit[c] = true);
             // A region has finished only when the slots behind its outputs have taken their tokens (R4), and an event
             // that leads to the region is free only then (R7). Else a slot that waits for it could overtake them.
-            if stays.contains(&true) {
+            if may_block.contains(&true) {
                 let from_output = |c: &&usize| graph.port(graph.connections[**c].from).kind == PortKind::Output;
-                slots.iter().filter(from_output).for_each(|c| tracked[*c] = true);
+                slots.iter().filter(from_output).for_each(|c| has_occupancy_bit[*c] = true);
             }
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
-            sent_by_reset(graph).for_each(|c| tracked[c] = true);
+            sent_by_reset(graph).for_each(|c| has_occupancy_bit[c] = true);
         }
         let delivery = if single { Delivery::Single } else { Delivery::Queued };
-        Self { live, slots, stays, tracked, endless: is_endless(&causes), delivery, is_tabled, causes }
+        Self { live, slots, may_block, has_occupancy_bit, endless: is_endless(&causes), delivery, is_tabled, causes }
     }
 
     /// Switches to [`Delivery::Ordered`]. Connections to slots then need no bits.
     pub fn order(&mut self) {
         self.delivery = Delivery::Ordered;
-        self.slots.iter().for_each(|c| self.tracked[*c] = false);
+        self.slots.iter().for_each(|c| self.has_occupancy_bit[*c] = false);
     }
 
     /// Returns `true` if a connection leads to a slot and can carry tokens.
@@ -134,7 +134,7 @@ impl Asynchronous {
         links: &'a Links,
         node: NodeId,
     ) -> impl Iterator<Item = usize> + 'a {
-        events(graph, links, node).filter(|c| self.stays[*c])
+        events(graph, links, node).filter(|c| self.may_block[*c])
     }
 
     /// Connections that may be occupied when the slot at the end of `connection` is due: those of its node's events
@@ -145,7 +145,7 @@ impl Asynchronous {
         let all: Vec<usize> =
             if resets { sent_by_reset(graph).collect() } else { events(graph, links, node).collect() };
         // The token that `reset` takes has left its connection.
-        all.into_iter().filter(|c| self.tracked[*c] && !(resets && *c == connection)).collect()
+        all.into_iter().filter(|c| self.has_occupancy_bit[*c] && !(resets && *c == connection)).collect()
     }
 }
 
@@ -157,7 +157,7 @@ pub fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iter
 /// Connections on which a reset sends: those of `start`, and of the events `activated` and `deactivated`.
 fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
     let sent =
-        |from: End| matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity();
+        |from: PortId| matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity();
     (0..graph.connections.len()).filter(move |c| sent(graph.connections[*c].from))
 }
 
@@ -165,19 +165,19 @@ fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
 ///
 /// A slot is served at once if all events of its node lead to slots that are served at once. The search starts at nodes
 /// without events, the ends of chains, and proceeds upstream. It never finds the nodes on a cycle of events.
-fn stays(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
-    let takers: Vec<NodeId> = (0..graph.nodes.len()).collect();
-    let mut waits: Vec<usize> = takers.iter().map(|n| events(graph, links, *n).count()).collect();
+fn may_block(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
+    let consumers: Vec<NodeId> = (0..graph.nodes.len()).collect();
+    let mut waits: Vec<usize> = consumers.iter().map(|n| events(graph, links, *n).count()).collect();
     let mut into: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
     for &index in slots {
         into.entry(graph.connections[index].to.node).or_default().push(index);
     }
     let leaves_program = |node: NodeId| matches!(graph.nodes[node].kind, NodeKind::Boundary(_));
-    let mut stays: Vec<bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
-    let mut served: Vec<NodeId> = takers.into_iter().filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
+    let mut may_block: Vec<bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
+    let mut served: Vec<NodeId> = consumers.into_iter().filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
     while let Some(node) = served.pop() {
         for &index in into.get(&node).into_iter().flatten() {
-            stays[index] = false;
+            may_block[index] = false;
             let from = graph.connections[index].from;
             if graph.port(from).kind == PortKind::Event {
                 waits[from.node] -= 1;
@@ -187,7 +187,7 @@ fn stays(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
             }
         }
     }
-    stays
+    may_block
 }
 
 /// Returns `true` if each step sends at most one token to a slot, and each slot is ready when its token arrives. A step
@@ -230,7 +230,7 @@ fn is_single(
 }
 
 /// Returns `true` if `process` may send on a port.
-pub fn by_process(signature: &Signature, graph: &Graph, from: End) -> bool {
+pub fn by_process(signature: &Signature, graph: &Graph, from: PortId) -> bool {
     let args = signature.process.as_deref().unwrap_or_default();
     graph.port(from).kind == PortKind::Output || args.contains(&ArgSig::Port(from.port))
 }
@@ -263,7 +263,7 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: usize) ->
         // A delay sends its token in a later iteration, and a timeout comes at a later time.
         (NodeKind::Delay(_), ..) => false,
         (_, _, Some(Standard::Timeout)) => false,
-        (_, _, Some(Standard::Processed | Standard::Late)) => by_process,
+        (_, _, Some(Standard::Processed)) => by_process,
         (_, _, Some(_)) => true,
         (_, PortKind::Output, _) => by_process,
         (NodeKind::Library(library), ..) => {

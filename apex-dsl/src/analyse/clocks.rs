@@ -5,15 +5,15 @@
 //! and `g` both have the clock {`gate.out`}: one `if` skips both. If `f` may send ⊥, too, the clock of `g` is
 //! {`f.out`}. It need not contain `gate.out`, because `f` sends a value only if it fired.
 
-use super::{Links, is_told, may_be_missing};
+use super::{Links, handles_absence, may_be_missing};
 use crate::{
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{Graph, NodeId, NodeKind, PortId},
 };
 use std::collections::BTreeSet;
 
 /// Tokens that must be present for a node to fire, without those that others in the set imply.
-pub type Clock = BTreeSet<End>;
+pub type Clock = BTreeSet<PortId>;
 
 /// Clock of each node, seen from its cluster. `order` has producers before consumers.
 pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId], cluster_of: &[usize]) -> Vec<Clock> {
@@ -42,16 +42,17 @@ pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId],
 /// Returns `true` if a node acts in every firing of its cluster: it has a method for ⊥ (R3), or it stores ⊥ like any
 /// other token.
 fn fires_always(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
-    matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_)) || is_told(graph, catalog, node)
+    matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_))
+        || handles_absence(graph, catalog, node)
 }
 
 /// Returns `true` if the node does not run with ⊥ at this input (R3).
-pub fn is_mandatory(graph: &Graph, input: End) -> bool {
+pub fn is_mandatory(graph: &Graph, input: PortId) -> bool {
     !graph.port(input).optional
 }
 
 /// Tokens that must be present for the token at `from` to be present, seen from its own cluster.
-pub fn presence(graph: &Graph, catalog: &Catalog, clocks: &[Clock], from: End) -> Clock {
+pub fn presence(graph: &Graph, catalog: &Catalog, clocks: &[Clock], from: PortId) -> Clock {
     if may_be_missing(graph, catalog, from) { Clock::from([from]) } else { clocks[from.node].clone() }
 }
 
@@ -63,9 +64,9 @@ fn reduce(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: Clock) 
 
 /// All tokens that are present if those of `clock` are. A token of `clock` itself is among them only if another one
 /// implies it.
-pub fn implied(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: &Clock) -> BTreeSet<End> {
+pub fn implied(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: &Clock) -> BTreeSet<PortId> {
     let mut implied = BTreeSet::new();
-    let mut stack: Vec<End> = clock.iter().copied().collect();
+    let mut stack: Vec<PortId> = clock.iter().copied().collect();
     while let Some(token) = stack.pop() {
         // The clock of a node in another cluster refers to another firing.
         if cluster_of[token.node] != cluster {

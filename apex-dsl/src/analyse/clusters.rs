@@ -16,7 +16,7 @@
 //! Clusters are as large as possible, but no node may wait for a condition that the firing rules do not require. This
 //! is why sources without a period are also grouped by the guards downstream of them (see `holding`).
 
-use super::{Analysis, Asynchronous, Block, Links, Step, fires, is_source, pulled::pulled};
+use super::{Analysis, Asynchronous, Block, Links, Step, demand_driven::demand_driven, fires, is_source};
 use crate::{
     catalog::Catalog,
     graph::{Connection, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
@@ -103,7 +103,7 @@ impl Cluster {
     /// tokens with other clusters, and nothing that it sends can hold it back.
     pub fn is_free(&self, graph: &Graph, analysis: &Analysis) -> bool {
         let holds_back = |c: &usize| {
-            analysis.asynchronous.stays[*c] && graph.port(graph.connections[*c].from).kind == PortKind::Output
+            analysis.asynchronous.may_block[*c] && graph.port(graph.connections[*c].from).kind == PortKind::Output
         };
         self.upstream.is_empty()
             && self.downstream.is_empty()
@@ -291,7 +291,7 @@ impl View<'_> {
     /// nodes upstream are held back (R4).
     fn sends_what_stays(&self, node: NodeId) -> bool {
         let is_output = |c: &usize| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
-        self.links.sends[node].iter().any(|c| is_output(c) && self.asynchronous.stays[*c])
+        self.links.sends[node].iter().any(|c| is_output(c) && self.asynchronous.may_block[*c])
     }
 }
 
@@ -305,10 +305,10 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<
     let above = accumulate(view, guards, own);
     let plain = without_pace(view, guards, own);
     let holding = holding(view, &above);
-    let mut pulled = pulled(view, &above);
+    let mut demand_driven = demand_driven(view, &above);
     loop {
         let (mut all, mut with_react) = (guards.clone(), own.clone());
-        let is_pulled = |node: &NodeId| pulled.iter().any(|p| p.nodes.contains(node));
+        let is_pulled = |node: &NodeId| demand_driven.iter().any(|p| p.nodes.contains(node));
         // A shared guard is taken by one firing, so all nodes that share it must end up in one cluster. That depends on
         // their other guards, too.
         let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<usize>), usize> = BTreeMap::new();
@@ -320,12 +320,12 @@ fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<
             with_react[node].push(guard);
         }
         let mut accumulated = accumulate(view, &all, &with_react);
-        let count = pulled.len();
-        pulled.retain(|p| {
+        let count = demand_driven.len();
+        demand_driven.retain(|p| {
             let set = p.guards(&all, &accumulated);
             set.inspect(|set| p.nodes.iter().for_each(|node| accumulated[*node].clone_from(set))).is_some()
         });
-        if pulled.len() == count {
+        if demand_driven.len() == count {
             (*guards, *own) = (all, with_react);
             return accumulated;
         }

@@ -6,7 +6,7 @@
 //! presence of a third, the program has a queue.
 
 use super::{Analysis, Asynchronous, Links, asynchronous::events};
-use crate::graph::{End, Flow, Graph, NodeKind};
+use crate::graph::{Flow, Graph, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Storage of the order of slot tokens.
@@ -32,14 +32,14 @@ pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
         && !asynchronous.is_tabled
         && !asynchronous.endless
         && !resets
-        && !asynchronous.slots.iter().any(|c| asynchronous.stays[*c])
+        && !asynchronous.slots.iter().any(|c| asynchronous.may_block[*c])
         && all_alone(graph, asynchronous)
         && steps(graph, analysis).iter().all(is_ordered)
 }
 
 /// Returns `true` if tokens that go to slots go nowhere else, so that the last slot can take them away.
 fn all_alone(graph: &Graph, asynchronous: &Asynchronous) -> bool {
-    let sent: BTreeSet<End> = asynchronous.slots.iter().map(|c| graph.connections[*c].from).collect();
+    let sent: BTreeSet<PortId> = asynchronous.slots.iter().map(|c| graph.connections[*c].from).collect();
     graph.connections.iter().enumerate().all(|(i, c)| asynchronous.is_slot(i) || !sent.contains(&c.from))
 }
 
@@ -92,9 +92,9 @@ pub fn ordered(graph: &Graph, links: &Links, asynchronous: &Asynchronous, sends:
 fn next(graph: &Graph, links: &Links, queue: &VecDeque<usize>) -> Option<usize> {
     let waits_for = |c: usize| {
         let events: Vec<usize> = events(graph, links, graph.connections[c].to.node).collect();
-        let stays = events.iter().any(|c| graph.flow(&graph.connections[*c]) != Flow::ToSlot);
+        let may_block = events.iter().any(|c| graph.flow(&graph.connections[*c]) != Flow::ToSlot);
         let leaves = matches!(graph.nodes[graph.connections[c].to.node].kind, NodeKind::Boundary(_));
-        (!stays && !leaves).then_some(events)
+        (!may_block && !leaves).then_some(events)
     };
     let held_back = |events: &[usize]| queue.iter().any(|c| events.contains(c));
     let first = waits_for(queue[0])?;

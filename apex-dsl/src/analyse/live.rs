@@ -3,7 +3,7 @@
 use super::{Cluster, Links, asynchronous::by_process, fires};
 use crate::{
     catalog::Catalog,
-    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -73,18 +73,18 @@ impl Search<'_> {
 
 /// Returns `true` if a port sends tokens without a token before: from outside, at a time, with activity, or from a
 /// delay.
-fn begins(graph: &Graph, from: End) -> bool {
+fn begins(graph: &Graph, from: PortId) -> bool {
     let node = &graph.nodes[from.node];
     let by_itself = match node.kind {
         NodeKind::Boundary(kind) => matches!(kind, PortKind::Input | PortKind::Slot),
-        NodeKind::Start | NodeKind::Hung | NodeKind::Delay(_) | NodeKind::Receiver(_) => true,
+        NodeKind::Start | NodeKind::Watchdog | NodeKind::Delay(_) | NodeKind::Receiver(_) => true,
         _ => false,
     };
     by_itself || graph.port(from).tells_of_activity() || graph.port(from).standard == Some(Standard::Timeout)
 }
 
 /// Returns `true` if a node may send on a port when it fires.
-fn is_sent(graph: &Graph, catalog: &Catalog, from: End) -> bool {
+fn is_sent(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
     match &graph.nodes[from.node].kind {
         NodeKind::Library(library) => {
             graph.port(from).standard.is_some() || by_process(&catalog.signatures[library.signature], graph, from)

@@ -17,13 +17,13 @@
 
 mod activity;
 mod asynchronous;
+mod characteristics;
 mod clocks;
 mod clusters;
 mod delivery;
+mod demand_driven;
 mod live;
 mod order;
-mod pruning;
-mod pulled;
 mod rates;
 mod schedule;
 mod stamps;
@@ -31,7 +31,7 @@ mod steps;
 
 use crate::{
     catalog::Catalog,
-    graph::{End, Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -39,11 +39,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use activity::{reachable as active_nodes, reachable_within as active_nodes_within};
 pub use asynchronous::{Asynchronous, MANY};
+pub use characteristics::Characteristics;
 pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
 pub use delivery::{Delivery, at_start, ordered};
 pub use order::{Loops, circles, events_on_circles};
-pub use pruning::Characteristics;
 pub use rates::{has_rates, is_multirate};
 pub use schedule::{Block, Step};
 pub use stamps::Stamps;
@@ -172,7 +172,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
     let (guards, mut clusters, cluster_of) =
         clusters::clusters(graph, catalog, &links, &order, &regions, &asynchronous);
     live::mark(&mut clusters, &links, &asynchronous.live);
-    let characteristics = pruning::characteristics(graph, catalog, &links, &order);
+    let characteristics = characteristics::characteristics(graph, catalog, &links, &order);
     let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);
     let active = activity::reachable(graph);
     let mut analysis = Analysis {
@@ -205,20 +205,20 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
 }
 
 /// Returns `true` if a node has a method for ⊥ at its mandatory inputs (`#[no_message]`).
-pub fn is_told(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
+pub fn handles_absence(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     matches!(&graph.nodes[node].kind, NodeKind::Library(library) if catalog.signatures[library.signature].no_message.is_some())
 }
 
 /// Returns `true` if a token may be ⊥ although the node that sends it fired.
-pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
+pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
     let node = &graph.nodes[from.node];
     match &node.kind {
         // A node that is disabled, or that failed, sends ⊥.
-        NodeKind::Library(_) if graph.nodes[from.node].may_be_silent() => true,
+        NodeKind::Library(_) if graph.nodes[from.node].may_produce_absent() => true,
         NodeKind::Library(_) if graph.port(from).parameter.is_some() => false,
         NodeKind::Library(library) => {
             graph.port(from).optional
-                || is_told(graph, catalog, from.node)
+                || handles_absence(graph, catalog, from.node)
                 || refuses(&catalog.signatures[library.signature], node)
         }
         // The presence of these tokens is stored with them, and tested.
@@ -227,7 +227,7 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: End) -> bool {
         NodeKind::Boundary(_) => !graph.is_body || graph.port(from).optional,
         NodeKind::Receiver(_) => graph.port(from).optional,
         NodeKind::Start
-        | NodeKind::Hung
+        | NodeKind::Watchdog
         | NodeKind::Exit(_)
         | NodeKind::Reset
         | NodeKind::Probe
@@ -265,7 +265,7 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         NodeKind::Boundary(kind) => kind.is_synchronous(),
         NodeKind::Probe => !links.inputs[node].is_empty(),
         NodeKind::Start
-        | NodeKind::Hung
+        | NodeKind::Watchdog
         | NodeKind::Exit(_)
         | NodeKind::Reset
         | NodeKind::Sender(_)

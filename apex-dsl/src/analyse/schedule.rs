@@ -10,7 +10,7 @@
 //! block for the first ready node that needs more tokens.
 
 use super::{Analysis, Clock, Links, clocks::implied};
-use crate::graph::{End, Graph, NodeId};
+use crate::graph::{Graph, NodeId, PortId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of nested blocks, with the outermost. Deeper ones are opened further out, with more tests.
@@ -20,7 +20,7 @@ const MAX_DEPTH: usize = 12;
 #[derive(Debug, Default, Clone)]
 pub struct Block {
     /// Tokens that must be present, in addition to those of the blocks around.
-    pub opens: Vec<End>,
+    pub opens: Vec<PortId>,
     /// Steps in order.
     pub steps: Vec<Step>,
 }
@@ -39,7 +39,7 @@ struct Level {
     /// Tokens that are present in the block.
     clock: Clock,
     /// Tokens that these imply.
-    implied: BTreeSet<End>,
+    implied: BTreeSet<PortId>,
     /// Ready nodes whose clock is exactly that of the level.
     here: BTreeSet<(usize, NodeId)>,
     /// Ready nodes that need more tokens.
@@ -80,7 +80,7 @@ impl Scheduler<'_> {
     fn place(&mut self, node: NodeId) {
         let clock = &self.analysis.clocks[node];
         let key = (self.rank[&node], node);
-        let known: BTreeSet<End> = implied(&self.analysis.clocks, &self.analysis.cluster_of, self.cluster, clock)
+        let known: BTreeSet<PortId> = implied(&self.analysis.clocks, &self.analysis.cluster_of, self.cluster, clock)
             .into_iter()
             .chain(clock.iter().copied())
             .collect();
@@ -97,7 +97,7 @@ impl Scheduler<'_> {
         }
     }
 
-    fn block(&mut self, opens: Vec<End>) -> Block {
+    fn block(&mut self, opens: Vec<PortId>) -> Block {
         let mut block = Block { opens, steps: vec![] };
         loop {
             let depth = self.levels.len() - 1;
@@ -128,7 +128,7 @@ impl Scheduler<'_> {
         let depth = self.levels.len() - 1;
         let outer = &self.levels[depth];
         // The blocks around have tested the other tokens.
-        let opens: Vec<End> =
+        let opens: Vec<PortId> =
             clock.iter().filter(|t| !outer.clock.contains(t) && !outer.implied.contains(t)).copied().collect();
         let implied = implied(&self.analysis.clocks, &self.analysis.cluster_of, self.cluster, &clock);
         let same: Vec<(usize, NodeId)> = outer.inner.iter().filter(|(_, c)| **c == clock).map(|(k, _)| *k).collect();

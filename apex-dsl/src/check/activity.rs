@@ -3,7 +3,7 @@
 use crate::{
     analyse::{active_nodes, active_nodes_within},
     catalog::Catalog,
-    graph::{Connection, Graph, NodeId, NodeKind, Place},
+    graph::{Connection, Graph, NodeId, NodeKind, WireEnd},
     report::{Diagnostic, Diagnostics},
     source::Span,
 };
@@ -201,9 +201,9 @@ impl<'a> Check<'a> {
 
 /// The arrow that stops activity on a connection. One that leads through ports of nested graphs has several arrows.
 fn arrow(graph: &Graph, c: &Connection) -> Span {
-    let (mut open, mut seen) = (vec![(Place::Port(c.to), None)], BTreeSet::new());
+    let (mut open, mut seen) = (vec![(WireEnd::Port(c.to), None)], BTreeSet::new());
     while let Some((place, arrow)) = open.pop() {
-        if place == Place::Port(c.from) {
+        if place == WireEnd::Port(c.from) {
             return arrow.unwrap_or(c.span);
         }
         for wire in graph.wires.iter().filter(|wire| wire.to == place) {

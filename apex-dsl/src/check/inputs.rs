@@ -2,7 +2,7 @@
 
 use crate::{
     catalog::Catalog,
-    graph::{End, Graph, NodeKind},
+    graph::{Graph, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -10,13 +10,13 @@ use std::collections::BTreeSet;
 
 /// Reports open inputs of nodes, and outputs of the graph that nothing is connected to.
 pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
-    let connected: BTreeSet<End> = graph.connections.iter().map(|c| c.to).collect();
+    let connected: BTreeSet<PortId> = graph.connections.iter().map(|c| c.to).collect();
     for (id, node) in graph.nodes.iter().enumerate() {
         for (port, p) in node.ports.iter().enumerate() {
-            if p.kind != PortKind::Input || connected.contains(&End { node: id, port }) {
+            if p.kind != PortKind::Input || connected.contains(&PortId { node: id, port }) {
                 continue;
             }
-            if graph.excused.contains(&End { node: id, port }) {
+            if graph.suppressed.contains(&PortId { node: id, port }) {
                 continue;
             }
             if let NodeKind::Boundary(_) = node.kind {

@@ -1,7 +1,7 @@
 //! Modifiers that cannot work or have no effect.
 
 use crate::{
-    analyse::is_told,
+    analyse::handles_absence,
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind},
     report::{Diagnostic, Diagnostics},
@@ -45,5 +45,5 @@ pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagn
 fn can_see_missing(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     let optional =
         graph.nodes[node].ports.iter().any(|p| p.kind == PortKind::Input && p.optional && p.parameter.is_none());
-    optional || is_told(graph, catalog, node) || !matches!(graph.nodes[node].kind, NodeKind::Library(_))
+    optional || handles_absence(graph, catalog, node) || !matches!(graph.nodes[node].kind, NodeKind::Library(_))
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     catalog::Catalog,
-    graph::{End, Graph, Library, Node, NodeId, NodeKind},
+    graph::{Graph, Library, Node, NodeId, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::PortKind,
@@ -70,5 +70,5 @@ fn kept_parameter<'a>(body: &'a Graph, node: NodeId, library: &Library, catalog:
     }
     let ports = body.nodes[node].ports.iter().enumerate();
     let mut params = ports.filter(|(_, p)| p.kind == PortKind::Input && p.parameter.is_some());
-    params.find(|(port, _)| body.incoming(End { node, port: *port }).is_some()).map(|(_, p)| p.name.as_str())
+    params.find(|(port, _)| body.incoming(PortId { node, port: *port }).is_some()).map(|(_, p)| p.name.as_str())
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     analyse::{Analysis, has_rates},
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{Graph, NodeId, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -65,6 +65,6 @@ fn check_regions(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnosti
 }
 
 fn is_connected(graph: &Graph, node: NodeId, parameter: Option<usize>) -> bool {
-    let at = |end: End| end.node == node && graph.port(end).parameter == parameter;
+    let at = |end: PortId| end.node == node && graph.port(end).parameter == parameter;
     graph.connections.iter().any(|c| at(c.from) || at(c.to))
 }

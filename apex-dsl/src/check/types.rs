@@ -3,7 +3,7 @@
 use crate::resolve::token_type;
 use crate::{
     catalog::{Catalog, Match, Type, library},
-    graph::{Connection, End, Graph, NodeKind},
+    graph::{Connection, Graph, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
 };
 
@@ -47,7 +47,7 @@ pub fn compare(graph: &Graph, connection: &Connection) -> Match {
     }
 }
 
-fn declared(graph: &Graph, catalog: &Catalog, end: End) -> String {
+fn declared(graph: &Graph, catalog: &Catalog, end: PortId) -> String {
     let name = graph.end_name(end);
     match &graph.nodes[end.node].kind {
         NodeKind::Library(library) => {

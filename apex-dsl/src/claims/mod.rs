@@ -1,9 +1,9 @@
 //! Claims about activity, decided before a program runs by a search through all states of its activity.
 
-mod checks;
 mod model;
+mod properties;
 mod search;
-mod words;
+mod trace;
 
 use crate::{
     catalog::Catalog,
@@ -11,8 +11,8 @@ use crate::{
     report::{Diagnostic, Diagnostics},
 };
 
-pub use checks::{Checks, FROM, NEARER, scopes_of};
 pub use model::{Arrival, Emission, Model, Move, Place, PlaceId, State};
+pub use properties::{Checks, FROM, NEARER, scopes_of};
 pub use search::{MAX_STATES, Outcome, search};
 
 /// Verdict on a claim.
@@ -112,7 +112,7 @@ fn failure(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Diagnos
         };
         error = error.also(span, format!("{name} is declared here"));
     }
-    let error = words::run(graph, model, run).into_iter().fold(error, Diagnostic::note);
+    let error = trace::run(graph, model, run).into_iter().fold(error, Diagnostic::note);
     error.note(advice)
 }
 

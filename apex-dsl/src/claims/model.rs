@@ -4,7 +4,7 @@
 use crate::{
     analyse::{active_nodes, takes_activity},
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind, Standard},
+    graph::{Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub enum Place {
 #[derive(Debug)]
 pub struct Emission {
     /// The port.
-    pub from: End,
+    pub from: PortId,
     /// Its active connections.
     pub to: Vec<PlaceId>,
     /// Connections that must be free of activity first.
@@ -82,7 +82,7 @@ impl Model {
     pub fn new(graph: &Graph, catalog: &Catalog) -> Self {
         let reached = active_nodes(graph);
         let mut places: Vec<Place> = reached.iter().map(|n| Place::Node(*n)).collect();
-        let carries = |end: End| match graph.nodes[end.node].kind {
+        let carries = |end: PortId| match graph.nodes[end.node].kind {
             NodeKind::Start => true,
             _ => reached.contains(&end.node) && gives_away(graph, catalog, end),
         };
@@ -134,7 +134,7 @@ impl Model {
     /// and a slot is served only if all connections from events are (R1, R5).
     fn add_waits(&mut self, graph: &Graph) {
         for emissions in &mut self.emissions {
-            let kind = |end: End| graph.port(end).kind;
+            let kind = |end: PortId| graph.port(end).kind;
             let all: Vec<(PortKind, Vec<PlaceId>)> = emissions.iter().map(|e| (kind(e.from), e.to.clone())).collect();
             for emission in emissions {
                 let own = kind(emission.from);
@@ -214,7 +214,7 @@ fn with(state: impl Iterator<Item = PlaceId>, more: &[PlaceId]) -> State {
 }
 
 /// Returns `true` if activity can leave a node through a port. `deactivated` is sent only after it has left.
-fn gives_away(graph: &Graph, catalog: &Catalog, from: End) -> bool {
+fn gives_away(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
     graph.port(from).standard != Some(Standard::Deactivated) && !takes_activity(graph, catalog, from.node)
 }
 

@@ -1,8 +1,8 @@
 //! Breadth-first search over the states of a [`Model`].
 
 use super::{
-    checks::Checks,
     model::{Model, Move, State},
+    properties::Checks,
 };
 use std::{collections::BTreeSet, sync::Arc};
 

@@ -3,13 +3,13 @@
 
 use super::{
     Generator,
-    state::{Kept, Kind},
+    state::{Kind, StateField},
     types::ident,
     wiring::{Flag, Wiring},
 };
 use crate::{
     analyse::{Analysis, Links, takes_activity},
-    graph::{End, Graph, NodeId, NodeKind, Standard},
+    graph::{Graph, NodeId, NodeKind, PortId, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -17,7 +17,7 @@ use syn::Ident;
 
 /// What the code of a program, or of a part of one, is generated from.
 #[derive(Clone, Copy)]
-pub struct Whole<'a> {
+pub struct ProgramView<'a> {
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
     pub links: &'a Links,
@@ -25,7 +25,7 @@ pub struct Whole<'a> {
     pub wiring: &'a Wiring,
 }
 
-impl<'a> Whole<'a> {
+impl<'a> ProgramView<'a> {
     /// The view of a graph, its analysis and its wiring.
     pub fn new(graph: &'a Graph, analysis: &'a Analysis, wiring: &'a Wiring) -> Self {
         Self { graph, analysis, links: &analysis.links, wiring }
@@ -65,13 +65,13 @@ impl Generator<'_> {
     }
 
     /// The connections into the inputs of a node whose tokens may carry one of `what`.
-    fn inputs_carry(&self, whole: Whole<'_>, node: NodeId, what: &[Carries]) -> bool {
-        whole.links.inputs[node].iter().any(|c| what.contains(&self.carries(whole.graph, whole.analysis, *c)))
+    fn inputs_carry(&self, view: ProgramView<'_>, node: NodeId, what: &[Carries]) -> bool {
+        view.links.inputs[node].iter().any(|c| what.contains(&self.carries(view.graph, view.analysis, *c)))
     }
 
     /// Activity in the state of a program: sets of flags, and what delays keep.
-    pub fn activity_state(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let Whole { graph, analysis, .. } = whole;
+    pub fn activity_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
+        let ProgramView { graph, analysis, .. } = view;
         let active = || analysis.active.iter().copied();
         let mut kept = vec![];
         let mut set = |name, of: &str, count: usize, flags: Vec<usize>, initial: bool| {
@@ -81,21 +81,21 @@ impl Generator<'_> {
             let words = count.div_ceil(64);
             let flags = flags.into_iter().filter(|_| initial).map(Literal::usize_unsuffixed);
             let (ty, make) = (quote!(::apex_rt::Bits<#words>), quote!(::apex_rt::Bits::of(&[#(#flags),*])));
-            kept.push(Kept::new(Kind::Activity, of.to_owned(), format_ident!("{name}"), ty, make));
+            kept.push(StateField::new(Kind::Activity, of.to_owned(), format_ident!("{name}"), ty, make));
         };
         let count = self.names.numbers.iter().map(|number| number + 1).max().unwrap_or(0);
         let numbers = |meant: &dyn Fn(NodeId) -> bool, nodes: &mut dyn Iterator<Item = NodeId>| -> Vec<usize> {
             nodes.filter(|node| meant(*node)).map(|node| self.index(node)).collect()
         };
         let is_plain = |node: NodeId| !graph.nodes[node].is_delay();
-        let gains = |node: NodeId| self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
-        let loses = |node: NodeId| self.inputs_carry(whole, node, &[Carries::Away]);
+        let gains = |node: NodeId| self.inputs_carry(view, node, &[Carries::Always, Carries::Sometimes]);
+        let loses = |node: NodeId| self.inputs_carry(view, node, &[Carries::Away]);
         let can_be_disabled = |node: NodeId| graph.nodes[node].can_be_disabled();
         set("active", "active nodes", count, numbers(&is_plain, &mut active()), false);
         set("gains", "nodes that become active", count, numbers(&gains, &mut active()), false);
         set("loses", "nodes that become inactive", count, numbers(&loses, &mut active()), false);
         set("enabled", "enabled nodes", count, numbers(&can_be_disabled, &mut (0..graph.nodes.len())), true);
-        let slots = &whole.wiring.slots;
+        let slots = &view.wiring.slots;
         let carry = (0..slots.len()).filter(|slot| slots[*slot].carries == Carries::Sometimes).collect();
         set("carries", "slot tokens with activity", slots.len(), carry, false);
         for node in active() {
@@ -103,7 +103,7 @@ impl Generator<'_> {
                 let (name, count) = (self.held_activity(node), initial.len());
                 let make = quote!(::apex_rt::Delay::new([None; #count]));
                 let of = graph.path(node);
-                kept.push(Kept::new(Kind::Activity, of, name, quote!(::apex_rt::Delay<(), #count>), make));
+                kept.push(StateField::new(Kind::Activity, of, name, quote!(::apex_rt::Delay<(), #count>), make));
             }
         }
         kept
@@ -140,8 +140,8 @@ impl Generator<'_> {
     }
 
     /// Whether there is activity in a node.
-    pub fn is_active_now(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        match whole.graph.nodes[node].is_delay() {
+    pub fn is_active_now(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        match view.graph.nodes[node].is_delay() {
             true => {
                 let held = self.held_activity(node);
                 quote!(state.#held.holds_any())
@@ -151,8 +151,8 @@ impl Generator<'_> {
     }
 
     /// What a delay holds keeps what it carries: it goes on with the token.
-    pub fn hold_activity(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        if !whole.analysis.active.contains(&node) {
+    pub fn hold_activity(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        if !view.analysis.active.contains(&node) {
             return quote!();
         }
         let (held, gains) = (self.held_activity(node), self.take(Flag::Gains(node)));
@@ -160,30 +160,30 @@ impl Generator<'_> {
     }
 
     /// A node becomes active, unless it is already.
-    pub fn activate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
+    pub fn activate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let (is_active, set) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), true));
-        let observed = self.observed(whole, node, true);
-        let (timeout, effects) = (self.start_timeout(whole, node), self.turn_effects(whole, node, true));
+        let observed = self.observed(view, node, true);
+        let (timeout, effects) = (self.start_timeout(view, node), self.turn_effects(view, node, true));
         quote! { if !#is_active { #set #observed #timeout #effects } }
     }
 
     /// A node is no longer active.
-    pub fn deactivate(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let left = self.left(whole, node);
+    pub fn deactivate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let left = self.left(view, node);
         let take = self.take(Flag::Active(node));
         quote! { if #take { #left } }
     }
 
     /// What follows when a node is no longer active.
-    fn left(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let observed = self.observed(whole, node, false);
-        let (timeout, effects) = (self.stop_timeout(whole, node), self.turn_effects(whole, node, false));
+    fn left(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let observed = self.observed(view, node, false);
+        let (timeout, effects) = (self.stop_timeout(view, node), self.turn_effects(view, node, false));
         quote! { #observed #timeout #effects }
     }
 
     /// The event and the hook of a node that became active, or is no longer.
-    pub fn turn_effects(&self, whole: Whole<'_>, node: NodeId, active: bool) -> TokenStream {
-        let graph = whole.graph;
+    pub fn turn_effects(&self, view: ProgramView<'_>, node: NodeId, active: bool) -> TokenStream {
+        let graph = view.graph;
         let (event, hook) = match active {
             true => (Standard::Activated, self.hook(graph, node, |s| s.on_activate.as_deref())),
             false => (Standard::Deactivated, self.hook(graph, node, |s| s.on_deactivate.as_deref())),
@@ -193,9 +193,9 @@ impl Generator<'_> {
     }
 
     /// Tells the observer; not of a node that only passes tokens on.
-    fn observed(&self, whole: Whole<'_>, node: NodeId, active: bool) -> TokenStream {
+    fn observed(&self, view: ProgramView<'_>, node: NodeId, active: bool) -> TokenStream {
         let index = self.index(node);
-        match is_observed(whole.graph, node) {
+        match is_observed(view.graph, node) {
             true => quote! { observer.activity(#index, #active); },
             false => quote!(),
         }
@@ -205,7 +205,7 @@ impl Generator<'_> {
     pub fn trigger(&self, graph: &Graph, node: NodeId, standard: Standard) -> TokenStream {
         match graph.nodes[node].standard(standard) {
             Some(port) => {
-                let name = self.name(End { node, port });
+                let name = self.name(PortId { node, port });
                 quote! { state.#name = Some(()); }
             }
             None => quote!(),
@@ -229,15 +229,15 @@ impl Generator<'_> {
     }
 
     /// A1 for the inputs of a node: what its tokens carried counts now.
-    pub fn take_activity(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        if !whole.analysis.active.contains(&node) || whole.graph.nodes[node].is_delay() {
+    pub fn take_activity(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        if !view.analysis.active.contains(&node) || view.graph.nodes[node].is_delay() {
             return quote!();
         }
-        let gains = self.inputs_carry(whole, node, &[Carries::Always, Carries::Sometimes]);
-        let loses = self.inputs_carry(whole, node, &[Carries::Away]);
+        let gains = self.inputs_carry(view, node, &[Carries::Always, Carries::Sometimes]);
+        let loses = self.inputs_carry(view, node, &[Carries::Away]);
         let (take_gains, take_loses) = (self.take(Flag::Gains(node)), self.take(Flag::Loses(node)));
         let check = self.check_claims();
-        let (activate, deactivate) = (self.activate(whole, node), self.deactivate(whole, node));
+        let (activate, deactivate) = (self.activate(view, node), self.deactivate(view, node));
         let (activate, deactivate) = (quote!(#activate #check), quote!(#deactivate #check));
         match (gains, loses) {
             (false, false) => quote!(),
@@ -257,12 +257,12 @@ impl Generator<'_> {
     /// active connection.
     pub fn pass_activity(
         &self,
-        whole: Whole<'_>,
+        view: ProgramView<'_>,
         node: NodeId,
-        present: &dyn Fn(End) -> Option<TokenStream>,
+        present: &dyn Fn(PortId) -> Option<TokenStream>,
     ) -> TokenStream {
         let mut code = quote!();
-        for port in whole.wiring.of(node).iter().filter(|port| port.is_active) {
+        for port in view.wiring.of(node).iter().filter(|port| port.is_active) {
             let Some(present) = present(port.end) else { continue };
             if !port.takes_away.is_empty() {
                 let away = port.takes_away.iter().map(|flag| self.set(*flag, true));
@@ -270,12 +270,12 @@ impl Generator<'_> {
             }
             let Some(along) = &port.passes else { continue };
             let along: TokenStream = along.iter().map(|flag| self.set(*flag, true)).collect();
-            if whole.graph.nodes[node].is_delay() {
+            if view.graph.nodes[node].is_delay() {
                 let held = self.held_activity(node);
                 code.extend(quote! { if state.#held.take().is_some() { #along } });
             } else {
                 let (is_active, leave) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), false));
-                let (left, check) = (self.left(whole, node), self.check_claims());
+                let (left, check) = (self.left(view, node), self.check_claims());
                 code.extend(quote! { if #is_active && #present { #leave #left #along #check } });
             }
         }

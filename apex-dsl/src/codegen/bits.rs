@@ -55,7 +55,7 @@ impl Bits {
             }
         }
         for (index, c) in graph.connections.iter().enumerate() {
-            if analysis.asynchronous.tracked[index] {
+            if analysis.asynchronous.has_occupancy_bit[index] {
                 let bit = bits.next();
                 bits.free.insert(index, bit);
             }

@@ -1,8 +1,8 @@
 //! Cells between thread groups: what a part does at its ends of them.
 
-use super::{Generator, activity::Whole, plan::is_buffer, wiring::Flag};
+use super::{Generator, activity::ProgramView, plan::is_buffer, wiring::Flag};
 use crate::{
-    graph::{End, Far, Flow, Graph, NodeId, NodeKind},
+    graph::{CellEnd, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -39,8 +39,8 @@ impl Generator<'_> {
     }
 
     /// A token goes into its cell, or the other side is done with it.
-    pub fn send_far(&self, whole: Whole<'_>, node: NodeId, far: Far) -> TokenStream {
-        let Whole { graph, analysis, links, wiring } = whole;
+    pub fn send_far(&self, view: ProgramView<'_>, node: NodeId, far: CellEnd) -> TokenStream {
+        let ProgramView { graph, analysis, links, wiring } = view;
         let bits = &wiring.bits;
         let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else {
             return quote!();
@@ -58,7 +58,7 @@ impl Generator<'_> {
         });
         let carries = carries.filter(|_| !far.takes_activity);
         let left = carries.is_some().then(|| self.set(Flag::Active(node), false));
-        let stamp = super::stamps::of_connection(whole, index).map(|stamp| quote! { parcel.stamp = state.#stamp; });
+        let stamp = super::stamps::of_connection(view, index).map(|stamp| quote! { parcel.stamp = state.#stamp; });
         let settle = (graph.port(c.from).kind == PortKind::Output)
             .then(|| bits.row(analysis.cluster_of[c.from.node]))
             .flatten()
@@ -89,25 +89,25 @@ impl Generator<'_> {
     }
 
     /// A token comes out of its cell, or all that it caused has finished.
-    pub fn receive_far(&self, whole: Whole<'_>, node: NodeId, far: Far) -> TokenStream {
-        let Whole { graph, analysis, links, wiring } = whole;
+    pub fn receive_far(&self, view: ProgramView<'_>, node: NodeId, far: CellEnd) -> TokenStream {
+        let ProgramView { graph, analysis, links, wiring } = view;
         let bits = &wiring.bits;
-        let end = End { node, port: 0 };
+        let end = PortId { node, port: 0 };
         let (cell, holding, name, sender) =
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
         let told = sender.map(|sender| quote! { wake.wake(#sender); });
         let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
         let all_free = quote!(true #(&& self.state.dispatcher.has(#free))*);
-        let test = self.allows(whole, &[]);
+        let test = self.allows(view, &[]);
         let carries = (analysis.active.contains(&node) && !far.takes_activity).then(|| {
             let set = self.set(Flag::Active(node), true);
             quote! { if ::core::mem::take(&mut parcel.active) { #set } }
         });
         let stamped = links.sends[node].iter().any(|c| analysis.stamps.connections.contains(c));
         let since = stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
-        let pass = self.pass_activity(whole, node, &|end| Some(self.waits(graph, end)));
-        let emit = self.emit(whole, node, false);
-        let serve = self.deliver(whole, &links.sends[node]);
+        let pass = self.pass_activity(view, node, &|end| Some(self.waits(graph, end)));
+        let emit = self.emit(view, node, false);
+        let serve = self.deliver(view, &links.sends[node]);
         let is_full = self.look(quote!(ends.#cell.is_full()));
         quote! {
             if self.state.#holding && #all_free {
@@ -134,7 +134,7 @@ impl Generator<'_> {
     }
 
     /// The groups at both ends of a cell.
-    fn cell(&self, far: Far) -> (Option<usize>, usize) {
+    fn cell(&self, far: CellEnd) -> (Option<usize>, usize) {
         self.cells.get(far.cell).map_or((None, 0), |cell| (cell.sender, cell.receiver))
     }
 }

@@ -3,8 +3,8 @@
 
 use super::{
     Generator,
-    activity::{Carries, Whole},
-    state::{Kept, Kind},
+    activity::{Carries, ProgramView},
+    state::{Kind, StateField},
     wiring::Flag,
 };
 use crate::{
@@ -43,25 +43,27 @@ impl Generator<'_> {
     }
 
     /// For each claim that the program looks at, whether it is broken now.
-    pub fn claim_state(&self, whole: Whole<'_>) -> Vec<Kept> {
+    pub fn claim_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
         let undecided = self.undecided().into_iter();
-        let text = |claim: usize| whole.graph.claim_text(&whole.graph.claims[claim]);
-        undecided.map(|claim| Kept::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false))).collect()
+        let text = |claim: usize| view.graph.claim_text(&view.graph.claims[claim]);
+        undecided
+            .map(|claim| StateField::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false)))
+            .collect()
     }
 
     /// The function that looks at them.
-    pub fn claim_function(&self, whole: Whole<'_>) -> TokenStream {
+    pub fn claim_function(&self, view: ProgramView<'_>) -> TokenStream {
         if !self.checks_claims() {
             return quote!();
         }
-        let model = Model::new(whole.graph, self.catalog);
-        let checks = Checks::new(whole.graph, &model);
-        let flags = self.place_flags(whole, &model);
+        let model = Model::new(view.graph, self.catalog);
+        let checks = Checks::new(view.graph, &model);
+        let flags = self.place_flags(view, &model);
         let looks = self.undecided().into_iter().map(|claim| {
             let names = |group| any(&flags, &checks.places(claim, group));
-            let is_broken = match whole.graph.claims[claim].kind {
+            let is_broken = match view.graph.claims[claim].kind {
                 ClaimKind::Exclusive => {
-                    let all = (0..whole.graph.claims[claim].of.len() as u32).map(names);
+                    let all = (0..view.graph.claims[claim].of.len() as u32).map(names);
                     quote!([#(#all),*].into_iter().filter(|active| *active).count() > 1)
                 }
                 ClaimKind::Reaches => {
@@ -82,20 +84,20 @@ impl Generator<'_> {
                 state.#name = broken;
             }
         });
-        let state = self.item(whole.graph, "State");
+        let state = self.item(view.graph, "State");
         quote! {
             fn check_claims<O: ::apex_rt::Observer>(state: &mut #state, observer: &mut O) { #(#looks)* }
         }
     }
 
     /// Whether a nested graph is active, by its index.
-    pub fn is_graph_active(&self, whole: Whole<'_>) -> TokenStream {
-        let graph = whole.graph;
-        if whole.analysis.active.is_empty() || graph.scopes.len() == 1 {
+    pub fn is_graph_active(&self, view: ProgramView<'_>) -> TokenStream {
+        let graph = view.graph;
+        if view.analysis.active.is_empty() || graph.scopes.len() == 1 {
             return quote!();
         }
         let model = Model::new(graph, self.catalog);
-        let flags = self.place_flags(whole, &model);
+        let flags = self.place_flags(view, &model);
         let arms = (1..graph.scopes.len()).map(|scope| {
             let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
             let inside: Vec<PlaceId> = inside.map(|(id, _)| id).collect();
@@ -111,18 +113,18 @@ impl Generator<'_> {
     }
 
     /// The expressions that say where activity is, by their text.
-    fn place_flags(&self, whole: Whole<'_>, model: &Model) -> BTreeMap<String, Flagged> {
+    fn place_flags(&self, view: ProgramView<'_>, model: &Model) -> BTreeMap<String, Flagged> {
         let mut flags: BTreeMap<String, Flagged> = BTreeMap::new();
         for (place, what) in (0..).zip(&model.places) {
             let flag = match *what {
-                Place::Node(node) => self.is_active_now(whole, node),
+                Place::Node(node) => self.is_active_now(view, node),
                 // Nothing is kept for connections that never carry a token.
-                Place::Connection(c) if !whole.analysis.asynchronous.live[c] => continue,
-                Place::Connection(c) if self.carries(whole.graph, whole.analysis, c) != Carries::Sometimes => continue,
+                Place::Connection(c) if !view.analysis.asynchronous.live[c] => continue,
+                Place::Connection(c) if self.carries(view.graph, view.analysis, c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
-                    let connection = &whole.graph.connections[c];
-                    let flag = match whole.graph.flow(connection) {
-                        Flow::ToSlot => Flag::Carries(whole.analysis.asynchronous.slot(c)),
+                    let connection = &view.graph.connections[c];
+                    let flag = match view.graph.flow(connection) {
+                        Flow::ToSlot => Flag::Carries(view.analysis.asynchronous.slot(c)),
                         Flow::Synchronous | Flow::ToInput => Flag::Gains(connection.to.node),
                     };
                     self.is_set(flag)

@@ -1,6 +1,6 @@
 //! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
 
-use super::{Generator, activity::Whole, fire::Emitter, types::ident};
+use super::{Generator, activity::ProgramView, fire::Emitter, types::ident};
 use crate::analyse::{Guard, MANY, is_multirate};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -15,29 +15,29 @@ pub fn inlined(count: usize) -> TokenStream {
 }
 
 /// Whether the clusters of a program share functions.
-fn share_functions(whole: Whole<'_>) -> bool {
-    whole.analysis.clusters.len() > MANY
+fn share_functions(view: ProgramView<'_>) -> bool {
+    view.analysis.clusters.len() > MANY
 }
 
 /// The call that fires a cluster.
-pub fn fire(whole: Whole<'_>, cluster: usize) -> TokenStream {
-    match share_functions(whole) {
+pub fn fire(view: ProgramView<'_>, cluster: usize) -> TokenStream {
+    match share_functions(view) {
         true => {
             let (name, cluster) = (format_ident!("clusters_{}", cluster / CHUNK), Literal::usize_unsuffixed(cluster));
             quote! { self.#name(#cluster, ctx, observer); }
         }
         false => {
-            let name = ident(&whole.wiring.clusters[cluster]);
+            let name = ident(&view.wiring.clusters[cluster]);
             quote! { self.#name(ctx, observer); }
         }
     }
 }
 
 /// Documentation of a cluster: its nodes, in the order in which they fire.
-fn docs(whole: Whole<'_>, cluster: usize) -> String {
+fn docs(view: ProgramView<'_>, cluster: usize) -> String {
     const MOST: usize = 12;
-    let nodes = whole.analysis.clusters[cluster].schedule();
-    let names = nodes.iter().map(|node| format!("`{}`", whole.graph.path(*node)));
+    let nodes = view.analysis.clusters[cluster].schedule();
+    let names = nodes.iter().map(|node| format!("`{}`", view.graph.path(*node)));
     let names: Vec<String> = names.take(MOST).collect();
     let more = if nodes.len() > MOST { format!(", … ({} nodes)", nodes.len()) } else { String::new() };
     format!(" Fires {}{more}.", names.join(", "))
@@ -45,15 +45,15 @@ fn docs(whole: Whole<'_>, cluster: usize) -> String {
 
 impl Generator<'_> {
     /// The functions that fire clusters.
-    pub fn clusters(&self, whole: Whole<'_>) -> TokenStream {
-        let firing = (0..whole.analysis.clusters.len()).filter(|c| whole.analysis.clusters[*c].fires);
+    pub fn clusters(&self, view: ProgramView<'_>) -> TokenStream {
+        let firing = (0..view.analysis.clusters.len()).filter(|c| view.analysis.clusters[*c].fires);
         let firing: Vec<usize> = firing.collect();
-        if share_functions(whole) {
-            return firing.chunk_by(|a, b| a / CHUNK == b / CHUNK).map(|chunk| self.chunk(whole, chunk)).collect();
+        if share_functions(view) {
+            return firing.chunk_by(|a, b| a / CHUNK == b / CHUNK).map(|chunk| self.chunk(view, chunk)).collect();
         }
         let functions = firing.into_iter().map(|cluster| {
-            let (name, code) = (ident(&whole.wiring.clusters[cluster]), self.cluster(whole, cluster));
-            let docs = docs(whole, cluster);
+            let (name, code) = (ident(&view.wiring.clusters[cluster]), self.cluster(view, cluster));
+            let docs = docs(view, cluster);
             quote! {
                 #[doc = #docs]
                 #[inline]
@@ -67,10 +67,10 @@ impl Generator<'_> {
     }
 
     /// The function that fires the clusters of a chunk.
-    fn chunk(&self, whole: Whole<'_>, chunk: &[usize]) -> TokenStream {
+    fn chunk(&self, view: ProgramView<'_>, chunk: &[usize]) -> TokenStream {
         let name = format_ident!("clusters_{}", chunk[0] / CHUNK);
         let arms = chunk.iter().map(|cluster| {
-            let (number, code) = (Literal::usize_unsuffixed(*cluster), self.cluster(whole, *cluster));
+            let (number, code) = (Literal::usize_unsuffixed(*cluster), self.cluster(view, *cluster));
             quote! { #number => { #code } }
         });
         quote! {
@@ -83,23 +83,23 @@ impl Generator<'_> {
     }
 
     /// What a cluster does. The timers of its sources advance with it.
-    fn cluster(&self, whole: Whole<'_>, cluster: usize) -> TokenStream {
-        let guards = whole.analysis.clusters[cluster].own_guards.iter();
-        let timers = guards.filter_map(|guard| match whole.analysis.guards[*guard] {
-            Guard::Timer(node) => whole.wiring.timer(node),
+    fn cluster(&self, view: ProgramView<'_>, cluster: usize) -> TokenStream {
+        let guards = view.analysis.clusters[cluster].own_guards.iter();
+        let timers = guards.filter_map(|guard| match view.analysis.guards[*guard] {
+            Guard::Timer(node) => view.wiring.timer(node),
             _ => None,
         });
-        let advances = timers.map(|timer| match whole.wiring.has_agenda() {
+        let advances = timers.map(|timer| match view.wiring.has_agenda() {
             true => quote! { state.agenda.advance(&mut state.timers[#timer]); },
             false => quote! { state.timers[#timer].advance(); },
         });
         let advances: TokenStream = advances.collect();
-        if is_multirate(whole.graph, whole.analysis, cluster) {
-            let stamp = self.stamp_of_firing(whole, cluster);
-            let code = self.rates(whole.graph, whole.analysis, whole.links, cluster);
+        if is_multirate(view.graph, view.analysis, cluster) {
+            let stamp = self.stamp_of_firing(view, cluster);
+            let code = self.rates(view.graph, view.analysis, view.links, cluster);
             quote! { #advances #stamp #code }
         } else {
-            let code = Emitter::new(self, whole, cluster).program_cluster();
+            let code = Emitter::new(self, view, cluster).program_cluster();
             quote! { #advances #code }
         }
     }

@@ -1,6 +1,6 @@
 //! How slot tokens come to their slots: from a queue, or in an order that is known.
 
-use super::{Generator, activity::Whole, types::ident, wiring::Slot};
+use super::{Generator, activity::ProgramView, types::ident, wiring::Slot};
 use crate::{
     analyse::{Delivery, ordered},
     graph::NodeKind,
@@ -10,8 +10,8 @@ use quote::quote;
 
 impl Generator<'_> {
     /// Serves slots until none is ready; says whether there was one.
-    pub fn serve(&self, whole: Whole<'_>) -> TokenStream {
-        let Whole { graph, analysis, wiring, .. } = whole;
+    pub fn serve(&self, view: ProgramView<'_>) -> TokenStream {
+        let ProgramView { graph, analysis, wiring, .. } = view;
         let needs: Vec<&[usize]> = wiring.slots.iter().map(|slot| slot.needs.as_slice()).collect();
         let count = needs.len();
         let call = match wiring.is_tabled {
@@ -62,46 +62,45 @@ impl Generator<'_> {
     }
 
     /// Serves the slots that tokens on `sends` can come to, one after the other, where that needs no queue.
-    pub fn deliver(&self, whole: Whole<'_>, sends: &[usize]) -> TokenStream {
-        let asynchronous = &whole.analysis.asynchronous;
+    pub fn deliver(&self, view: ProgramView<'_>, sends: &[usize]) -> TokenStream {
+        let asynchronous = &view.analysis.asynchronous;
         match asynchronous.delivery {
             Delivery::Queued => quote!(),
-            Delivery::Single => self.deliver_single(whole, sends),
+            Delivery::Single => self.deliver_single(view, sends),
             Delivery::Ordered => {
-                let connections = ordered(whole.graph, whole.links, asynchronous, sends).unwrap_or_default();
-                let ends = |c: &usize| {
-                    matches!(whole.graph.nodes[whole.graph.connections[*c].to.node].kind, NodeKind::Exit(_))
-                };
+                let connections = ordered(view.graph, view.links, asynchronous, sends).unwrap_or_default();
+                let ends =
+                    |c: &usize| matches!(view.graph.nodes[view.graph.connections[*c].to.node].kind, NodeKind::Exit(_));
                 let last = connections.iter().position(ends).unwrap_or(connections.len());
                 let goes_on = |at: usize| (at > last).then(|| quote!(&&self.state.exit.is_none()));
-                connections.iter().enumerate().map(|(at, c)| self.serve_one(whole, *c, goes_on(at))).collect()
+                connections.iter().enumerate().map(|(at, c)| self.serve_one(view, *c, goes_on(at))).collect()
             }
         }
     }
 
     /// Serves the slot at the end of a connection, if a token waits there and `test` allows it.
-    fn serve_one(&self, whole: Whole<'_>, connection: usize, test: Option<TokenStream>) -> TokenStream {
-        let asynchronous = &whole.analysis.asynchronous;
+    fn serve_one(&self, view: ProgramView<'_>, connection: usize, test: Option<TokenStream>) -> TokenStream {
+        let asynchronous = &view.analysis.asynchronous;
         let slot = asynchronous.slot(connection);
-        let waits = self.waits(whole.graph, whole.graph.connections[connection].from);
-        let name = ident(&whole.wiring.slots[slot].name);
+        let waits = self.waits(view.graph, view.graph.connections[connection].from);
+        let name = ident(&view.wiring.slots[slot].name);
         let step = asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
         let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
         quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }
     }
 
     /// Where one token at most is under way, it may go round in a circle.
-    fn deliver_single(&self, whole: Whole<'_>, sends: &[usize]) -> TokenStream {
-        let (connections, circle) = whole.analysis.asynchronous.following(sends);
-        let serves: TokenStream = connections.iter().map(|c| self.serve_one(whole, *c, None)).collect();
+    fn deliver_single(&self, view: ProgramView<'_>, sends: &[usize]) -> TokenStream {
+        let (connections, circle) = view.analysis.asynchronous.following(sends);
+        let serves: TokenStream = connections.iter().map(|c| self.serve_one(view, *c, None)).collect();
         if !circle {
             return serves;
         }
         let waits = connections.iter().map(|c| {
-            let waits = self.waits(whole.graph, whole.graph.connections[*c].from);
+            let waits = self.waits(view.graph, view.graph.connections[*c].from);
             quote!(self.#waits)
         });
-        let exit = self.has_exit(whole.graph).then(|| quote!(|| self.state.exit.is_some()));
+        let exit = self.has_exit(view.graph).then(|| quote!(|| self.state.exit.is_some()));
         quote! {
             while (#(#waits)||*) {
                 #serves

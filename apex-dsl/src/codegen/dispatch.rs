@@ -2,10 +2,10 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     cells::receivers,
     clusters::{Firing, fire, table},
-    state::{Kept, Kind},
+    state::{Kind, StateField},
     types::ident,
 };
 use crate::{
@@ -19,13 +19,13 @@ use syn::Ident;
 
 impl Generator<'_> {
     /// Fields of the program's state that the dispatcher needs, with what they start as.
-    pub fn dispatcher_state(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let bits = &whole.wiring.bits;
+    pub fn dispatcher_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
+        let bits = &view.wiring.bits;
         let mut fields = vec![];
         let mut field = |name: &str, ty, make| {
-            fields.push(Kept::new(Kind::Dispatcher, name.to_owned(), ident(name), ty, make));
+            fields.push(StateField::new(Kind::Dispatcher, name.to_owned(), ident(name), ty, make));
         };
-        let (words, slots) = (bits.words(), whole.analysis.asynchronous.slots.len());
+        let (words, slots) = (bits.words(), view.analysis.asynchronous.slots.len());
         if words > 0 {
             let initial = bits.initial().into_iter().map(Literal::usize_unsuffixed);
             let make = quote!(::apex_rt::Dispatcher::new(::apex_rt::Bits::of(&[#(#initial),*])));
@@ -33,23 +33,23 @@ impl Generator<'_> {
             let tracks = bits.dispatched().len() >= 3;
             field("dispatcher", quote!(::apex_rt::Dispatcher<#words, #tracks>), make);
         }
-        if slots > 0 && whole.analysis.asynchronous.delivery == Delivery::Queued {
+        if slots > 0 && view.analysis.asynchronous.delivery == Delivery::Queued {
             field("queue", quote!(::apex_rt::Queue<#slots>), quote!(::apex_rt::Queue::new()));
         }
-        if whole.analysis.asynchronous.endless {
+        if view.analysis.asynchronous.endless {
             let kinds = slots + bits.dispatched().len();
             field("steps", quote!(::apex_rt::Steps<#kinds>), quote!(::apex_rt::Steps::new()));
         }
-        if self.has_exit(whole.graph) {
+        if self.has_exit(view.graph) {
             field("exit", quote!(::core::option::Option<u8>), quote!(None));
         }
-        if self.has_start(whole) {
+        if self.has_start(view) {
             field("started", quote!(bool), quote!(false));
         }
-        if whole.wiring.has_agenda() {
+        if view.wiring.has_agenda() {
             field("agenda", quote!(::apex_rt::Agenda), quote!(::apex_rt::Agenda::new()));
         }
-        for (cell, _) in receivers(whole.graph) {
+        for (cell, _) in receivers(view.graph) {
             let name = Self::holding(cell).to_string();
             field(&name, quote!(bool), quote!(false));
         }
@@ -61,15 +61,15 @@ impl Generator<'_> {
         graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Exit(_)))
     }
 
-    fn has_start(&self, whole: Whole<'_>) -> bool {
+    fn has_start(&self, view: ProgramView<'_>) -> bool {
         let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        let watches = |node: NodeId| self.watches_silence(whole.graph, whole.analysis, node).is_some();
-        whole.graph.nodes.iter().any(started) || (0..whole.graph.nodes.len()).any(watches)
+        let watches = |node: NodeId| self.watches_silence(view.graph, view.analysis, node).is_some();
+        view.graph.nodes.iter().any(started) || (0..view.graph.nodes.len()).any(watches)
     }
 
     /// The tables of the dispatcher, and the functions that serve slots.
-    pub fn dispatcher(&self, whole: Whole<'_>) -> TokenStream {
-        let Whole { graph, analysis, links, wiring } = whole;
+    pub fn dispatcher(&self, view: ProgramView<'_>) -> TokenStream {
+        let ProgramView { graph, analysis, links, wiring } = view;
         let bits = &wiring.bits;
         let (set, rows) = (bits.set_type(), bits.rows(graph, analysis, links));
         let mut code = quote!();
@@ -86,18 +86,18 @@ impl Generator<'_> {
         }
         if !analysis.asynchronous.slots.is_empty() {
             if !wiring.is_tabled {
-                code.extend(self.slot_functions(whole));
+                code.extend(self.slot_functions(view));
             }
             if analysis.asynchronous.delivery == Delivery::Queued {
-                code.extend(self.serve(whole));
+                code.extend(self.serve(view));
             }
         }
         code.extend(match wiring.is_tabled {
-            true => self.tables(whole),
-            false => self.expire_functions(whole),
+            true => self.tables(view),
+            false => self.expire_functions(view),
         });
-        if self.has_start(whole) {
-            let begin = self.first(whole);
+        if self.has_start(view) {
+            let begin = self.first(view);
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, .. } = self;
@@ -106,8 +106,8 @@ impl Generator<'_> {
             });
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
-            let reset = self.reset(whole);
-            let (nodes, state) = (self.nodes_type(whole), self.item(graph, "State"));
+            let reset = self.reset(view);
+            let (nodes, state) = (self.nodes_type(view), self.item(graph, "State"));
             code.extend(quote! {
                 fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     #reset
@@ -124,18 +124,18 @@ impl Generator<'_> {
     }
 
     /// `react_with`; where it is recorded, what is inside of that.
-    pub fn react(&self, whole: Whole<'_>) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        let Whole { graph, analysis, .. } = whole;
+    pub fn react(&self, view: ProgramView<'_>) -> TokenStream {
+        let bits = &view.wiring.bits;
+        let ProgramView { graph, analysis, .. } = view;
         let queued = analysis.asynchronous.delivery == Delivery::Queued;
         let serves = !analysis.asynchronous.slots.is_empty() && queued;
         let endless = analysis.asynchronous.endless;
-        let (raises, wishes) = (self.raises(whole), self.wishes(whole));
+        let (raises, wishes) = (self.raises(view), self.wishes(view));
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
             let bit = bits.guard(i)?;
             Some(quote! { self.state.dispatcher.raise(#bit); })
         });
-        let next = self.next(whole);
+        let next = self.next(view);
         let serve = |quiet: bool| match (serves, quiet) {
             (false, _) => quote!(),
             (true, true) => quote! { if !self.state.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } },
@@ -151,11 +151,11 @@ impl Generator<'_> {
         let firing = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).map(|cluster| {
             let c = &analysis.clusters[cluster];
             let served = match queued {
-                false => self.deliver(whole, &c.sends),
+                false => self.deliver(view, &c.sends),
                 true if c.sends.is_empty() && !any_stays => quote!(),
                 true => serve(false),
             };
-            Firing { cluster, row: bits.row(cluster), fire: fire(whole, cluster), served }
+            Firing { cluster, row: bits.row(cluster), fire: fire(view, cluster), served }
         });
         let (inside, before): (Vec<Firing>, Vec<Firing>) =
             firing.partition(|firing| loops && (firing.row.is_some() || ordered));
@@ -172,17 +172,17 @@ impl Generator<'_> {
             (false, true) => quote! { if self.state.dispatcher.take_news() || first { #clusters } },
             (false, false) => quote! { if self.state.dispatcher.take_news() { #clusters } },
         };
-        let start = self.has_start(whole).then(|| {
-            let serve = if queued { serve(false) } else { self.deliver(whole, &at_start(graph, analysis)) };
+        let start = self.has_start(view).then(|| {
+            let serve = if queued { serve(false) } else { self.deliver(view, &at_start(graph, analysis)) };
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
         });
         let begin_steps = endless.then(|| {
             // What the reaction before left when its steps were used up.
-            let serve = self.deliver(whole, &analysis.asynchronous.slots);
+            let serve = self.deliver(view, &analysis.asynchronous.slots);
             let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.state.dispatcher.look_again(); });
             quote! { self.state.steps.begin(); #ready #serve }
         });
-        let used_up = endless.then(|| self.used_up(whole));
+        let used_up = endless.then(|| self.used_up(view));
         let leave = if has_exit {
             quote!(if quiet || self.state.exit.is_some() {
                 break;
@@ -264,11 +264,11 @@ impl Generator<'_> {
     }
 
     /// When a program wants to be called because of sources without a pace. If it waits for other thread groups, they wake it.
-    fn next(&self, whole: Whole<'_>) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        let guards = &whole.analysis.guards;
+    fn next(&self, view: ProgramView<'_>) -> TokenStream {
+        let bits = &view.wiring.bits;
+        let guards = &view.analysis.guards;
         let mut plain =
-            whole.analysis.clusters.iter().flat_map(|c| &c.own_guards).filter(|g| guards[**g] == Guard::React);
+            view.analysis.clusters.iter().flat_map(|c| &c.own_guards).filter(|g| guards[**g] == Guard::React);
         if self.part.is_none() {
             return if plain.next().is_some() { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
         }
@@ -280,9 +280,9 @@ impl Generator<'_> {
     }
 
     /// What clusters wait for, to tell a deadlock.
-    pub fn waiting(&self, whole: Whole<'_>) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        if bits.missing(whole.analysis, &|c| self.connection(c)).is_empty() {
+    pub fn waiting(&self, view: ProgramView<'_>) -> TokenStream {
+        let bits = &view.wiring.bits;
+        if bits.missing(view.analysis, &|c| self.connection(c)).is_empty() {
             return quote!();
         }
         quote! {
@@ -295,12 +295,11 @@ impl Generator<'_> {
     }
 
     /// A reaction that took all its steps says so, and goes on in the next one.
-    fn used_up(&self, whole: Whole<'_>) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        let graph = whole.graph;
-        let slots = whole.analysis.asynchronous.slots.iter().map(|c| graph.connections[*c].to.node);
-        let clusters =
-            bits.dispatched().iter().map(|c| whole.analysis.clusters[*c].nodes.first().copied().unwrap_or(0));
+    fn used_up(&self, view: ProgramView<'_>) -> TokenStream {
+        let bits = &view.wiring.bits;
+        let graph = view.graph;
+        let slots = view.analysis.asynchronous.slots.iter().map(|c| graph.connections[*c].to.node);
+        let clusters = bits.dispatched().iter().map(|c| view.analysis.clusters[*c].nodes.first().copied().unwrap_or(0));
         let nodes = slots.chain(clusters).map(|n| self.index(n));
         quote! {
             if self.state.steps.is_used_up() {
@@ -312,10 +311,10 @@ impl Generator<'_> {
     }
 
     /// What is looked at again and again while a program reacts: timers, mailboxes, timeouts.
-    fn raises(&self, whole: Whole<'_>) -> TokenStream {
-        let bits = &whole.wiring.bits;
-        let Whole { graph, analysis, .. } = whole;
-        let mut raises = Raises { has_agenda: whole.wiring.has_agenda(), code: quote!(), timed: quote!() };
+    fn raises(&self, view: ProgramView<'_>) -> TokenStream {
+        let bits = &view.wiring.bits;
+        let ProgramView { graph, analysis, .. } = view;
+        let mut raises = Raises { has_agenda: view.wiring.has_agenda(), code: quote!(), timed: quote!() };
         for (node, bit) in bits.room() {
             let port = ident(&graph.nodes[*node].name);
             raises.always(quote! { if !self.events.#port.is_full() { self.state.dispatcher.raise(#bit); } });
@@ -330,36 +329,36 @@ impl Generator<'_> {
                 Guard::Timer(_) | Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
         }
-        raises.timed(self.timers_due(whole));
+        raises.timed(self.timers_due(view));
         for (id, node) in graph.nodes.iter().enumerate() {
-            if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !whole.links.sends[id].is_empty() {
-                raises.always(self.enter(whole, id));
+            if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !view.links.sends[id].is_empty() {
+                raises.always(self.enter(view, id));
             }
             match node.kind {
-                NodeKind::Sender(far) => raises.always(self.send_far(whole, id, far)),
-                NodeKind::Receiver(far) => raises.always(self.receive_far(whole, id, far)),
+                NodeKind::Sender(far) => raises.always(self.send_far(view, id, far)),
+                NodeKind::Receiver(far) => raises.always(self.receive_far(view, id, far)),
                 _ => {}
             }
-            if let Some(timeout) = whole.wiring.timeout(id).filter(|_| !whole.wiring.is_tabled) {
-                raises.timed(self.expires(whole, timeout));
+            if let Some(timeout) = view.wiring.timeout(id).filter(|_| !view.wiring.is_tabled) {
+                raises.timed(self.expires(view, timeout));
             }
         }
-        if whole.wiring.is_tabled {
-            raises.timed(self.all_expire(whole));
+        if view.wiring.is_tabled {
+            raises.timed(self.all_expire(view));
         }
         raises.finish()
     }
 
     /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
-    pub fn allows(&self, whole: Whole<'_>, free: &[usize]) -> TokenStream {
+    pub fn allows(&self, view: ProgramView<'_>, free: &[usize]) -> TokenStream {
         const MOST_STRAIGHT: usize = 4;
         let free = if free.len() > MOST_STRAIGHT {
-            let free = whole.wiring.bits.set(free);
-            quote!(&& self.state.dispatcher.holds(&#free))
+            let (ty, free) = (view.wiring.bits.set_type(), view.wiring.bits.set(free));
+            quote!(&& { const FREE: #ty = #free; self.state.dispatcher.holds(&FREE) })
         } else {
             quote!(#(&& self.state.dispatcher.has(#free))*)
         };
-        let budget = whole.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
+        let budget = view.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
         quote!(#free #budget)
     }
 }

@@ -1,14 +1,14 @@
 //! `each`: the body as a closure over the elements of a list.
 
 use super::{
-    activity::Whole,
+    activity::ProgramView,
     fire::Emitter,
     parallel::Local,
     plan::{BlockId, Storage},
     wiring::Wiring,
 };
 use crate::{
-    graph::{Each, End, Graph, NodeId, NodeKind},
+    graph::{Each, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -23,16 +23,16 @@ impl Emitter<'_> {
         let Some(analysis) = self.analysis.bodies.get(&node) else { return quote!() };
         let wiring = Wiring::new(&generator, body, analysis);
         let clusters: Vec<Emitter<'_>> = (0..analysis.clusters.len())
-            .map(|cluster| Emitter::new(&generator, Whole::new(body, analysis, &wiring), cluster))
+            .map(|cluster| Emitter::new(&generator, ProgramView::new(body, analysis, &wiring), cluster))
             .collect();
         let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());
         for (port, p) in self.graph.nodes[node].ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Input) {
-            let inside = generator.name(End { node: boundary(body, &p.name, PortKind::Input), port: 0 });
+            let inside = generator.name(PortId { node: boundary(body, &p.name, PortKind::Input), port: 0 });
             if port == each.list {
                 item = inside;
-            } else if p.optional || self.incoming(End { node, port }).is_some() {
-                let token = self.incoming(End { node, port }).map(|from| match p.optional {
+            } else if p.optional || self.incoming(PortId { node, port }).is_some() {
+                let token = self.incoming(PortId { node, port }).map(|from| match p.optional {
                     true => self.option(from, block),
                     false => self.reference(from, block),
                 });
@@ -40,7 +40,7 @@ impl Emitter<'_> {
                 bindings.extend(quote! { let #inside = #token; });
             }
         }
-        let Some(list) = self.incoming(End { node, port: each.list }).map(|from| self.reference(from, block)) else {
+        let Some(list) = self.incoming(PortId { node, port: each.list }).map(|from| self.reference(from, block)) else {
             return quote!();
         };
         let results: Vec<(syn::Ident, TokenStream, bool)> = self.graph.nodes[node]
@@ -50,7 +50,7 @@ impl Emitter<'_> {
             .filter(|(_, p)| p.kind == PortKind::Output)
             .map(|(port, p)| {
                 let (value, optional) = result(&clusters, boundary(body, &p.name, PortKind::Output));
-                (self.generator.name(End { node, port }), value, optional)
+                (self.generator.name(PortId { node, port }), value, optional)
             })
             .collect();
         let iteration = match results.as_slice() {
@@ -110,7 +110,7 @@ fn boundary(body: &Graph, name: &str, kind: PortKind) -> NodeId {
 /// What one element yields at an output, and whether that is an `Option`.
 fn result(clusters: &[Emitter<'_>], output: NodeId) -> (TokenStream, bool) {
     let found = clusters.iter().find(|c| c.analysis.clusters[c.cluster].nodes.contains(&output));
-    let Some((emitter, from)) = found.and_then(|c| Some((c, c.incoming(End { node: output, port: 0 })?))) else {
+    let Some((emitter, from)) = found.and_then(|c| Some((c, c.incoming(PortId { node: output, port: 0 })?))) else {
         return (quote!(None), true);
     };
     let name = emitter.generator.name(from);

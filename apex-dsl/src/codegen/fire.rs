@@ -2,15 +2,15 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     plan::{BlockId, Plan, Storage},
-    types::{ident, path, spell},
+    types::{ident, path, to_rust},
     wiring::Flag,
 };
 use crate::{
-    analyse::{Analysis, Block, Links, Step, is_told},
+    analyse::{Analysis, Block, Links, Step, handles_absence},
     catalog::{ArgSig, Signature},
-    graph::{End, Graph, Library, NodeId, NodeKind, Standard},
+    graph::{Graph, Library, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -19,7 +19,7 @@ use quote::{format_ident, quote, quote_spanned};
 /// Writes the code of one cluster.
 pub struct Emitter<'a> {
     pub generator: &'a Generator<'a>,
-    pub whole: Whole<'a>,
+    pub view: ProgramView<'a>,
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
     pub links: &'a Links,
@@ -29,22 +29,22 @@ pub struct Emitter<'a> {
 
 impl<'a> Emitter<'a> {
     /// An emitter for `cluster`.
-    pub fn new(generator: &'a Generator<'a>, whole: Whole<'a>, cluster: usize) -> Self {
-        let Whole { graph, analysis, links, .. } = whole;
+    pub fn new(generator: &'a Generator<'a>, view: ProgramView<'a>, cluster: usize) -> Self {
+        let ProgramView { graph, analysis, links, .. } = view;
         let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
-        Self { generator, whole, graph, analysis, links, plan, cluster }
+        Self { generator, view, graph, analysis, links, plan, cluster }
     }
 
     /// The cluster of a program: around what it does, events are emptied before and emitted when all is done.
     pub fn program_cluster(&self) -> TokenStream {
         let cluster = &self.analysis.clusters[self.cluster];
-        let clear = cluster.nodes.iter().map(|node| self.generator.clear_events(self.whole, *node));
+        let clear = cluster.nodes.iter().map(|node| self.generator.clear_events(self.view, *node));
         let code = self.cluster();
         let order = cluster.schedule();
         // A node that was skipped because of ⊥ took its tokens all the same (A1).
-        let take = order.iter().map(|node| self.generator.take_activity(self.whole, *node));
-        let emit = order.iter().map(|node| self.generator.emit(self.whole, *node, true));
-        let stamp = self.generator.stamp_of_firing(self.whole, self.cluster);
+        let take = order.iter().map(|node| self.generator.take_activity(self.view, *node));
+        let emit = order.iter().map(|node| self.generator.emit(self.view, *node, true));
+        let stamp = self.generator.stamp_of_firing(self.view, self.cluster);
         quote! { #stamp #(#clear)* #code #(#take)* #(#emit)* }
     }
 
@@ -60,12 +60,12 @@ impl<'a> Emitter<'a> {
     /// Tokens that wait in the program are taken when the cluster starts.
     fn read_first(&self, node: NodeId) -> TokenStream {
         let sends = self.graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output);
-        let Some(end) = sends.map(|port| End { node, port }) else { return quote!() };
+        let Some(end) = sends.map(|port| PortId { node, port }) else { return quote!() };
         let name = self.generator.name(end);
         match self.graph.nodes[node].kind {
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                let pass = self.whole.analysis.active.contains(&node).then(|| self.pass(node, 0));
+                let pass = self.view.analysis.active.contains(&node).then(|| self.pass(node, 0));
                 quote! { let #name = state.#held.take(); #pass }
             }
             NodeKind::Boundary(_) if !self.graph.is_body => {
@@ -85,7 +85,7 @@ impl<'a> Emitter<'a> {
             .map(|c| c.from);
         let asynchronous = self.links.sends[node].iter().map(|c| self.graph.connections[*c].from);
         let outputs = asynchronous.filter(|end| self.graph.port(*end).kind == PortKind::Output);
-        let mut ends: Vec<End> = to_others.chain(outputs).collect();
+        let mut ends: Vec<PortId> = to_others.chain(outputs).collect();
         ends.sort_unstable();
         ends.dedup();
         let stores = ends.into_iter().filter(|end| self.plan.storage(*end) != Storage::Buffer).map(|end| {
@@ -134,7 +134,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// A token that may be ⊥, where it is kept.
-    fn stored(&self, end: End) -> TokenStream {
+    fn stored(&self, end: PortId) -> TokenStream {
         let name = self.generator.name(end);
         match self.plan.storage(end) {
             Storage::Buffer => quote!(state.#name.get()),
@@ -145,7 +145,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// A token as `Option<&T>`.
-    pub fn option(&self, end: End, block: BlockId) -> TokenStream {
+    pub fn option(&self, end: PortId, block: BlockId) -> TokenStream {
         let name = self.generator.name(end);
         if self.plan.is_bound(end, block) || self.plan.storage(end) == Storage::Argument {
             return quote!(Some(#name));
@@ -160,12 +160,12 @@ impl<'a> Emitter<'a> {
     }
 
     /// A copy of a token, as `Option<T>`.
-    fn cloned(&self, end: End, block: BlockId) -> TokenStream {
+    fn cloned(&self, end: PortId, block: BlockId) -> TokenStream {
         self.generator.cloned(self.graph, end, &self.option(end, block))
     }
 
     /// A token that is there, as `&T`.
-    pub fn reference(&self, end: End, block: BlockId) -> TokenStream {
+    pub fn reference(&self, end: PortId, block: BlockId) -> TokenStream {
         let name = self.generator.name(end);
         if self.plan.is_bound(end, block) || self.plan.storage(end) == Storage::Argument {
             quote!(#name)
@@ -176,7 +176,7 @@ impl<'a> Emitter<'a> {
 
     /// A node fires: its tokens' activity counts before, and its own goes with what it sends.
     fn step(&self, node: NodeId, block: BlockId) -> TokenStream {
-        let (take, fire) = (self.generator.take_activity(self.whole, node), self.fire(node, block));
+        let (take, fire) = (self.generator.take_activity(self.view, node), self.fire(node, block));
         // A delay has sent its token before it takes one.
         let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
         let (heard, chosen) = (self.heard(node, block), self.chosen_outputs(node, block));
@@ -185,29 +185,29 @@ impl<'a> Emitter<'a> {
 
     /// A source whose silence is watched has sent something.
     fn heard(&self, node: NodeId, block: BlockId) -> TokenStream {
-        let watch = self.generator.watch_silence(self.whole, node);
+        let watch = self.generator.watch_silence(self.view, node);
         if watch.is_empty() {
             return watch;
         }
-        let ports = (0..self.graph.nodes[node].ports.len()).map(|port| End { node, port });
+        let ports = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let sent = ports.filter_map(|end| match self.graph.port(end).kind {
             PortKind::Output if self.plan.is_used(end) => {
                 let token = self.option(end, block);
                 Some(quote!(#token.is_some()))
             }
-            PortKind::Event if self.graph.port(end).standard.is_none() => self.generator.sent_event(self.whole, end),
+            PortKind::Event if self.graph.port(end).standard.is_none() => self.generator.sent_event(self.view, end),
             _ => None,
         });
         quote! { if false #(|| #sent)* { #watch } }
     }
 
     fn pass(&self, node: NodeId, block: BlockId) -> TokenStream {
-        self.generator.pass_activity(self.whole, node, &|end| match self.graph.port(end).kind {
+        self.generator.pass_activity(self.view, node, &|end| match self.graph.port(end).kind {
             PortKind::Output => {
                 let token = self.option(end, block);
                 Some(quote!(#token.is_some()))
             }
-            _ => self.generator.sent_event(self.whole, end),
+            _ => self.generator.sent_event(self.view, end),
         })
     }
 
@@ -220,14 +220,14 @@ impl<'a> Emitter<'a> {
             }
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                let token = self.incoming(End { node, port: 0 }).map(|from| self.cloned(from, block));
+                let token = self.incoming(PortId { node, port: 0 }).map(|from| self.cloned(from, block));
                 let token = token.unwrap_or_else(|| quote!(None));
-                let activity = self.generator.hold_activity(self.whole, node);
+                let activity = self.generator.hold_activity(self.view, node);
                 quote! { state.#held.put(#token); #activity }
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
-                let from = self.incoming(End { node, port: 0 });
+                let from = self.incoming(PortId { node, port: 0 });
                 let store = from.map(|from| {
                     let token = self.option(from, block);
                     self.generator.store(self.graph, from, &quote!(outputs.#port), &token)
@@ -235,8 +235,8 @@ impl<'a> Emitter<'a> {
                 store.unwrap_or_default()
             }
             NodeKind::Relay => {
-                let token = self.incoming(End { node, port: 0 }).map(|from| self.cloned(from, block));
-                let out = End { node, port: 1 };
+                let token = self.incoming(PortId { node, port: 0 }).map(|from| self.cloned(from, block));
+                let out = PortId { node, port: 1 };
                 // Nothing may ever come, which then says nothing of the type.
                 let token = token.unwrap_or_else(|| {
                     let ty = self.generator.token_type(self.graph, out);
@@ -245,7 +245,7 @@ impl<'a> Emitter<'a> {
                 self.bind(out, token, true)
             }
             NodeKind::Probe => {
-                let from = self.incoming(End { node, port: 0 });
+                let from = self.incoming(PortId { node, port: 0 });
                 from.map(|from| self.generator.see(self.graph, node, from, &self.option(from, block)))
                     .unwrap_or_default()
             }
@@ -254,11 +254,11 @@ impl<'a> Emitter<'a> {
     }
 
     /// Where the tokens of an input come from.
-    pub fn incoming(&self, to: End) -> Option<End> {
+    pub fn incoming(&self, to: PortId) -> Option<PortId> {
         self.connection(to).map(|c| self.graph.connections[c].from)
     }
 
-    fn connection(&self, to: End) -> Option<usize> {
+    fn connection(&self, to: PortId) -> Option<usize> {
         self.links.inputs[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
     }
 
@@ -268,7 +268,7 @@ impl<'a> Emitter<'a> {
         let params = self.set_params(node, signature, block);
         // Tokens at its parameters are all that a node without `process` takes.
         let Some(args) = &signature.process else { return params };
-        let told = is_told(self.graph, self.generator.catalog, node);
+        let told = handles_absence(self.graph, self.generator.catalog, node);
         let args: Vec<TokenStream> =
             args.iter().map(|arg| self.argument(node, library, signature, *arg, block, told)).collect();
         let call = if signature.is_function {
@@ -306,9 +306,9 @@ impl<'a> Emitter<'a> {
         told: bool,
     ) -> TokenStream {
         match arg {
-            ArgSig::Ctx => self.generator.context(self.whole, node),
+            ArgSig::Ctx => self.generator.context(self.view, node),
             ArgSig::Port(port) => {
-                let (end, p) = (End { node, port }, &signature.ports[port]);
+                let (end, p) = (PortId { node, port }, &signature.ports[port]);
                 match p.kind {
                     PortKind::Output => {
                         let name = self.generator.name(end);
@@ -326,7 +326,7 @@ impl<'a> Emitter<'a> {
                         Some(from) => self.judged(end, self.reference(from, block), false),
                         None => quote!(),
                     },
-                    PortKind::Event | PortKind::Slot => self.generator.event(self.whole, end),
+                    PortKind::Event | PortKind::Slot => self.generator.event(self.view, end),
                 }
             }
             ArgSig::Param(param) => match self.param_source(node, param) {
@@ -344,7 +344,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Lets rustc judge a connection whose types the scan could not compare.
-    fn judged(&self, to: End, token: TokenStream, optional: bool) -> TokenStream {
+    fn judged(&self, to: PortId, token: TokenStream, optional: bool) -> TokenStream {
         let Some(connection) = self.connection(to) else { return token };
         let Some(link) = self.generator.link(self.graph, connection) else { return token };
         let NodeKind::Library(library) = &self.graph.nodes[to.node].kind else { return token };
@@ -360,12 +360,12 @@ impl<'a> Emitter<'a> {
     }
 
     /// The token that arrives at a parameter port.
-    fn param_source(&self, node: NodeId, param: usize) -> Option<End> {
+    fn param_source(&self, node: NodeId, param: usize) -> Option<PortId> {
         let port = self.graph.nodes[node]
             .ports
             .iter()
             .position(|p| p.parameter == Some(param) && p.kind == PortKind::Input)?;
-        self.incoming(End { node, port })
+        self.incoming(PortId { node, port })
     }
 
     /// Tokens at parameter ports of a struct node are put into its fields first.
@@ -413,12 +413,12 @@ impl<'a> Emitter<'a> {
 
     /// A node that wants to be told of ⊥ is called in one way or the other.
     fn told(&self, node: NodeId, signature: &Signature, call: TokenStream, block: BlockId) -> TokenStream {
-        let mandatory: Vec<(End, &str)> = signature
+        let mandatory: Vec<(PortId, &str)> = signature
             .ports
             .iter()
             .enumerate()
             .filter(|(_, p)| p.kind == PortKind::Input && !p.optional)
-            .filter_map(|(port, p)| Some((self.incoming(End { node, port })?, p.name.as_str())))
+            .filter_map(|(port, p)| Some((self.incoming(PortId { node, port })?, p.name.as_str())))
             .collect();
         let names = mandatory.iter().map(|(_, name)| ident(&format!("token_{name}")));
         let tokens = mandatory.iter().map(|(from, _)| self.option(*from, block));
@@ -453,7 +453,7 @@ impl<'a> Emitter<'a> {
     fn buffers(&self, node: NodeId) -> Vec<syn::Ident> {
         let ports = 0..self.graph.nodes[node].ports.len();
         ports
-            .map(|port| End { node, port })
+            .map(|port| PortId { node, port })
             .filter(|end| super::plan::is_buffer(self.graph, self.generator.catalog, *end))
             .map(|end| self.generator.name(end))
             .collect()
@@ -487,7 +487,7 @@ impl<'a> Emitter<'a> {
             }
             optional = true;
         }
-        let outputs: Vec<(End, Option<&str>, bool)> = signature
+        let outputs: Vec<(PortId, Option<&str>, bool)> = signature
             .ports
             .iter()
             .enumerate()
@@ -495,7 +495,7 @@ impl<'a> Emitter<'a> {
                 p.kind == PortKind::Output
                     && !signature.process.as_ref().is_some_and(|args| args.contains(&ArgSig::Port(*port)))
             })
-            .map(|(port, p)| (End { node, port }, p.field.as_ref().map(|(_, name)| name.as_str()), p.optional))
+            .map(|(port, p)| (PortId { node, port }, p.field.as_ref().map(|(_, name)| name.as_str()), p.optional))
             .filter(|(end, ..)| self.plan.is_used(*end))
             .collect();
         let results = match outputs.as_slice() {
@@ -517,7 +517,7 @@ impl<'a> Emitter<'a> {
 
     /// `let name = value;`, or the assignment to a name declared further out. What is there for certain is used
     /// by reference in the rest of its own block; not what a node that may be disabled sends.
-    fn bind(&self, end: End, value: TokenStream, optional: bool) -> TokenStream {
+    fn bind(&self, end: PortId, value: TokenStream, optional: bool) -> TokenStream {
         let name = self.generator.name(end);
         match (self.plan.is_hoisted(end), optional) {
             (false, _) => quote! { let #name = #value; },
@@ -527,7 +527,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn bind_fields(&self, outputs: &[(End, Option<&str>, bool)], value: TokenStream, optional: bool) -> TokenStream {
+    fn bind_fields(&self, outputs: &[(PortId, Option<&str>, bool)], value: TokenStream, optional: bool) -> TokenStream {
         let fields = outputs.iter().map(|(end, field, port_optional)| {
             let field = ident(field.unwrap_or_default());
             let field_is_option = self.field_is_option(*end);
@@ -545,7 +545,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Whether the field itself is an `Option` (a port is optional also if the whole struct may be missing).
-    fn field_is_option(&self, end: End) -> bool {
+    fn field_is_option(&self, end: PortId) -> bool {
         let NodeKind::Library(library) = &self.graph.nodes[end.node].kind else { return false };
         let signature = &self.generator.catalog.signatures[library.signature];
         signature.ports[end.port].field_is_option
@@ -554,7 +554,7 @@ impl<'a> Emitter<'a> {
     /// Connected outputs of parameters: the value of this firing.
     fn param_outputs(&self, node: NodeId, library: &Library, signature: &Signature, block: BlockId) -> TokenStream {
         let ends = self.graph.nodes[node].ports.iter().enumerate().filter_map(|(port, p)| {
-            let end = End { node, port };
+            let end = PortId { node, port };
             (p.kind == PortKind::Output && self.plan.is_used(end)).then_some((end, p.parameter?))
         });
         let binds = ends.map(|(end, param)| {
@@ -566,7 +566,7 @@ impl<'a> Emitter<'a> {
                     }
                     None => {
                         let (ty, constant) = (
-                            spell(&signature.params[param].ty, self.generator.catalog),
+                            to_rust(&signature.params[param].ty, self.generator.catalog),
                             self.generator.param_value(self.graph, library, param),
                         );
                         ty.map_or(quote!(#constant), |ty| quote!({ let value: #ty = #constant; value }))

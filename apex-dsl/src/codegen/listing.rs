@@ -2,7 +2,7 @@
 
 use super::{
     Generator,
-    activity::{Carries, Whole},
+    activity::{Carries, ProgramView},
     each_part,
     wiring::{Flag, Port, Slot, Timeout},
 };
@@ -30,14 +30,14 @@ impl Lines {
 pub fn listing(program: &Program, catalog: &Catalog, sources: &Sources) -> String {
     let mut lines = Lines::default();
     lines.add(0, &format!("program {}", program.graph.name));
-    each_part(program, catalog, sources, &mut |generator, whole, part| {
+    each_part(program, catalog, sources, &mut |generator, view, part| {
         if let Some(part) = part {
             lines.add(0, &format!("thread {}", part.group));
         }
-        generator.list_state(&mut lines, whole);
-        generator.list_clusters(&mut lines, whole);
-        generator.list_slots(&mut lines, whole);
-        generator.list_timers(&mut lines, whole);
+        generator.list_state(&mut lines, view);
+        generator.list_clusters(&mut lines, view);
+        generator.list_slots(&mut lines, view);
+        generator.list_timers(&mut lines, view);
     });
     lines.0
 }
@@ -48,8 +48,8 @@ fn numbers(numbers: impl IntoIterator<Item = usize>) -> String {
 }
 
 impl Generator<'_> {
-    fn list_state(&self, lines: &mut Lines, whole: Whole<'_>) {
-        let state = self.state(whole);
+    fn list_state(&self, lines: &mut Lines, view: ProgramView<'_>) {
+        let state = self.state(view);
         if !state.is_empty() {
             lines.add(1, "state");
         }
@@ -58,8 +58,8 @@ impl Generator<'_> {
             let kind = format!("{kind:?}").to_lowercase();
             lines.add(2, &format!("{place}: {kind} {of}"));
         }
-        let guard = |guard: usize| whole.analysis.guards[guard].text(whole.graph);
-        let conditions = whole.wiring.bits.texts(whole.graph, &whole.wiring.clusters, &guard);
+        let guard = |guard: usize| view.analysis.guards[guard].text(view.graph);
+        let conditions = view.wiring.bits.texts(view.graph, &view.wiring.clusters, &guard);
         if !conditions.is_empty() {
             lines.add(1, "conditions");
         }
@@ -68,30 +68,30 @@ impl Generator<'_> {
         }
     }
 
-    fn list_clusters(&self, lines: &mut Lines, whole: Whole<'_>) {
-        for (index, cluster) in whole.analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires) {
-            let guards = cluster.own_guards.iter().map(|guard| whole.analysis.guards[*guard].text(whole.graph));
+    fn list_clusters(&self, lines: &mut Lines, view: ProgramView<'_>) {
+        for (index, cluster) in view.analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires) {
+            let guards = cluster.own_guards.iter().map(|guard| view.analysis.guards[*guard].text(view.graph));
             let when: Vec<String> = guards.chain((!cluster.upstream.is_empty()).then(|| "tokens".to_owned())).collect();
-            lines.add(1, &format!("cluster {}: {}", whole.wiring.clusters[index], when.join(", ")));
-            self.list_block(lines, whole, &cluster.block, 2);
+            lines.add(1, &format!("cluster {}: {}", view.wiring.clusters[index], when.join(", ")));
+            self.list_block(lines, view, &cluster.block, 2);
         }
     }
 
-    fn list_block(&self, lines: &mut Lines, whole: Whole<'_>, block: &Block, depth: usize) {
+    fn list_block(&self, lines: &mut Lines, view: ProgramView<'_>, block: &Block, depth: usize) {
         for step in &block.steps {
             match step {
                 Step::Fire(node) => {
-                    let times = match whole.analysis.repetitions.get(*node) {
+                    let times = match view.analysis.repetitions.get(*node) {
                         Some(&count) if count > 1 => format!(", {count} times"),
                         _ => String::new(),
                     };
-                    lines.add(depth, &format!("fire {}{times}", whole.graph.path(*node)));
-                    self.list_ports(lines, whole, *node, depth + 1, |_| true);
+                    lines.add(depth, &format!("fire {}{times}", view.graph.path(*node)));
+                    self.list_ports(lines, view, *node, depth + 1, |_| true);
                 }
                 Step::Block(inner) => {
                     let tokens: Vec<String> = inner.opens.iter().map(|end| self.name(*end).to_string()).collect();
                     lines.add(depth, &format!("if {}", tokens.join(" and ")));
-                    self.list_block(lines, whole, inner, depth + 1);
+                    self.list_block(lines, view, inner, depth + 1);
                 }
             }
         }
@@ -101,70 +101,70 @@ impl Generator<'_> {
     fn list_ports(
         &self,
         lines: &mut Lines,
-        whole: Whole<'_>,
+        view: ProgramView<'_>,
         node: NodeId,
         depth: usize,
         sends: impl Fn(PortKind) -> bool,
     ) {
-        for port in whole.wiring.of(node).iter().filter(|port| sends(whole.graph.port(port.end).kind)) {
+        for port in view.wiring.of(node).iter().filter(|port| sends(view.graph.port(port.end).kind)) {
             lines.add(depth, &format!("if {}", self.name(port.end)));
-            for effect in effects(whole, port) {
+            for effect in effects(view, port) {
                 lines.add(depth + 1, &effect);
             }
         }
     }
 
-    fn list_slots(&self, lines: &mut Lines, whole: Whole<'_>) {
-        let served = if whole.wiring.is_tabled { " (from tables)" } else { "" };
-        for (number, slot) in whole.wiring.slots.iter().enumerate() {
+    fn list_slots(&self, lines: &mut Lines, view: ProgramView<'_>) {
+        let served = if view.wiring.is_tabled { " (from tables)" } else { "" };
+        for (number, slot) in view.wiring.slots.iter().enumerate() {
             let Slot { name, connection, node, frees, carries, settles, needs } = slot;
-            lines.add(1, &format!("slot {number} {name}{served}: {}", whole.graph.connection_text(*connection)));
+            lines.add(1, &format!("slot {number} {name}{served}: {}", view.graph.connection_text(*connection)));
             if !needs.is_empty() {
                 lines.add(2, &format!("needs {}", numbers(needs.iter().copied())));
             }
             if let Some(bit) = frees {
                 lines.add(2, &format!("raise {bit}"));
             }
-            let node_name = whole.graph.path(*node);
+            let node_name = view.graph.path(*node);
             match carries {
                 Carries::Nothing => {}
                 Carries::Always => lines.add(2, &format!("activate {node_name}")),
                 Carries::Sometimes => lines.add(2, &format!("activate {node_name} if carries {number}")),
                 Carries::Away => lines.add(2, &format!("deactivate {node_name}")),
             }
-            let call = whole.graph.end_name(whole.graph.connections[*connection].to);
+            let call = view.graph.end_name(view.graph.connections[*connection].to);
             lines.add(2, &format!("call {call}"));
-            self.list_ports(lines, whole, *node, 2, |kind| kind == PortKind::Event);
+            self.list_ports(lines, view, *node, 2, |kind| kind == PortKind::Event);
             if let Some(row) = settles {
                 lines.add(2, &format!("settle row {row}"));
             }
         }
     }
 
-    fn list_timers(&self, lines: &mut Lines, whole: Whole<'_>) {
-        for (number, (node, bit)) in whole.wiring.timers.iter().enumerate() {
-            lines.add(1, &format!("timer {number} of {}: raises {bit}", whole.graph.path(*node)));
+    fn list_timers(&self, lines: &mut Lines, view: ProgramView<'_>) {
+        for (number, (node, bit)) in view.wiring.timers.iter().enumerate() {
+            lines.add(1, &format!("timer {number} of {}: raises {bit}", view.graph.path(*node)));
         }
-        for (number, Timeout { name, node, after, needs }) in whole.wiring.timeouts.iter().enumerate() {
+        for (number, Timeout { name, node, after, needs }) in view.wiring.timeouts.iter().enumerate() {
             let needs = if needs.is_empty() { String::new() } else { format!(", needs {}", numbers(needs.clone())) };
-            lines.add(1, &format!("timeout {number} {name}: {} active for {after:?}{needs}", whole.graph.path(*node)));
-            self.list_ports(lines, whole, *node, 2, |kind| kind == PortKind::Event);
+            lines.add(1, &format!("timeout {number} {name}: {} active for {after:?}{needs}", view.graph.path(*node)));
+            self.list_ports(lines, view, *node, 2, |kind| kind == PortKind::Event);
         }
     }
 }
 
 /// What a token at a port does besides being there.
-fn effects(whole: Whole<'_>, port: &Port) -> Vec<String> {
+fn effects(view: ProgramView<'_>, port: &Port) -> Vec<String> {
     let flag = |flag: &Flag| match *flag {
-        Flag::Active(node) => format!("active {}", whole.graph.path(node)),
-        Flag::Gains(node) => format!("gains {}", whole.graph.path(node)),
-        Flag::Loses(node) => format!("loses {}", whole.graph.path(node)),
-        Flag::Enabled(node) => format!("enabled {}", whole.graph.path(node)),
+        Flag::Active(node) => format!("active {}", view.graph.path(node)),
+        Flag::Gains(node) => format!("gains {}", view.graph.path(node)),
+        Flag::Loses(node) => format!("loses {}", view.graph.path(node)),
+        Flag::Enabled(node) => format!("enabled {}", view.graph.path(node)),
         Flag::Carries(slot) => format!("carries {slot}"),
     };
     let mut effects: Vec<String> = port.takes_away.iter().map(|set| format!("set {}", flag(set))).collect();
     if let Some(along) = &port.passes {
-        effects.push(format!("deactivate {}", whole.graph.path(port.end.node)));
+        effects.push(format!("deactivate {}", view.graph.path(port.end.node)));
         effects.extend(along.iter().map(|set| format!("set {} if it was active", flag(set))));
     }
     for send in &port.sends {

@@ -2,7 +2,7 @@
 
 use super::{
     condition::holds,
-    types::{constant, ident, spell},
+    types::{constant, ident, to_rust},
 };
 use crate::{
     catalog::{Catalog, Type},
@@ -76,7 +76,7 @@ fn states(machine: &Machine) -> Vec<Ident> {
 }
 
 fn token_type(ty: &Type, catalog: &Catalog) -> TokenStream {
-    spell(ty, catalog).unwrap_or_else(|| ty.to_string().parse().unwrap_or_default())
+    to_rust(ty, catalog).unwrap_or_else(|| ty.to_string().parse().unwrap_or_default())
 }
 
 /// The arguments for the events that a method may trigger.

@@ -2,7 +2,7 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     cells::cell_name,
     each_part,
     program::{Field, boundaries},
@@ -28,9 +28,9 @@ pub struct Piece {
 pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
     let graph = &program.graph;
     let mut pieces = vec![];
-    each_part(program, catalog, sources, &mut |generator, whole, part| {
+    each_part(program, catalog, sources, &mut |generator, view, part| {
         let place = part.map(|part| format!("{}.", part_name(part))).unwrap_or_default();
-        let own = generator.pieces(whole).into_iter();
+        let own = generator.pieces(view).into_iter();
         pieces.extend(own.map(|piece| Piece { place: format!("{place}{}", piece.place), ..piece }));
     });
     let cells = program.split.iter().flat_map(|split| split.cells.iter().map(move |cell| (split, cell)));
@@ -49,8 +49,8 @@ const KINDS: [&str; 9] = ["nodes", "ports", "tokens", "timers", "activity", "sta
 
 impl Generator<'_> {
     /// The pieces of a program on one thread, or of what runs on one of several.
-    fn pieces(&self, whole: Whole<'_>) -> Vec<Piece> {
-        let Whole { graph, analysis, .. } = whole;
+    fn pieces(&self, view: ProgramView<'_>) -> Vec<Piece> {
+        let ProgramView { graph, analysis, .. } = view;
         let mut fields = BTreeMap::new();
         self.node_fields(graph, analysis, &mut fields, &mut vec![]);
         let mut pieces = vec![];
@@ -66,7 +66,7 @@ impl Generator<'_> {
                 Piece { what: "ports", of: name.clone(), place: format!("{place}.{}", ident(name)) }
             }));
         }
-        let mut state = self.state(whole);
+        let mut state = self.state(view);
         state.sort_by_key(|kept| kept.kind);
         for kept in &state {
             pieces.extend(kept.places().map(|(place, of)| Piece {

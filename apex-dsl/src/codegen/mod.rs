@@ -47,7 +47,7 @@ use crate::{
     source::{Sources, Span},
     threads::{Cell, Part},
 };
-use activity::Whole;
+use activity::ProgramView;
 use bugs::Bugs;
 use names::Names;
 use proc_macro2::TokenStream;
@@ -126,7 +126,7 @@ fn each_part(
     program: &Program,
     catalog: &Catalog,
     sources: &Sources,
-    visit: &mut dyn FnMut(&Generator<'_>, Whole<'_>, Option<&Part>),
+    visit: &mut dyn FnMut(&Generator<'_>, ProgramView<'_>, Option<&Part>),
 ) {
     let graph = &program.graph;
     let mut used = BTreeSet::new();
@@ -148,13 +148,13 @@ fn each_part(
     };
     let Some(split) = &program.split else {
         let wiring = Wiring::new(&generator, graph, &program.analysis);
-        return visit(&generator, Whole::new(graph, &program.analysis, &wiring), None);
+        return visit(&generator, ProgramView::new(graph, &program.analysis, &wiring), None);
     };
     for (part, number) in split.parts.iter().zip(names.count()..) {
         let names = names.of_part(part, number, &mut used);
         let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
         let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
-        visit(&generator, Whole::new(&part.graph, &part.analysis, &wiring), Some(part));
+        visit(&generator, ProgramView::new(&part.graph, &part.analysis, &wiring), Some(part));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Generator, types::ident};
 use crate::{
-    graph::{End, Graph, Node, NodeId, NodeKind},
+    graph::{Graph, Node, NodeId, NodeKind, PortId},
     threads::{Origin, Part},
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +15,7 @@ pub struct Names {
     pub number: usize,
     /// The number of each node in the table of all nodes.
     pub numbers: Vec<usize>,
-    tokens: BTreeMap<End, String>,
+    tokens: BTreeMap<PortId, String>,
     /// Where delays hold tokens back.
     held: BTreeMap<NodeId, String>,
     /// Where delays keep the activity of these tokens.
@@ -50,7 +50,7 @@ impl Names {
         for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
             let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
             let name = if plain { path.to_owned() } else { format!("{path}_{}", p.name) };
-            self.tokens.insert(End { node, port }, local(name, used));
+            self.tokens.insert(PortId { node, port }, local(name, used));
         }
         if let NodeKind::Delay(_) = &n.kind {
             self.held.insert(node, local(format!("{path}_held"), used));
@@ -69,8 +69,9 @@ impl Names {
                 continue;
             };
             names.numbers.push(self.numbers[origin]);
-            let tokens = self.tokens.range(End { node: origin, port: 0 }..).take_while(|(end, _)| end.node == origin);
-            names.tokens.extend(tokens.map(|(end, name)| (End { node, port: end.port }, name.clone())));
+            let tokens =
+                self.tokens.range(PortId { node: origin, port: 0 }..).take_while(|(end, _)| end.node == origin);
+            names.tokens.extend(tokens.map(|(end, name)| (PortId { node, port: end.port }, name.clone())));
             names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
             names.held_activity.extend(self.held_activity.get(&origin).map(|name| (node, name.clone())));
             names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
@@ -136,7 +137,7 @@ impl Generator<'_> {
     }
 
     /// The name of a token.
-    pub fn name(&self, end: End) -> Ident {
+    pub fn name(&self, end: PortId) -> Ident {
         self.names.tokens.get(&end).map_or_else(|| self.nameless("a token"), |name| ident(name))
     }
 

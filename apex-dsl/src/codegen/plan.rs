@@ -2,9 +2,9 @@
 //! further out if somebody does, in the program's state if a node writes it in place.
 
 use crate::{
-    analyse::{Analysis, Block, Links, Step, is_mandatory, is_told, may_be_missing},
+    analyse::{Analysis, Block, Links, Step, handles_absence, is_mandatory, may_be_missing},
     catalog::{ArgSig, Catalog},
-    graph::{End, Graph, NodeKind},
+    graph::{Graph, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,18 +33,18 @@ pub type BlockId = usize;
 pub struct Plan {
     parents: Vec<BlockId>,
     /// The block in which a token comes into being.
-    home: BTreeMap<End, BlockId>,
+    home: BTreeMap<PortId, BlockId>,
     /// The block in which it must be known: the innermost one around its origin and all its uses.
-    pub declared: BTreeMap<End, BlockId>,
+    pub declared: BTreeMap<PortId, BlockId>,
     /// The tokens whose presence a block tests, and which it gives names to.
-    pub tests: Vec<Vec<End>>,
-    storage: BTreeMap<End, Storage>,
+    pub tests: Vec<Vec<PortId>>,
+    storage: BTreeMap<PortId, Storage>,
     /// Tokens of nodes that can be disabled: they are declared outside the test of that.
-    gated: BTreeSet<End>,
+    gated: BTreeSet<PortId>,
 }
 
 /// Whether a node has its token written in place.
-pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: End) -> bool {
+pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: PortId) -> bool {
     match &graph.nodes[end.node].kind {
         NodeKind::Library(library) => {
             let args = catalog.signatures[library.signature].process.as_deref().unwrap_or_default();
@@ -57,7 +57,7 @@ pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: End) -> bool {
 }
 
 /// How a token is kept, seen from its own cluster.
-pub fn storage(graph: &Graph, catalog: &Catalog, end: End) -> Storage {
+pub fn storage(graph: &Graph, catalog: &Catalog, end: PortId) -> Storage {
     match graph.nodes[end.node].kind {
         _ if is_buffer(graph, catalog, end) => Storage::Buffer,
         NodeKind::Boundary(_) if graph.is_body && graph.port(end).optional => Storage::MaybeArgument,
@@ -91,16 +91,16 @@ impl Plan {
                 .enumerate()
                 .filter(|(_, p)| p.kind == PortKind::Output || p.kind == PortKind::Event && read_first)
             {
-                plan.home.insert(End { node, port }, home);
+                plan.home.insert(PortId { node, port }, home);
             }
         }
         for end in plan.home.keys() {
             plan.storage.insert(*end, storage(graph, catalog, *end));
         }
         plan.gated = plan.home.keys().copied().filter(|end| graph.nodes[end.node].can_be_disabled()).collect();
-        let mut uses: Vec<(End, BlockId, bool)> = vec![];
+        let mut uses: Vec<(PortId, BlockId, bool)> = vec![];
         for (&node, &block) in &block_of {
-            let told = is_told(graph, catalog, node);
+            let told = handles_absence(graph, catalog, node);
             for &index in &links.inputs[node] {
                 let c = &graph.connections[index];
                 let writes = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
@@ -159,23 +159,23 @@ impl Plan {
     }
 
     /// How a token is kept.
-    pub fn storage(&self, end: End) -> Storage {
+    pub fn storage(&self, end: PortId) -> Storage {
         self.storage.get(&end).copied().unwrap_or(Storage::Outside)
     }
 
     /// Whether a local has to be declared as an `Option` before it comes into being.
-    pub fn is_hoisted(&self, end: End) -> bool {
+    pub fn is_hoisted(&self, end: PortId) -> bool {
         let moves = |declared: &BlockId| self.home.get(&end).is_some_and(|home| declared != home);
         self.declared.get(&end).is_some_and(|declared| moves(declared) || self.gated.contains(&end))
     }
 
     /// Whether somebody uses the token.
-    pub fn is_used(&self, end: End) -> bool {
+    pub fn is_used(&self, end: PortId) -> bool {
         self.declared.contains_key(&end)
     }
 
     /// Whether its name stands for a value that is there, not for an `Option`.
-    pub fn is_plain(&self, end: End) -> bool {
+    pub fn is_plain(&self, end: PortId) -> bool {
         match self.storage(end) {
             Storage::Argument => true,
             Storage::Local => !self.is_hoisted(end),
@@ -184,7 +184,7 @@ impl Plan {
     }
 
     /// Whether its name stands for a reference: a block around tests it, or it came into being there.
-    pub fn is_bound(&self, end: End, block: BlockId) -> bool {
+    pub fn is_bound(&self, end: PortId, block: BlockId) -> bool {
         let made_in = self.home.get(&end).filter(|_| self.storage(end) == Storage::Local && self.is_hoisted(end));
         let mut at = block;
         loop {
@@ -199,7 +199,7 @@ impl Plan {
     }
 
     /// Locals that have to be declared, and buffers that have to be emptied, when `block` begins.
-    pub fn hoisted_to(&self, block: BlockId) -> BTreeSet<End> {
+    pub fn hoisted_to(&self, block: BlockId) -> BTreeSet<PortId> {
         self.declared.iter().filter(|(end, at)| **at == block && self.is_hoisted(**end)).map(|(end, _)| *end).collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     names::unused,
     state,
     threads::{end_if_hung, group_info},
@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     analyse::{Analysis, Cluster},
-    graph::{End, Graph, Library, NodeId, NodeKind, camel},
+    graph::{Graph, Library, NodeId, NodeKind, PortId, camel},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -86,12 +86,12 @@ impl Generator<'_> {
     pub fn program(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
         let name = self.program_name(graph);
         let wiring = Wiring::new(self, graph, analysis);
-        let whole = Whole::new(graph, analysis, &wiring);
-        let items = self.items(whole);
-        let (own_react, react) = self.around(graph, self.react(whole), &quote!(self));
+        let view = ProgramView::new(graph, analysis, &wiring);
+        let items = self.items(view);
+        let (own_react, react) = self.around(graph, self.react(view), &quote!(self));
         let recording = self.recording(graph);
-        let (is_active, is_graph_active) = (self.is_active(whole), self.is_graph_active(whole));
-        let waiting = self.waiting(whole);
+        let (is_active, is_graph_active) = (self.is_active(view), self.is_graph_active(view));
+        let waiting = self.waiting(view);
         let clusters: Vec<Vec<NodeId>> = analysis.clusters.iter().map(Cluster::schedule).collect();
         // A single thread is only mentioned if something is said about it.
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
@@ -130,14 +130,14 @@ impl Generator<'_> {
 
     /// The struct of a program or of a part of one, with all that it consists of, and the functions that fire its clusters and
     /// serve its slots.
-    pub fn items(&self, whole: Whole<'_>) -> TokenStream {
-        let Whole { graph, analysis, .. } = whole;
+    pub fn items(&self, view: ProgramView<'_>) -> TokenStream {
+        let ProgramView { graph, analysis, .. } = view;
         let name = self.program_name(graph);
         let (mut fields, mut handed_in) = (BTreeMap::new(), vec![]);
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
         let nodes = node_structs(&self.item(graph, "Nodes"), &name, &fields, false);
         let state =
-            Struct::new(&self.item(graph, "State"), "Tokens, activity and timers.", &state::fields(&self.state(whole)));
+            Struct::new(&self.item(graph, "State"), "Tokens, activity and timers.", &state::fields(&self.state(view)));
         let ports = self.port_structs(graph);
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
         let parts = self.parts_struct(graph, &handed_in);
@@ -156,8 +156,8 @@ impl Generator<'_> {
         let all = [nodes, state, inputs, outputs, events];
         let (types, makes, items) =
             (all.iter().map(|s| &s.ty), all.iter().map(|s| &s.make), all.iter().map(|s| &s.item));
-        let clusters = self.clusters(whole);
-        let (dispatcher, claims) = (self.dispatcher(whole), self.claim_function(whole));
+        let clusters = self.clusters(view);
+        let (dispatcher, claims) = (self.dispatcher(view), self.claim_function(view));
         let witnesses = self.witnesses(graph);
         let inner = around_text();
         quote! {
@@ -179,10 +179,10 @@ impl Generator<'_> {
     }
 
     /// Type of the struct of nodes.
-    pub fn nodes_type(&self, whole: Whole<'_>) -> TokenStream {
+    pub fn nodes_type(&self, view: ProgramView<'_>) -> TokenStream {
         let (mut fields, mut handed_in) = (BTreeMap::new(), vec![]);
-        self.node_fields(whole.graph, whole.analysis, &mut fields, &mut handed_in);
-        let name = self.item(whole.graph, "Nodes");
+        self.node_fields(view.graph, view.analysis, &mut fields, &mut handed_in);
+        let name = self.item(view.graph, "Nodes");
         if fields.is_empty() { quote!(()) } else { quote!(#name) }
     }
 
@@ -191,7 +191,7 @@ impl Generator<'_> {
         let inner = around_text();
         let of = |is_meant: &dyn Fn(PortKind) -> bool| -> Vec<(Ident, TokenStream)> {
             let ports = boundaries(graph, is_meant).into_iter();
-            ports.map(|n| (ident(&graph.nodes[n].name), self.token_type(graph, End { node: n, port: 0 }))).collect()
+            ports.map(|n| (ident(&graph.nodes[n].name), self.token_type(graph, PortId { node: n, port: 0 }))).collect()
         };
         let mailboxes = |ports: Vec<(Ident, TokenStream)>| -> Vec<(TokenStream, TokenStream)> {
             let field =
@@ -201,7 +201,7 @@ impl Generator<'_> {
         let outputs = of(&|kind| kind == PortKind::Output).into_iter();
         let outputs = outputs.map(|(name, ty)| (quote!(pub #name: ::core::option::Option<#ty>), quote!(#name: None)));
         let probes = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).map(|n| {
-            let (name, ty) = (self.probe(n), self.token_type(graph, End { node: n, port: 0 }));
+            let (name, ty) = (self.probe(n), self.token_type(graph, PortId { node: n, port: 0 }));
             let make = quote!(#name: ::apex_rt::testing::Probe::new());
             (quote!(#inner #name: ::apex_rt::testing::Probe<#ty>), make)
         });
@@ -314,11 +314,11 @@ impl Generator<'_> {
     }
 
     /// Whether a node is active, by its index.
-    pub fn is_active(&self, whole: Whole<'_>) -> TokenStream {
-        if whole.analysis.active.is_empty() {
+    pub fn is_active(&self, view: ProgramView<'_>) -> TokenStream {
+        if view.analysis.active.is_empty() {
             return quote!();
         }
-        if whole.analysis.active.iter().all(|node| whole.graph.nodes[*node].is_delay()) {
+        if view.analysis.active.iter().all(|node| view.graph.nodes[*node].is_delay()) {
             return quote!();
         }
         quote! { fn is_active(&self, node: usize) -> bool { self.state.active.has(node) } }
@@ -385,7 +385,7 @@ fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
         NodeKind::Relay => "relay".to_owned(),
         NodeKind::Probe => "probe".to_owned(),
         NodeKind::Start => "start".to_owned(),
-        NodeKind::Hung => "hung".to_owned(),
+        NodeKind::Watchdog => "hung".to_owned(),
         NodeKind::Exit(_) => "exit".to_owned(),
         NodeKind::Reset => "reset".to_owned(),
         NodeKind::Sender(_) | NodeKind::Receiver(_) => "cell".to_owned(),

@@ -6,9 +6,9 @@ use super::{
     types::{ident, path},
 };
 use crate::{
-    analyse::{Analysis, Links, is_told},
+    analyse::{Analysis, Links, handles_absence},
     catalog::{ArgSig, Signature},
-    graph::{End, Graph, Library, NodeId, NodeKind},
+    graph::{Graph, Library, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -28,7 +28,7 @@ impl Generator<'_> {
             outputs
                 .filter(move |(port, _)| links.out_of[node].iter().any(|c| graph.connections[*c].from.port == *port))
                 .map(move |(port, p)| {
-                    let (name, size) = (self.name(End { node, port }), count * p.rate);
+                    let (name, size) = (self.name(PortId { node, port }), count * p.rate);
                     quote! { let mut #name = ::core::array::from_fn::<_, #size, _>(|_| None); }
                 })
         });
@@ -41,14 +41,14 @@ impl Generator<'_> {
         let n = &graph.nodes[node];
         match n.kind {
             NodeKind::Delay(_) => {
-                let (name, held) = (self.name(End { node, port: 1 }), self.held(node));
+                let (name, held) = (self.name(PortId { node, port: 1 }), self.held(node));
                 let count = analysis.repetitions[node] as usize;
                 let is_used = !analysis.links.out_of[node].is_empty();
                 let keep = if is_used { quote!(#name[i] =) } else { quote!(let _ =) };
                 quote! { for i in 0..#count { #keep state.#held.take_at(i); } }
             }
             NodeKind::Boundary(PortKind::Input) => {
-                let (name, port) = (self.name(End { node, port: 0 }), ident(&n.name));
+                let (name, port) = (self.name(PortId { node, port: 0 }), ident(&n.name));
                 quote! { #name[0] = inputs.#port.take(); }
             }
             _ => quote!(),
@@ -101,7 +101,7 @@ impl Generator<'_> {
         node: NodeId,
         library: &Library,
         signature: &Signature,
-        from: &dyn Fn(usize) -> Option<End>,
+        from: &dyn Fn(usize) -> Option<PortId>,
     ) -> TokenStream {
         let Some(args) = &signature.process else { return quote!() };
         let index = self.index(node);
@@ -133,7 +133,7 @@ impl Generator<'_> {
                             quote!(#name)
                         }
                         (PortKind::Output, _) => {
-                            let name = self.name(End { node, port });
+                            let name = self.name(PortId { node, port });
                             quote!(state.#name.begin())
                         }
                         _ => quote!(::apex_rt::Event::unconnected()),
@@ -150,7 +150,7 @@ impl Generator<'_> {
         };
         let sends = self.sends_at_rate(graph, links, node, library, call);
         let sends = self.recorded_at_rate(graph, node, sends);
-        let told = if is_told(graph, self.catalog, node) {
+        let told = if handles_absence(graph, self.catalog, node) {
             let (place, method) =
                 (self.node_place(graph, node), ident(signature.no_message.as_deref().unwrap_or_default()));
             quote! { else { observer.fired(#index); #place.#method(); observer.finished(#index); } }
@@ -183,7 +183,7 @@ impl Generator<'_> {
             (false, false) => quote!(Some(#call)),
         };
         // What a node wrote in place before it failed counts for nothing.
-        let written = (0..signature.ports.len()).map(|port| End { node, port });
+        let written = (0..signature.ports.len()).map(|port| PortId { node, port });
         let written = written.filter(|end| failing && super::plan::is_buffer(graph, self.catalog, *end));
         let clears: Vec<_> = written.map(|end| self.name(end)).collect();
         let clear = (!clears.is_empty()).then(|| quote! { if sent.is_none() { #(state.#clears.clear();)* } });
@@ -191,9 +191,9 @@ impl Generator<'_> {
         let outputs = (0..signature.ports.len()).filter(|p| signature.ports[*p].kind == PortKind::Output).filter(used);
         let mut puts = quote!();
         for port in outputs {
-            let (name, p) = (self.name(End { node, port }), &signature.ports[port]);
-            let token = if super::plan::is_buffer(graph, self.catalog, End { node, port }) {
-                self.cloned(graph, End { node, port }, &quote!(state.#name.get()))
+            let (name, p) = (self.name(PortId { node, port }), &signature.ports[port]);
+            let token = if super::plan::is_buffer(graph, self.catalog, PortId { node, port }) {
+                self.cloned(graph, PortId { node, port }, &quote!(state.#name.get()))
             } else if let Some((_, field)) = &p.field {
                 let field = ident(field);
                 if p.field_is_option {

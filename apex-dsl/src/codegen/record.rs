@@ -11,7 +11,7 @@ use super::{
 use crate::{
     analyse::{Analysis, Links, is_source},
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind, Standard},
+    graph::{Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
     threads::Part,
 };
@@ -31,10 +31,10 @@ enum Role {
 /// The ports of a program that are recorded, each with the number of its channel.
 #[derive(Debug, Default)]
 pub struct Channels {
-    rows: Vec<(End, Role)>,
+    rows: Vec<(PortId, Role)>,
     /// The groups of threads, if there are several.
     groups: Vec<String>,
-    numbers: BTreeMap<End, usize>,
+    numbers: BTreeMap<PortId, usize>,
 }
 
 impl Channels {
@@ -44,10 +44,10 @@ impl Channels {
         let mut channels = Self { groups, ..Self::default() };
         let comes_in = |kind| matches!(kind, PortKind::Input | PortKind::Slot);
         for node in boundaries(graph, comes_in) {
-            channels.add(End { node, port: 0 }, Role::Mailbox);
+            channels.add(PortId { node, port: 0 }, Role::Mailbox);
         }
         for node in boundaries(graph, |kind| kind == PortKind::Event) {
-            channels.add(End { node, port: 0 }, Role::Event);
+            channels.add(PortId { node, port: 0 }, Role::Event);
         }
         for node in (0..graph.nodes.len()).filter(|n| is_recorded(graph, analysis, catalog, *n)) {
             for end in source_ports(graph, &analysis.links, node) {
@@ -60,7 +60,7 @@ impl Channels {
         channels
     }
 
-    fn add(&mut self, end: End, role: Role) {
+    fn add(&mut self, end: PortId, role: Role) {
         if let std::collections::btree_map::Entry::Vacant(entry) = self.numbers.entry(end) {
             entry.insert(self.rows.len());
             self.rows.push((end, role));
@@ -73,7 +73,7 @@ impl Channels {
         self.groups.iter().position(|g| g == group).unwrap_or(0)
     }
 
-    fn number(&self, end: End, role: Role) -> Option<usize> {
+    fn number(&self, end: PortId, role: Role) -> Option<usize> {
         self.numbers.get(&end).copied().filter(|number| self.rows[*number].1 == role)
     }
 }
@@ -84,21 +84,21 @@ fn is_recorded(graph: &Graph, analysis: &Analysis, catalog: &Catalog, node: Node
 }
 
 /// The ports by which a source itself sends to somebody.
-fn source_ports<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = End> + 'a {
-    let sends = move |end: &End| {
+fn source_ports<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = PortId> + 'a {
+    let sends = move |end: &PortId| {
         let all = links.out_of[node].iter().chain(&links.sends[node]);
         all.map(|c| graph.connections[*c].from).any(|from| from == *end)
     };
-    let own = move |end: &End| {
+    let own = move |end: &PortId| {
         let port = graph.port(*end);
         port.kind.sends() && port.parameter.is_none() && matches!(port.standard, None | Some(Standard::Failed))
     };
-    (0..graph.nodes[node].ports.len()).map(move |port| End { node, port }).filter(own).filter(sends)
+    (0..graph.nodes[node].ports.len()).map(move |port| PortId { node, port }).filter(own).filter(sends)
 }
 
 impl Generator<'_> {
     /// The channel of a port, if it has this role.
-    fn channel(&self, end: End, role: Role) -> Option<usize> {
+    fn channel(&self, end: PortId, role: Role) -> Option<usize> {
         let end = match self.part {
             Some((_, part)) => part.node(end)?,
             None => end,
@@ -107,7 +107,7 @@ impl Generator<'_> {
     }
 
     /// How the tokens of a port are recorded.
-    fn codec(&self, graph: &Graph, end: End) -> TokenStream {
+    fn codec(&self, graph: &Graph, end: PortId) -> TokenStream {
         let ty = self.token_type(graph, end);
         quote!(::apex_rt::__codec!(#ty))
     }
@@ -198,9 +198,9 @@ impl Generator<'_> {
     }
 
     /// The number of a source's port, of those that are recorded.
-    fn sources(&self, graph: &Graph, node: NodeId) -> Vec<(End, usize)> {
-        let ends = (0..graph.nodes[node].ports.len()).map(|port| End { node, port });
-        let number = |end: End| self.channel(end, Role::Source);
+    fn sources(&self, graph: &Graph, node: NodeId) -> Vec<(PortId, usize)> {
+        let ends = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
+        let number = |end: PortId| self.channel(end, Role::Source);
         ends.filter_map(|end| Some((end, number(end)?))).collect()
     }
 
@@ -234,7 +234,7 @@ impl Generator<'_> {
 
     /// What a node of a region with several rates sends in its firing number `i`, into arrays.
     pub fn recorded_at_rate(&self, graph: &Graph, node: NodeId, sends: TokenStream) -> TokenStream {
-        let places = |end: End| {
+        let places = |end: PortId| {
             let (name, rate) = (self.name(end), graph.port(end).rate);
             quote!(#name[i * #rate..(i + 1) * #rate])
         };
@@ -249,7 +249,7 @@ impl Generator<'_> {
                 )
             })
             .unzip();
-        let chosen = (0..graph.nodes[node].ports.len()).map(|port| End { node, port }).filter_map(|end| {
+        let chosen = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port }).filter_map(|end| {
             let number = self.channel(end, Role::Chosen)?;
             let (codec, places) = (self.codec(graph, end), places(end));
             Some(quote! { for place in &#places { tap.token(#number, #codec, place.as_ref()); } })
@@ -272,7 +272,7 @@ impl Generator<'_> {
     }
 
     /// An event that was chosen is recorded when it is sent.
-    pub fn chosen_event(&self, graph: &Graph, end: End) -> TokenStream {
+    pub fn chosen_event(&self, graph: &Graph, end: PortId) -> TokenStream {
         let Some(number) = self.channel(end, Role::Chosen) else { return quote!() };
         if graph.port(end).kind != PortKind::Event {
             return quote!();
@@ -285,8 +285,8 @@ impl Generator<'_> {
 impl Emitter<'_> {
     /// The outputs of a node that were chosen are recorded when it has fired.
     pub fn chosen_outputs(&self, node: NodeId, block: BlockId) -> TokenStream {
-        let ends = (0..self.graph.nodes[node].ports.len()).map(|port| End { node, port });
-        let number = |end: End| self.generator.channel(end, Role::Chosen);
+        let ends = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
+        let number = |end: PortId| self.generator.channel(end, Role::Chosen);
         let tokens: TokenStream = ends
             .filter(|end| self.graph.port(*end).kind == PortKind::Output)
             .filter_map(|end| Some((end, number(end)?)))
@@ -330,7 +330,7 @@ impl Emitter<'_> {
         }
     }
 
-    fn recorded_port(&self, end: End, number: usize, block: BlockId, code: &mut Recorded) {
+    fn recorded_port(&self, end: PortId, number: usize, block: BlockId, code: &mut Recorded) {
         let (graph, generator) = (self.graph, self.generator);
         let (name, codec) = (generator.name(end), generator.codec(graph, end));
         let is_event = graph.port(end).kind == PortKind::Event;

@@ -2,7 +2,7 @@
 
 use super::{
     Generator,
-    activity::{Carries, Whole},
+    activity::{Carries, ProgramView},
     clusters::inlined,
     plan::is_buffer,
     stamps,
@@ -12,54 +12,54 @@ use super::{
 use crate::{
     analyse::Delivery,
     catalog::{ArgSig, Signature},
-    graph::{End, Flow, Graph, Library, NodeId, NodeKind, Standard},
+    graph::{Flow, Graph, Library, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
 
 /// Where no queue says which tokens wait, the last slot that a token comes to takes it away.
-fn takes(whole: Whole<'_>, connection: usize) -> bool {
-    let from = whole.graph.connections[connection].from;
-    let same = |c: &&usize| whole.graph.connections[**c].from == from;
-    whole.analysis.asynchronous.delivery != Delivery::Queued
-        && whole.links.sends[from.node].iter().rfind(same) == Some(&connection)
+fn takes(view: ProgramView<'_>, connection: usize) -> bool {
+    let from = view.graph.connections[connection].from;
+    let same = |c: &&usize| view.graph.connections[**c].from == from;
+    view.analysis.asynchronous.delivery != Delivery::Queued
+        && view.links.sends[from.node].iter().rfind(same) == Some(&connection)
 }
 
 impl Generator<'_> {
     /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
     /// are queued, those for inputs lie there. A slot sends on events only.
-    pub fn emit(&self, whole: Whole<'_>, node: NodeId, by_process: bool) -> TokenStream {
-        self.emit_from(whole, node, &|end| by_process || whole.graph.port(end).kind == PortKind::Event)
+    pub fn emit(&self, view: ProgramView<'_>, node: NodeId, by_process: bool) -> TokenStream {
+        self.emit_from(view, node, &|end| by_process || view.graph.port(end).kind == PortKind::Event)
     }
 
     /// The same for the events that activity came, or went.
-    fn tell(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        self.emit_from(whole, node, &|end| whole.graph.port(end).tells_of_activity())
+    fn tell(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        self.emit_from(view, node, &|end| view.graph.port(end).tells_of_activity())
     }
 
-    fn emit_from(&self, whole: Whole<'_>, node: NodeId, wanted: &dyn Fn(End) -> bool) -> TokenStream {
-        let rows = whole.wiring.of(node).iter().filter(|port| wanted(port.end) && !port.sends.is_empty());
+    fn emit_from(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
+        let rows = view.wiring.of(node).iter().filter(|port| wanted(port.end) && !port.sends.is_empty());
         let ports = rows.map(|port| {
             let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
-            let always: TokenStream = always.into_iter().map(|send| self.sent(whole, send)).collect();
-            let sent = self.all_sent(whole, &sends);
-            let chosen = self.chosen_event(whole.graph, port.end);
+            let always: TokenStream = always.into_iter().map(|send| self.sent(view, send)).collect();
+            let sent = self.all_sent(view, &sends);
+            let chosen = self.chosen_event(view.graph, port.end);
             if sent.is_empty() && chosen.is_empty() {
                 return always;
             }
-            let present = self.waits(whole.graph, port.end);
+            let present = self.waits(view.graph, port.end);
             quote! { #always if #present { #chosen #sent } }
         });
         ports.collect()
     }
 
     /// A token goes off on each of several connections.
-    fn all_sent(&self, whole: Whole<'_>, sends: &[&Send]) -> TokenStream {
+    fn all_sent(&self, view: ProgramView<'_>, sends: &[&Send]) -> TokenStream {
         const MOST_STRAIGHT: usize = 4;
-        let is_plain = |send: &&Send| send.queued.is_some() && stamps::number(whole, send.connection).is_none();
+        let is_plain = |send: &&Send| send.queued.is_some() && stamps::number(view, send.connection).is_none();
         if sends.len() <= MOST_STRAIGHT || !sends.iter().all(is_plain) {
-            return sends.iter().map(|send| self.sent(whole, send)).collect();
+            return sends.iter().map(|send| self.sent(view, send)).collect();
         }
         let list = |numbers: &mut dyn Iterator<Item = usize>| {
             let numbers = numbers.map(Literal::usize_unsuffixed);
@@ -77,8 +77,8 @@ impl Generator<'_> {
     }
 
     /// A token goes off on a connection.
-    fn sent(&self, whole: Whole<'_>, send: &Send) -> TokenStream {
-        let stamp = self.stamp_sent(whole, send.connection);
+    fn sent(&self, view: ProgramView<'_>, send: &Send) -> TokenStream {
+        let stamp = self.stamp_sent(view, send.connection);
         let raised = send.raises.map(|bit| quote! { state.dispatcher.raise(#bit); });
         let queued = send.queued.map(|slot| {
             let slot = slot as u16;
@@ -90,7 +90,7 @@ impl Generator<'_> {
     }
 
     /// Whether a token lies in the program's state.
-    pub fn waits(&self, graph: &Graph, end: End) -> TokenStream {
+    pub fn waits(&self, graph: &Graph, end: PortId) -> TokenStream {
         let name = self.name(end);
         match is_buffer(graph, self.catalog, end) {
             true => quote!(state.#name.get().is_some()),
@@ -99,9 +99,9 @@ impl Generator<'_> {
     }
 
     /// Events of a node that are connected are empty before it may trigger them.
-    pub fn clear_events(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let ports = 0..whole.graph.nodes[node].ports.len();
-        let clears = ports.map(|port| End { node, port }).filter(|end| self.is_sent_event(whole, *end)).map(|end| {
+    pub fn clear_events(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let ports = 0..view.graph.nodes[node].ports.len();
+        let clears = ports.map(|port| PortId { node, port }).filter(|end| self.is_sent_event(view, *end)).map(|end| {
             let name = self.name(end);
             quote! { state.#name = None; }
         });
@@ -109,19 +109,19 @@ impl Generator<'_> {
     }
 
     /// Whether somebody listens to an event.
-    pub fn is_sent_event(&self, whole: Whole<'_>, end: End) -> bool {
-        whole.graph.port(end).kind == PortKind::Event
-            && whole.links.sends[end.node].iter().any(|c| whole.graph.connections[*c].from == end)
+    pub fn is_sent_event(&self, view: ProgramView<'_>, end: PortId) -> bool {
+        view.graph.port(end).kind == PortKind::Event
+            && view.links.sends[end.node].iter().any(|c| view.graph.connections[*c].from == end)
     }
 
     /// Whether an event that somebody listens to was triggered.
-    pub fn sent_event(&self, whole: Whole<'_>, end: End) -> Option<TokenStream> {
-        self.is_sent_event(whole, end).then(|| self.waits(whole.graph, end))
+    pub fn sent_event(&self, view: ProgramView<'_>, end: PortId) -> Option<TokenStream> {
+        self.is_sent_event(view, end).then(|| self.waits(view.graph, end))
     }
 
     /// An event as an argument.
-    pub fn event(&self, whole: Whole<'_>, end: End) -> TokenStream {
-        if self.is_sent_event(whole, end) {
+    pub fn event(&self, view: ProgramView<'_>, end: PortId) -> TokenStream {
+        if self.is_sent_event(view, end) {
             let name = self.name(end);
             quote!(::apex_rt::event(&mut state.#name))
         } else {
@@ -130,12 +130,12 @@ impl Generator<'_> {
     }
 
     /// One function for each connection to a slot.
-    pub fn slot_functions(&self, whole: Whole<'_>) -> TokenStream {
-        let slots = &whole.wiring.slots;
+    pub fn slot_functions(&self, view: ProgramView<'_>) -> TokenStream {
+        let slots = &view.wiring.slots;
         let inline = inlined(slots.len());
         let functions = slots.iter().enumerate().map(|(number, slot)| {
-            let (name, code) = (ident(&slot.name), self.slot(whole, number, slot));
-            let docs = self.docs_of_connection(whole.graph, slot.connection);
+            let (name, code) = (ident(&slot.name), self.slot(view, number, slot));
+            let docs = self.docs_of_connection(view.graph, slot.connection);
             quote! {
                 #[doc = #docs]
                 #inline
@@ -153,34 +153,34 @@ impl Generator<'_> {
         format!(" `{}`, {}.", graph.connection_text(connection), self.line(graph.connections[connection].span))
     }
 
-    fn slot(&self, whole: Whole<'_>, number: usize, slot: &Slot) -> TokenStream {
+    fn slot(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> TokenStream {
         let Slot { connection, node, .. } = *slot;
         let free = slot.frees.map(|bit| quote! { state.dispatcher.raise(#bit); });
         let settle = slot.settles.map(|row| quote! { state.dispatcher.settle(&Self::CLUSTERS, #row); });
-        let activity = match slot.carries_to(whole.graph) {
+        let activity = match slot.carries_to(view.graph) {
             Carries::Nothing => quote!(),
-            Carries::Always => self.activate(whole, node),
-            Carries::Away => self.deactivate(whole, node),
+            Carries::Always => self.activate(view, node),
+            Carries::Away => self.deactivate(view, node),
             Carries::Sometimes => {
-                let (carried, activate) = (self.take(Flag::Carries(number)), self.activate(whole, node));
+                let (carried, activate) = (self.take(Flag::Carries(number)), self.activate(view, node));
                 quote! { if #carried { #activate } }
             }
         };
         let check = if activity.is_empty() { quote!() } else { self.check_claims() };
-        let call = self.call_slot(whole, connection);
-        let from = whole.graph.connections[connection].from;
-        let call = if takes(whole, connection) { self.taken(whole.graph, from, call) } else { call };
-        let clear = self.clear_events(whole, node);
-        let pass = self.pass_activity(whole, node, &|end| self.sent_event(whole, end));
-        let emit = self.emit(whole, node, false);
-        let (stamp, index) = (self.stamp_of_slot(whole, connection), self.index(node));
+        let call = self.call_slot(view, connection);
+        let from = view.graph.connections[connection].from;
+        let call = if takes(view, connection) { self.taken(view.graph, from, call) } else { call };
+        let clear = self.clear_events(view, node);
+        let pass = self.pass_activity(view, node, &|end| self.sent_event(view, end));
+        let emit = self.emit(view, node, false);
+        let (stamp, index) = (self.stamp_of_slot(view, connection), self.index(node));
         let handled = self.connection(connection).map(|number| quote! { observer.handled(#number); });
         let call = quote! { #call observer.finished(#index); };
         quote! { #stamp #handled #free #clear #activity #check #call #pass #emit #settle }
     }
 
     /// A slot takes its token away.
-    fn taken(&self, graph: &Graph, from: End, call: TokenStream) -> TokenStream {
+    fn taken(&self, graph: &Graph, from: PortId, call: TokenStream) -> TokenStream {
         let name = self.name(from);
         if is_buffer(graph, self.catalog, from) {
             quote! { #call state.#name.clear(); }
@@ -190,14 +190,14 @@ impl Generator<'_> {
     }
 
     /// The call of a slot's method, or what the slot of a built-in node does.
-    pub fn call_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
-        let graph = whole.graph;
+    pub fn call_slot(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+        let graph = view.graph;
         let c = &graph.connections[connection];
         let node = c.to.node;
         match (&graph.nodes[node].kind, graph.port(c.to).standard) {
             (_, Some(Standard::Disable)) => self.set(Flag::Enabled(node), false),
             (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => {
-                let (is_enabled, watch) = (self.is_set(Flag::Enabled(node)), self.watch_silence(whole, node));
+                let (is_enabled, watch) = (self.is_set(Flag::Enabled(node)), self.watch_silence(view, node));
                 let enable = self.set(Flag::Enabled(node), true);
                 // It was told to be silent: that is over now.
                 if watch.is_empty() {
@@ -206,16 +206,16 @@ impl Generator<'_> {
                     quote! { if !#is_enabled { #watch } #enable }
                 }
             }
-            (NodeKind::Library(library), _) => self.call_method(whole, connection, library),
+            (NodeKind::Library(library), _) => self.call_method(view, connection, library),
             (NodeKind::Probe, _) => {
-                let from = whole.graph.connections[connection].from;
-                self.see(whole.graph, node, from, &self.token(whole, connection))
+                let from = view.graph.connections[connection].from;
+                self.see(view.graph, node, from, &self.token(view, connection))
             }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
             (NodeKind::Boundary(_), _) => {
-                let (port, token) = (ident(&graph.nodes[node].name), self.token(whole, connection));
-                let room = whole.wiring.bits.room().get(&node).map(|bit| quote! { state.dispatcher.clear(#bit); });
+                let (port, token) = (ident(&graph.nodes[node].name), self.token(view, connection));
+                let room = view.wiring.bits.room().get(&node).map(|bit| quote! { state.dispatcher.clear(#bit); });
                 let copy = self.clone(graph, graph.connections[connection].from, &quote!(token));
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(#copy); }
@@ -227,18 +227,18 @@ impl Generator<'_> {
     }
 
     /// The token of a connection, where it lies: `Option<&T>`.
-    fn token(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
-        let from = whole.graph.connections[connection].from;
+    fn token(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+        let from = view.graph.connections[connection].from;
         let name = self.name(from);
-        match is_buffer(whole.graph, self.catalog, from) {
+        match is_buffer(view.graph, self.catalog, from) {
             true => quote!(state.#name.get()),
-            false if takes(whole, connection) => quote!(#name.as_ref()),
+            false if takes(view, connection) => quote!(#name.as_ref()),
             false => quote!(state.#name.as_ref()),
         }
     }
 
-    fn call_method(&self, whole: Whole<'_>, connection: usize, library: &Library) -> TokenStream {
-        let graph = whole.graph;
+    fn call_method(&self, view: ProgramView<'_>, connection: usize, library: &Library) -> TokenStream {
+        let graph = view.graph;
         let c = &graph.connections[connection];
         let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
         let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else {
@@ -257,8 +257,8 @@ impl Generator<'_> {
                     takes = true;
                     self.judged_slot(graph, connection, library, signature)
                 }
-                ArgSig::Port(port) => self.event(whole, End { node, port }),
-                _ => self.context(whole, node),
+                ArgSig::Port(port) => self.event(view, PortId { node, port }),
+                _ => self.context(view, node),
             })
             .collect();
         let (place, method) = (self.node_place(graph, node), ident(&slot.method));
@@ -266,7 +266,7 @@ impl Generator<'_> {
         let call = self.contained(graph, node, library, call, slot.fallible);
         let late = self.check_late(graph, node);
         let call = if takes {
-            let token = self.token(whole, connection);
+            let token = self.token(view, connection);
             quote! { if let Some(token) = #token { #call; } #late }
         } else {
             quote! { #call; #late }
@@ -281,9 +281,9 @@ impl Generator<'_> {
     }
 
     /// The context for a node, which knows whether it is active.
-    pub fn context(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        if whole.analysis.active.contains(&node) {
-            let is_active = self.is_active_now(whole, node);
+    pub fn context(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        if view.analysis.active.contains(&node) {
+            let is_active = self.is_active_now(view, node);
             quote!(&ctx.of_node(#is_active))
         } else {
             quote!(ctx)
@@ -306,7 +306,7 @@ impl Generator<'_> {
         }
         let how = if fallible { quote!(contain_fallible) } else { quote!(contain) };
         let event = n.standard(Standard::Failed).map(|port| {
-            let name = self.name(End { node, port });
+            let name = self.name(PortId { node, port });
             quote! { state.#name = Some(failure); }
         });
         let restart = n.modifiers.restart.then(|| self.remake(graph, node, library));
@@ -328,13 +328,13 @@ impl Generator<'_> {
     }
 
     /// Tokens that come from outside to a graph-level slot, and the moment of `start`.
-    pub fn enter(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let graph = whole.graph;
-        let (name, port) = (self.name(End { node, port: 0 }), ident(&graph.nodes[node].name));
-        let free: Vec<usize> = whole.links.sends[node].iter().filter_map(|c| whole.wiring.bits.free(*c)).collect();
-        let test = self.allows(whole, &free);
-        let emit = self.emit(whole, node, false);
-        let serve = self.deliver(whole, &whole.links.sends[node]);
+    pub fn enter(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let graph = view.graph;
+        let (name, port) = (self.name(PortId { node, port: 0 }), ident(&graph.nodes[node].name));
+        let free: Vec<usize> = view.links.sends[node].iter().filter_map(|c| view.wiring.bits.free(*c)).collect();
+        let test = self.allows(view, &free);
+        let emit = self.emit(view, node, false);
+        let serve = self.deliver(view, &view.links.sends[node]);
         quote! {
             if self.inputs.#port.is_full() #test {
                 let Self { state, inputs, .. } = self;
@@ -347,25 +347,25 @@ impl Generator<'_> {
     }
 
     /// `start`: the nodes that are active from the beginning, and the tokens of its events.
-    pub fn begin(&self, whole: Whole<'_>) -> TokenStream {
-        let graph = whole.graph;
+    pub fn begin(&self, view: ProgramView<'_>) -> TokenStream {
+        let graph = view.graph;
         let mut code = quote!();
         for (node, n) in graph.nodes.iter().enumerate() {
-            if n.starts_active && whole.analysis.active.contains(&node) {
-                let (activate, tell) = (self.activate(whole, node), self.tell(whole, node));
+            if n.starts_active && view.analysis.active.contains(&node) {
+                let (activate, tell) = (self.activate(view, node), self.tell(view, node));
                 code.extend(quote! { #activate #tell });
             }
             if matches!(n.kind, NodeKind::Start) {
-                let end = End { node, port: 0 };
-                if !self.is_sent_event(whole, end) {
+                let end = PortId { node, port: 0 };
+                if !self.is_sent_event(view, end) {
                     continue;
                 }
-                let (name, emit) = (self.name(end), self.emit(whole, node, false));
+                let (name, emit) = (self.name(end), self.emit(view, node, false));
                 let sent = graph.connections.iter().enumerate().filter(|(_, c)| c.from == end);
                 let gains = sent.filter_map(|(i, c)| {
-                    match (graph.flow(c) == Flow::ToSlot, self.carries(graph, whole.analysis, i)) {
+                    match (graph.flow(c) == Flow::ToSlot, self.carries(graph, view.analysis, i)) {
                         (true, Carries::Sometimes) => {
-                            Some(self.set(Flag::Carries(whole.analysis.asynchronous.slot(i)), true))
+                            Some(self.set(Flag::Carries(view.analysis.asynchronous.slot(i)), true))
                         }
                         (false, Carries::Always | Carries::Sometimes) => Some(self.set(Flag::Gains(c.to.node), true)),
                         _ => None,
@@ -379,31 +379,31 @@ impl Generator<'_> {
     }
 
     /// What happens once, before the first reaction.
-    pub fn first(&self, whole: Whole<'_>) -> TokenStream {
-        let watches = (0..whole.graph.nodes.len()).map(|node| self.watch_silence(whole, node));
-        let begin = self.begin(whole);
+    pub fn first(&self, view: ProgramView<'_>) -> TokenStream {
+        let watches = (0..view.graph.nodes.len()).map(|node| self.watch_silence(view, node));
+        let begin = self.begin(view);
         quote! { #(#watches)* #begin }
     }
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
-    pub fn reset(&self, whole: Whole<'_>) -> TokenStream {
+    pub fn reset(&self, view: ProgramView<'_>) -> TokenStream {
         // Those that `start` makes active again say both at once.
-        let deactivates = whole.analysis.active.iter().map(|&node| {
-            if whole.graph.nodes[node].is_delay() {
+        let deactivates = view.analysis.active.iter().map(|&node| {
+            if view.graph.nodes[node].is_delay() {
                 let held = self.held_activity(node);
                 return quote! { state.#held.clear(); };
             }
-            let ports = 0..whole.graph.nodes[node].ports.len();
-            let told = ports.map(|port| End { node, port }).filter(|end| whole.graph.port(*end).tells_of_activity());
-            let names = told.filter(|end| self.is_sent_event(whole, *end)).map(|end| self.name(end));
-            let deactivate = self.deactivate(whole, node);
-            let tell = (!whole.graph.nodes[node].starts_active).then(|| self.tell(whole, node));
+            let ports = 0..view.graph.nodes[node].ports.len();
+            let told = ports.map(|port| PortId { node, port }).filter(|end| view.graph.port(*end).tells_of_activity());
+            let names = told.filter(|end| self.is_sent_event(view, *end)).map(|end| self.name(end));
+            let deactivate = self.deactivate(view, node);
+            let tell = (!view.graph.nodes[node].starts_active).then(|| self.tell(view, node));
             quote! { #(state.#names = None;)* #deactivate #tell }
         });
-        let sets = self.activity_state(whole).into_iter().map(|kept| kept.name);
+        let sets = self.activity_state(view).into_iter().map(|kept| kept.name);
         let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
         let clears = clears.map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
-        let begin = self.begin(whole);
+        let begin = self.begin(view);
         quote! { #(#deactivates)* #(#clears)* #begin }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{
     Generator,
-    activity::Whole,
-    state::{Kept, Kind},
+    activity::ProgramView,
+    state::{Kind, StateField},
     types::duration,
 };
 use crate::{
@@ -16,38 +16,38 @@ use syn::Ident;
 
 impl Generator<'_> {
     /// The stamps that a program keeps, with what they start as.
-    pub fn stamps(&self, whole: Whole<'_>) -> Vec<Kept> {
+    pub fn stamps(&self, view: ProgramView<'_>) -> Vec<StateField> {
         let sent: Vec<String> =
-            whole.analysis.stamps.connections.iter().map(|c| whole.graph.connection_text(*c)).collect();
-        let fired = whole.analysis.stamps.clusters.iter().filter(|c| is_left(whole, **c));
+            view.analysis.stamps.connections.iter().map(|c| view.graph.connection_text(*c)).collect();
+        let fired = view.analysis.stamps.clusters.iter().filter(|c| is_left(view, **c));
         let (ty, make) = (quote!(::apex_rt::Time), quote!(::apex_rt::Time::ZERO));
-        let fired =
-            fired.map(|c| Kept::new(Kind::Stamp, format!("cluster {c}"), of_cluster(*c), ty.clone(), make.clone()));
+        let fired = fired
+            .map(|c| StateField::new(Kind::Stamp, format!("cluster {c}"), of_cluster(*c), ty.clone(), make.clone()));
         let count = sent.len();
         let sent = (count > 0).then(|| {
             let (ty, make) = (quote!([#ty; #count]), quote!([#make; #count]));
-            Kept::list(Kind::Stamp, sent, format_ident!("stamps"), ty, make)
+            StateField::list(Kind::Stamp, sent, format_ident!("stamps"), ty, make)
         });
         sent.into_iter().chain(fired).collect()
     }
 
     /// A firing of a cluster is as old as the oldest token that it takes.
-    pub fn stamp_of_firing(&self, whole: Whole<'_>, cluster: usize) -> TokenStream {
-        if !whole.analysis.stamps.clusters.contains(&cluster) {
+    pub fn stamp_of_firing(&self, view: ProgramView<'_>, cluster: usize) -> TokenStream {
+        if !view.analysis.stamps.clusters.contains(&cluster) {
             return quote!();
         }
-        let c = &whole.analysis.clusters[cluster];
+        let c = &view.analysis.clusters[cluster];
         let upstream = c.upstream.iter().map(|up| {
             let name = of_cluster(*up);
             quote!(#name)
         });
-        let events = c.own_guards.iter().filter_map(|g| match whole.analysis.guards[*g] {
-            Guard::Token(connection) => of_connection(whole, connection),
+        let events = c.own_guards.iter().filter_map(|g| match view.analysis.guards[*g] {
+            Guard::Token(connection) => of_connection(view, connection),
             _ => None,
         });
         let ages: Vec<TokenStream> = upstream.chain(events).collect();
         let since = (!ages.is_empty()).then(|| quote! { let ctx = &ctx.since(ctx.now() #(.min(state.#ages))*); });
-        let left = is_left(whole, cluster).then(|| {
+        let left = is_left(view, cluster).then(|| {
             let name = of_cluster(cluster);
             quote! { state.#name = ctx.stamp(); }
         });
@@ -55,14 +55,14 @@ impl Generator<'_> {
     }
 
     /// A slot's token is as old as what sent it.
-    pub fn stamp_of_slot(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
-        let stamp = of_connection(whole, connection);
+    pub fn stamp_of_slot(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+        let stamp = of_connection(view, connection);
         stamp.map(|stamp| quote! { let ctx = &ctx.since(state.#stamp); }).unwrap_or_default()
     }
 
     /// A token is sent.
-    pub fn stamp_sent(&self, whole: Whole<'_>, connection: usize) -> TokenStream {
-        let stamp = of_connection(whole, connection);
+    pub fn stamp_sent(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+        let stamp = of_connection(view, connection);
         stamp.map(|stamp| quote! { state.#stamp = ctx.stamp(); }).unwrap_or_default()
     }
 
@@ -76,20 +76,20 @@ impl Generator<'_> {
 }
 
 /// Whether clusters downstream want to know when a cluster's source fired.
-fn is_left(whole: Whole<'_>, cluster: usize) -> bool {
-    let down = &whole.analysis.clusters[cluster].downstream;
-    down.iter().any(|c| whole.analysis.stamps.clusters.contains(c))
+fn is_left(view: ProgramView<'_>, cluster: usize) -> bool {
+    let down = &view.analysis.clusters[cluster].downstream;
+    down.iter().any(|c| view.analysis.stamps.clusters.contains(c))
 }
 
 /// The place of a connection's stamp in the state, if it is kept.
-pub fn of_connection(whole: Whole<'_>, connection: usize) -> Option<TokenStream> {
-    let index = number(whole, connection)?;
+pub fn of_connection(view: ProgramView<'_>, connection: usize) -> Option<TokenStream> {
+    let index = number(view, connection)?;
     Some(quote!(stamps[#index]))
 }
 
 /// The number of a connection's stamp, if it is kept.
-pub fn number(whole: Whole<'_>, connection: usize) -> Option<usize> {
-    whole.analysis.stamps.connections.iter().position(|c| *c == connection)
+pub fn number(view: ProgramView<'_>, connection: usize) -> Option<usize> {
+    view.analysis.stamps.connections.iter().position(|c| *c == connection)
 }
 
 fn of_cluster(cluster: usize) -> Ident {

@@ -2,14 +2,14 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     plan::{Storage, is_buffer, storage},
     program::around_text,
     types::constant,
 };
 use crate::{
     analyse::Analysis,
-    graph::{End, Graph, NodeId, NodeKind},
+    graph::{Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -17,7 +17,7 @@ use quote::quote;
 use syn::Ident;
 
 /// A field of the state of a program.
-pub struct Kept {
+pub struct StateField {
     /// What it is there for.
     pub kind: Kind,
     /// To what of the text it belongs: of a list, each element.
@@ -47,7 +47,7 @@ pub enum Kind {
     Dispatcher,
 }
 
-impl Kept {
+impl StateField {
     /// A field of type `ty` that starts as `make`.
     pub fn new(kind: Kind, of: String, name: Ident, ty: TokenStream, make: TokenStream) -> Self {
         Self { kind, of: vec![of], is_list: false, name, ty, make }
@@ -68,30 +68,30 @@ impl Kept {
 }
 
 /// Fields of the state: declarations, and expressions with the initial values.
-pub fn fields(kept: &[Kept]) -> Vec<(TokenStream, TokenStream)> {
+pub fn fields(kept: &[StateField]) -> Vec<(TokenStream, TokenStream)> {
     let inner = around_text();
-    let field = |Kept { name, ty, make, .. }: &Kept| (quote!(#inner #name: #ty), quote!(#name: #make));
+    let field = |StateField { name, ty, make, .. }: &StateField| (quote!(#inner #name: #ty), quote!(#name: #make));
     kept.iter().map(field).collect()
 }
 
 impl Generator<'_> {
     /// The state of a program.
-    pub fn state(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let mut kept = self.token_state(whole.graph, whole.analysis);
-        kept.extend(self.timer_state(whole));
-        kept.extend(self.activity_state(whole));
-        kept.extend(self.claim_state(whole));
-        kept.extend(self.stamps(whole));
-        kept.extend(self.dispatcher_state(whole));
+    pub fn state(&self, view: ProgramView<'_>) -> Vec<StateField> {
+        let mut kept = self.token_state(view.graph, view.analysis);
+        kept.extend(self.timer_state(view));
+        kept.extend(self.activity_state(view));
+        kept.extend(self.claim_state(view));
+        kept.extend(self.stamps(view));
+        kept.extend(self.dispatcher_state(view));
         kept
     }
 
     /// Tokens that are kept in the state of the program, or of a parallel body.
-    pub fn token_state(&self, graph: &Graph, analysis: &Analysis) -> Vec<Kept> {
+    pub fn token_state(&self, graph: &Graph, analysis: &Analysis) -> Vec<StateField> {
         let mut kept = vec![];
         for (node, n) in graph.nodes.iter().enumerate() {
             let ports = (0..n.ports.len()).filter(|port| n.ports[*port].kind.sends());
-            kept.extend(ports.filter_map(|port| self.kept_token(graph, analysis, End { node, port })));
+            kept.extend(ports.filter_map(|port| self.kept_token(graph, analysis, PortId { node, port })));
             kept.extend(self.kept_delay(graph, node));
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node))
                 && !each.parallel
@@ -103,7 +103,7 @@ impl Generator<'_> {
     }
 
     /// What is kept of a token: nothing, if it is gone when its cluster has fired.
-    fn kept_token(&self, graph: &Graph, analysis: &Analysis, end: End) -> Option<Kept> {
+    fn kept_token(&self, graph: &Graph, analysis: &Analysis, end: PortId) -> Option<StateField> {
         let from_here = || graph.connections.iter().filter(|c| c.from == end);
         let is_sent = from_here().any(|c| !graph.is_synchronous(c));
         if graph.port(end).kind == PortKind::Event && !is_sent {
@@ -112,7 +112,13 @@ impl Generator<'_> {
         let (of, name) = (self.token_name(graph, end), self.name(end));
         if is_buffer(graph, self.catalog, end) {
             let ty = self.buffer_type(graph, end);
-            return Some(Kept::new(Kind::Token, of, name, quote!(::apex_rt::Out<#ty>), quote!(::apex_rt::Out::new())));
+            return Some(StateField::new(
+                Kind::Token,
+                of,
+                name,
+                quote!(::apex_rt::Out<#ty>),
+                quote!(::apex_rt::Out::new()),
+            ));
         }
         let crosses = || from_here().any(|c| analysis.cluster_of[c.to.node] != analysis.cluster_of[end.node]);
         if !is_sent && !crosses() {
@@ -120,26 +126,26 @@ impl Generator<'_> {
         }
         debug_assert!(!matches!(storage(graph, self.catalog, end), Storage::Argument | Storage::MaybeArgument));
         let ty = self.token_type(graph, end);
-        Some(Kept::new(Kind::Token, of, name, quote!(::core::option::Option<#ty>), quote!(None)))
+        Some(StateField::new(Kind::Token, of, name, quote!(::core::option::Option<#ty>), quote!(None)))
     }
 
     /// The tokens that a delay holds back.
-    fn kept_delay(&self, graph: &Graph, node: NodeId) -> Option<Kept> {
+    fn kept_delay(&self, graph: &Graph, node: NodeId) -> Option<StateField> {
         let NodeKind::Delay(initial) = &graph.nodes[node].kind else { return None };
-        let end = End { node, port: 1 };
+        let end = PortId { node, port: 1 };
         let (ty, count) = (self.token_type(graph, end), initial.len());
-        let port_ty = &graph.port(graph.incoming(End { node, port: 0 }).map_or(end, |c| c.from)).ty;
+        let port_ty = &graph.port(graph.incoming(PortId { node, port: 0 }).map_or(end, |c| c.from)).ty;
         let values = initial.iter().map(|value| match value {
             Some(value) => constant(value, port_ty),
             None => self.first_token(graph, node),
         });
         let make = quote!(::apex_rt::Delay::new([#(Some(#values)),*]));
         let of = self.node_path(graph, node).join(".");
-        Some(Kept::new(Kind::Token, of, self.held(node), quote!(::apex_rt::Delay<#ty, #count>), make))
+        Some(StateField::new(Kind::Token, of, self.held(node), quote!(::apex_rt::Delay<#ty, #count>), make))
     }
 
     /// A token as a person would name it, also inside of an `each`.
-    fn token_name(&self, graph: &Graph, end: End) -> String {
+    fn token_name(&self, graph: &Graph, end: PortId) -> String {
         let node = self.node_path(graph, end.node).join(".");
         match graph.nodes[end.node].kind {
             NodeKind::Boundary(_) => node,
@@ -148,7 +154,7 @@ impl Generator<'_> {
     }
 
     /// What a node writes in place: one token, or an array of those of a firing.
-    fn buffer_type(&self, graph: &Graph, end: End) -> TokenStream {
+    fn buffer_type(&self, graph: &Graph, end: PortId) -> TokenStream {
         let (ty, rate) = (self.token_type(graph, end), graph.port(end).rate);
         if rate > 1 { quote!([#ty; #rate]) } else { ty }
     }

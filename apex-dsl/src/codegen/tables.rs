@@ -3,14 +3,14 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     stamps,
     types::nanos,
     wiring::{Flag, Port, Slot},
 };
 use crate::{
     analyse::Delivery,
-    graph::{End, NodeId, Standard},
+    graph::{NodeId, PortId, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -22,13 +22,13 @@ struct Ports<'a> {
     /// The rows of each node: the first of them, and the end.
     of: BTreeMap<NodeId, (usize, usize)>,
     /// The tokens, by number.
-    tokens: Vec<End>,
+    tokens: Vec<PortId>,
 }
 
 impl<'a> Ports<'a> {
     /// The ports of all nodes that have slots or timeouts.
-    fn new(generator: &Generator<'_>, whole: Whole<'a>) -> Self {
-        let wiring = whole.wiring;
+    fn new(generator: &Generator<'_>, view: ProgramView<'a>) -> Self {
+        let wiring = view.wiring;
         let nodes = wiring.slots.iter().map(|slot| slot.node).chain(wiring.timeouts.iter().map(|t| t.node));
         let mut ports = Self { rows: vec![], of: BTreeMap::new(), tokens: vec![] };
         for node in nodes {
@@ -36,7 +36,7 @@ impl<'a> Ports<'a> {
                 continue;
             }
             let first = ports.rows.len();
-            ports.rows.extend(wiring.of(node).iter().filter(|port| generator.is_sent_event(whole, port.end)));
+            ports.rows.extend(wiring.of(node).iter().filter(|port| generator.is_sent_event(view, port.end)));
             ports.of.insert(node, (first, ports.rows.len()));
         }
         ports.tokens = ports.rows.iter().map(|port| port.end).collect();
@@ -61,16 +61,15 @@ fn list(numbers: impl Iterator<Item = usize>) -> TokenStream {
 
 impl Generator<'_> {
     /// The tables of slots and timeouts, and what serves them.
-    pub fn tables(&self, whole: Whole<'_>) -> TokenStream {
-        let ports = Ports::new(self, whole);
-        let rows: Vec<TokenStream> = ports.rows.iter().map(|port| self.port_row(whole, &ports, port)).collect();
-        let slots: Vec<TokenStream> =
-            whole.wiring.slots.iter().map(|slot| self.slot_row(whole, &ports, slot)).collect();
+    pub fn tables(&self, view: ProgramView<'_>) -> TokenStream {
+        let ports = Ports::new(self, view);
+        let rows: Vec<TokenStream> = ports.rows.iter().map(|port| self.port_row(view, &ports, port)).collect();
+        let slots: Vec<TokenStream> = view.wiring.slots.iter().map(|slot| self.slot_row(view, &ports, slot)).collect();
         let (port_count, slot_count) = (rows.len(), slots.len());
         let (token, clear, leave) =
-            (self.token_function(whole, &ports), self.clear_function(&ports), self.leave(whole, &ports));
-        let (slot, call, turns) = (self.slot_function(whole), self.call_function(whole), self.turns(whole));
-        let expire = self.expire_table(whole, &ports);
+            (self.token_function(view, &ports), self.clear_function(&ports), self.leave(view, &ports));
+        let (slot, call, turns) = (self.slot_function(view), self.call_function(view), self.turns(view));
+        let expire = self.expire_table(view, &ports);
         quote! {
             const PORTS: [::apex_rt::tables::Port; #port_count] = { use ::apex_rt::tables::Port; [#(#rows),*] };
             const SLOTS: [::apex_rt::tables::Slot; #slot_count] = { use ::apex_rt::tables::Slot; [#(#slots),*] };
@@ -78,9 +77,9 @@ impl Generator<'_> {
         }
     }
 
-    fn port_row(&self, whole: Whole<'_>, ports: &Ports<'_>, port: &Port) -> TokenStream {
+    fn port_row(&self, view: ProgramView<'_>, ports: &Ports<'_>, port: &Port) -> TokenStream {
         let Ok(token) = ports.tokens.binary_search(&port.end) else {
-            return self.bug(whole.graph.nodes[port.end.node].span, "the token of an event is in no table");
+            return self.bug(view.graph.nodes[port.end.node].span, "the token of an event is in no table");
         };
         let token = Literal::usize_unsuffixed(token);
         let mut row = quote!(Port::new(#token));
@@ -95,7 +94,7 @@ impl Generator<'_> {
         if port.sends.iter().any(|send| send.raises.is_some()) {
             add("raises", &[list(port.sends.iter().filter_map(|send| send.raises))]);
         }
-        let stamps: Vec<usize> = port.sends.iter().filter_map(|send| stamps::number(whole, send.connection)).collect();
+        let stamps: Vec<usize> = port.sends.iter().filter_map(|send| stamps::number(view, send.connection)).collect();
         if !stamps.is_empty() {
             add("stamps", &[list(stamps.into_iter())]);
         }
@@ -114,7 +113,7 @@ impl Generator<'_> {
         row
     }
 
-    fn slot_row(&self, whole: Whole<'_>, ports: &Ports<'_>, slot: &Slot) -> TokenStream {
+    fn slot_row(&self, view: ProgramView<'_>, ports: &Ports<'_>, slot: &Slot) -> TokenStream {
         let (node, range) = (Literal::usize_unsuffixed(self.index(slot.node)), ports.range(slot.node));
         let needs = list(slot.needs.iter().copied());
         let mut row = quote!(Slot::new(#node, #range, #needs));
@@ -127,8 +126,8 @@ impl Generator<'_> {
         add("on", self.connection(slot.connection));
         add("frees", slot.frees);
         add("settles", slot.settles);
-        add("stamp", stamps::number(whole, slot.connection));
-        row.extend(match slot.carries_to(whole.graph) {
+        add("stamp", stamps::number(view, slot.connection));
+        row.extend(match slot.carries_to(view.graph) {
             super::activity::Carries::Nothing => quote!(),
             super::activity::Carries::Always => quote!(.always_activates()),
             super::activity::Carries::Sometimes => quote!(.activates()),
@@ -138,8 +137,8 @@ impl Generator<'_> {
     }
 
     /// The function that says where the token of an event lies.
-    fn token_function(&self, whole: Whole<'_>, ports: &Ports<'_>) -> TokenStream {
-        let state = self.item(whole.graph, "State");
+    fn token_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
+        let state = self.item(view.graph, "State");
         let Some((last, tokens)) = ports.tokens.split_last() else { return quote!() };
         let arms = tokens.iter().enumerate().map(|(number, end)| {
             let (number, name) = (Literal::usize_unsuffixed(number), self.name(*end));
@@ -163,7 +162,7 @@ impl Generator<'_> {
     }
 
     /// The function that sends what a node has triggered, with its activity.
-    fn leave(&self, whole: Whole<'_>, ports: &Ports<'_>) -> TokenStream {
+    fn leave(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
         if ports.tokens.is_empty() {
             return quote! {
                 fn leave<O: ::apex_rt::Observer>(&mut self, node: usize, ports: (usize, usize), ctx: &::apex_rt::Ctx, observer: &mut O) {}
@@ -189,8 +188,8 @@ impl Generator<'_> {
                 }
             }
         });
-        let has_bits = whole.wiring.bits.words() > 0;
-        let queue = (whole.analysis.asynchronous.delivery == Delivery::Queued && !whole.wiring.slots.is_empty())
+        let has_bits = view.wiring.bits.words() > 0;
+        let queue = (view.analysis.asynchronous.delivery == Delivery::Queued && !view.wiring.slots.is_empty())
             .then(|| quote! { for slot in port.queued { self.state.queue.push(*slot); } });
         let bits = has_bits.then(|| {
             quote! {
@@ -198,10 +197,10 @@ impl Generator<'_> {
                 for bit in port.occupies { self.state.dispatcher.clear(*bit as usize); }
             }
         });
-        let stamped = any(&|port| port.sends.iter().any(|send| stamps::number(whole, send.connection).is_some()));
+        let stamped = any(&|port| port.sends.iter().any(|send| stamps::number(view, send.connection).is_some()));
         let stamps =
             stamped.then(|| quote! { for stamp in port.stamps { self.state.stamps[*stamp as usize] = ctx.stamp(); } });
-        let chosen = self.chosen_function(whole, ports);
+        let chosen = self.chosen_function(view, ports);
         let choose = (!chosen.is_empty()).then(|| quote! { self.chosen(port.token, observer); });
         quote! {
             /// Sends the events that a node has triggered. Its activity goes with the first over an active connection.
@@ -224,12 +223,12 @@ impl Generator<'_> {
     }
 
     /// The function that records chosen events.
-    fn chosen_function(&self, whole: Whole<'_>, ports: &Ports<'_>) -> TokenStream {
+    fn chosen_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
         let arms: Vec<TokenStream> = ports
             .tokens
             .iter()
             .enumerate()
-            .map(|(number, end)| (number, self.chosen_event(whole.graph, *end)))
+            .map(|(number, end)| (number, self.chosen_event(view.graph, *end)))
             .filter(|(_, code)| !code.is_empty())
             .map(|(number, code)| quote! { #number => { #code } })
             .collect();
@@ -246,13 +245,13 @@ impl Generator<'_> {
     }
 
     /// The function that takes the token for a slot and does all that follows at once.
-    fn slot_function(&self, whole: Whole<'_>) -> TokenStream {
-        let slots = &whole.wiring.slots;
+    fn slot_function(&self, view: ProgramView<'_>) -> TokenStream {
+        let slots = &view.wiring.slots;
         if slots.is_empty() {
             return quote!();
         }
         let any = |has: &dyn Fn(&Slot) -> bool| slots.iter().any(has);
-        let since = any(&|slot| stamps::number(whole, slot.connection).is_some()).then(|| {
+        let since = any(&|slot| stamps::number(view, slot.connection).is_some()).then(|| {
             quote! {
                 let since = row.stamp.map_or(*ctx, |stamp| ctx.since(self.state.stamps[stamp]));
                 let ctx = &since;
@@ -263,7 +262,7 @@ impl Generator<'_> {
         let settles = any(&|slot| slot.settles.is_some()).then(|| {
             quote! { if let Some(cluster) = row.settles { self.state.dispatcher.settle(&Self::CLUSTERS, cluster); } }
         });
-        let carries = |what| any(&|slot| slot.carries_to(whole.graph) == what);
+        let carries = |what| any(&|slot| slot.carries_to(view.graph) == what);
         use super::activity::Carries;
         let check = self.check_claims();
         let check = (!check.is_empty()).then(|| quote! { let Self { state, .. } = self; #check });
@@ -305,9 +304,9 @@ impl Generator<'_> {
     }
 
     /// The function that calls the method of a slot.
-    fn call_function(&self, whole: Whole<'_>) -> TokenStream {
-        let slots = whole.wiring.slots.iter().enumerate();
-        let arms = slots.map(|(number, slot)| (number, self.call_slot(whole, slot.connection)));
+    fn call_function(&self, view: ProgramView<'_>) -> TokenStream {
+        let slots = view.wiring.slots.iter().enumerate();
+        let arms = slots.map(|(number, slot)| (number, self.call_slot(view, slot.connection)));
         let arms = arms.filter(|(_, call)| !call.is_empty()).map(|(number, call)| {
             let number = Literal::usize_unsuffixed(number);
             quote! { #number => { #call } }
@@ -321,14 +320,14 @@ impl Generator<'_> {
     }
 
     /// The functions by which a node becomes active, and ceases to be.
-    fn turns(&self, whole: Whole<'_>) -> TokenStream {
-        let active = whole.analysis.active.iter().copied().filter(|node| !whole.graph.nodes[*node].is_delay());
+    fn turns(&self, view: ProgramView<'_>) -> TokenStream {
+        let active = view.analysis.active.iter().copied().filter(|node| !view.graph.nodes[*node].is_delay());
         let active: Vec<NodeId> = active.collect();
         if active.is_empty() {
             return quote!();
         }
         let arms = |becomes: bool| -> TokenStream {
-            let code = active.iter().map(|node| (self.index(*node), self.turn_effects(whole, *node, becomes)));
+            let code = active.iter().map(|node| (self.index(*node), self.turn_effects(view, *node, becomes)));
             let arms = code.filter(|(_, code)| !code.is_empty()).map(|(number, code)| {
                 let number = Literal::usize_unsuffixed(number);
                 quote! { #number => { #code } }
@@ -344,7 +343,7 @@ impl Generator<'_> {
         };
         let unseen: Vec<Literal> = active
             .iter()
-            .filter(|node| !super::activity::is_observed(whole.graph, **node))
+            .filter(|node| !super::activity::is_observed(view.graph, **node))
             .map(|node| Literal::usize_unsuffixed(self.index(*node)))
             .collect();
         let observe = |value: bool| match unseen.is_empty() {
@@ -352,8 +351,8 @@ impl Generator<'_> {
             false => quote! { if !matches!(node, #(#unseen)|*) { observer.activity(node, #value); } },
         };
         let (on, off) = (observe(true), observe(false));
-        let open = self.open_agenda(whole).map(|open| quote! { let Self { state, .. } = self; #open });
-        let timeouts = !whole.wiring.timeouts.is_empty();
+        let open = self.open_agenda(view).map(|open| quote! { let Self { state, .. } = self; #open });
+        let timeouts = !view.wiring.timeouts.is_empty();
         let start = timeouts.then(|| {
             quote! {
                 if let Ok(timeout) = Self::TIMEOUTS.binary_search_by_key(&node, |timeout| timeout.node) {
@@ -388,14 +387,14 @@ impl Generator<'_> {
     }
 
     /// The table of timeouts, and the function that triggers their events.
-    fn expire_table(&self, whole: Whole<'_>, ports: &Ports<'_>) -> TokenStream {
-        let timeouts = &whole.wiring.timeouts;
+    fn expire_table(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
+        let timeouts = &view.wiring.timeouts;
         if timeouts.is_empty() {
             return quote!();
         }
         let rows = timeouts.iter().map(|timeout| {
             let (node, range) = (Literal::usize_unsuffixed(self.index(timeout.node)), ports.range(timeout.node));
-            let (after, gated) = (nanos(timeout.after), whole.graph.nodes[timeout.node].can_be_disabled());
+            let (after, gated) = (nanos(timeout.after), view.graph.nodes[timeout.node].can_be_disabled());
             let needs = list(timeout.needs.iter().copied());
             quote!(Timeout::new(#node, #range, #after, #needs, #gated))
         });
@@ -403,12 +402,12 @@ impl Generator<'_> {
         let arms = timeouts
             .iter()
             .enumerate()
-            .map(|(number, timeout)| (number, self.trigger(whole.graph, timeout.node, Standard::Timeout)));
+            .map(|(number, timeout)| (number, self.trigger(view.graph, timeout.node, Standard::Timeout)));
         let arms = arms.filter(|(_, code)| !code.is_empty()).map(|(number, code)| {
             let number = Literal::usize_unsuffixed(number);
             quote! { #number => { #code } }
         });
-        let open = self.open_agenda(whole);
+        let open = self.open_agenda(view);
         quote! {
             const TIMEOUTS: [::apex_rt::tables::Timeout; #count] = { use ::apex_rt::tables::Timeout; [#(#rows),*] };
             /// The `timeout` of a node is triggered.
@@ -425,16 +424,16 @@ impl Generator<'_> {
     }
 
     /// All timeouts that are due expire.
-    pub fn all_expire(&self, whole: Whole<'_>) -> TokenStream {
-        let timeouts = &whole.wiring.timeouts;
+    pub fn all_expire(&self, view: ProgramView<'_>) -> TokenStream {
+        let timeouts = &view.wiring.timeouts;
         if timeouts.is_empty() {
             return quote!();
         }
-        let test = self.allows(whole, &[]);
-        let free = (whole.wiring.bits.words() > 0).then(|| quote!(&&self.state.dispatcher.holds(&row.needs)));
+        let test = self.allows(view, &[]);
+        let free = (view.wiring.bits.words() > 0).then(|| quote!(&&self.state.dispatcher.holds(&row.needs)));
         let gated = timeouts
             .iter()
-            .any(|timeout| whole.graph.nodes[timeout.node].can_be_disabled())
+            .any(|timeout| view.graph.nodes[timeout.node].can_be_disabled())
             .then(|| quote!(&&(!row.gated || self.state.enabled.has(row.node))));
         quote! {
             for (timeout, row) in Self::TIMEOUTS.iter().enumerate() {

@@ -8,7 +8,7 @@ use super::{
     types::{constant, duration, ident},
 };
 use crate::{
-    graph::{End, Graph, NodeId, Subject},
+    graph::{Graph, NodeId, PortId, Subject},
     script::{Script, Seen, Step, Until, What},
 };
 use proc_macro2::TokenStream;
@@ -22,7 +22,7 @@ impl Generator<'_> {
     }
 
     /// Keeps a copy of a token, which is an `Option<&T>`, for the test.
-    pub fn see(&self, graph: &Graph, probe: NodeId, from: End, token: &TokenStream) -> TokenStream {
+    pub fn see(&self, graph: &Graph, probe: NodeId, from: PortId, token: &TokenStream) -> TokenStream {
         let (probe, copy) = (self.probe(probe), self.clone(graph, from, &quote!(token)));
         quote! { if let Some(token) = #token { outputs.#probe.saw(#copy); } }
     }
@@ -78,7 +78,7 @@ impl Generator<'_> {
             Step::Feed { port, values, every } => {
                 let (name, ty) = (ident(&graph.nodes[*port].name), &graph.nodes[*port].ports[0].ty);
                 let values = values.iter().map(|value| constant(value, ty));
-                let token = self.token_type(graph, End { node: *port, port: 0 });
+                let token = self.token_type(graph, PortId { node: *port, port: 0 });
                 let every = match every {
                     Some(period) => {
                         let period = duration(*period);
@@ -121,7 +121,7 @@ impl Generator<'_> {
             let message = format!("`recording(\"{file}\", …)` in a test needs the feature `record` of `apex-rt`");
             return quote! { ::core::compile_error!(#message); };
         }
-        let (name, token) = (ident(&graph.nodes[port].name), self.token_type(graph, End { node: port, port: 0 }));
+        let (name, token) = (ident(&graph.nodes[port].name), self.token_type(graph, PortId { node: port, port: 0 }));
         let text = self.sources.get(graph.span.file).path.display().to_string();
         let ports = self.ports_of(graph, port);
         quote! {

@@ -3,7 +3,7 @@
 
 use super::{
     Generator, Names,
-    activity::Whole,
+    activity::ProgramView,
     cells::cell_name,
     program::{Field, around_text, mailboxes, node_structs, port_accessors},
     types::{duration, ident},
@@ -38,19 +38,19 @@ impl Generator<'_> {
         let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
         let all = Program { generator: self, graph, split, parts: (0..names.len()).map(of_part).collect() };
         let mut code = quote!();
-        let mut views = vec![];
+        let mut all_items = vec![];
         for (number, part) in split.parts.iter().enumerate() {
             let generator = of_part(number);
             let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
-            let whole = Whole::new(&part.graph, &part.analysis, &wiring);
-            let (items, react) = (generator.items(whole), generator.react(whole));
-            let view = View {
-                is_active: generator.is_active(whole),
-                is_graph_active: generator.is_graph_active(whole),
-                waiting: generator.waiting(whole),
+            let view = ProgramView::new(&part.graph, &part.analysis, &wiring);
+            let (items, react) = (generator.items(view), generator.react(view));
+            let part_items = PartItems {
+                is_active: generator.is_active(view),
+                is_graph_active: generator.is_graph_active(view),
+                waiting: generator.waiting(view),
                 fields: generator.fields(&part.graph, &part.analysis),
             };
-            let View { is_active, is_graph_active, waiting, .. } = &view;
+            let PartItems { is_active, is_graph_active, waiting, .. } = &part_items;
             let name = generator.program_name(&part.graph);
             let handle = all.handle(number);
             code.extend(quote! {
@@ -58,9 +58,9 @@ impl Generator<'_> {
                 impl #name { #react #is_active #is_graph_active #waiting }
                 #handle
             });
-            views.push(view);
+            all_items.push(part_items);
         }
-        let (structs, program) = (all.structs(&views), all.program(analysis, &views));
+        let (structs, program) = (all.structs(&all_items), all.program(analysis, &all_items));
         let moved = self.moved_tokens(graph);
         quote! { #code #structs #program #moved }
     }
@@ -80,7 +80,7 @@ struct Fields {
 }
 
 /// What the whole program has to know about the code of a part.
-struct View {
+struct PartItems {
     is_active: TokenStream,
     is_graph_active: TokenStream,
     waiting: TokenStream,
@@ -124,7 +124,7 @@ impl Program<'_> {
         let fields = self.ends(number).map(|(cell, sends)| {
             let ty = self.generator.token_type(self.graph, self.split.cells[cell].from);
             let (field, end) = (cell_name(cell), if sends { quote!(CellSender) } else { quote!(CellReceiver) });
-            quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::Parcel<#ty>>, }
+            quote! { #field: ::apex_rt::#end<'a, ::apex_rt::threads::CellMessage<#ty>>, }
         });
         quote! {
             struct #ends<'a> { #(#fields)* life: ::core::marker::PhantomData<&'a ()> }
@@ -145,7 +145,7 @@ impl Program<'_> {
     }
 
     /// The struct of the program, its cells, and the views on its nodes.
-    fn structs(&self, views: &[View]) -> TokenStream {
+    fn structs(&self, all_items: &[PartItems]) -> TokenStream {
         let (graph, name) = (self.graph, self.name());
         let numbers = 0..self.split.parts.len();
         let parts: Vec<Ident> = self.split.parts.iter().map(part_name).collect();
@@ -160,14 +160,14 @@ impl Program<'_> {
         let cells_name = self.generator.item(graph, "Cells");
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
         let mut nodes = BTreeMap::new();
-        for (part, view) in parts.iter().zip(views) {
-            view_nodes(&view.fields.nodes, &quote!(self.#part.nodes), &mut nodes);
+        for (part, part_items) in parts.iter().zip(all_items) {
+            view_nodes(&part_items.fields.nodes, &quote!(self.#part.nodes), &mut nodes);
         }
         let nodes = node_structs(&self.generator.item(graph, "Nodes"), &name, &nodes, true);
         let (node_items, nodes_type, nodes_make) = (&nodes.item, &nodes.ty, &nodes.make);
-        let handed_in: Vec<(Ident, TokenStream)> = views.iter().flat_map(|v| v.fields.handed_in.clone()).collect();
-        let makes = numbers.zip(views).map(|(number, view)| {
-            let own = &view.fields.handed_in;
+        let handed_in: Vec<(Ident, TokenStream)> = all_items.iter().flat_map(|v| v.fields.handed_in.clone()).collect();
+        let makes = numbers.zip(all_items).map(|(number, part_items)| {
+            let own = &part_items.fields.handed_in;
             let (name, fields) = (&part_types[number], own.iter().map(|(field, _)| field));
             match self.parts[number].parts_struct(&self.split.parts[number].graph, own) {
                 None => quote!(#name::new()),
@@ -187,7 +187,7 @@ impl Program<'_> {
         quote! {
             #[doc = #docs]
             pub struct #name { #(#inner #parts: #part_types,)* #inner cells: #cells_name }
-            #inner struct #cells_name { #(#inner #cells: ::apex_rt::TokenCell<::apex_rt::threads::Parcel<#cell_types>>,)* }
+            #inner struct #cells_name { #(#inner #cells: ::apex_rt::TokenCell<::apex_rt::threads::CellMessage<#cell_types>>,)* }
             #node_items
             #item
             impl #name {
@@ -195,7 +195,7 @@ impl Program<'_> {
                 pub fn new(#argument) -> Self {
                     Self {
                         #(#parts: #makes,)*
-                        cells: #cells_name { #(#cells: ::apex_rt::TokenCell::new(::apex_rt::threads::Parcel::new()),)* },
+                        cells: #cells_name { #(#cells: ::apex_rt::TokenCell::new(::apex_rt::threads::CellMessage::new()),)* },
                     }
                 }
                 /// The nodes, by instance name.
@@ -216,7 +216,7 @@ impl Program<'_> {
     }
 
     /// How the program reacts.
-    fn program(&self, analysis: &Analysis, views: &[View]) -> TokenStream {
+    fn program(&self, analysis: &Analysis, all_items: &[PartItems]) -> TokenStream {
         let (name, parts) = (self.name(), &self.split.parts);
         let count = parts.len();
         let fields: Vec<Ident> = parts.iter().map(part_name).collect();
@@ -227,14 +227,14 @@ impl Program<'_> {
             let (number, index) = (&numbers[i], i);
             quote! { spawn.spawn(#index, groups.#number); }
         });
-        let any = |tokens: &dyn Fn(&View) -> &TokenStream, call: TokenStream| {
-            let has = fields.iter().zip(views).filter(|(_, view)| !tokens(view).is_empty());
+        let any = |tokens: &dyn Fn(&PartItems) -> &TokenStream, call: TokenStream| {
+            let has = fields.iter().zip(all_items).filter(|(_, part_items)| !tokens(part_items).is_empty());
             let calls = has.map(|(field, _)| quote!(|| self.#field.#call));
             quote!(false #(#calls)*)
         };
         let is_active = any(&|v| &v.is_active, quote!(is_active(node)));
         let is_graph_active = any(&|v| &v.is_graph_active, quote!(is_graph_active(graph)));
-        let waiting = fields.iter().zip(views).filter(|(_, v)| !v.waiting.is_empty()).map(|(field, _)| field);
+        let waiting = fields.iter().zip(all_items).filter(|(_, v)| !v.waiting.is_empty()).map(|(field, _)| field);
         let info = self.info(analysis);
         let place = |node: NodeId| {
             let group = self.graph.group(node);
@@ -245,7 +245,7 @@ impl Program<'_> {
         let name_of_reaction = self.generator.reaction();
         let react = quote! {
                 fn #name_of_reaction<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
-                    let woken = ::apex_rt::threads::Woken::all(#count);
+                    let woken = ::apex_rt::threads::ReadySet::all(#count);
                     let mut groups = self.groups(&woken);
                     let mut next = [::apex_rt::Next::Input; #count];
                     let mut counts = [0u32; #count];
@@ -326,7 +326,8 @@ impl Program<'_> {
         }
         // What goes to those who watch over the threads comes last.
         let watched = self.watched().map(|cell| format_ident!("sender_{cell}"));
-        let watched_types = self.watched().map(|_| quote!(::apex_rt::CellSender<'_, ::apex_rt::threads::Parcel<()>>));
+        let watched_types =
+            self.watched().map(|_| quote!(::apex_rt::CellSender<'_, ::apex_rt::threads::CellMessage<()>>));
         quote! {
             fn groups<W: ::apex_rt::threads::Wake + ::core::marker::Copy>(&mut self, wake: W) -> (#(#types,)* #(#watched_types,)*) {
                 #(#cells)*
@@ -403,7 +404,7 @@ pub fn group_info(graph: &Graph, group: &str) -> TokenStream {
 pub fn end_if_hung(graph: &Graph) -> TokenStream {
     let code =
         graph.connections.iter().find_map(|c| match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
-            (NodeKind::Hung, NodeKind::Exit(code)) => Some(quote!(#code)),
+            (NodeKind::Watchdog, NodeKind::Exit(code)) => Some(quote!(#code)),
             _ => None,
         });
     super::params::option(code)
@@ -415,8 +416,8 @@ fn view_nodes(fields: &BTreeMap<String, Field>, place: &TokenStream, into: &mut 
         let field_name = ident(name);
         match field {
             Field::Node { ty, .. } => {
-                let view = Field::Node { ty: quote!(&'a #ty), make: quote!(&#place.#field_name) };
-                into.insert(name.clone(), view);
+                let part_items = Field::Node { ty: quote!(&'a #ty), make: quote!(&#place.#field_name) };
+                into.insert(name.clone(), part_items);
             }
             Field::Nested(inner) => {
                 let nested = into.entry(name.clone()).or_insert_with(|| Field::Nested(BTreeMap::new()));

@@ -2,9 +2,9 @@
 
 use super::{
     Generator,
-    activity::Whole,
+    activity::ProgramView,
     clusters::inlined,
-    state::{Kept, Kind},
+    state::{Kind, StateField},
     types::{ident, nanos},
     wiring::Flag,
 };
@@ -31,16 +31,16 @@ impl Generator<'_> {
     }
 
     /// The time of a source's silence begins.
-    pub fn watch_silence(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        match self.watches_silence(whole.graph, whole.analysis, node) {
-            Some(_) => self.start_timeout(whole, node),
+    pub fn watch_silence(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        match self.watches_silence(view.graph, view.analysis, node) {
+            Some(_) => self.start_timeout(view, node),
             None => quote!(),
         }
     }
 
     /// Timers and timeouts in the state of a program.
-    pub fn timer_state(&self, whole: Whole<'_>) -> Vec<Kept> {
-        let Whole { graph, wiring, .. } = whole;
+    pub fn timer_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
+        let ProgramView { graph, wiring, .. } = view;
         let mut kept = vec![];
         let of = |nodes: &mut dyn Iterator<Item = NodeId>| nodes.map(|node| graph.path(node)).collect();
         if !wiring.timers.is_empty() {
@@ -52,45 +52,51 @@ impl Generator<'_> {
             });
             let (count, make) = (wiring.timers.len(), quote!([#(#timers),*]));
             let of = of(&mut wiring.timers.iter().map(|(node, _)| *node));
-            kept.push(Kept::list(Kind::Timer, of, format_ident!("timers"), quote!([::apex_rt::Timer; #count]), make));
+            kept.push(StateField::list(
+                Kind::Timer,
+                of,
+                format_ident!("timers"),
+                quote!([::apex_rt::Timer; #count]),
+                make,
+            ));
         }
         if !wiring.timeouts.is_empty() {
             let count = wiring.timeouts.len();
             let (ty, make) =
                 (quote!([::apex_rt::Timeout; #count]), quote!([const { ::apex_rt::Timeout::new() }; #count]));
             let of = of(&mut wiring.timeouts.iter().map(|timeout| timeout.node));
-            kept.push(Kept::list(Kind::Timer, of, format_ident!("timeouts"), ty, make));
+            kept.push(StateField::list(Kind::Timer, of, format_ident!("timeouts"), ty, make));
         }
         kept
     }
 
     /// A timer changes.
-    pub fn open_agenda(&self, whole: Whole<'_>) -> Option<TokenStream> {
-        whole.wiring.has_agenda().then(|| quote! { state.agenda.open(); })
+    pub fn open_agenda(&self, view: ProgramView<'_>) -> Option<TokenStream> {
+        view.wiring.has_agenda().then(|| quote! { state.agenda.open(); })
     }
 
     /// The time of a node's `timeout` begins, if it has one.
-    pub fn start_timeout(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let Some(index) = whole.wiring.timeout(node) else { return quote!() };
-        let after = nanos(whole.wiring.timeouts[index].after);
-        let open = self.open_agenda(whole);
+    pub fn start_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let Some(index) = view.wiring.timeout(node) else { return quote!() };
+        let after = nanos(view.wiring.timeouts[index].after);
+        let open = self.open_agenda(view);
         quote! { state.timeouts[#index].start(ctx.now(), ::core::time::Duration::from_nanos(#after)); #open }
     }
 
     /// The time of a node's `timeout` ends.
-    pub fn stop_timeout(&self, whole: Whole<'_>, node: NodeId) -> TokenStream {
-        let Some(index) = whole.wiring.timeout(node) else { return quote!() };
-        let open = self.open_agenda(whole);
+    pub fn stop_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let Some(index) = view.wiring.timeout(node) else { return quote!() };
+        let open = self.open_agenda(view);
         quote! { state.timeouts[#index].stop(); #open }
     }
 
     /// The guards of timers that are due hold.
-    pub fn timers_due(&self, whole: Whole<'_>) -> TokenStream {
-        let timers = &whole.wiring.timers;
+    pub fn timers_due(&self, view: ProgramView<'_>) -> TokenStream {
+        let timers = &view.wiring.timers;
         if timers.is_empty() {
             return quote!();
         }
-        if whole.wiring.has_agenda() {
+        if view.wiring.has_agenda() {
             let bits = timers.iter().map(|(_, bit)| Literal::usize_unsuffixed(*bit));
             return quote! {
                 for (timer, bit) in self.state.timers.iter().zip([#(#bits),*]) {
@@ -105,8 +111,8 @@ impl Generator<'_> {
     }
 
     /// When a program wants to be called because of its timers.
-    pub fn wishes(&self, whole: Whole<'_>) -> TokenStream {
-        let wiring = whole.wiring;
+    pub fn wishes(&self, view: ProgramView<'_>) -> TokenStream {
+        let wiring = view.wiring;
         if !wiring.has_agenda() {
             let wish = |list: &str, count: usize| -> TokenStream {
                 let list = format_ident!("{list}");
@@ -140,11 +146,11 @@ impl Generator<'_> {
 
     /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it does so
     /// when it is enabled, if it is still active.
-    pub fn expires(&self, whole: Whole<'_>, index: usize) -> TokenStream {
-        let timeout = &whole.wiring.timeouts[index];
+    pub fn expires(&self, view: ProgramView<'_>, index: usize) -> TokenStream {
+        let timeout = &view.wiring.timeouts[index];
         let expire = ident(&timeout.name);
-        let mut test = self.allows(whole, &timeout.needs);
-        if whole.graph.nodes[timeout.node].can_be_disabled() {
+        let mut test = self.allows(view, &timeout.needs);
+        if view.graph.nodes[timeout.node].can_be_disabled() {
             let is_enabled = self.is_set(Flag::Enabled(timeout.node));
             test.extend(quote!(&& self.#is_enabled));
         }
@@ -152,24 +158,24 @@ impl Generator<'_> {
     }
 
     /// For each timeout the function that triggers its event, with the activity of the node.
-    pub fn expire_functions(&self, whole: Whole<'_>) -> TokenStream {
-        let inline = inlined(whole.wiring.timeouts.len());
-        (0..whole.wiring.timeouts.len()).map(|index| self.expire(whole, index, &inline)).collect()
+    pub fn expire_functions(&self, view: ProgramView<'_>) -> TokenStream {
+        let inline = inlined(view.wiring.timeouts.len());
+        (0..view.wiring.timeouts.len()).map(|index| self.expire(view, index, &inline)).collect()
     }
 
-    fn expire(&self, whole: Whole<'_>, index: usize, inline: &TokenStream) -> TokenStream {
-        let (graph, timeout) = (whole.graph, &whole.wiring.timeouts[index]);
+    fn expire(&self, view: ProgramView<'_>, index: usize, inline: &TokenStream) -> TokenStream {
+        let (graph, timeout) = (view.graph, &view.wiring.timeouts[index]);
         let (node, expire) = (timeout.node, ident(&timeout.name));
         let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
-        let (clear, open) = (self.clear_events(whole, node), self.open_agenda(whole));
+        let (clear, open) = (self.clear_events(view, node), self.open_agenda(view));
         let trigger = self.trigger(graph, node, Standard::Timeout);
-        let pass = self.pass_activity(whole, node, &|end| {
+        let pass = self.pass_activity(view, node, &|end| {
             let standard = graph.port(end).standard;
             let sent = matches!(standard, Some(Standard::Timeout | Standard::Deactivated));
-            self.sent_event(whole, end).filter(|_| sent)
+            self.sent_event(view, end).filter(|_| sent)
         });
-        let emit = self.emit(whole, node, false);
-        let serve = self.deliver(whole, &whole.links.sends[node]);
+        let emit = self.emit(view, node, false);
+        let serve = self.deliver(view, &view.links.sends[node]);
         quote! {
             #[doc = #docs]
             #inline

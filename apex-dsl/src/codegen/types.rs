@@ -3,7 +3,7 @@
 use super::Generator;
 use crate::{
     catalog::{Catalog, Type},
-    graph::{End, Graph, Library, NodeId, NodeKind, Number, TypeArg, Value},
+    graph::{Graph, Library, NodeId, NodeKind, Number, PortId, TypeArg, Value},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -32,8 +32,8 @@ pub fn ident(name: &str) -> Ident {
 }
 
 /// The type as Rust, if the scan has seen all of it.
-pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
-    let all = |types: &[Type]| types.iter().map(|t| spell(t, catalog)).collect::<Option<Vec<_>>>();
+pub fn to_rust(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
+    let all = |types: &[Type]| types.iter().map(|t| to_rust(t, catalog)).collect::<Option<Vec<_>>>();
     let with = |head: TokenStream, args: &[Type]| {
         let args = all(args)?;
         Some(if args.is_empty() { head } else { quote!(#head<#(#args),*>) })
@@ -50,7 +50,7 @@ pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
         Type::Alias(def, ..) => Some(path(catalog.path(*def)?)),
         Type::Def(def, _, args) => with(path(catalog.path(*def)?), args),
         Type::Array(element, Some(len)) => {
-            let (element, len): (_, TokenStream) = (spell(element, catalog)?, len.parse().ok()?);
+            let (element, len): (_, TokenStream) = (to_rust(element, catalog)?, len.parse().ok()?);
             Some(quote!([#element; #len]))
         }
         Type::Tuple(parts) => all(parts).map(|parts| quote!((#(#parts,)*))),
@@ -62,8 +62,8 @@ pub fn spell(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
 impl Generator<'_> {
     /// The type of a node of the catalog.
     pub fn node_type(&self, graph: &Graph, library: &Library) -> TokenStream {
-        if let Some((whole, _)) = self.part {
-            return self.of_all().node_type(whole, library);
+        if let Some((view, _)) = self.part {
+            return self.of_all().node_type(view, library);
         }
         let signature = &self.catalog.signatures[library.signature];
         let head = path(&signature.path);
@@ -71,8 +71,8 @@ impl Generator<'_> {
             return head;
         }
         let args = library.types.iter().map(|arg| match arg {
-            TypeArg::Known(ty) => spell(ty, self.catalog).unwrap_or_else(|| quote!(_)),
-            TypeArg::Spelled(ty, text) => spell(ty, self.catalog).unwrap_or_else(|| self.parsed(graph, text)),
+            TypeArg::Known(ty) => to_rust(ty, self.catalog).unwrap_or_else(|| quote!(_)),
+            TypeArg::Verbatim(ty, text) => to_rust(ty, self.catalog).unwrap_or_else(|| self.parsed(graph, text)),
             TypeArg::TokenOf(end) => self.token_type(graph, *end),
             TypeArg::ItemOf(end) => {
                 let list = self.token_type(graph, *end);
@@ -84,28 +84,28 @@ impl Generator<'_> {
     }
 
     /// The type of the tokens that leave a port.
-    pub fn token_type(&self, graph: &Graph, end: End) -> TokenStream {
-        if let Some((whole, part)) = self.part {
-            return self.of_all().token_type(whole, part.origin(end));
+    pub fn token_type(&self, graph: &Graph, end: PortId) -> TokenStream {
+        if let Some((view, part)) = self.part {
+            return self.of_all().token_type(view, part.origin(end));
         }
         let port = graph.port(end);
         match &graph.nodes[end.node].kind {
             NodeKind::Each(_) => self.each_type(graph, end),
-            NodeKind::Delay(_) | NodeKind::Relay => match graph.incoming(End { node: end.node, port: 0 }) {
+            NodeKind::Delay(_) | NodeKind::Relay => match graph.incoming(PortId { node: end.node, port: 0 }) {
                 Some(connection) => self.token_type(graph, connection.from),
                 // Nothing ever comes: the text says what would.
-                None => spell(&port.ty, self.catalog).unwrap_or_else(|| quote!(())),
+                None => to_rust(&port.ty, self.catalog).unwrap_or_else(|| quote!(())),
             },
             NodeKind::Probe => match graph.connections.iter().find(|c| c.to.node == end.node) {
                 Some(connection) => self.token_type(graph, connection.from),
                 None => quote!(()),
             },
             NodeKind::Boundary(_) if graph.is_body => self.body_input_type(graph, end.node),
-            NodeKind::Library(library) => match spell(&port.ty, self.catalog) {
+            NodeKind::Library(library) => match to_rust(&port.ty, self.catalog) {
                 Some(ty) => ty,
                 None => self.projection(graph, library, end),
             },
-            _ => spell(&port.ty, self.catalog).unwrap_or_else(|| self.parsed(graph, &port.ty.to_string())),
+            _ => to_rust(&port.ty, self.catalog).unwrap_or_else(|| self.parsed(graph, &port.ty.to_string())),
         }
     }
 
@@ -115,7 +115,7 @@ impl Generator<'_> {
     }
 
     /// A type that only rustc can spell, by way of the node's ports.
-    fn projection(&self, graph: &Graph, library: &Library, end: End) -> TokenStream {
+    fn projection(&self, graph: &Graph, library: &Library, end: PortId) -> TokenStream {
         let node = self.node_type(graph, library);
         let signature = &self.catalog.signatures[library.signature];
         if let Some(param) = graph.port(end).parameter {
@@ -126,25 +126,25 @@ impl Generator<'_> {
         if port.kind == PortKind::Event {
             return quote!(<#node as ::apex_rt::Trigger<#index>>::Token);
         }
-        let whole = quote!(<#node as ::apex_rt::Output<#index>>::Token);
+        let view = quote!(<#node as ::apex_rt::Output<#index>>::Token);
         match &port.field {
-            Some((field, _)) => quote!(<#whole as ::apex_rt::Field<#field>>::Token),
-            None => whole,
+            Some((field, _)) => quote!(<#view as ::apex_rt::Field<#field>>::Token),
+            None => view,
         }
     }
 
     /// The list of results of an `each`: the same kind of list as the one that it iterates over.
-    fn each_type(&self, graph: &Graph, end: End) -> TokenStream {
+    fn each_type(&self, graph: &Graph, end: PortId) -> TokenStream {
         let NodeKind::Each(each) = &graph.nodes[end.node].kind else { return quote!(()) };
         let name = &graph.port(end).name;
         let body = &each.body;
         let inside =
             body.nodes.iter().position(|n| matches!(n.kind, NodeKind::Boundary(PortKind::Output)) && n.name == *name);
-        let item = inside.and_then(|node| body.incoming(End { node, port: 0 })).map(|c| {
+        let item = inside.and_then(|node| body.incoming(PortId { node, port: 0 })).map(|c| {
             let outer = self.inside(graph, end.node);
             outer.token_type(body, c.from)
         });
-        let list = graph.incoming(End { node: end.node, port: each.list }).map(|c| self.token_type(graph, c.from));
+        let list = graph.incoming(PortId { node: end.node, port: each.list }).map(|c| self.token_type(graph, c.from));
         match (list, item) {
             (Some(list), Some(item)) => quote!(<#list as ::apex_rt::List>::Of<#item>),
             _ => quote!(()),
@@ -154,7 +154,7 @@ impl Generator<'_> {
     /// The type of an input of an `each` body, from the graph around it.
     fn body_input_type(&self, body: &Graph, node: NodeId) -> TokenStream {
         let port = &body.nodes[node].ports[0];
-        let spelled = spell(&port.ty, self.catalog);
+        let spelled = to_rust(&port.ty, self.catalog);
         let Some((graph, each_node, outer)) = self.outer else { return spelled.unwrap_or_default() };
         if let Some(ty) = spelled {
             return ty;
@@ -163,7 +163,7 @@ impl Generator<'_> {
         let name = &body.nodes[node].name;
         let ports = &graph.nodes[each_node].ports;
         let arriving = ports.iter().position(|p| p.kind == PortKind::Input && p.name == *name);
-        let arriving = arriving.and_then(|port| graph.incoming(End { node: each_node, port }));
+        let arriving = arriving.and_then(|port| graph.incoming(PortId { node: each_node, port }));
         let is_list = ports.get(each.list).is_some_and(|p| p.name == *name);
         match arriving.map(|c| outer.token_type(graph, c.from)) {
             Some(list) if is_list => quote!(<#list as ::apex_rt::List>::Item),
@@ -192,7 +192,7 @@ impl Generator<'_> {
         let known = |name: &str| {
             let index = signature.generics.iter().position(|g| g == name)?;
             match library.types.get(index)? {
-                TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+                TypeArg::Known(ty) | TypeArg::Verbatim(ty, _) => Some(ty.clone()),
                 TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
             }
         };

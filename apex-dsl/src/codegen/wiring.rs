@@ -7,7 +7,7 @@
 use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
 use crate::{
     analyse::{Analysis, Delivery, Guard, takes_activity},
-    graph::{End, Flow, Graph, NodeId, NodeKind},
+    graph::{Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::{
@@ -33,7 +33,7 @@ pub enum Flag {
 /// What a token at a port sets off, besides what stays in its region. A port may have several of these rows.
 #[derive(Debug)]
 pub struct Port {
-    pub end: End,
+    pub end: PortId,
     /// An active connection leads on from it, and this row says what that does.
     pub is_active: bool,
     /// Set with each token: it takes activity away from its receiver.
@@ -196,7 +196,7 @@ impl Wiring {
 fn rows(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, bits: &Bits, node: NodeId) -> Vec<Port> {
     let from = |c: &usize| graph.connections[*c].from;
     let sends = analysis.links.sends[node].chunk_by(|a, b| from(a) == from(b));
-    let active: BTreeSet<End> =
+    let active: BTreeSet<PortId> =
         analysis.links.from(node).filter(|c| graph.connections[*c].active).map(|c| from(&c)).collect();
     let mut active = active.into_iter().peekable();
     let mut rows = vec![];
@@ -229,7 +229,7 @@ fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: usize) -> S
 }
 
 /// What a token at `end` does with activity.
-fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: End) -> Port {
+fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: PortId) -> Port {
     let connections = analysis.links.from(end.node);
     let mut connections: Vec<usize> =
         connections.filter(|c| graph.connections[*c].active && graph.connections[*c].from == end).collect();

@@ -7,7 +7,7 @@ use super::Generator;
 use crate::{
     catalog::{Match, Signature, Trait, Type},
     check::compare_types,
-    graph::{End, Graph, Library, NodeId, NodeKind, TypeArg, Value},
+    graph::{Graph, Library, NodeId, NodeKind, PortId, TypeArg, Value},
     source::Span,
     syntax::tree::PortKind,
 };
@@ -38,7 +38,7 @@ impl Generator<'_> {
     }
 
     /// A token as `Option<&T>` becomes `Option<T>`.
-    pub fn cloned(&self, graph: &Graph, end: End, token: &TokenStream) -> TokenStream {
+    pub fn cloned(&self, graph: &Graph, end: PortId, token: &TokenStream) -> TokenStream {
         match self.copying(graph, end) {
             Some(name) => quote!(#token.map(#name::copied)),
             None => quote!(#token.cloned()),
@@ -46,13 +46,13 @@ impl Generator<'_> {
     }
 
     /// A token as `&T` becomes `T`.
-    pub fn clone(&self, graph: &Graph, end: End, token: &TokenStream) -> TokenStream {
+    pub fn clone(&self, graph: &Graph, end: PortId, token: &TokenStream) -> TokenStream {
         let copy = self.copier(graph, end);
         quote!(#copy(#token))
     }
 
     /// The function that makes a `T` of a `&T` for the tokens of a port.
-    pub fn copier(&self, graph: &Graph, end: End) -> TokenStream {
+    pub fn copier(&self, graph: &Graph, end: PortId) -> TokenStream {
         match self.copying(graph, end) {
             Some(name) => quote!(#name::copied),
             None => quote!(::core::clone::Clone::clone),
@@ -60,7 +60,7 @@ impl Generator<'_> {
     }
 
     /// Keeps a copy of a token, which is an `Option<&T>`, in a place that is an `Option<T>`.
-    pub fn store(&self, graph: &Graph, end: End, place: &TokenStream, token: &TokenStream) -> TokenStream {
+    pub fn store(&self, graph: &Graph, end: PortId, place: &TokenStream, token: &TokenStream) -> TokenStream {
         match self.copying(graph, end) {
             Some(name) => quote! { #name::store(&mut #place, #token); },
             None => quote! { ::apex_rt::store(&mut #place, #token); },
@@ -68,9 +68,9 @@ impl Generator<'_> {
     }
 
     /// The trait that copies tokens of a port, unless their type certainly has `Clone`.
-    fn copying(&self, graph: &Graph, end: End) -> Option<Ident> {
+    fn copying(&self, graph: &Graph, end: PortId) -> Option<Ident> {
         let end = graph.origin(end);
-        let (number, End { node, port }) = (self.names.number, end);
+        let (number, PortId { node, port }) = (self.names.number, end);
         (!self.catalog.has_trait(&graph.port(end).ty, Trait::Clone))
             .then(|| format_ident!("Copy{node}Port{port}Of{number}"))
     }
@@ -103,7 +103,7 @@ impl Generator<'_> {
 
     /// The trait that makes the first token of a delay, unless its type certainly has `Default`.
     fn starting(&self, graph: &Graph, delay: NodeId) -> Option<Ident> {
-        let from = graph.incoming(End { node: delay, port: 0 })?.from;
+        let from = graph.incoming(PortId { node: delay, port: 0 })?.from;
         (!self.catalog.has_trait(&graph.port(from).ty, Trait::Default))
             .then(|| format_ident!("First{delay}Of{}", self.names.number))
     }
@@ -166,7 +166,7 @@ impl Generator<'_> {
     }
 
     fn first_item(&self, graph: &Graph, delay: NodeId, name: &Ident) -> TokenStream {
-        let from = graph.incoming(End { node: delay, port: 0 }).map_or_else(String::new, |c| graph.end_name(c.from));
+        let from = graph.incoming(PortId { node: delay, port: 0 }).map_or_else(String::new, |c| graph.end_name(c.from));
         let (message, silent) = (
             self.message(&Message {
                 text: format!("the delay of `{from}` needs a first token, and `{{Self}}` is not `Default`"),
@@ -186,7 +186,7 @@ impl Generator<'_> {
     /// The traits that copy the tokens of a node.
     fn copy_items(&self, graph: &Graph, node: NodeId) -> TokenStream {
         let silent = self.silent();
-        let ports = (0..graph.nodes[node].ports.len()).map(|port| End { node, port });
+        let ports = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let copies = ports.filter(|end| graph.origin(*end) == *end).filter_map(|end| {
             let connection = graph.connections.iter().find(|c| c.from == end)?;
             let name = self.copying(graph, end)?;

@@ -1,6 +1,6 @@
 //! Documents: formatted text with its possible line breaks.
 
-use crate::syntax::concrete::Comment;
+use crate::syntax::cst::Comment;
 use std::borrow::Cow;
 
 /// A piece of text that is not yet divided into lines.

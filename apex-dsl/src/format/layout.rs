@@ -7,7 +7,7 @@ use super::{
 };
 use crate::syntax::{
     Rule,
-    concrete::{Comment, Kid, Node, Token},
+    cst::{Child, Comment, Node, Token},
 };
 
 /// Makes documents from the nodes of a syntax tree.
@@ -51,10 +51,10 @@ impl<'a, 't> Layout<'a, 't> {
     }
 
     /// One part of a node.
-    pub fn kid(&self, kid: &Kid) -> Doc<'t> {
+    pub fn kid(&self, kid: &Child) -> Doc<'t> {
         match kid {
-            Kid::Node(node) => self.node(node),
-            Kid::Token(token) => self.token(*token),
+            Child::Node(node) => self.node(node),
+            Child::Token(token) => self.token(*token),
         }
     }
 
@@ -89,25 +89,25 @@ impl<'a, 't> Layout<'a, 't> {
     }
 
     /// The first token of a part.
-    pub fn first(&self, kid: &Kid) -> &'a Token<'t> {
+    pub fn first(&self, kid: &Child) -> &'a Token<'t> {
         match kid {
-            Kid::Token(token) => &self.tokens[*token],
+            Child::Token(token) => &self.tokens[*token],
             // Every rule matches something.
-            Kid::Node(node) => self.first(&node.kids[0]),
+            Child::Node(node) => self.first(&node.kids[0]),
         }
     }
 
     /// The text of a part that is a single token.
-    pub fn word(&self, kid: &Kid) -> Option<&'t str> {
+    pub fn word(&self, kid: &Child) -> Option<&'t str> {
         match kid {
-            Kid::Token(token) => Some(self.tokens[*token].text),
-            Kid::Node(node) if node.kids.len() == 1 => self.word(&node.kids[0]),
-            Kid::Node(_) => None,
+            Child::Token(token) => Some(self.tokens[*token].text),
+            Child::Node(node) if node.kids.len() == 1 => self.word(&node.kids[0]),
+            Child::Node(_) => None,
         }
     }
 
     /// Parts with blanks between them where necessary.
-    pub fn words(&self, kids: &[Kid]) -> Doc<'t> {
+    pub fn words(&self, kids: &[Child]) -> Doc<'t> {
         let mut parts = vec![];
         for (i, kid) in kids.iter().enumerate() {
             if i > 0 && self.are_apart(&kids[i - 1], kid) {
@@ -118,9 +118,9 @@ impl<'a, 't> Layout<'a, 't> {
         Doc::Concat(parts)
     }
 
-    fn are_apart(&self, left: &Kid, right: &Kid) -> bool {
+    fn are_apart(&self, left: &Child, right: &Child) -> bool {
         use Rule::*;
-        let tight = |kid: &Kid| matches!(rule(kid), Some(range_op)) || matches!(self.word(kid), Some("." | "::"));
+        let tight = |kid: &Child| matches!(rule(kid), Some(range_op)) || matches!(self.word(kid), Some("." | "::"));
         let holds = matches!(rule(left), Some(prefix)) || matches!(self.word(left), Some("(" | "["));
         let hangs = matches!(rule(right), Some(args | params | type_args | generics | unit_tag))
             || matches!(self.word(right), Some("," | ";" | ":" | "(" | ")" | "]"));
@@ -129,7 +129,7 @@ impl<'a, 't> Layout<'a, 't> {
 
     /// A head, and statements in braces.
     fn block(&self, node: &Node) -> Doc<'t> {
-        let is_brace = |kid: &Kid| rule(kid) == Some(Rule::lbrace);
+        let is_brace = |kid: &Child| rule(kid) == Some(Rule::lbrace);
         let open = node.kids.iter().position(is_brace).unwrap_or(0);
         let (head, rest) = node.kids.split_at(open + 1);
         let [statements @ .., close] = rest else { return self.words(head) };
@@ -142,7 +142,7 @@ impl<'a, 't> Layout<'a, 't> {
     }
 
     /// The comments before a closing bracket, and the bracket.
-    pub fn closing(&self, close: &Kid) -> (Vec<Doc<'t>>, Doc<'t>) {
+    pub fn closing(&self, close: &Child) -> (Vec<Doc<'t>>, Doc<'t>) {
         let token = self.first(close);
         let mut inside = vec![];
         for written in &token.before {
@@ -152,7 +152,7 @@ impl<'a, 't> Layout<'a, 't> {
         (inside, Doc::Concat([Doc::text(token.text)].into_iter().chain(after).collect()))
     }
 
-    fn statements(&self, kids: &[Kid]) -> Vec<Doc<'t>> {
+    fn statements(&self, kids: &[Child]) -> Vec<Doc<'t>> {
         let statements: Vec<&Node> = nodes(kids).map(only).collect();
         let follows = |a: &&Node, b: &&Node| a.rule == b.rule && !self.has_blank(b);
         let mut parts = vec![];
@@ -184,10 +184,10 @@ impl<'a, 't> Layout<'a, 't> {
     }
 
     /// All tokens of a part.
-    fn all(&self, kid: &Kid) -> Vec<&'a Token<'t>> {
+    fn all(&self, kid: &Child) -> Vec<&'a Token<'t>> {
         match kid {
-            Kid::Token(token) => vec![&self.tokens[*token]],
-            Kid::Node(node) => node.kids.iter().flat_map(|kid| self.all(kid)).collect(),
+            Child::Token(token) => vec![&self.tokens[*token]],
+            Child::Node(node) => node.kids.iter().flat_map(|kid| self.all(kid)).collect(),
         }
     }
 
@@ -231,7 +231,7 @@ impl<'a, 't> Layout<'a, 't> {
 
     /// An instance with its modifiers, which may follow in the next line.
     fn instance(&self, node: &Node) -> Doc<'t> {
-        let is_modifier = |kid: &Kid| rule(kid) == Some(Rule::modifier);
+        let is_modifier = |kid: &Child| rule(kid) == Some(Rule::modifier);
         let end = node.kids.iter().position(is_modifier).unwrap_or(node.kids.len());
         let (made_of, modifiers) = node.kids.split_at(end);
         let modifiers = modifiers.iter().flat_map(|modifier| [Doc::Line, self.kid(modifier)]).collect();
@@ -240,7 +240,7 @@ impl<'a, 't> Layout<'a, 't> {
 
     /// An expression, which may be broken before an operator.
     fn expr(&self, node: &Node) -> Doc<'t> {
-        let is_binary = |kid: &Kid| rule(kid) == Some(Rule::binary);
+        let is_binary = |kid: &Child| rule(kid) == Some(Rule::binary);
         let mut operands = node.kids.chunk_by(|_, next| !is_binary(next)).map(|operand| self.words(operand));
         let first = operands.next().unwrap_or(Doc::NIL);
         let others: Vec<Doc<'t>> = operands.collect();
@@ -267,18 +267,18 @@ fn cell(statement: &Node) -> usize {
 }
 
 /// The rule of a part; `None` for a plain token.
-pub fn rule(kid: &Kid) -> Option<Rule> {
+pub fn rule(kid: &Child) -> Option<Rule> {
     match kid {
-        Kid::Node(node) => Some(node.rule),
-        Kid::Token(_) => None,
+        Child::Node(node) => Some(node.rule),
+        Child::Token(_) => None,
     }
 }
 
 /// The parts that are not plain tokens.
-pub fn nodes(kids: &[Kid]) -> impl Iterator<Item = &Node> {
+pub fn nodes(kids: &[Child]) -> impl Iterator<Item = &Node> {
     kids.iter().filter_map(|kid| match kid {
-        Kid::Node(node) => Some(node),
-        Kid::Token(_) => None,
+        Child::Node(node) => Some(node),
+        Child::Token(_) => None,
     })
 }
 
@@ -286,7 +286,7 @@ pub fn nodes(kids: &[Kid]) -> impl Iterator<Item = &Node> {
 pub fn only(node: &Node) -> &Node {
     use Rule::*;
     match (node.rule, &node.kids[..]) {
-        (item | stmt | fsm_stmt | state_stmt | test_stmt | endpoint | primary, [Kid::Node(inner)]) => inner,
+        (item | stmt | fsm_stmt | state_stmt | test_stmt | endpoint | primary, [Child::Node(inner)]) => inner,
         _ => node,
     }
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::syntax::{
     Rule,
-    concrete::{Kid, Node},
+    cst::{Child, Node},
 };
 
 /// Widest row of a matrix whose numbers are aligned in columns.
@@ -14,8 +14,8 @@ const WIDEST_ROW: usize = 80;
 
 /// An element, and the comma behind it.
 struct Element<'k> {
-    value: &'k Kid,
-    comma: Option<&'k Kid>,
+    value: &'k Child,
+    comma: Option<&'k Child>,
 }
 
 /// Treatment of a comma.
@@ -58,7 +58,7 @@ impl<'t> Layout<'_, 't> {
 
     /// `thread vision { cores = [1]; priority = 80 }`
     pub fn settings(&self, node: &Node) -> Doc<'t> {
-        let is_brace = |kid: &Kid| rule(kid) == Some(Rule::lbrace);
+        let is_brace = |kid: &Child| rule(kid) == Some(Rule::lbrace);
         let open = node.kids.iter().position(is_brace).unwrap_or(0);
         let (head, rest) = node.kids.split_at(open + 1);
         let [inner @ .., close] = rest else { return self.words(&node.kids) };
@@ -74,7 +74,7 @@ impl<'t> Layout<'_, 't> {
     }
 
     /// A list in brackets: `kids` from the opening bracket to the closing one.
-    fn brackets(&self, kids: &[Kid], body: impl FnOnce(&[Element<'_>]) -> Doc<'t>) -> Doc<'t> {
+    fn brackets(&self, kids: &[Child], body: impl FnOnce(&[Element<'_>]) -> Doc<'t>) -> Doc<'t> {
         let [open, inner @ .., close] = kids else { return self.words(kids) };
         let elements = elements(inner);
         let (inside, close) = self.closing(close);
@@ -117,9 +117,9 @@ impl<'t> Layout<'_, 't> {
 
     /// Returns `true` if the only argument is a list: its brackets and the parentheses open and close together.
     fn is_hugged(&self, args: &Node) -> bool {
-        let [open, Kid::Node(arg), rest @ ..] = &args.kids[..] else { return false };
+        let [open, Child::Node(arg), rest @ ..] = &args.kids[..] else { return false };
         let is_list = nodes(&arg.kids).last().and_then(sole_value).is_some_and(|value| value.rule == Rule::list_expr);
-        let has_no_comment = |kid: &Kid| self.first(kid).before.is_empty() && self.first(kid).after.is_empty();
+        let has_no_comment = |kid: &Child| self.first(kid).before.is_empty() && self.first(kid).after.is_empty();
         let [commas @ .., close] = rest else { return false };
         args.rule == Rule::args
             && is_list
@@ -150,7 +150,7 @@ impl<'t> Layout<'_, 't> {
         let mut parts = vec![];
         for (i, row) in rows.iter().enumerate() {
             parts.push(line(i));
-            if let Kid::Node(row) = row.value {
+            if let Child::Node(row) = row.value {
                 parts.push(sole_value(row).map_or_else(|| self.node(row), |list| self.row(list, columns)));
             }
             if i + 1 < rows.len() {
@@ -176,7 +176,7 @@ impl<'t> Layout<'_, 't> {
     }
 }
 
-fn elements(inner: &[Kid]) -> Vec<Element<'_>> {
+fn elements(inner: &[Child]) -> Vec<Element<'_>> {
     let mut elements: Vec<Element<'_>> = vec![];
     for kid in inner {
         match elements.last_mut() {
@@ -195,7 +195,7 @@ fn line<'t>(index: usize) -> Doc<'t> {
 /// The value of an expression without operators.
 fn sole_value(expr: &Node) -> Option<&Node> {
     match &expr.kids[..] {
-        [Kid::Node(primary)] if expr.rule == Rule::expr => Some(only(primary)),
+        [Child::Node(primary)] if expr.rule == Rule::expr => Some(only(primary)),
         _ => None,
     }
 }

@@ -14,7 +14,7 @@ use crate::{
     source::{FileId, Span},
     syntax::{
         self, MAX_BYTES,
-        concrete::{Text, closes},
+        cst::{Text, closes},
     },
 };
 use layout::Layout;

@@ -4,7 +4,7 @@ use super::{
     columns,
     doc::{Doc, width},
 };
-use crate::syntax::concrete::opens;
+use crate::syntax::cst::opens;
 use std::iter;
 
 /// Longest line, if there is a choice.

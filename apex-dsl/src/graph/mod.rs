@@ -11,7 +11,7 @@ use std::{collections::BTreeSet, time::Duration};
 
 pub use condition::{Condition, is_arithmetic};
 pub use names::camel;
-pub use node::{Each, End, Far, Library, Modifiers, Node, NodeKind, Port, Standard, TypeArg};
+pub use node::{CellEnd, Each, Library, Modifiers, Node, NodeKind, Port, PortId, Standard, TypeArg};
 pub use value::{Claim, ClaimKind, Number, Subject, Value};
 
 /// Number of a node in [`Graph::nodes`].
@@ -60,7 +60,7 @@ pub struct Graph {
     /// at that port.
     pub open_pins: BTreeSet<NodeId>,
     /// Inputs whose connection could not be made; the error has been reported.
-    pub excused: BTreeSet<End>,
+    pub suppressed: BTreeSet<PortId>,
 }
 
 /// A `record` statement: the file, and the ports that are recorded in addition to the inputs of the program.
@@ -69,7 +69,7 @@ pub struct Record {
     /// The file.
     pub file: String,
     /// The ports.
-    pub ports: Vec<End>,
+    pub ports: Vec<PortId>,
     /// Place in the source file.
     pub span: Span,
 }
@@ -114,9 +114,9 @@ pub struct Pin {
 
 /// An end of a connection as written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Place {
+pub enum WireEnd {
     /// A port of a node.
-    Port(End),
+    Port(PortId),
     /// A port of a nested graph, by number in [`Graph::pins`].
     Pin(usize),
 }
@@ -125,9 +125,9 @@ pub enum Place {
 #[derive(Debug, Clone)]
 pub struct Wire {
     /// Origin of the tokens.
-    pub from: Place,
+    pub from: WireEnd,
     /// Destination of the tokens.
-    pub to: Place,
+    pub to: WireEnd,
     /// `=>`
     pub active: bool,
     /// `true` if its ends carry different types, which has been reported.
@@ -140,9 +140,9 @@ pub struct Wire {
 #[derive(Debug, Clone)]
 pub struct Connection {
     /// Origin of the tokens.
-    pub from: End,
+    pub from: PortId,
     /// Destination of the tokens.
-    pub to: End,
+    pub to: PortId,
     /// `true` for `=>`, on which activity passes.
     pub active: bool,
     /// `true` if its ends carry different types, which has been reported.
@@ -203,7 +203,7 @@ impl Scope {
 
 impl Graph {
     /// The port at `end`.
-    pub fn port(&self, end: End) -> &Port {
+    pub fn port(&self, end: PortId) -> &Port {
         &self.nodes[end.node].ports[end.port]
     }
 
@@ -235,7 +235,7 @@ impl Graph {
     }
 
     /// A port as written in a source file: `node.port`.
-    pub fn end_name(&self, end: End) -> String {
+    pub fn end_name(&self, end: PortId) -> String {
         match self.nodes[end.node].kind {
             NodeKind::Boundary(_) | NodeKind::Sender(_) | NodeKind::Receiver(_) => self.path(end.node),
             _ => format!("{}.{}", self.path(end.node), self.port(end).name),
@@ -262,7 +262,7 @@ impl Graph {
 
     /// The thread group of a node: its own, or that of the innermost nested graph with one.
     pub fn group(&self, node: NodeId) -> &str {
-        if matches!(self.nodes[node].kind, NodeKind::Hung) {
+        if matches!(self.nodes[node].kind, NodeKind::Watchdog) {
             return WATCH_GROUP;
         }
         let own = self.nodes[node].modifiers.group.as_deref();
@@ -278,17 +278,18 @@ impl Graph {
     }
 
     /// The connection into a port, if there is one.
-    pub fn incoming(&self, end: End) -> Option<&Connection> {
+    pub fn incoming(&self, end: PortId) -> Option<&Connection> {
         self.connections.iter().find(|c| c.to == end)
     }
 
     /// The port from which the tokens of a port originate: delays and relays only pass them on.
-    pub fn origin(&self, end: End) -> End {
+    pub fn origin(&self, end: PortId) -> PortId {
         let mut end = end;
         // The number of steps is bounded, as a loop of nothing but delays has no origin.
         for _ in 0..self.nodes.len() {
             let passes_on = matches!(self.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay);
-            match self.incoming(End { node: end.node, port: 0 }).filter(|_| passes_on && self.port(end).kind.sends()) {
+            match self.incoming(PortId { node: end.node, port: 0 }).filter(|_| passes_on && self.port(end).kind.sends())
+            {
                 Some(connection) => end = connection.from,
                 None => break,
             }

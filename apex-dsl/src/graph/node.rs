@@ -48,21 +48,21 @@ pub enum NodeKind {
     /// Observation point of a test: takes the tokens of an input or slot, and never blocks their sender.
     Probe,
     /// An event of the watchdog, outside all threads: a node has been running for too long.
-    Hung,
+    Watchdog,
     /// A slot of the program that ends it with this code.
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
     Reset,
     /// Sends tokens to another thread group: only in the graph of a group. Its input is occupied until the other group
     /// has taken the token, or has finished everything that the token causes there.
-    Sender(Far),
+    Sender(CellEnd),
     /// Receives tokens from another thread group: only in the graph of a group.
-    Receiver(Far),
+    Receiver(CellEnd),
 }
 
 /// One end of the cell that tokens pass on their way from one thread group to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Far {
+pub struct CellEnd {
     /// Number of the cell.
     pub cell: usize,
     /// `true` if the tokens take activity away.
@@ -159,11 +159,11 @@ pub enum TypeArg {
     /// A type that the source file or the connections determine.
     Known(Type),
     /// A type that is written in the source file, and its Rust code.
-    Spelled(Type, String),
+    Verbatim(Type, String),
     /// The type of the tokens at this port, which only rustc can spell.
-    TokenOf(End),
+    TokenOf(PortId),
     /// The element type of the lists at this port.
-    ItemOf(End),
+    ItemOf(PortId),
 }
 
 /// A nested graph that runs once per element of a list.
@@ -201,7 +201,7 @@ pub struct Port {
 
 /// Port `port` of node `node`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct End {
+pub struct PortId {
     /// The node.
     pub node: NodeId,
     /// Number of the port in [`Node::ports`].
@@ -276,7 +276,7 @@ impl Node {
     }
 
     /// Returns `true` if the node may send nothing although it consumes tokens.
-    pub fn may_be_silent(&self) -> bool {
+    pub fn may_produce_absent(&self) -> bool {
         self.can_be_disabled() || self.is_contained()
     }
 }

@@ -2,18 +2,18 @@
 
 use super::{
     Definition, NodeType, PortFacts, View,
-    context::{Context, End, Named, Quantity, context},
+    context::{Context, Named, PortId, Quantity, context},
     definition::generics,
-    describe::{describe, param, port, standard_docs},
+    hover::{describe, param, port, standard_docs},
 };
 use crate::{
     catalog::{Match, Type},
     graph::Standard,
-    resolve::{GraphId, Meaning},
+    resolve::{GraphId, Resolution},
     source::Span,
     syntax::{
+        keywords::{KeywordPosition, words_at},
         tree::{Ident, ModifierKind, PathExpr, PortKind},
-        words::{Place, words_at},
     },
     units::{self, Dimension},
 };
@@ -58,7 +58,7 @@ pub enum CompletionKind {
     /// A crate, a module or a source file.
     Module,
     /// A keyword.
-    Word,
+    Keyword,
 }
 
 impl Completion {
@@ -96,15 +96,19 @@ impl Completer<'_> {
     fn at(&self, context: Context, siblings: &Siblings<'_>) -> Vec<Completion> {
         match context {
             Context::Nothing => vec![],
-            Context::Item => words(Place::Item),
+            Context::Item => words(KeywordPosition::Item),
             Context::Import(path) => self.importable(&path, siblings),
             Context::Path(path) => self.in_module(&path),
             Context::Type => self.types(),
             Context::Statement => {
                 let names = self.names(self.graph, Named::Sends, None);
-                words(Place::Graph).into_iter().chain(names).chain(self.node_types(true, None, None)).collect()
+                words(KeywordPosition::Graph)
+                    .into_iter()
+                    .chain(names)
+                    .chain(self.node_types(true, None, None))
+                    .collect()
             }
-            Context::Made(handed_in) => self.node_types(!handed_in, None, None),
+            Context::Constructor(handed_in) => self.node_types(!handed_in, None, None),
             Context::Name(Named::Tested | Named::Fed, _) => {
                 self.tested_names(matches!(context, Context::Name(Named::Fed, _)))
             }
@@ -114,24 +118,26 @@ impl Completer<'_> {
             Context::Value(of, name) => self.values(&of, &name),
             Context::Time | Context::Expression => self.parameters(),
             Context::Unit(quantity) => self.units(quantity),
-            Context::Modifier => words(Place::Modifier),
+            Context::Modifier => words(KeywordPosition::Modifier),
             Context::List(of) => self.lists(&of),
-            Context::Claim => words(Place::Claim),
+            Context::Claim => words(KeywordPosition::Claim),
             Context::Machine(in_state) => {
                 let is_meant = |w: &Completion| in_state != matches!(w.label.as_str(), "slot" | "event");
-                words(Place::Machine).into_iter().filter(|w| is_meant(w) || w.label == "state").collect()
+                words(KeywordPosition::Machine).into_iter().filter(|w| is_meant(w) || w.label == "state").collect()
             }
             Context::State | Context::MachineSlot | Context::MachineEvent => self.machine_names(&context),
-            Context::Test => words(Place::Test),
+            Context::Test => words(KeywordPosition::Test),
             Context::Tested => self.node_types(false, None, None),
-            Context::Words(words) => words.iter().map(|w| Completion::new(*w, CompletionKind::Word, "", "")).collect(),
+            Context::Words(words) => {
+                words.iter().map(|w| Completion::new(*w, CompletionKind::Keyword, "", "")).collect()
+            }
         }
     }
 
     // Names and ports
 
     /// The possible ends of a connection.
-    fn ends(&self, named: Named, other: Option<&End>) -> Vec<Completion> {
+    fn ends(&self, named: Named, other: Option<&PortId>) -> Vec<Completion> {
         let graph = match named {
             Named::Node => self.graph.or_else(|| self.tested()),
             _ => self.graph,
@@ -144,7 +150,7 @@ impl Completer<'_> {
     }
 
     /// The ports of a graph, and the nodes in it that have a fitting port.
-    fn names(&self, graph: Option<GraphId>, named: Named, other: Option<&End>) -> Vec<Completion> {
+    fn names(&self, graph: Option<GraphId>, named: Named, other: Option<&PortId>) -> Vec<Completion> {
         let Some(id) = graph else { return vec![] };
         let item = self.view.texts.graph(id);
         let types = other.and_then(|end| self.types_of(id, end, opposite(named)));
@@ -160,7 +166,8 @@ impl Completer<'_> {
         for (i, node) in item.nodes.iter().enumerate() {
             found.extend(self.node(id, i, &node.name.text, named, types.as_deref()));
         }
-        let slots = words_at(Place::Node).filter(|w| matches!(w.text, "start" | "hung") == (named == Named::Sends));
+        let slots =
+            words_at(KeywordPosition::Node).filter(|w| matches!(w.text, "start" | "hung") == (named == Named::Sends));
         let own =
             slots.filter(|_| named != Named::Node).map(|w| Completion::new(w.text, CompletionKind::Name, "", w.docs));
         found.into_iter().chain(own).collect()
@@ -226,14 +233,14 @@ impl Completer<'_> {
     }
 
     /// The types of the tokens at an end; `None` if they are not known.
-    fn types_of(&self, id: GraphId, end: &End, named: Named) -> Option<Vec<Type>> {
+    fn types_of(&self, id: GraphId, end: &PortId, named: Named) -> Option<Vec<Type>> {
         let of = |ports: Vec<PortFacts>, name: Option<&String>| -> Vec<Type> {
             let ports = ports.into_iter().filter(|p| name.is_none_or(|n| p.name == *n));
             ports.filter(|p| fits(p.kind, &p.ty, named, None)).map(|p| p.ty).collect()
         };
         let types = match end {
-            End::InPlace(path) => of(self.view.ports(self.node_type(path)?), None),
-            End::Reference(parts) => {
+            PortId::InPlace(path) => of(self.view.ports(self.node_type(path)?), None),
+            PortId::Reference(parts) => {
                 let (name, port) = (parts.first()?, parts.get(1));
                 let own = self.view.ports(NodeType::Graph(id)).into_iter().find(|p| p.name == *name);
                 match own {
@@ -256,9 +263,9 @@ impl Completer<'_> {
     }
 
     /// The ports that may follow `node.`.
-    fn ports_of(&self, of: &End, named: Named, other: Option<&End>) -> Vec<Completion> {
+    fn ports_of(&self, of: &PortId, named: Named, other: Option<&PortId>) -> Vec<Completion> {
         let graph = if named == Named::Tested { self.tested().or(self.graph) } else { self.graph };
-        let (Some(mut id), End::Reference(parts)) = (graph, of) else { return vec![] };
+        let (Some(mut id), PortId::Reference(parts)) = (graph, of) else { return vec![] };
         let Some((name, outer)) = parts.split_last() else { return vec![] };
         for name in outer {
             let made = self.position(id, name).and_then(|i| self.view.made_of(id, i).0);
@@ -316,7 +323,7 @@ impl Completer<'_> {
         if !fed {
             found.extend(self.names(Some(id), Named::Node, None));
             let active =
-                Completion::new("active", CompletionKind::Word, "", "Whether a node or nested graph is active.");
+                Completion::new("active", CompletionKind::Keyword, "", "Whether a node or nested graph is active.");
             found.push(Completion { snippet: Some("active($1)".to_owned()), ..active });
         }
         found
@@ -363,7 +370,7 @@ impl Completer<'_> {
             found.push(Completion::new(text, CompletionKind::Value, "the default", ""));
         }
         if wanted.is_none_or(|p| p.ty == "bool") {
-            found.extend(words(Place::Value));
+            found.extend(words(KeywordPosition::Value));
         }
         found
     }
@@ -399,7 +406,7 @@ impl Completer<'_> {
     // Node types and types
 
     /// The possible constructors of an instance: first those with a name here, then those that can be imported.
-    fn node_types(&self, with_args: bool, named: Option<Named>, other: Option<&End>) -> Vec<Completion> {
+    fn node_types(&self, with_args: bool, named: Option<Named>, other: Option<&PortId>) -> Vec<Completion> {
         let types =
             self.graph.zip(other).zip(named).and_then(|((id, end), named)| self.types_of(id, end, opposite(named)));
         let is_meant = |node: NodeType| {
@@ -411,9 +418,9 @@ impl Completer<'_> {
         let (mut found, mut known) = (vec![], BTreeSet::new());
         for (name, meaning) in self.view.texts.names(0) {
             let node = match meaning {
-                Meaning::Graph(id) => Some(NodeType::Graph(*id)),
-                Meaning::Machine(signature) => Some(self.view.of_signature(*signature)),
-                Meaning::Rust(path) => self.view.catalog.nodes(path).first().map(|id| NodeType::Rust(*id)),
+                Resolution::Graph(id) => Some(NodeType::Graph(*id)),
+                Resolution::Machine(signature) => Some(self.view.of_signature(*signature)),
+                Resolution::Rust(path) => self.view.catalog.nodes(path).first().map(|id| NodeType::Rust(*id)),
             };
             known.insert(name.as_str());
             let Some(node) = node.filter(|n| is_meant(*n) && !is_recursive(*n)) else { continue };
@@ -446,7 +453,7 @@ impl Completer<'_> {
             ["f32", "f64", "bool", "u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64", "Duration", "Vec", "Option"];
         let plain = plain.map(|name| Completion::new(name, CompletionKind::Type, "", ""));
         let imported = self.view.texts.names(0).iter().filter_map(|(name, meaning)| match meaning {
-            Meaning::Rust(path) if !self.view.catalog.types(path).is_empty() => Some(name.clone()),
+            Resolution::Rust(path) if !self.view.catalog.types(path).is_empty() => Some(name.clone()),
             _ => None,
         });
         let own = self.graph.map(|id| generics(self.view.texts.graph(id))).unwrap_or_default();
@@ -521,8 +528,8 @@ fn standard_ports(
     })
 }
 
-fn words(place: Place) -> Vec<Completion> {
-    words_at(place).map(|w| Completion::new(w.text, CompletionKind::Word, "", w.docs)).collect()
+fn words(place: KeywordPosition) -> Vec<Completion> {
+    words_at(place).map(|w| Completion::new(w.text, CompletionKind::Keyword, "", w.docs)).collect()
 }
 
 fn dimension(unit: &str) -> Option<Dimension> {

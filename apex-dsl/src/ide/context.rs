@@ -5,7 +5,7 @@ use crate::syntax::MAX_DEPTH;
 
 /// One end of a connection, as written.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum End {
+pub enum PortId {
     /// `node`, `node.port`
     Reference(Vec<String>),
     /// The path of a node that is written in place.
@@ -54,11 +54,11 @@ pub enum Context {
     /// A statement of a graph.
     Statement,
     /// The constructor of a named node; `true` if the node is handed in.
-    Made(bool),
+    Constructor(bool),
     /// An end of a connection, with the opposite end of the arrow if there is one.
-    Name(Named, Option<End>),
+    Name(Named, Option<PortId>),
     /// A port of this node, with its role and the opposite end of the arrow.
-    Port(End, Named, Option<End>),
+    Port(PortId, Named, Option<PortId>),
     /// The name of an argument of this node, with the arguments that are given already.
     Argument(Vec<String>, Vec<String>),
     /// The value of this argument of this node.
@@ -99,7 +99,7 @@ pub fn context(text: &str, offset: usize) -> (Context, usize) {
     }
     let last = tokens.last().copied().filter(|t| t.start + t.text.len() == offset);
     match last {
-        Some(Token { kind: TokenKind::Word, start, .. }) => {
+        Some(Token { kind: TokenKind::Keyword, start, .. }) => {
             tokens.pop();
             (at_word(&tokens), start)
         }
@@ -201,7 +201,7 @@ fn opener(tokens: &[Token<'_>]) -> Option<usize> {
 }
 
 fn starts_item(tokens: &[Token<'_>], at: usize) -> bool {
-    let named = tokens.get(at + 1).is_none_or(|t| t.kind == TokenKind::Word);
+    let named = tokens.get(at + 1).is_none_or(|t| t.kind == TokenKind::Keyword);
     named && (at == 0 || matches!(tokens[at - 1].text, ";" | "}"))
 }
 
@@ -265,11 +265,11 @@ fn header(tokens: &[Token<'_>], open: usize) -> usize {
 fn in_graph(written: &[Token<'_>]) -> Context {
     let Some(last) = written.last() else { return Context::Statement };
     match (written[0].text, written) {
-        ("in" | "out" | "slot" | "event", [_, name, rest @ ..]) if name.kind == TokenKind::Word => typed(rest),
+        ("in" | "out" | "slot" | "event", [_, name, rest @ ..]) if name.kind == TokenKind::Keyword => typed(rest),
         ("in" | "out" | "slot" | "event", [_]) => Context::Nothing,
         ("node", [_]) | ("node", [_, _]) => Context::Nothing,
-        ("node", [_, _, equals]) if equals.text == "=" => Context::Made(false),
-        ("node", [_, _, colon]) if colon.text == ":" => Context::Made(true),
+        ("node", [_, _, equals]) if equals.text == "=" => Context::Constructor(false),
+        ("node", [_, _, colon]) if colon.text == ":" => Context::Constructor(true),
         ("node", [_, _, colon, ..]) if colon.text == ":" && last.text == "<" => Context::Type,
         ("claim", [_]) => Context::Claim,
         ("claim" | "record", _) => Context::Nothing,
@@ -283,7 +283,7 @@ fn in_record(written: &[Token<'_>]) -> Context {
     match written.split_last() {
         None => Context::Name(Named::Node, None),
         Some((last, before)) if last.text == "." => {
-            Context::Port(End::Reference(reference_before(before).0), Named::Tested, None)
+            Context::Port(PortId::Reference(reference_before(before).0), Named::Tested, None)
         }
         Some(_) => Context::Nothing,
     }
@@ -328,7 +328,7 @@ fn in_chain(written: &[Token<'_>]) -> Context {
             let before = &name[..start];
             let other = arrow_before(before);
             let side = if other.is_some() || has_arrow(before) { Named::Takes } else { Named::Sends };
-            Context::Port(End::Reference(of), side, other)
+            Context::Port(PortId::Reference(of), side, other)
         }
         _ => Context::Nothing,
     }
@@ -339,7 +339,7 @@ fn has_arrow(tokens: &[Token<'_>]) -> bool {
 }
 
 /// The end before the last arrow, also from inside an open list.
-fn arrow_before(tokens: &[Token<'_>]) -> Option<End> {
+fn arrow_before(tokens: &[Token<'_>]) -> Option<PortId> {
     let at = tokens.iter().rposition(|t| matches!(t.text, "->" | "=>"))?;
     end_before(&tokens[..at])
 }
@@ -348,7 +348,7 @@ fn arrow_before(tokens: &[Token<'_>]) -> Option<End> {
 fn reference_before(tokens: &[Token<'_>]) -> (Vec<String>, usize) {
     let mut parts = vec![];
     let mut at = tokens.len();
-    while at > 0 && tokens[at - 1].kind == TokenKind::Word {
+    while at > 0 && tokens[at - 1].kind == TokenKind::Keyword {
         parts.push(tokens[at - 1].text.to_owned());
         at -= 1;
         if at == 0 || tokens[at - 1].text != "." {
@@ -361,13 +361,13 @@ fn reference_before(tokens: &[Token<'_>]) -> (Vec<String>, usize) {
 }
 
 /// The last end of a connection in these tokens.
-fn end_before(tokens: &[Token<'_>]) -> Option<End> {
+fn end_before(tokens: &[Token<'_>]) -> Option<PortId> {
     let start = tokens.iter().rposition(|t| matches!(t.text, "->" | "=>")).map_or(0, |i| i + 1);
     let mut end = &tokens[start..];
     while end.first().is_some_and(|t| t.text == "[") {
         end = &end[1..];
     }
-    let words = end.iter().take_while(|t| t.kind == TokenKind::Word || matches!(t.text, "." | "::"));
+    let words = end.iter().take_while(|t| t.kind == TokenKind::Keyword || matches!(t.text, "." | "::"));
     let (mut parts, mut in_place) = (vec![], false);
     for token in words.clone() {
         match token.text {
@@ -379,8 +379,8 @@ fn end_before(tokens: &[Token<'_>]) -> Option<End> {
     let is_instance = in_place || end.get(words.count()).is_some_and(|t| matches!(t.text, "(" | "<"));
     match (parts.is_empty(), is_instance) {
         (true, _) => None,
-        (_, true) => Some(End::InPlace(parts)),
-        (_, false) => Some(End::Reference(parts)),
+        (_, true) => Some(PortId::InPlace(parts)),
+        (_, false) => Some(PortId::Reference(parts)),
     }
 }
 
@@ -388,7 +388,7 @@ fn in_parens(tokens: &[Token<'_>], open: usize) -> Context {
     let before = &tokens[..open];
     let header = &tokens[header(tokens, open)..open];
     let inside = &tokens[open + 1..];
-    let word = before.last().filter(|t| t.kind == TokenKind::Word).map(|t| t.text);
+    let word = before.last().filter(|t| t.kind == TokenKind::Keyword).map(|t| t.text);
     match (header.first().map(|t| t.text), header.len(), word) {
         (Some("graph" | "robot"), 2, _) => return in_parameters(inside),
         (Some("claim"), 2, _) => return Context::Name(Named::Node, None),
@@ -436,7 +436,7 @@ fn nested(tokens: &[Token<'_>], open: usize) -> Context {
 fn in_arguments(of: Vec<String>, inside: &[Token<'_>]) -> Context {
     let start = last_comma(inside);
     let given = |tokens: &[Token<'_>]| -> Vec<String> {
-        let names = tokens.windows(2).filter(|w| w[0].kind == TokenKind::Word && w[1].text == "=");
+        let names = tokens.windows(2).filter(|w| w[0].kind == TokenKind::Keyword && w[1].text == "=");
         names.map(|w| w[0].text.to_owned()).collect()
     };
     match &inside[start..] {
@@ -480,13 +480,15 @@ fn in_brackets(tokens: &[Token<'_>], open: usize) -> Context {
             let (of, _) = reference_before(&inside[..inside.len() - 1]);
             let other = arrow_before(&tokens[..open]);
             let named = if other.is_some() { Named::Takes } else { Named::Sends };
-            Context::Port(End::Reference(of), named, other)
+            Context::Port(PortId::Reference(of), named, other)
         }
         Context::Name(..) if is(inside.last(), ")") => Context::Modifier,
         Context::Type if begins => Context::Type,
         Context::Value(of, param) => Context::Value(of, param),
         Context::Expression => Context::Expression,
-        Context::Nothing if inside.is_empty() && tokens[..open].last().is_some_and(|t| t.kind == TokenKind::Word) => {
+        Context::Nothing
+            if inside.is_empty() && tokens[..open].last().is_some_and(|t| t.kind == TokenKind::Keyword) =>
+        {
             Context::Unit(Quantity::Any)
         }
         _ => Context::Nothing,
@@ -518,7 +520,7 @@ fn in_test(written: &[Token<'_>]) -> Context {
         ("feed", _) => Context::Words(&["every"]),
         ("replace", "replace") => Context::Name(Named::Node, None),
         ("replace", ".") => in_condition(&written[1..]),
-        ("replace", "=") => Context::Made(false),
+        ("replace", "=") => Context::Constructor(false),
         ("replace", ")") => Context::Modifier,
         ("expect", _) => Context::Words(&["by", "within"]),
         _ => Context::Nothing,
@@ -530,7 +532,7 @@ fn in_condition(inside: &[Token<'_>]) -> Context {
     match inside.split_last() {
         None => Context::Name(Named::Node, None),
         Some((last, before)) if last.text == "." => {
-            Context::Port(End::Reference(reference_before(before).0), Named::Tested, None)
+            Context::Port(PortId::Reference(reference_before(before).0), Named::Tested, None)
         }
         Some(_) => Context::Expression,
     }

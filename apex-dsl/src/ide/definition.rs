@@ -4,7 +4,7 @@ use super::{View, rust::Part};
 use crate::{
     catalog::{DefId, DefaultValue, Literal, ParamSig, SignatureId, Type},
     graph::Standard,
-    resolve::{GraphId, Meaning},
+    resolve::{GraphId, Resolution},
     source::Span,
     syntax::tree::{
         Expr, FsmItem, GraphItem, Ident, Instance, NodeBody, PathExpr, PortItem, PortKind, StateItem, TypeKind,
@@ -126,8 +126,8 @@ impl<'a> View<'a> {
     pub fn node_type(&self, file: usize, path: &PathExpr) -> Option<NodeType> {
         if let [name] = path.segments.as_slice() {
             match self.texts.names(file).get(&name.text) {
-                Some(Meaning::Graph(id)) => return Some(NodeType::Graph(*id)),
-                Some(Meaning::Machine(signature)) => return Some(self.of_signature(*signature)),
+                Some(Resolution::Graph(id)) => return Some(NodeType::Graph(*id)),
+                Some(Resolution::Machine(signature)) => return Some(self.of_signature(*signature)),
                 _ => {}
             }
         }
@@ -256,7 +256,7 @@ impl<'a> View<'a> {
                         _ => None,
                     });
                 for meaning in paths {
-                    if let Meaning::Graph(used) = meaning {
+                    if let Resolution::Graph(used) = meaning {
                         users.entry(*used).or_default().push(GraphId { file, graph: number });
                     }
                 }

@@ -15,7 +15,7 @@ pub struct Token<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TokenKind {
     /// Letters, digits and `_`.
-    Word,
+    Keyword,
     /// A number with its unit.
     Number,
     /// A string.
@@ -46,7 +46,7 @@ pub fn tokens_before(text: &str, end: usize) -> Option<Vec<Token<'_>>> {
             }
             '"' => (TokenKind::Text, string(rest)?),
             '0'..='9' => (TokenKind::Number, number(rest)),
-            'a'..='z' | 'A'..='Z' | '_' => (TokenKind::Word, word(rest)),
+            'a'..='z' | 'A'..='Z' | '_' => (TokenKind::Keyword, word(rest)),
             _ => (TokenKind::Sign, sign(rest, first)),
         };
         tokens.push(Token { kind, text: &rest[..length], start: at });

@@ -4,7 +4,7 @@
 mod complete;
 mod context;
 mod definition;
-mod describe;
+mod hover;
 mod lex;
 mod occurrences;
 mod outline;
@@ -13,13 +13,13 @@ mod rust;
 
 use crate::{
     catalog::Catalog,
-    resolve::{Link, Texts},
+    resolve::{Link, SourceSet},
     source::Sources,
 };
 
 pub use complete::{Completion, CompletionKind, Siblings, complete};
 pub use definition::{Definition, MachineId, NodeType, Origin, ParamFacts, PortFacts};
-pub use describe::{declaration, describe, describe_link, describe_word, flow_word};
+pub use hover::{declaration, describe, describe_link, describe_word, flow_word};
 pub use occurrences::{Occurrence, at, occurrences};
 pub use outline::{Symbol, SymbolKind, outline};
 pub use rename::{may_rename, rename};
@@ -29,7 +29,7 @@ pub use rust::{Part, place_in_rust};
 #[derive(Clone, Copy)]
 pub struct View<'a> {
     /// The source file, which is the first one, and those that it imports.
-    pub texts: &'a Texts,
+    pub texts: &'a SourceSet,
     /// Connections in it.
     pub links: &'a [Link],
     /// Contents and paths of the source files.

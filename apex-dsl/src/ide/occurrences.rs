@@ -3,14 +3,14 @@
 use super::{Definition, MachineId, NodeType, View};
 use crate::{
     graph::Standard,
-    resolve::{GraphId, Meaning},
+    resolve::{GraphId, Resolution},
     source::Span,
     syntax::{
+        keywords::{KeywordPosition, words_at},
         tree::{
             Action, Arg, Endpoint, Expr, ExprKind, File, FsmItem, GraphItem, Ident, Instance, Modifier, ModifierKind,
             NodeBody, PathExpr, PortRef, StateItem, TestItem, TestStep, TypeExpr, TypeKind, Use,
         },
-        words::{Place, words_at},
     },
 };
 use std::collections::BTreeMap;
@@ -146,12 +146,12 @@ impl<'a> Walker<'a, '_> {
     fn import(&mut self, item: &Use) {
         let Some(last) = item.path.last() else { return };
         let meant = match self.view.texts.names(self.file).get(&item.name.text) {
-            Some(Meaning::Graph(id)) => Some((Definition::Node(NodeType::Graph(*id)), Some(id.file))),
-            Some(Meaning::Machine(signature)) => match self.view.of_signature(*signature) {
+            Some(Resolution::Graph(id)) => Some((Definition::Node(NodeType::Graph(*id)), Some(id.file))),
+            Some(Resolution::Machine(signature)) => match self.view.of_signature(*signature) {
                 NodeType::Machine(id) => Some((Definition::Node(NodeType::Machine(id)), Some(id.file))),
                 _ => None,
             },
-            Some(Meaning::Rust(path)) => self.in_rust(path).map(|definition| (definition, None)),
+            Some(Resolution::Rust(path)) => self.in_rust(path).map(|definition| (definition, None)),
             None => None,
         };
         let Some((definition, text)) = meant else { return };
@@ -228,7 +228,7 @@ impl<'a> Walker<'a, '_> {
         let mut parts = reference.parts.as_slice();
         while let [first, rest @ ..] = parts {
             let Some(definition) = self.declared.graphs[&graph].get(first.text.as_str()).copied() else {
-                let own = words_at(Place::Node).find(|w| w.text == first.text);
+                let own = words_at(KeywordPosition::Node).find(|w| w.text == first.text);
                 return own.iter().for_each(|w| self.used(first, Definition::Own(w.text)));
             };
             self.used(first, definition);

@@ -4,8 +4,8 @@ use super::{Definition, NodeType, Occurrence, View};
 use crate::{
     source::Span,
     syntax::{
+        keywords::{self, KeywordPosition, words_at},
         tree::{Ident, PathExpr},
-        words::{self, Place, words_at},
     },
 };
 
@@ -41,14 +41,14 @@ pub fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ide
 }
 
 fn check_name(definition: Definition, name: &str) -> Result<(), String> {
-    if words::RESERVED.contains(&name) {
+    if keywords::RESERVED.contains(&name) {
         return Err(format!("`{name}` is a word of the language"));
     }
-    if !words::is_name(name) {
+    if !keywords::is_name(name) {
         return Err(format!("`{name}` is no name: a name has letters, digits and `_`, and begins with no digit"));
     }
     let stands_in_graph = matches!(definition, Definition::Instance(..) | Definition::Port(NodeType::Graph(_), _));
-    if stands_in_graph && words_at(Place::Node).any(|w| w.text == name) {
+    if stands_in_graph && words_at(KeywordPosition::Node).any(|w| w.text == name) {
         return Err(format!("every graph knows `{name}`, which would be hidden"));
     }
     Ok(())

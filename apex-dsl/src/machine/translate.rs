@@ -9,11 +9,11 @@ pub fn translation(machine: &Machine) -> String {
     let mut text = format!("fsm {} as an activity flow graph (7.2.1):\n", machine.name);
     let _ = writeln!(text, "  start => {};", machine.states[0]);
     for slot in &machine.slots {
-        let mut takers: Vec<&str> = slot.arms.iter().map(|arm| machine.states[arm.state].as_str()).collect();
-        takers.dedup();
-        let takers: Vec<String> = takers.iter().map(|state| format!("{state}.{}", slot.name)).collect();
-        if !takers.is_empty() {
-            let _ = writeln!(text, "  {} -> [{}];", slot.name, takers.join(", "));
+        let mut consumers: Vec<&str> = slot.arms.iter().map(|arm| machine.states[arm.state].as_str()).collect();
+        consumers.dedup();
+        let consumers: Vec<String> = consumers.iter().map(|state| format!("{state}.{}", slot.name)).collect();
+        if !consumers.is_empty() {
+            let _ = writeln!(text, "  {} -> [{}];", slot.name, consumers.join(", "));
         }
     }
     for slot in &machine.slots {

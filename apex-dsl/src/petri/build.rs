@@ -1,13 +1,13 @@
 //! Translation of a graph into a net: one component for each node, connection and boundary of a nested graph.
 
 use super::{
-    Meaning, Net, NoNet, Place, PlaceId, Transition, connection_name,
-    route::{self, Leg, Loop, Stop},
+    Net, NoNet, Place, PlaceId, Transition, TransitionKind, connection_name,
+    route::{self, Loop, Segment, SegmentEnd},
     side_name,
 };
 use crate::{
     catalog::Catalog,
-    graph::{Crossing, End, Flow, Graph, NodeId, NodeKind},
+    graph::{Crossing, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +27,8 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     for node in 0..graph.nodes.len() {
         builder.node(node, catalog);
     }
-    let sides = builder.legs.iter().filter_map(|l| if let Stop::Side(side) = l.to { Some(side) } else { None });
+    let sides =
+        builder.segments.iter().filter_map(|l| if let SegmentEnd::Side(side) = l.to { Some(side) } else { None });
     let sides: BTreeSet<Crossing> = sides.collect();
     sides.into_iter().for_each(|side| builder.side(side));
     builder.loops.clone().iter().for_each(|on_loop| builder.iteration(on_loop));
@@ -59,7 +60,7 @@ struct DelayPlaces {
 struct Builder<'a> {
     graph: &'a Graph,
     net: Net,
-    legs: Vec<Leg>,
+    segments: Vec<Segment>,
     places: Vec<LegPlaces>,
     loops: Vec<Loop>,
     /// Places of the delays on loops.
@@ -69,23 +70,23 @@ struct Builder<'a> {
     returns: BTreeMap<(NodeId, usize), PlaceId>,
     /// For each `start`: marked until it has begun.
     starts: BTreeMap<NodeId, PlaceId>,
-    from: BTreeMap<Stop, Vec<usize>>,
-    to: BTreeMap<Stop, Vec<usize>>,
+    from: BTreeMap<SegmentEnd, Vec<usize>>,
+    to: BTreeMap<SegmentEnd, Vec<usize>>,
 }
 
 impl<'a> Builder<'a> {
     fn new(graph: &'a Graph) -> Self {
-        let legs = route::legs(graph);
+        let segments = route::segments(graph);
         let mut net = Net { name: graph.name.clone(), ..Net::default() };
         let mut place = |name: String, initial| {
             net.places.push(Place { name, initial });
             net.places.len() - 1
         };
         let mut places = vec![];
-        for (i, leg) in legs.iter().enumerate() {
-            let mut name = connection_name(graph, leg.connection);
-            let first = legs.iter().position(|l| l.connection == leg.connection).unwrap_or(i);
-            if i > first || matches!(leg.to, Stop::Side(..)) {
+        for (i, segment) in segments.iter().enumerate() {
+            let mut name = connection_name(graph, segment.connection);
+            let first = segments.iter().position(|l| l.connection == segment.connection).unwrap_or(i);
+            if i > first || matches!(segment.to, SegmentEnd::Side(..)) {
                 name = format!("{name} (part {})", i - first + 1);
             }
             places.push(LegPlaces {
@@ -95,12 +96,12 @@ impl<'a> Builder<'a> {
                 done: None,
             });
         }
-        // `Early` and `State` rely on this order: two places for each leg, then the copies for legs into loops.
-        let loops = route::loops(graph, &legs);
+        // `Bypass` and `State` rely on this order: two places for each leg, then the copies for legs into loops.
+        let loops = route::loops(graph, &segments);
         let entries = || loops.iter().flat_map(|on_loop| on_loop.entries.iter().map(move |entry| (on_loop, *entry)));
         for (on_loop, entry) in entries() {
-            let leg = connection_name(graph, legs[entry].connection);
-            places[entry].echo = Some(place(format!("{} has seen {leg}", names(graph, &on_loop.delays)), 0));
+            let segment = connection_name(graph, segments[entry].connection);
+            places[entry].echo = Some(place(format!("{} has seen {segment}", names(graph, &on_loop.delays)), 0));
         }
         let mut starts = BTreeMap::new();
         for (node, n) in graph.nodes.iter().enumerate() {
@@ -110,19 +111,19 @@ impl<'a> Builder<'a> {
         }
         let mut returns = BTreeMap::new();
         for (on_loop, entry) in entries() {
-            let leg = connection_name(graph, legs[entry].connection);
-            places[entry].done = Some(place(format!("{leg} is done"), 0));
+            let segment = connection_name(graph, segments[entry].connection);
+            places[entry].done = Some(place(format!("{segment} is done"), 0));
             for &delay in &on_loop.delays {
-                let name = format!("{} has finished for {leg}", graph.path(delay));
+                let name = format!("{} has finished for {segment}", graph.path(delay));
                 returns.insert((delay, entry), place(name, 0));
             }
         }
         let (mut from, mut to) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
-        for (i, leg) in legs.iter().enumerate() {
-            from.entry(leg.from).or_default().push(i);
-            to.entry(leg.to).or_default().push(i);
+        for (i, segment) in segments.iter().enumerate() {
+            from.entry(segment.from).or_default().push(i);
+            to.entry(segment.to).or_default().push(i);
         }
-        Self { graph, net, legs, places, loops, delays: BTreeMap::new(), returns, starts, from, to }
+        Self { graph, net, segments, places, loops, delays: BTreeMap::new(), returns, starts, from, to }
     }
 
     fn place(&mut self, name: String, initial: usize) -> PlaceId {
@@ -130,57 +131,57 @@ impl<'a> Builder<'a> {
         self.net.places.len() - 1
     }
 
-    fn transition(&mut self, name: String, meaning: Meaning, takes: Vec<PlaceId>, gives: Vec<PlaceId>) {
-        self.net.transitions.push(Transition { name, meaning, takes, gives });
+    fn transition(&mut self, name: String, kind: TransitionKind, takes: Vec<PlaceId>, gives: Vec<PlaceId>) {
+        self.net.transitions.push(Transition { name, kind, takes, gives });
     }
 
-    fn legs_from(&self, stop: Stop) -> Vec<usize> {
+    fn legs_from(&self, stop: SegmentEnd) -> Vec<usize> {
         self.from.get(&stop).cloned().unwrap_or_default()
     }
 
     /// Legs to the inputs of a node, or to a boundary.
-    fn legs_into(&self, stop: Stop) -> Vec<usize> {
-        let legs = self.to.get(&stop).into_iter().flatten().copied();
-        legs.filter(|l| self.flow(*l) != Flow::ToSlot).collect()
+    fn legs_into(&self, stop: SegmentEnd) -> Vec<usize> {
+        let segments = self.to.get(&stop).into_iter().flatten().copied();
+        segments.filter(|l| self.flow(*l) != Flow::ToSlot).collect()
     }
 
-    fn flow(&self, leg: usize) -> Flow {
-        self.graph.flow(&self.graph.connections[self.legs[leg].connection])
+    fn flow(&self, segment: usize) -> Flow {
+        self.graph.flow(&self.graph.connections[self.segments[segment].connection])
     }
 
-    fn tokens(&self, legs: &[usize]) -> Vec<PlaceId> {
-        legs.iter().map(|l| self.places[*l].token).collect()
+    fn tokens(&self, segments: &[usize]) -> Vec<PlaceId> {
+        segments.iter().map(|l| self.places[*l].token).collect()
     }
 
-    /// Places that get a token when tokens are sent on `legs`.
-    fn sent(&self, legs: &[usize]) -> Vec<PlaceId> {
-        legs.iter().flat_map(|l| [self.places[*l].token].into_iter().chain(self.places[*l].echo)).collect()
+    /// Places that get a token when tokens are sent on `segments`.
+    fn sent(&self, segments: &[usize]) -> Vec<PlaceId> {
+        segments.iter().flat_map(|l| [self.places[*l].token].into_iter().chain(self.places[*l].echo)).collect()
     }
 
-    fn free(&self, legs: &[usize]) -> Vec<PlaceId> {
-        legs.iter().map(|l| self.places[*l].free).collect()
+    fn free(&self, segments: &[usize]) -> Vec<PlaceId> {
+        segments.iter().map(|l| self.places[*l].free).collect()
     }
 
-    /// Places that get a token when the ends of `legs` have finished.
-    fn finished(&self, legs: &[usize]) -> Vec<PlaceId> {
-        legs.iter().map(|l| self.places[*l].done.unwrap_or(self.places[*l].free)).collect()
+    /// Places that get a token when the ends of `segments` have finished.
+    fn finished(&self, segments: &[usize]) -> Vec<PlaceId> {
+        segments.iter().map(|l| self.places[*l].done.unwrap_or(self.places[*l].free)).collect()
     }
 
     /// Frees the legs into loops: each one when its end has finished, and with it everything that the delays of the
     /// loop sent for its token.
     fn returning(&mut self) {
-        for leg in 0..self.legs.len() {
-            let Some(done) = self.places[leg].done else { continue };
+        for segment in 0..self.segments.len() {
+            let Some(done) = self.places[segment].done else { continue };
             let mut takes = vec![done];
-            takes.extend(self.returns.iter().filter(|((_, entry), _)| *entry == leg).map(|(_, place)| *place));
-            let name = format!("{} is notified", connection_name(self.graph, self.legs[leg].connection));
-            self.transition(name, Meaning::Return(leg), takes, vec![self.places[leg].free]);
+            takes.extend(self.returns.iter().filter(|((_, entry), _)| *entry == segment).map(|(_, place)| *place));
+            let name = format!("{} is notified", connection_name(self.graph, self.segments[segment].connection));
+            self.transition(name, TransitionKind::Return(segment), takes, vec![self.places[segment].free]);
         }
     }
 
     /// Places of the free legs that a node awaits before it counts as finished: all except the legs of its events.
-    fn awaited(&self, legs: &[usize]) -> Vec<PlaceId> {
-        let own = legs.iter().copied().filter(|l| !route::from_event(self.graph, self.legs[*l].connection));
+    fn awaited(&self, segments: &[usize]) -> Vec<PlaceId> {
+        let own = segments.iter().copied().filter(|l| !route::from_event(self.graph, self.segments[*l].connection));
         self.free(&own.collect::<Vec<_>>())
     }
 
@@ -207,25 +208,35 @@ impl<'a> Builder<'a> {
     fn undecided(&mut self, node: NodeId, name: &str) -> Vec<(usize, PlaceId)> {
         let mut ports = vec![];
         for port in 0..self.graph.nodes[node].ports.len() {
-            let end = End { node, port };
+            let end = PortId { node, port };
             let connections: BTreeSet<usize> = route::value_connections(self.graph, end).collect();
             if connections.is_empty() {
                 continue;
             }
-            let legs = self.legs_from(Stop::Node(node));
-            let legs: Vec<usize> =
-                legs.into_iter().filter(|l| connections.contains(&self.legs[*l].connection)).collect();
+            let segments = self.legs_from(SegmentEnd::Node(node));
+            let segments: Vec<usize> =
+                segments.into_iter().filter(|l| connections.contains(&self.segments[*l].connection)).collect();
             let port_name = format!("{name}.{}", self.graph.port(end).name);
             let place = self.place(format!("{port_name} is undecided"), 0);
-            self.transition(format!("{port_name} sends"), Meaning::Trigger(end), vec![place], self.sent(&legs));
-            self.transition(format!("{port_name} is silent"), Meaning::Hush(end), vec![place], self.free(&legs));
+            self.transition(
+                format!("{port_name} sends"),
+                TransitionKind::Trigger(end),
+                vec![place],
+                self.sent(&segments),
+            );
+            self.transition(
+                format!("{port_name} is silent"),
+                TransitionKind::Suppress(end),
+                vec![place],
+                self.free(&segments),
+            );
             ports.push((port, place));
         }
         ports
     }
 
     fn process(&mut self, node: NodeId, name: &str, lock: PlaceId, ports: &[(usize, PlaceId)]) {
-        let (inputs, out) = (self.legs_into(Stop::Node(node)), self.legs_from(Stop::Node(node)));
+        let (inputs, out) = (self.legs_into(SegmentEnd::Node(node)), self.legs_from(SegmentEnd::Node(node)));
         let enabled = self.place(format!("{name} is enabled"), 1);
         let running = self.place(format!("{name} is running"), 0);
         let waiting = self.place(format!("{name} waits for notifications"), 0);
@@ -241,64 +252,64 @@ impl<'a> Builder<'a> {
             given.push(held);
             sends.push(held);
         }
-        self.transition(format!("{name} takes"), Meaning::Take(node), takes, given);
+        self.transition(format!("{name} takes"), TransitionKind::Take(node), takes, given);
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         let mut gives = vec![lock, waiting];
         gives.extend(self.sent(&synchronous));
         gives.extend(ports.iter().map(|(_, place)| *place));
-        self.transition(format!("{name} sends"), Meaning::Send(node), sends, gives);
+        self.transition(format!("{name} sends"), TransitionKind::Send(node), sends, gives);
         // A leg that is both taken and given is only tested: it must be free, and remains so.
         let awaited = if self.graph.nodes[node].modifiers.pipelined { vec![] } else { self.awaited(&out) };
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
         gives.extend(self.finished(&inputs));
-        self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
+        self.transition(format!("{name} is notified"), TransitionKind::Notify(node), takes, gives);
     }
 
     /// Adds the slots of a node. A slot takes the token of each connection to it as soon as the node is unlocked and
     /// the legs of all its events are free. The connection is free at once.
     fn slots(&mut self, node: NodeId, name: &str, lock: PlaceId, ports: &[(usize, PlaceId)]) {
-        let incoming = self.to.get(&Stop::Node(node)).cloned().unwrap_or_default();
+        let incoming = self.to.get(&SegmentEnd::Node(node)).cloned().unwrap_or_default();
         let incoming: Vec<usize> = incoming.into_iter().filter(|l| self.flow(*l) == Flow::ToSlot).collect();
         if incoming.is_empty() {
             return;
         }
-        let events = self.legs_from(Stop::Node(node));
+        let events = self.legs_from(SegmentEnd::Node(node));
         let events: Vec<usize> =
-            events.into_iter().filter(|l| route::from_event(self.graph, self.legs[*l].connection)).collect();
+            events.into_iter().filter(|l| route::from_event(self.graph, self.segments[*l].connection)).collect();
         let called = self.place(format!("{name} is in a slot"), 0);
-        for leg in incoming {
-            let connection = self.legs[leg].connection;
-            let mut takes = vec![self.places[leg].token, lock];
+        for segment in incoming {
+            let connection = self.segments[segment].connection;
+            let mut takes = vec![self.places[segment].token, lock];
             takes.extend(self.free(&events));
-            let mut gives = vec![called, self.places[leg].free];
+            let mut gives = vec![called, self.places[segment].free];
             // After a reset every `start` is due again.
             if matches!(self.graph.nodes[node].kind, NodeKind::Reset) {
                 gives.extend(self.starts.values());
             }
             let slot = self.graph.end_name(self.graph.connections[connection].to);
             let from = self.graph.end_name(self.graph.connections[connection].from);
-            self.transition(format!("{slot} handles {from}"), Meaning::Handle(connection), takes, gives);
+            self.transition(format!("{slot} handles {from}"), TransitionKind::Handle(connection), takes, gives);
         }
         // A slot can trigger events, but outputs are only sent by `process`.
         let mut gives = vec![lock];
-        let is_event = |port: usize| self.graph.port(End { node, port }).kind == PortKind::Event;
+        let is_event = |port: usize| self.graph.port(PortId { node, port }).kind == PortKind::Event;
         gives.extend(ports.iter().filter(|(port, _)| is_event(*port)).map(|(_, place)| *place));
-        self.transition(format!("{name} has handled"), Meaning::Handled(node), vec![called], gives);
+        self.transition(format!("{name} has handled"), TransitionKind::Handled(node), vec![called], gives);
     }
 
     fn start(&mut self, node: NodeId, name: String) {
-        let legs = self.legs_from(Stop::Node(node));
+        let segments = self.legs_from(SegmentEnd::Node(node));
         let mut takes = vec![self.starts[&node]];
-        takes.extend(self.free(&legs));
-        self.transition(name, Meaning::Start(node), takes, self.sent(&legs));
+        takes.extend(self.free(&segments));
+        self.transition(name, TransitionKind::Start(node), takes, self.sent(&segments));
     }
 
     /// Adds a delay on a loop. It takes like a sink and sends like a source, because the nodes that it would wait for
     /// need its tokens.
     fn delay_in_loop(&mut self, node: NodeId, name: &str, initial: usize) {
-        let (inputs, out) = (self.legs_into(Stop::Node(node)), self.legs_from(Stop::Node(node)));
+        let (inputs, out) = (self.legs_into(SegmentEnd::Node(node)), self.legs_from(SegmentEnd::Node(node)));
         let undecided = self.undecided(node, name).into_iter().map(|(_, place)| place).collect();
         let held = self.place(format!("{name} holds"), initial);
         let room = self.place(format!("{name} has room"), 1);
@@ -309,13 +320,13 @@ impl<'a> Builder<'a> {
         // `State` relies on `held` being the last place.
         let mut gives = self.finished(&inputs);
         gives.push(held);
-        self.transition(format!("{name} takes"), Meaning::Hold(node), takes, gives);
+        self.transition(format!("{name} takes"), TransitionKind::Hold(node), takes, gives);
         let awaited = self.awaited(&out);
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
         gives.extend(self.returns.iter().filter(|((delay, _), _)| *delay == node).map(|(_, place)| *place));
-        self.transition(format!("{name} is notified"), Meaning::Notify(node), takes, gives);
+        self.transition(format!("{name} is notified"), TransitionKind::Notify(node), takes, gives);
         self.delays.insert(node, DelayPlaces { held, room, enabled, waiting, undecided });
     }
 
@@ -323,7 +334,7 @@ impl<'a> Builder<'a> {
     /// loop.
     fn iteration(&mut self, on_loop: &Loop) {
         let Loop { delays, entries, events } = on_loop;
-        let out: Vec<usize> = delays.iter().flat_map(|delay| self.legs_from(Stop::Node(*delay))).collect();
+        let out: Vec<usize> = delays.iter().flat_map(|delay| self.legs_from(SegmentEnd::Node(*delay))).collect();
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         let own = || delays.iter().map(|delay| &self.delays[delay]);
         // `State` relies on the places where the delays hold tokens being the first.
@@ -342,14 +353,14 @@ impl<'a> Builder<'a> {
         gives.extend(own().flat_map(|delay| &delay.undecided));
         let verb = if delays.len() == 1 { "sends" } else { "send" };
         let name = format!("{} {verb}", names(self.graph, delays));
-        self.transition(name, Meaning::Release(delays[0]), takes, gives);
+        self.transition(name, TransitionKind::Release(delays[0]), takes, gives);
     }
 
     /// Adds a boundary of a nested graph. It takes a token from each leg that ends there and sends one on each leg that
     /// begins there.
     fn side(&mut self, side: Crossing) {
         let name = side_name(self.graph, side);
-        let (incoming, outgoing) = (self.legs_into(Stop::Side(side)), self.legs_from(Stop::Side(side)));
+        let (incoming, outgoing) = (self.legs_into(SegmentEnd::Side(side)), self.legs_from(SegmentEnd::Side(side)));
         let enabled = self.place(format!("{name} is enabled"), 1);
         let waiting = self.place(format!("{name} waits for notifications"), 0);
         let mut takes = self.tokens(&incoming);
@@ -357,13 +368,13 @@ impl<'a> Builder<'a> {
         takes.extend(self.free(&outgoing));
         let mut gives = self.sent(&outgoing);
         gives.push(waiting);
-        self.transition(format!("{name} passes"), Meaning::Pass(side), takes, gives);
+        self.transition(format!("{name} passes"), TransitionKind::Pass(side), takes, gives);
         let awaited = self.free(&outgoing);
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
         takes.extend(&awaited);
         gives.extend(&awaited);
         gives.extend(self.finished(&incoming));
-        self.transition(format!("{name} is notified"), Meaning::NotifySide(side), takes, gives);
+        self.transition(format!("{name} is notified"), TransitionKind::NotifySide(side), takes, gives);
     }
 }
 
@@ -383,7 +394,7 @@ pub fn has_process(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
         NodeKind::Boundary(kind) => *kind != PortKind::Event,
         NodeKind::Probe => graph.nodes[node].ports.iter().any(|p| p.kind == PortKind::Input),
         NodeKind::Start
-        | NodeKind::Hung
+        | NodeKind::Watchdog
         | NodeKind::Exit(_)
         | NodeKind::Reset
         | NodeKind::Sender(_)

@@ -9,14 +9,14 @@
 //! boundary of a nested graph behaves like a node between the surroundings and the inside.
 
 mod build;
-mod early;
-mod patience;
+mod bypass;
+mod demand_driven;
 mod pnml;
 mod replay;
 mod route;
 mod state;
 
-use crate::graph::{self, Crossing, End, Graph, NodeId};
+use crate::graph::{self, Crossing, Graph, NodeId, PortId};
 use std::fmt;
 
 pub use build::net;
@@ -55,7 +55,7 @@ pub struct Transition {
     /// Name of the transition.
     pub name: String,
     /// Meaning of the transition.
-    pub meaning: Meaning,
+    pub kind: TransitionKind,
     /// Places from which it takes a token.
     pub takes: Vec<PlaceId>,
     /// Places to which it gives a token.
@@ -64,7 +64,7 @@ pub struct Transition {
 
 /// Meaning of a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Meaning {
+pub enum TransitionKind {
     /// A node takes one token from each input.
     Take(NodeId),
     /// A node sends one token on each synchronous connection.
@@ -72,9 +72,9 @@ pub enum Meaning {
     /// Everything downstream of a node has finished: the node may fire again, and its inputs are free.
     Notify(NodeId),
     /// A port that sends only values sends one, or an event is triggered.
-    Trigger(End),
+    Trigger(PortId),
     /// A port that sends only values sends none, or an event is not triggered.
-    Hush(End),
+    Suppress(PortId),
     /// The slot at the end of this connection takes the token on it.
     Handle(usize),
     /// The slots of a node have finished.
@@ -105,8 +105,8 @@ impl fmt::Display for NoNet {
 
 impl Net {
     /// The transition with this meaning.
-    pub fn find(&self, meaning: Meaning) -> Option<TransitionId> {
-        self.transitions.iter().position(|t| t.meaning == meaning)
+    pub fn find(&self, kind: TransitionKind) -> Option<TransitionId> {
+        self.transitions.iter().position(|t| t.kind == kind)
     }
 }
 

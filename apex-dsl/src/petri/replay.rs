@@ -5,8 +5,8 @@
 //! exception: a node that takes activity but does not run because of ⊥ waits until the activity is recorded.
 
 use super::{
-    Meaning, Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, connection_name,
-    patience::patient,
+    Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, TransitionKind, connection_name,
+    demand_driven::demand_driven,
     side_name,
     state::{Preview, unsupported},
 };
@@ -54,14 +54,14 @@ pub struct Replay<'a> {
     now: Duration,
     /// Transitions that may have become enabled.
     agenda: BTreeSet<TransitionId>,
-    by_meaning: BTreeMap<Meaning, TransitionId>,
+    by_kind: BTreeMap<TransitionKind, TransitionId>,
     /// For each source the number of its firings, and `true` if it has fired in this reaction.
     sources: BTreeMap<NodeId, (u32, bool)>,
     /// Sources that may fire when and as often as their consumers need their tokens.
-    patient: BTreeSet<NodeId>,
+    demand_driven: BTreeSet<NodeId>,
     expected: BTreeMap<NodeId, VecDeque<Change>>,
     /// Changes of activity that were recorded before their cause.
-    early: Vec<(NodeId, bool)>,
+    bypass: Vec<(NodeId, bool)>,
     /// Tokens that the last recorded call has taken.
     last: Vec<Token>,
     /// `true` if unrecorded transitions occur as late as possible.
@@ -86,14 +86,14 @@ impl<'a> Replay<'a> {
             graph,
             net,
             sources: state.sources().iter().map(|n| (*n, (0, false))).collect(),
-            patient: patient(graph, state.sources()),
+            demand_driven: demand_driven(graph, state.sources()),
             state,
             step: 0,
             now: Duration::ZERO,
             agenda: (0..net.transitions.len()).collect(),
-            by_meaning: net.transitions.iter().enumerate().map(|(i, t)| (t.meaning, i)).collect(),
+            by_kind: net.transitions.iter().enumerate().map(|(i, t)| (t.kind, i)).collect(),
             expected: BTreeMap::new(),
-            early: vec![],
+            bypass: vec![],
             last: vec![],
             late: false,
             has_groups: crate::threads::groups(graph).len() > 1,
@@ -109,8 +109,8 @@ impl<'a> Replay<'a> {
     #[must_use]
     pub fn hesitating(mut self) -> Self {
         self.late = true;
-        let slots = self.net.transitions.iter().filter_map(|t| match t.meaning {
-            Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
+        let slots = self.net.transitions.iter().filter_map(|t| match t.kind {
+            TransitionKind::Handle(connection) => Some(self.graph.connections[connection].to.node),
             _ => None,
         });
         self.hesitant = slots.collect();
@@ -123,7 +123,7 @@ impl<'a> Replay<'a> {
         self.now = now;
         for (node, (_, fired)) in &mut self.sources {
             // An iteration that is still under way counts as the one of this reaction.
-            let notify = self.by_meaning.get(&Meaning::Notify(*node)).filter(|_| self.late);
+            let notify = self.by_kind.get(&TransitionKind::Notify(*node)).filter(|_| self.late);
             let waits = notify.and_then(|t| self.net.transitions[*t].takes.first());
             let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
@@ -140,7 +140,7 @@ impl<'a> Replay<'a> {
     pub fn fired(&mut self, node: NodeId) -> Result<(), Wrong> {
         self.step += 1;
         let what = format!("fired {}", self.name(node));
-        let Some(take) = self.by_meaning.get(&Meaning::Take(node)).copied() else {
+        let Some(take) = self.by_kind.get(&TransitionKind::Take(node)).copied() else {
             return Err(self.wrong(&what, "it has nothing that could fire".to_owned()));
         };
         self.prepare(take, &what)?;
@@ -150,7 +150,7 @@ impl<'a> Replay<'a> {
         if !self.is_due(node) {
             return Err(self.wrong(&what, "a source fires once per reaction, or at its times".to_owned()));
         }
-        self.check_early(&what, |early| early == node)?;
+        self.check_early(&what, |bypass| bypass == node)?;
         self.forget_optional();
         self.run(take);
         self.last = self.state.tokens_of(node);
@@ -164,7 +164,7 @@ impl<'a> Replay<'a> {
     /// Fails if it may not take the token.
     pub fn handled(&mut self, connection: usize) -> Result<(), Wrong> {
         self.step += 1;
-        let Some(handle) = self.by_meaning.get(&Meaning::Handle(connection)).copied() else {
+        let Some(handle) = self.by_kind.get(&TransitionKind::Handle(connection)).copied() else {
             return Err(self.wrong(&format!("handled {connection}"), "no slot is at the end of it".to_owned()));
         };
         let what = format!("handled {}", connection_name(self.graph, connection));
@@ -172,7 +172,7 @@ impl<'a> Replay<'a> {
         self.prepare(handle, &what)?;
         let node = self.graph.connections[connection].to.node;
         let resets = matches!(self.graph.nodes[node].kind, NodeKind::Reset);
-        self.check_early(&what, |early| resets || early == node)?;
+        self.check_early(&what, |bypass| resets || bypass == node)?;
         self.forget_optional();
         self.run(handle);
         self.last = self.state.tokens_of(node);
@@ -214,14 +214,18 @@ impl<'a> Replay<'a> {
             return Ok(());
         }
         // The activity may have come to a node that does not run because of ⊥.
-        if self.lazy().into_iter().any(|(n, p)| n == node && p.active == active && self.state.is_active(n) != active) {
-            self.run(self.by_meaning[&Meaning::Take(node)]);
+        if self
+            .deferred()
+            .into_iter()
+            .any(|(n, p)| n == node && p.active == active && self.state.is_active(n) != active)
+        {
+            self.run(self.by_kind[&TransitionKind::Take(node)]);
             self.settle();
             if self.matches_expected(node, active) {
                 return Ok(());
             }
         }
-        self.early.push((node, active));
+        self.bypass.push((node, active));
         Ok(())
     }
 
@@ -232,7 +236,7 @@ impl<'a> Replay<'a> {
     pub fn end(&mut self) -> Result<(), Wrong> {
         self.step += 1;
         let what = "the reaction ends";
-        self.hurry();
+        self.flush_deferred();
         self.check_debts(what)?;
         self.check_early(what, |_| false)?;
         for (transition, t) in self.net.transitions.iter().enumerate() {
@@ -240,8 +244,10 @@ impl<'a> Replay<'a> {
                 continue;
             }
             // Sources may remain enabled if they are not due, or if they fire on demand.
-            let open = match t.meaning {
-                Meaning::Take(node) | Meaning::Release(node) => self.is_due(node) && !self.patient.contains(&node),
+            let open = match t.kind {
+                TransitionKind::Take(node) | TransitionKind::Release(node) => {
+                    self.is_due(node) && !self.demand_driven.contains(&node)
+                }
                 _ => true,
             };
             if open {
@@ -279,7 +285,7 @@ impl<'a> Replay<'a> {
         match modifiers.every {
             // The firings are at `after`, `after + period`, `after + 2 · period` and so on.
             Some(period) => period.saturating_mul(*count) <= passed,
-            None => !fired || self.patient.contains(&node),
+            None => !fired || self.demand_driven.contains(&node),
         }
     }
 
@@ -290,7 +296,7 @@ impl<'a> Replay<'a> {
         }
         // A deferred transition may be the one that blocks it.
         if !self.state.is_enabled(transition) {
-            self.hurry_for(transition);
+            self.flush_for(transition);
         }
         if self.state.is_enabled(transition) {
             return Ok(());
@@ -316,25 +322,25 @@ impl<'a> Replay<'a> {
             self.state.advance(place);
             return;
         }
-        let sends = |t: &&Transition| matches!(t.meaning, Meaning::Send(_) | Meaning::Release(_));
+        let sends = |t: &&Transition| matches!(t.kind, TransitionKind::Send(_) | TransitionKind::Release(_));
         let sender = self.net.transitions.iter().filter(sends).find(|t| t.gives.contains(&place));
-        match sender.map(|t| t.meaning) {
-            Some(Meaning::Send(node)) => {
-                let take = self.by_meaning[&Meaning::Take(node)];
+        match sender.map(|t| t.kind) {
+            Some(TransitionKind::Send(node)) => {
+                let take = self.by_kind[&TransitionKind::Take(node)];
                 self.bring_all(take, seen);
                 if self.state.is_enabled(take) && self.is_silent(take) {
                     self.run(take);
                     self.settle();
                 }
             }
-            Some(release @ Meaning::Release(_)) => self.release(self.by_meaning[&release]),
+            Some(release @ TransitionKind::Release(_)) => self.release(self.by_kind[&release]),
             _ => {}
         }
     }
 
     /// Lets the delays of a loop send, if they can.
     fn release(&mut self, transition: TransitionId) {
-        let Meaning::Release(node) = self.net.transitions[transition].meaning else { return };
+        let TransitionKind::Release(node) = self.net.transitions[transition].kind else { return };
         if self.state.is_enabled(transition) && self.is_due(node) {
             self.run(transition);
             self.settle();
@@ -342,26 +348,26 @@ impl<'a> Replay<'a> {
     }
 
     /// Nodes that could fire without running, but are deferred because they take activity or have slots.
-    fn lazy(&self) -> Vec<(NodeId, Preview)> {
+    fn deferred(&self) -> Vec<(NodeId, Preview)> {
         let nodes = 0..self.graph.nodes.len();
         nodes
-            .filter(|n| self.by_meaning.get(&Meaning::Take(*n)).is_some_and(|t| self.state.is_enabled(*t)))
+            .filter(|n| self.by_kind.get(&TransitionKind::Take(*n)).is_some_and(|t| self.state.is_enabled(*t)))
             .map(|n| (n, self.state.preview(n)))
             .filter(|(n, p)| !p.reported && (p.modifies || self.hesitant.contains(n)))
             .collect()
     }
 
     /// Executes everything that is deferred: delays on loops send, then nodes take ⊥.
-    fn hurry(&mut self) {
+    fn flush_deferred(&mut self) {
         self.release_all();
         while self.take_deferred(None) {}
     }
 
     /// Executes deferred transitions until `transition` is enabled. Those of its own node come last, because they may
     /// need the places that `transition` occupies.
-    fn hurry_for(&mut self, transition: TransitionId) {
-        let own = match self.net.transitions[transition].meaning {
-            Meaning::Handle(connection) => Some(self.graph.connections[connection].to.node),
+    fn flush_for(&mut self, transition: TransitionId) {
+        let own = match self.net.transitions[transition].kind {
+            TransitionKind::Handle(connection) => Some(self.graph.connections[connection].to.node),
             _ => None,
         };
         self.release_all();
@@ -378,18 +384,18 @@ impl<'a> Replay<'a> {
     /// Lets one deferred node take its tokens: `last` only if there is no other, and nodes whose activity does not
     /// change first. Returns `false` if nothing is deferred.
     fn take_deferred(&mut self, last: Option<NodeId>) -> bool {
-        let deferred = self.lazy();
+        let deferred = self.deferred();
         let rank =
             |(node, preview): &&(NodeId, Preview)| (Some(*node) == last, preview.active != self.state.is_active(*node));
         let Some((node, _)) = deferred.iter().min_by_key(rank) else { return false };
-        self.run(self.by_meaning[&Meaning::Take(*node)]);
+        self.run(self.by_kind[&TransitionKind::Take(*node)]);
         self.settle();
         true
     }
 
     /// Executes a transition, and records its effects on sources, agenda and activity.
     fn run(&mut self, transition: TransitionId) {
-        if let Meaning::Take(node) | Meaning::Release(node) = self.net.transitions[transition].meaning
+        if let TransitionKind::Take(node) | TransitionKind::Release(node) = self.net.transitions[transition].kind
             && let Some((count, fired)) = self.sources.get_mut(&node)
         {
             *count += 1;
@@ -431,8 +437,8 @@ impl<'a> Replay<'a> {
     }
 
     fn is_silent(&self, transition: TransitionId) -> bool {
-        match self.net.transitions[transition].meaning {
-            Meaning::Take(node) => {
+        match self.net.transitions[transition].kind {
+            TransitionKind::Take(node) => {
                 let preview = self.state.preview(node);
                 // Delays and relays have no activity, so that they pass activity on without a record.
                 let agnostic = matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_));
@@ -440,8 +446,8 @@ impl<'a> Replay<'a> {
                     && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
                     && self.is_due(node)
             }
-            Meaning::Release(node) => !self.late && self.is_due(node),
-            Meaning::Handle(_) => false,
+            TransitionKind::Release(node) => !self.late && self.is_due(node),
+            TransitionKind::Handle(_) => false,
             _ => true,
         }
     }
@@ -477,7 +483,7 @@ impl<'a> Replay<'a> {
     /// Reports activity that was recorded too early: it may be recorded just before the call that causes it, but not
     /// earlier.
     fn check_early(&self, what: &str, belongs: impl Fn(NodeId) -> bool) -> Result<(), Wrong> {
-        match self.early.iter().find(|(n, _)| !belongs(*n)) {
+        match self.bypass.iter().find(|(n, _)| !belongs(*n)) {
             Some((node, active)) => {
                 let word = if *active { "active" } else { "inactive" };
                 Err(self.wrong(what, format!("`{}` was recorded to become {word}, but did not", self.name(*node))))
@@ -487,9 +493,9 @@ impl<'a> Replay<'a> {
     }
 
     fn match_early(&mut self, what: &str) -> Result<(), Wrong> {
-        for (node, active) in std::mem::take(&mut self.early) {
+        for (node, active) in std::mem::take(&mut self.bypass) {
             if !self.matches_expected(node, active) {
-                self.early = vec![(node, active)];
+                self.bypass = vec![(node, active)];
                 return self.check_early(what, |_| false);
             }
         }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// End of a leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stop {
+pub enum SegmentEnd {
     /// A node.
     Node(NodeId),
     /// A boundary of a nested graph.
@@ -17,41 +17,41 @@ pub enum Stop {
 
 /// The part of a connection between two stops.
 #[derive(Debug, Clone, Copy)]
-pub struct Leg {
+pub struct Segment {
     /// The connection.
     pub connection: usize,
     /// Origin of the leg.
-    pub from: Stop,
+    pub from: SegmentEnd,
     /// Destination of the leg.
-    pub to: Stop,
+    pub to: SegmentEnd,
 }
 
 /// All legs. Those of one connection are adjacent and in order.
-pub fn legs(graph: &Graph) -> Vec<Leg> {
+pub fn segments(graph: &Graph) -> Vec<Segment> {
     let insides = insides(graph);
     // The token of a delay begins an iteration of its loop. It must not wait at the outputs of nested graphs on the
     // loop, because the other tokens there are made only in that iteration.
     cut(graph, |node, side| {
         matches!(side, Crossing::Leave(_))
-            && insides.get(&node).is_some_and(|inside| inside.contains(&Stop::Side(side)))
+            && insides.get(&node).is_some_and(|inside| inside.contains(&SegmentEnd::Side(side)))
     })
 }
 
 /// The legs, where connections from a node ignore the boundaries for which `passes` is true.
-fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Leg> {
-    let mut legs = vec![];
+fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Segment> {
+    let mut segments = vec![];
     for (connection, c) in graph.connections.iter().enumerate() {
-        let mut from = Stop::Node(c.from.node);
+        let mut from = SegmentEnd::Node(c.from.node);
         // A slot takes each token alone, so that no boundary holds it back.
         let sides = if graph.flow(c) == Flow::ToSlot { &[] } else { c.crossings.as_slice() };
         for &crossing in sides.iter().filter(|side| !passes(c.from.node, **side)) {
-            let to = Stop::Side(crossing);
-            legs.push(Leg { connection, from, to });
+            let to = SegmentEnd::Side(crossing);
+            segments.push(Segment { connection, from, to });
             from = to;
         }
-        legs.push(Leg { connection, from, to: Stop::Node(c.to.node) });
+        segments.push(Segment { connection, from, to: SegmentEnd::Node(c.to.node) });
     }
-    legs
+    segments
 }
 
 /// A loop, or several loops with nodes in common. An iteration begins only when it can be completed: all delays send
@@ -67,13 +67,14 @@ pub struct Loop {
     pub events: Vec<usize>,
 }
 
-/// The loops of a graph, by its [`legs`].
-pub fn loops(graph: &Graph, legs: &[Leg]) -> Vec<Loop> {
-    let on_loop = |(inside, delays): (BTreeSet<Stop>, Vec<NodeId>)| {
-        let numbered = || legs.iter().enumerate();
-        let is_entry = |l: &Leg| to_input(graph, l) && !inside.contains(&l.from) && inside.contains(&l.to);
-        let is_event =
-            |l: &Leg| matches!(l.from, Stop::Node(_)) && inside.contains(&l.from) && from_event(graph, l.connection);
+/// The loops of a graph, by its [`segments`].
+pub fn loops(graph: &Graph, segments: &[Segment]) -> Vec<Loop> {
+    let on_loop = |(inside, delays): (BTreeSet<SegmentEnd>, Vec<NodeId>)| {
+        let numbered = || segments.iter().enumerate();
+        let is_entry = |l: &Segment| to_input(graph, l) && !inside.contains(&l.from) && inside.contains(&l.to);
+        let is_event = |l: &Segment| {
+            matches!(l.from, SegmentEnd::Node(_)) && inside.contains(&l.from) && from_event(graph, l.connection)
+        };
         Loop {
             delays,
             entries: numbered().filter(|(_, l)| is_entry(l)).map(|(i, _)| i).collect(),
@@ -81,40 +82,43 @@ pub fn loops(graph: &Graph, legs: &[Leg]) -> Vec<Loop> {
         }
     };
     // Delays with the same stops around them are on the same loop.
-    let mut delays: BTreeMap<BTreeSet<Stop>, Vec<NodeId>> = BTreeMap::new();
+    let mut delays: BTreeMap<BTreeSet<SegmentEnd>, Vec<NodeId>> = BTreeMap::new();
     insides(graph).into_iter().for_each(|(delay, inside)| delays.entry(inside).or_default().push(delay));
     delays.into_iter().map(on_loop).collect()
 }
 
 /// For each delay on a loop, the nodes and boundaries on that loop. Nested graphs count as a whole, by their
 /// boundaries.
-fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<Stop>> {
-    let mut after: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
-    let mut before: BTreeMap<Stop, Vec<Stop>> = BTreeMap::new();
-    for leg in cut(graph, |_, _| false).iter().filter(|leg| to_input(graph, leg)) {
-        after.entry(leg.from).or_default().push(leg.to);
-        before.entry(leg.to).or_default().push(leg.from);
+fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
+    let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
+    let mut before: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
+    for segment in cut(graph, |_, _| false).iter().filter(|segment| to_input(graph, segment)) {
+        after.entry(segment.from).or_default().push(segment.to);
+        before.entry(segment.to).or_default().push(segment.from);
     }
     let mut insides = BTreeMap::new();
     for (node, _) in graph.nodes.iter().enumerate().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
         // Everything that is both downstream and upstream of a delay is on a loop with it.
-        let (below, above) = (reached([Stop::Node(node)], &after), reached([Stop::Node(node)], &before));
-        if below.contains(&Stop::Node(node)) {
+        let (below, above) = (reached([SegmentEnd::Node(node)], &after), reached([SegmentEnd::Node(node)], &before));
+        if below.contains(&SegmentEnd::Node(node)) {
             insides.insert(node, below.intersection(&above).copied().collect());
         }
     }
     insides
 }
 
-fn to_input(graph: &Graph, leg: &Leg) -> bool {
-    graph.flow(&graph.connections[leg.connection]) != Flow::ToSlot
+fn to_input(graph: &Graph, segment: &Segment) -> bool {
+    graph.flow(&graph.connections[segment.connection]) != Flow::ToSlot
 }
 
 /// Stops that can be reached along `next` from any of `from`. Members of `from` are included only if they can be
 /// reached, too.
-pub fn reached(from: impl IntoIterator<Item = Stop>, next: &BTreeMap<Stop, Vec<Stop>>) -> BTreeSet<Stop> {
+pub fn reached(
+    from: impl IntoIterator<Item = SegmentEnd>,
+    next: &BTreeMap<SegmentEnd, Vec<SegmentEnd>>,
+) -> BTreeSet<SegmentEnd> {
     let mut found = BTreeSet::new();
-    let mut ends: Vec<Stop> = from.into_iter().filter_map(|stop| next.get(&stop)).flatten().copied().collect();
+    let mut ends: Vec<SegmentEnd> = from.into_iter().filter_map(|stop| next.get(&stop)).flatten().copied().collect();
     while let Some(stop) = ends.pop() {
         if found.insert(stop) {
             ends.extend(next.get(&stop).into_iter().flatten());
@@ -124,7 +128,7 @@ pub fn reached(from: impl IntoIterator<Item = Stop>, next: &BTreeMap<Stop, Vec<S
 }
 
 /// Connections from a port that carry only values: those from an event, and those from an output to a slot.
-pub fn value_connections(graph: &Graph, end: crate::graph::End) -> impl Iterator<Item = usize> + '_ {
+pub fn value_connections(graph: &Graph, end: crate::graph::PortId) -> impl Iterator<Item = usize> + '_ {
     let connections = graph.connections.iter().enumerate();
     connections.filter(move |(_, c)| c.from == end && graph.flow(c) != Flow::Synchronous).map(|(i, _)| i)
 }

@@ -1,14 +1,14 @@
 //! A net with coloured tokens: each token has an origin, is a value or ⊥, and has an effect on activity.
 
 use super::{
-    Meaning, Net, PlaceId, TransitionId,
+    Net, PlaceId, TransitionId, TransitionKind,
     build::has_process,
-    early::Early,
-    route::{self, Stop},
+    bypass::Bypass,
+    route::{self, SegmentEnd},
 };
 use crate::{
     catalog::Catalog,
-    graph::{Crossing, End, Flow, Graph, NodeId, NodeKind, Standard},
+    graph::{Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Origin {
     /// The port that sent it.
-    pub end: End,
+    pub end: PortId,
     /// Number of previous calls of `process` and slots of that node.
     pub call: usize,
 }
@@ -80,18 +80,18 @@ pub struct State<'a> {
     calls: Vec<usize>,
     taken: BTreeMap<NodeId, Taken>,
     /// Decisions of undecided ports: `None` for silence, else a token for each leg.
-    decided: BTreeMap<End, Option<BTreeMap<usize, Token>>>,
+    decided: BTreeMap<PortId, Option<BTreeMap<usize, Token>>>,
     changes: Vec<(NodeId, bool)>,
     told: Vec<bool>,
     deactivates: Vec<bool>,
-    into: BTreeMap<Stop, Vec<Link>>,
-    from: BTreeMap<Stop, Vec<Link>>,
+    into: BTreeMap<SegmentEnd, Vec<Link>>,
+    from: BTreeMap<SegmentEnd, Vec<Link>>,
     consumers: Vec<Vec<TransitionId>>,
     /// Nodes without connected inputs, and the first delays of loops without entries.
     sources: BTreeSet<NodeId>,
     /// The delays of each loop, by the first one.
     loops: BTreeMap<NodeId, Vec<NodeId>>,
-    early: Early,
+    bypass: Bypass,
 }
 
 /// A leg with its token place.
@@ -126,14 +126,14 @@ impl<'a> State<'a> {
         };
         let nodes = 0..graph.nodes.len();
         let (mut into, mut from) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
-        let legs = route::legs(graph);
-        for (i, leg) in legs.iter().enumerate() {
-            let flow = graph.flow(&graph.connections[leg.connection]);
+        let segments = route::segments(graph);
+        for (i, segment) in segments.iter().enumerate() {
+            let flow = graph.flow(&graph.connections[segment.connection]);
             // The net begins with two places for each leg, of which the first one holds the token.
-            let link = Link { connection: leg.connection, token: 2 * i, synchronous: flow == Flow::Synchronous };
-            from.entry(leg.from).or_default().push(link);
+            let link = Link { connection: segment.connection, token: 2 * i, synchronous: flow == Flow::Synchronous };
+            from.entry(segment.from).or_default().push(link);
             if flow != Flow::ToSlot {
-                into.entry(leg.to).or_default().push(link);
+                into.entry(segment.to).or_default().push(link);
             }
         }
         let mut consumers = vec![vec![]; net.places.len()];
@@ -141,9 +141,9 @@ impl<'a> State<'a> {
             transition.takes.iter().for_each(|p| consumers[*p].push(id));
         }
         let initial = Token { value: true, ..Token::default() };
-        let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&Stop::Node(*n));
+        let is_source = |n: &NodeId| has_process(graph, catalog, *n) && !into.contains_key(&SegmentEnd::Node(*n));
         let mut sources: BTreeSet<NodeId> = nodes.clone().filter(is_source).collect();
-        let loops = route::loops(graph, &legs);
+        let loops = route::loops(graph, &segments);
         // A loop without entries iterates on its own. Its first delay stands for it.
         sources.extend(loops.iter().filter(|on_loop| on_loop.entries.is_empty()).map(|on_loop| on_loop.delays[0]));
         Self {
@@ -162,7 +162,7 @@ impl<'a> State<'a> {
             from,
             consumers,
             sources,
-            early: Early::new(&legs, &loops, net),
+            bypass: Bypass::new(&segments, &loops, net),
             loops: loops.into_iter().map(|on_loop| (on_loop.delays[0], on_loop.delays)).collect(),
         }
     }
@@ -200,34 +200,34 @@ impl<'a> State<'a> {
 
     /// Lets the token that `place` lacks cross a boundary of a nested graph before the others have arrived, if it can.
     pub fn advance(&mut self, place: PlaceId) {
-        self.early.advance(place, &mut self.marking);
+        self.bypass.advance(place, &mut self.marking);
     }
 
     /// The place before the boundary, if tokens reach `place` through the boundary of a nested graph.
     pub fn before(&self, place: PlaceId) -> Option<PlaceId> {
-        self.early.before(place)
+        self.bypass.before(place)
     }
 
     /// Lets the remaining tokens cross boundaries where all of them have arrived. Returns the transitions that this
     /// replaces.
     pub fn follow(&mut self) -> Vec<TransitionId> {
-        self.early.follow(&mut self.marking)
+        self.bypass.follow(&mut self.marking)
     }
 
     /// A boundary that some token crossed early and that others have yet to cross.
     pub fn owes(&self) -> Option<Crossing> {
-        self.early.owes()
+        self.bypass.owes()
     }
 
     /// Returns `true` if `transition` may occur.
     pub fn is_enabled(&self, transition: TransitionId) -> bool {
         let t = &self.net.transitions[transition];
-        let decided = |end: End| self.decided.get(&end).is_some_and(Option::is_some);
+        let decided = |end: PortId| self.decided.get(&end).is_some_and(Option::is_some);
         t.takes.iter().all(|p| !self.marking[*p].is_empty())
-            && match t.meaning {
+            && match t.kind {
                 // The call has already decided if the port sends: only one of the two transitions is enabled.
-                Meaning::Trigger(end) => decided(end),
-                Meaning::Hush(end) => !decided(end),
+                TransitionKind::Trigger(end) => decided(end),
+                TransitionKind::Suppress(end) => !decided(end),
                 _ => true,
             }
     }
@@ -236,7 +236,7 @@ impl<'a> State<'a> {
     pub fn preview(&self, node: NodeId) -> Preview {
         let mut runs = true;
         let mut modifiers = vec![];
-        for link in self.into.get(&Stop::Node(node)).into_iter().flatten() {
+        for link in self.into.get(&SegmentEnd::Node(node)).into_iter().flatten() {
             // A missing token does not matter, because the transition is not enabled then.
             let Some(token) = self.marking[link.token].front() else { continue };
             modifiers.push(token.modifier);
@@ -273,31 +273,31 @@ impl<'a> State<'a> {
                 tokens.insert(*place, token);
             }
         }
-        let colours = match t.meaning {
-            Meaning::Take(node) => self.take(node, &tokens),
-            Meaning::Send(node) => self.send(node, &tokens),
-            Meaning::Trigger(end) => self.decide(end),
-            Meaning::Hush(end) => {
+        let colours = match t.kind {
+            TransitionKind::Take(node) => self.take(node, &tokens),
+            TransitionKind::Send(node) => self.send(node, &tokens),
+            TransitionKind::Trigger(end) => self.decide(end),
+            TransitionKind::Suppress(end) => {
                 self.decided.remove(&end);
                 BTreeMap::new()
             }
-            Meaning::Handle(connection) => self.handle(connection, &tokens),
-            Meaning::Handled(node) => self.handled(node),
-            Meaning::Pass(side) => self.pass(side, &tokens),
+            TransitionKind::Handle(connection) => self.handle(connection, &tokens),
+            TransitionKind::Handled(node) => self.handled(node),
+            TransitionKind::Pass(side) => self.pass(side, &tokens),
             // The first places that it takes from are those where the delays hold tokens.
-            Meaning::Release(first) => {
+            TransitionKind::Release(first) => {
                 let delays = self.loops.get(&first).cloned().unwrap_or_default();
                 let held: Vec<_> =
                     delays.into_iter().zip(&t.takes).filter_map(|(d, p)| Some((d, *tokens.get(p)?))).collect();
                 held.into_iter().flat_map(|(delay, oldest)| self.forward(delay, oldest)).collect()
             }
-            Meaning::Hold(_) => {
+            TransitionKind::Hold(_) => {
                 // The last place that it gives to is the one where the delay holds tokens.
                 let token = t.takes.first().and_then(|p| tokens.get(p)).copied().unwrap_or_default();
                 t.gives.last().map(|p| (*p, token)).into_iter().collect()
             }
-            Meaning::Start(node) => self.start(node),
-            Meaning::Notify(_) | Meaning::NotifySide(_) | Meaning::Return(_) => BTreeMap::new(),
+            TransitionKind::Start(node) => self.start(node),
+            TransitionKind::Notify(_) | TransitionKind::NotifySide(_) | TransitionKind::Return(_) => BTreeMap::new(),
         };
         for place in &t.gives {
             self.marking[*place].push_back(colours.get(place).copied().unwrap_or_default());
@@ -324,7 +324,7 @@ impl<'a> State<'a> {
     fn take(&mut self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
         let runs = self.preview_taken(node, tokens);
         let mut by_port = BTreeMap::new();
-        for link in self.into.get(&Stop::Node(node)).into_iter().flatten() {
+        for link in self.into.get(&SegmentEnd::Node(node)).into_iter().flatten() {
             let token = tokens.get(&link.token).copied().unwrap_or_default();
             by_port.insert(self.graph.connections[link.connection].to.port, token);
         }
@@ -335,12 +335,12 @@ impl<'a> State<'a> {
         self.taken.insert(node, Taken { slot: None, runs, tokens: by_port });
         // A delay stores the token in the last place that the transition gives to.
         let holds = matches!(self.graph.nodes[node].kind, NodeKind::Delay(_));
-        let transition = self.net.find(Meaning::Take(node)).filter(|_| holds);
+        let transition = self.net.find(TransitionKind::Take(node)).filter(|_| holds);
         transition.and_then(|t| self.net.transitions[t].gives.last().copied()).map(|p| (p, first)).into_iter().collect()
     }
 
     fn preview_taken(&self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> bool {
-        let links = self.into.get(&Stop::Node(node)).into_iter().flatten();
+        let links = self.into.get(&SegmentEnd::Node(node)).into_iter().flatten();
         links
             .filter(|l| self.is_mandatory(node, self.graph.connections[l.connection].to.port))
             .all(|l| tokens.get(&l.token).is_some_and(|t| t.value))
@@ -354,7 +354,7 @@ impl<'a> State<'a> {
                 self.forward(node, token)
             }
             NodeKind::Delay(_) => {
-                let transition = self.net.find(Meaning::Send(node));
+                let transition = self.net.find(TransitionKind::Send(node));
                 let held = transition.and_then(|t| self.net.transitions[t].takes.last());
                 let token = held.and_then(|p| tokens.get(p)).copied().unwrap_or_default();
                 self.forward(node, token)
@@ -366,7 +366,7 @@ impl<'a> State<'a> {
     /// Passes `token` on. Its effect on activity is passed on only over active connections.
     fn forward(&mut self, node: NodeId, token: Token) -> BTreeMap<PlaceId, Token> {
         let mut colours = BTreeMap::new();
-        for link in self.from.get(&Stop::Node(node)).cloned().unwrap_or_default() {
+        for link in self.from.get(&SegmentEnd::Node(node)).cloned().unwrap_or_default() {
             let c = &self.graph.connections[link.connection];
             let sent = Token { modifier: if c.active { token.modifier } else { 0 }, ..token };
             if link.synchronous {
@@ -389,14 +389,14 @@ impl<'a> State<'a> {
         if taken.runs {
             self.calls[node] += 1;
         }
-        let links = self.from.get(&Stop::Node(node)).cloned().unwrap_or_default();
+        let links = self.from.get(&SegmentEnd::Node(node)).cloned().unwrap_or_default();
         let mut colours = BTreeMap::new();
         for (port, p) in self.graph.nodes[node].ports.iter().enumerate() {
             // A slot sends only events.
             if !p.kind.sends() || (taken.slot.is_some() && p.kind != PortKind::Event) {
                 continue;
             }
-            let end = End { node, port };
+            let end = PortId { node, port };
             let links: Vec<Link> =
                 links.iter().copied().filter(|l| self.graph.connections[l.connection].from == end).collect();
             let value = taken.runs && self.sends(call, port);
@@ -428,7 +428,7 @@ impl<'a> State<'a> {
     }
 
     /// Origin of a sent token. An `each` keeps the origin of its list, whose elements it sends on.
-    fn origin(&self, call: Call, end: End, taken: &Taken) -> Option<Origin> {
+    fn origin(&self, call: Call, end: PortId, taken: &Taken) -> Option<Origin> {
         match &self.graph.nodes[end.node].kind {
             NodeKind::Each(each) => taken.tokens.get(&each.list).and_then(|t| t.origin),
             _ => Some(Origin { end, call: call.nth }),
@@ -443,7 +443,7 @@ impl<'a> State<'a> {
         }
     }
 
-    fn decide(&mut self, end: End) -> BTreeMap<PlaceId, Token> {
+    fn decide(&mut self, end: PortId) -> BTreeMap<PlaceId, Token> {
         self.decided.remove(&end).flatten().unwrap_or_default()
     }
 
@@ -473,7 +473,7 @@ impl<'a> State<'a> {
     }
 
     fn pass(&mut self, side: Crossing, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
-        let stop = Stop::Side(side);
+        let stop = SegmentEnd::Side(side);
         let into = self.into.get(&stop).into_iter().flatten();
         let by_connection: BTreeMap<usize, Token> =
             into.filter_map(|l| Some((l.connection, *tokens.get(&l.token)?))).collect();
@@ -482,7 +482,7 @@ impl<'a> State<'a> {
     }
 
     fn start(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {
-        let links = self.from.get(&Stop::Node(node)).into_iter().flatten();
+        let links = self.from.get(&SegmentEnd::Node(node)).into_iter().flatten();
         links
             .map(|l| {
                 let c = &self.graph.connections[l.connection];

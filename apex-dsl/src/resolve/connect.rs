@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{End, Node, NodeId, NodeKind, Pin, Place, Port, ScopeId, Standard, Wire},
+    graph::{Node, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Standard, Wire, WireEnd},
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef},
@@ -19,7 +19,7 @@ pub struct Candidate {
     pub name: String,
     pub kind: PortKind,
     pub ty: Type,
-    pub place: Place,
+    pub place: WireEnd,
     /// `true` for a parameter, which counts only if it is named.
     pub parameter: bool,
 }
@@ -46,7 +46,7 @@ pub enum Symbol {
 
 impl Symbol {
     /// A port of the graph itself.
-    pub fn port(place: Place, kind: PortKind, ty: &Type, name: &str) -> Self {
+    pub fn port(place: WireEnd, kind: PortKind, ty: &Type, name: &str) -> Self {
         Self::Own(Candidate { name: name.to_owned(), kind, ty: ty.clone(), place, parameter: false })
     }
 
@@ -58,14 +58,14 @@ impl Symbol {
             kind: p.kind,
             // The port decides if a list or its element is wanted; `check::types` compares them later.
             ty: if each { Type::Unknown(String::new()) } else { p.ty.clone() },
-            place: Place::Port(End { node: id, port }),
+            place: WireEnd::Port(PortId { node: id, port }),
             parameter: p.parameter.is_some(),
         });
         Self::Ports(Owner::Node(id), ports.collect())
     }
 
     /// A nested graph with its pins.
-    pub fn of_graph(scope: ScopeId, pins: Vec<(String, PortKind, Type, Place)>) -> Self {
+    pub fn of_graph(scope: ScopeId, pins: Vec<(String, PortKind, Type, WireEnd)>) -> Self {
         Self::Ports(
             Owner::Scope(scope),
             pins.into_iter()
@@ -136,7 +136,7 @@ pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str
 pub fn own_node(name: &str) -> Option<NodeKind> {
     match name {
         "start" => Some(NodeKind::Start),
-        "hung" => Some(NodeKind::Hung),
+        "hung" => Some(NodeKind::Watchdog),
         "reset" => Some(NodeKind::Reset),
         "exit" => Some(NodeKind::Exit(0)),
         "abort" => Some(NodeKind::Exit(1)),
@@ -145,11 +145,11 @@ pub fn own_node(name: &str) -> Option<NodeKind> {
 }
 
 fn own(kind: &NodeKind) -> bool {
-    matches!(kind, NodeKind::Start | NodeKind::Hung | NodeKind::Reset | NodeKind::Exit(_))
+    matches!(kind, NodeKind::Start | NodeKind::Watchdog | NodeKind::Reset | NodeKind::Exit(_))
 }
 
 /// An endpoint of a connection: the ports that it may stand for, and its place.
-struct Meant {
+struct EndpointCandidates {
     candidates: Vec<Candidate>,
     explicit: bool,
     /// All ports of the node, as text.
@@ -175,7 +175,7 @@ impl Builder<'_> {
                 chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
             for (i, arrow) in chain.arrows.iter().enumerate() {
                 if symbols[i].iter().any(Option::is_none) {
-                    symbols[i + 1].iter().flatten().for_each(|to| self.excuse(&to.0));
+                    symbols[i + 1].iter().flatten().for_each(|to| self.suppress(&to.0));
                 }
                 let is_port = |end: &Endpoint| matches!(end, Endpoint::Port(_));
                 let open =
@@ -246,7 +246,7 @@ impl Builder<'_> {
                 }
                 if named.is_empty() {
                     self.unknown_port(body, (first, port), symbol);
-                    self.excuse(symbol);
+                    self.suppress(symbol);
                     return None;
                 }
                 Some((Symbol::Ports(*owner, named), text, reference.span))
@@ -270,7 +270,7 @@ impl Builder<'_> {
             Some(node) => Some(node),
             None => {
                 let side =
-                    if matches!(kind, NodeKind::Start | NodeKind::Hung) { PortKind::Event } else { PortKind::Slot };
+                    if matches!(kind, NodeKind::Start | NodeKind::Watchdog) { PortKind::Event } else { PortKind::Slot };
                 let ty = if side == PortKind::Event { Type::unit() } else { Type::Unknown("any type".to_owned()) };
                 self.node(name, body.scope, kind, vec![Port::new(&name.text, side, ty)], "")
             }
@@ -281,7 +281,7 @@ impl Builder<'_> {
     fn standard_port(&mut self, owner: Owner, port: &Ident) -> Option<Candidate> {
         let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text)?;
         let place = match owner {
-            Owner::Node(node) => Place::Port(self.standard_end(node, standard)?),
+            Owner::Node(node) => WireEnd::Port(self.standard_end(node, standard)?),
             Owner::Scope(scope) if standard.is_shared() => self.shared_port(scope, standard, port.span),
             Owner::Scope(_) => return None,
         };
@@ -289,7 +289,7 @@ impl Builder<'_> {
         Some(Candidate { name, kind, ty, place, parameter: false })
     }
 
-    fn standard_end(&mut self, node: NodeId, standard: Standard) -> Option<End> {
+    fn standard_end(&mut self, node: NodeId, standard: Standard) -> Option<PortId> {
         if !matches!(self.nodes[node].kind, NodeKind::Library(_)) {
             return None;
         }
@@ -298,24 +298,24 @@ impl Builder<'_> {
             self.nodes[node].ports.push(Port { standard: Some(standard), ..made });
             self.nodes[node].ports.len() - 1
         });
-        Some(End { node, port })
+        Some(PortId { node, port })
     }
 
     /// A port of a nested graph that stands for the ports with this name of all nodes in it.
-    fn shared_port(&mut self, scope: ScopeId, standard: Standard, span: Span) -> Place {
+    fn shared_port(&mut self, scope: ScopeId, standard: Standard, span: Span) -> WireEnd {
         let (name, kind) = (standard.name(), standard.kind());
         let is_it = |p: &Pin| p.scope == scope && p.name == name && p.kind == kind && p.standard;
         if let Some(pin) = self.pins.iter().position(is_it) {
-            return Place::Pin(pin);
+            return WireEnd::Pin(pin);
         }
         let docs = String::new();
         let ty = Type::Unknown(String::new());
         self.pins.push(Pin { name: name.to_owned(), kind, ty, scope, span, docs, standard: true });
-        let place = Place::Pin(self.pins.len() - 1);
+        let place = WireEnd::Pin(self.pins.len() - 1);
         let nodes: Vec<NodeId> = (0..self.nodes.len()).filter(|n| self.nodes[*n].scope == scope).collect();
         let nested: Vec<ScopeId> = (1..self.scopes.len()).filter(|s| self.scopes[*s].parent == scope).collect();
-        let mut inner: Vec<Place> =
-            nodes.into_iter().filter_map(|n| Some(Place::Port(self.standard_end(n, standard)?))).collect();
+        let mut inner: Vec<WireEnd> =
+            nodes.into_iter().filter_map(|n| Some(WireEnd::Port(self.standard_end(n, standard)?))).collect();
         inner.extend(nested.into_iter().map(|s| self.shared_port(s, standard, span)));
         for inner in inner {
             let (from, to) = if kind == PortKind::Slot { (place, inner) } else { (inner, place) };
@@ -331,7 +331,7 @@ impl Builder<'_> {
         let (Symbol::Ports(_, from), Symbol::Ports(_, to_ports)) = (from, &to.0) else { return false };
         let is_start = from
             .iter()
-            .any(|c| matches!(c.place, Place::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
+            .any(|c| matches!(c.place, WireEnd::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
         // The type of a generic slot is determined by its other connections, if there are any.
         let takes = |c: &Candidate| {
             let decided = matches!(c.ty, Type::Param(_)) && is_fed(body.item, &to.1);
@@ -341,7 +341,7 @@ impl Builder<'_> {
             return false;
         }
         match to_ports.first().map(|c| c.place) {
-            Some(Place::Port(end)) if matches!(self.nodes[end.node].kind, NodeKind::Library(_)) => {
+            Some(WireEnd::Port(end)) if matches!(self.nodes[end.node].kind, NodeKind::Library(_)) => {
                 self.nodes[end.node].starts_active = true;
                 true
             }
@@ -369,7 +369,7 @@ impl Builder<'_> {
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other end; so do types.
-        let Some((source, target)) = self.choose(sources, targets, open) else { return self.excuse(&to.0) };
+        let Some((source, target)) = self.choose(sources, targets, open) else { return self.suppress(&to.0) };
         let differs = source.ty.compare(&target.ty) == Match::Different;
         if differs {
             self.mismatch(from, to, &source, &target, arrow.span);
@@ -387,17 +387,24 @@ impl Builder<'_> {
     }
 
     /// Suppresses errors about a missing connection to `to`: it could not be made, which has been reported.
-    fn excuse(&mut self, to: &Symbol) {
+    fn suppress(&mut self, to: &Symbol) {
         match to {
-            Symbol::Ports(_, ports) => self.excused.extend(ports.iter().filter(|p| !p.kind.sends()).map(|p| p.place)),
-            Symbol::Own(own) => self.excused.extend([own.place]),
+            Symbol::Ports(_, ports) => {
+                self.suppressed.extend(ports.iter().filter(|p| !p.kind.sends()).map(|p| p.place))
+            }
+            Symbol::Own(own) => self.suppressed.extend([own.place]),
             Symbol::Broken => {}
         }
     }
 
-    fn choose(&mut self, from: Meant, to: Meant, open: [bool; 2]) -> Option<(Candidate, Candidate)> {
+    fn choose(
+        &mut self,
+        from: EndpointCandidates,
+        to: EndpointCandidates,
+        open: [bool; 2],
+    ) -> Option<(Candidate, Candidate)> {
         let fits = |a: &Candidate, b: &Candidate| a.ty.compare(&b.ty) != Match::Different;
-        let narrow = |side: &Meant, other: &Meant| -> Vec<Candidate> {
+        let narrow = |side: &EndpointCandidates, other: &EndpointCandidates| -> Vec<Candidate> {
             match side.candidates.as_slice() {
                 [one] => vec![one.clone()],
                 several => several.iter().filter(|c| other.candidates.iter().any(|o| fits(c, o))).cloned().collect(),
@@ -419,9 +426,9 @@ impl Builder<'_> {
 
     fn ambiguous(
         &mut self,
-        meant: &Meant,
+        meant: &EndpointCandidates,
         fitting: &[Candidate],
-        other: &Meant,
+        other: &EndpointCandidates,
         [one, many, opposite]: [&str; 3],
         open: bool,
     ) {
@@ -497,7 +504,7 @@ impl Builder<'_> {
 
     fn declared(&self, candidate: &Candidate, name: &str) -> String {
         match candidate.place {
-            Place::Port(end) => match &self.nodes[end.node].kind {
+            WireEnd::Port(end) => match &self.nodes[end.node].kind {
                 NodeKind::Library(library) => {
                     let signature = &self.catalog.signatures[library.signature];
                     format!(
@@ -508,10 +515,10 @@ impl Builder<'_> {
                     )
                 }
                 NodeKind::Start => format!("{name} is where activity begins; every graph has it"),
-                NodeKind::Hung => format!("{name} is the event that a node hangs; every graph has it"),
+                NodeKind::Watchdog => format!("{name} is the event that a node hangs; every graph has it"),
                 _ => format!("{name} is a port of this graph"),
             },
-            Place::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
+            WireEnd::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
         }
     }
 }
@@ -531,7 +538,7 @@ fn is_fed(graph: &GraphItem, name: &str) -> bool {
 
 /// The ports that an endpoint may stand for, among those that send or those that take. Parameters count only if they
 /// are named.
-fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
+fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> EndpointCandidates {
     let explicit = name.contains('.');
     let candidates = match symbol {
         Symbol::Own(candidate) if candidate.kind.sends() == sends => vec![candidate.clone()],
@@ -550,7 +557,13 @@ fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> Meant {
         }
         _ => String::new(),
     };
-    Meant { candidates, all, explicit: explicit || matches!(symbol, Symbol::Own(_)), name: name.clone(), span: *span }
+    EndpointCandidates {
+        candidates,
+        all,
+        explicit: explicit || matches!(symbol, Symbol::Own(_)),
+        name: name.clone(),
+        span: *span,
+    }
 }
 
 /// Ports as text.

@@ -2,7 +2,7 @@
 
 use super::{MAX_NODES, instance::Builder};
 use crate::{
-    graph::{Connection, Crossing, End, NodeId, NodeKind, Pin, Place, Port, ScopeId, Wire},
+    graph::{Connection, Crossing, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Wire, WireEnd},
     report::Diagnostic,
     syntax::tree::{Ident, PortKind},
 };
@@ -14,7 +14,7 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     let mut wires = builder.wires.clone();
     check_single(builder, &wires);
     add_relays(builder, &mut wires);
-    let mut into: BTreeMap<Place, Vec<usize>> = BTreeMap::new();
+    let mut into: BTreeMap<WireEnd, Vec<usize>> = BTreeMap::new();
     for (i, wire) in wires.iter().enumerate() {
         into.entry(wire.to).or_default().push(i);
     }
@@ -22,14 +22,14 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
     let mut connections = vec![];
     let mut seen = BTreeSet::new();
     for wire in &wires {
-        let Place::Port(to) = wire.to else { continue };
+        let WireEnd::Port(to) = wire.to else { continue };
         // Follow the wire upstream to the ports where it begins. Each pin is visited once, because pins may form a
         // cycle.
         let mut ends = vec![(wire.from, wire.active, wire.differs, false, vec![])];
         let mut visited = BTreeSet::new();
         while let Some((place, active, differs, relayed, crossings)) = ends.pop() {
             match place {
-                Place::Port(from) => {
+                WireEnd::Port(from) => {
                     // Several ways from port to port are one connection, but each way to a slot delivers a token.
                     let to_slot = builder.nodes[to.node].ports[to.port].kind == PortKind::Slot;
                     if seen.insert((from, to)) || to_slot {
@@ -39,7 +39,7 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
                         connections.push(Connection { from, to, active, differs, crossings, relayed, span });
                     }
                 }
-                Place::Pin(pin) if visited.insert(place) => {
+                WireEnd::Pin(pin) if visited.insert(place) => {
                     let relayed = relayed || !builder.pins[pin].kind.is_synchronous();
                     // The ports of other kinds pass each token alone, so that it does not cross the boundary together
                     // with others.
@@ -52,7 +52,7 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
                         ends.push((wire.from, active, differs, relayed, crossings.clone()));
                     }
                 }
-                Place::Pin(_) => {}
+                WireEnd::Pin(_) => {}
             }
         }
         if connections.len() > 4 * MAX_NODES {
@@ -61,9 +61,9 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
             break;
         }
     }
-    let fed: BTreeSet<End> = connections.iter().map(|c| c.to).collect();
+    let fed: BTreeSet<PortId> = connections.iter().map(|c| c.to).collect();
     let hanging = wires.iter().filter_map(|w| match (w.from, w.to) {
-        (Place::Pin(_), Place::Port(end)) if !fed.contains(&end) => Some(end.node),
+        (WireEnd::Pin(_), WireEnd::Port(end)) if !fed.contains(&end) => Some(end.node),
         _ => None,
     });
     (connections, hanging.collect())
@@ -76,8 +76,8 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
 fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
     let barred = barred_pins(builder);
     let is_barred = |place| match place {
-        Place::Pin(pin) => barred.contains(&pin).then_some(pin),
-        Place::Port(_) => None,
+        WireEnd::Pin(pin) => barred.contains(&pin).then_some(pin),
+        WireEnd::Port(_) => None,
     };
     let comes = |w: &Wire| (w.from, w.to);
     let goes = |w: &Wire| (w.to, w.from);
@@ -89,8 +89,8 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
         // In front of the pin: each wire to the pin has a relay of its own, as each of them delivers tokens.
         if let Some(pin) = is_barred(to).filter(|_| comes.contains(&from)) {
             let Some(relay) = add_relay(builder, pin, false) else { return };
-            wires.push(Wire { from: Place::Port(End { node: relay, port: 1 }), ..wires[index] });
-            wires[index].to = Place::Port(End { node: relay, port: 0 });
+            wires.push(Wire { from: WireEnd::Port(PortId { node: relay, port: 1 }), ..wires[index] });
+            wires[index].to = WireEnd::Port(PortId { node: relay, port: 0 });
         }
         // Behind the pin: one relay serves all wires, as the pin sends each token only once.
         if let Some(pin) = is_barred(from).filter(|_| goes.contains(&to)) {
@@ -98,11 +98,11 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
                 Some(relay) => *relay,
                 None => {
                     let Some(relay) = add_relay(builder, pin, true) else { return };
-                    wires.push(Wire { to: Place::Port(End { node: relay, port: 0 }), ..wires[index] });
+                    wires.push(Wire { to: WireEnd::Port(PortId { node: relay, port: 0 }), ..wires[index] });
                     *behind.entry(pin).or_insert(relay)
                 }
             };
-            wires[index].from = Place::Port(End { node: relay, port: 1 });
+            wires[index].from = WireEnd::Port(PortId { node: relay, port: 1 });
         }
     }
 }
@@ -123,19 +123,19 @@ fn asynchronous(
     builder: &Builder<'_>,
     wires: &[Wire],
     barred: &BTreeSet<usize>,
-    next: impl Fn(&Wire) -> (Place, Place),
-) -> BTreeSet<Place> {
-    let mut behind: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+    next: impl Fn(&Wire) -> (WireEnd, WireEnd),
+) -> BTreeSet<WireEnd> {
+    let mut behind: BTreeMap<WireEnd, Vec<WireEnd>> = BTreeMap::new();
     for (from, to) in wires.iter().map(next) {
         behind.entry(from).or_default().push(to);
     }
-    let mut found: BTreeSet<Place> = behind.iter().flat_map(|(from, to)| to.iter().chain([from])).copied().collect();
+    let mut found: BTreeSet<WireEnd> = behind.iter().flat_map(|(from, to)| to.iter().chain([from])).copied().collect();
     found.retain(|place| !is_synchronous(builder, *place));
-    let mut ends: Vec<Place> = found.iter().copied().collect();
+    let mut ends: Vec<WireEnd> = found.iter().copied().collect();
     while let Some(place) = ends.pop() {
         // A pin that is the only one of its kind passes tokens on as they come.
         for next in behind.get(&place).into_iter().flatten() {
-            let passes = matches!(next, Place::Pin(pin) if !barred.contains(pin));
+            let passes = matches!(next, WireEnd::Pin(pin) if !barred.contains(pin));
             if passes && found.insert(*next) {
                 ends.push(*next);
             }
@@ -157,10 +157,10 @@ fn add_relay(builder: &mut Builder<'_>, pin: usize, behind: bool) -> Option<Node
 }
 
 /// Returns `true` if the tokens at a place belong to the synchronous flow.
-fn is_synchronous(builder: &Builder<'_>, place: Place) -> bool {
+fn is_synchronous(builder: &Builder<'_>, place: WireEnd) -> bool {
     match place {
-        Place::Port(end) => builder.nodes[end.node].ports[end.port].kind.is_synchronous(),
-        Place::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
+        WireEnd::Port(end) => builder.nodes[end.node].ports[end.port].kind.is_synchronous(),
+        WireEnd::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
     }
 }
 
@@ -173,8 +173,8 @@ fn crossing(pin: &Pin) -> Crossing {
 
 /// Reports inputs with several connections, and connections that are made twice.
 fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
-    let mut first: BTreeMap<Place, usize> = BTreeMap::new();
-    let mut pairs: BTreeMap<(Place, Place), usize> = BTreeMap::new();
+    let mut first: BTreeMap<WireEnd, usize> = BTreeMap::new();
+    let mut pairs: BTreeMap<(WireEnd, WireEnd), usize> = BTreeMap::new();
     for (i, wire) in wires.iter().enumerate() {
         if builder.diagnostics.is_full() {
             return;
@@ -211,38 +211,38 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
 }
 
 /// Suppresses errors about the other inputs of a node: one of two connections to one input may be meant for them.
-fn excuse_inputs(builder: &mut Builder<'_>, place: Place) {
+fn excuse_inputs(builder: &mut Builder<'_>, place: WireEnd) {
     match place {
-        Place::Port(End { node, .. }) => {
+        WireEnd::Port(PortId { node, .. }) => {
             let ports = 0..builder.nodes[node].ports.len();
-            builder.excused.extend(ports.map(|port| Place::Port(End { node, port })));
+            builder.suppressed.extend(ports.map(|port| WireEnd::Port(PortId { node, port })));
         }
-        Place::Pin(pin) => {
+        WireEnd::Pin(pin) => {
             let scope = builder.pins[pin].scope;
             let pins = 0..builder.pins.len();
-            builder.excused.extend(pins.filter(|pin| builder.pins[*pin].scope == scope).map(Place::Pin));
+            builder.suppressed.extend(pins.filter(|pin| builder.pins[*pin].scope == scope).map(WireEnd::Pin));
         }
     }
 }
 
-fn is_input(builder: &Builder<'_>, place: Place) -> bool {
+fn is_input(builder: &Builder<'_>, place: WireEnd) -> bool {
     match place {
-        Place::Port(end) => builder.nodes[end.node].ports[end.port].kind == PortKind::Input,
+        WireEnd::Port(end) => builder.nodes[end.node].ports[end.port].kind == PortKind::Input,
         // An `in` is an input seen from outside, an `out` is one seen from inside.
-        Place::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
+        WireEnd::Pin(pin) => builder.pins[pin].kind.is_synchronous(),
     }
 }
 
-fn name(builder: &Builder<'_>, place: Place) -> String {
+fn name(builder: &Builder<'_>, place: WireEnd) -> String {
     match place {
-        Place::Port(end) => {
+        WireEnd::Port(end) => {
             let node = &builder.nodes[end.node];
             match node.kind {
                 NodeKind::Boundary(_) => format!("`{}`", node.name),
                 _ => format!("`{}.{}`", node.name, node.ports[end.port].name),
             }
         }
-        Place::Pin(pin) => {
+        WireEnd::Pin(pin) => {
             let pin = &builder.pins[pin];
             format!("`{}.{}`", builder.scopes[pin.scope].name, pin.name)
         }
@@ -250,21 +250,21 @@ fn name(builder: &Builder<'_>, place: Place) -> String {
 }
 
 /// Reports pins that nothing is connected to although their tokens are needed.
-fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wires: &[Wire]) {
-    let mut out_of: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<WireEnd, Vec<usize>>, wires: &[Wire]) {
+    let mut out_of: BTreeMap<WireEnd, Vec<WireEnd>> = BTreeMap::new();
     for wire in wires {
         out_of.entry(wire.from).or_default().push(wire.to);
     }
-    let mut excused = BTreeSet::new();
+    let mut suppressed = BTreeSet::new();
     for index in 0..builder.pins.len() {
-        let place = Place::Pin(index);
+        let place = WireEnd::Pin(index);
         if !into.contains_key(&place) {
             // The error is reported at the pin, not at the places downstream of it.
             let behind = places_behind(&out_of, place).into_iter().filter(|behind| *behind != place);
-            excused.extend(behind);
+            suppressed.extend(behind);
         }
         let pin = &builder.pins[index];
-        if into.contains_key(&place) || builder.excused.contains(&place) {
+        if into.contains_key(&place) || builder.suppressed.contains(&place) {
             continue;
         }
         let scope = &builder.scopes[pin.scope];
@@ -284,14 +284,14 @@ fn check_pins(builder: &mut Builder<'_>, into: &BTreeMap<Place, Vec<usize>>, wir
         };
         builder.diagnostics.push(error);
     }
-    builder.excused.extend(excused);
+    builder.suppressed.extend(suppressed);
 }
 
 /// A pin, the pins that its tokens go on to, and the ports at their ends.
-fn places_behind(out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> BTreeSet<Place> {
+fn places_behind(out_of: &BTreeMap<WireEnd, Vec<WireEnd>>, pin: WireEnd) -> BTreeSet<WireEnd> {
     let (mut ends, mut found) = (vec![pin], BTreeSet::new());
     while let Some(place) = ends.pop() {
-        if found.insert(place) && matches!(place, Place::Pin(_)) {
+        if found.insert(place) && matches!(place, WireEnd::Pin(_)) {
             ends.extend(out_of.get(&place).into_iter().flatten());
         }
     }
@@ -299,12 +299,12 @@ fn places_behind(out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> BTreeSet<P
 }
 
 /// Returns `true` if a node behind an unconnected pin requires its tokens.
-fn needs_token(builder: &Builder<'_>, out_of: &BTreeMap<Place, Vec<Place>>, pin: Place) -> bool {
+fn needs_token(builder: &Builder<'_>, out_of: &BTreeMap<WireEnd, Vec<WireEnd>>, pin: WireEnd) -> bool {
     places_behind(out_of, pin).into_iter().any(|place| match place {
-        Place::Port(end) => {
+        WireEnd::Port(end) => {
             let port = &builder.nodes[end.node].ports[end.port];
             port.kind == PortKind::Input && !port.optional
         }
-        Place::Pin(_) => false,
+        WireEnd::Pin(_) => false,
     })
 }

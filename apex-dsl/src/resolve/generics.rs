@@ -3,7 +3,7 @@
 use super::value::Wanted;
 use crate::{
     catalog::{Catalog, Signature, Type},
-    graph::{End, Graph, Library, NodeId, NodeKind, Port, TypeArg},
+    graph::{Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg},
     report::{Diagnostic, Diagnostics},
     syntax::tree::{Expr, ExprKind, PortKind},
 };
@@ -121,7 +121,7 @@ fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[u
 }
 
 /// The argument for `name` that follows from the connection between `mine`, whose type mentions `name`, and `other`.
-fn argument_from(graph: &Graph, name: &str, mine: End, other: End) -> Option<TypeArg> {
+fn argument_from(graph: &Graph, name: &str, mine: PortId, other: PortId) -> Option<TypeArg> {
     let pattern = &graph.port(mine).ty;
     let other = graph.origin(other);
     let known = match &graph.nodes[other.node].kind {
@@ -169,7 +169,7 @@ pub fn substitute_ports(ports: &mut [Port], signature: &Signature, types: &[Type
 fn known_argument(signature: &Signature, types: &[TypeArg], name: &str) -> Option<Type> {
     let index = signature.generics.iter().position(|g| g == name)?;
     match types.get(index)? {
-        TypeArg::Known(ty) | TypeArg::Spelled(ty, _) => Some(ty.clone()),
+        TypeArg::Known(ty) | TypeArg::Verbatim(ty, _) => Some(ty.clone()),
         TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => Some(Type::Unknown(name.to_owned())),
         TypeArg::Open => None,
     }

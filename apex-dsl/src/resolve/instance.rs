@@ -6,13 +6,15 @@ use super::{
     connect::{Symbol, Table, named_ports},
     flatten, generics,
     link::Link,
-    names::{GraphId, Made, Texts},
+    names::{Constructor, GraphId, SourceSet},
     types,
     value::Scope as Names,
 };
 use crate::{
     catalog::{Catalog, SignatureId, Type},
-    graph::{self, Claim, End, Graph, Library, Node, NodeKind, Pin, Place, Port, Scope, ScopeId, TypeArg, Value, Wire},
+    graph::{
+        self, Claim, Graph, Library, Node, NodeKind, Pin, Port, PortId, Scope, ScopeId, TypeArg, Value, Wire, WireEnd,
+    },
     machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -24,7 +26,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// State of the construction of one flat graph.
 pub struct Builder<'a> {
-    pub texts: &'a Texts,
+    pub texts: &'a SourceSet,
     pub catalog: &'a Catalog,
     pub diagnostics: &'a mut Diagnostics,
     pub nodes: Vec<Node>,
@@ -32,7 +34,7 @@ pub struct Builder<'a> {
     pub pins: Vec<Pin>,
     pub wires: Vec<Wire>,
     /// Inputs whose connection could not be made, which has been reported.
-    pub excused: BTreeSet<Place>,
+    pub suppressed: BTreeSet<WireEnd>,
     /// Unknown names of nodes or ports in each graph, which have been reported.
     pub unknown: BTreeSet<(GraphId, String)>,
     /// The initial tokens of delays, as written.
@@ -85,7 +87,7 @@ impl<'a> Body<'a> {
 
 /// Resolves graph `id` as a program of its own.
 pub fn graph(
-    texts: &Texts,
+    texts: &SourceSet,
     catalog: &Catalog,
     id: GraphId,
     budget: &mut Budget,
@@ -100,7 +102,7 @@ pub fn graph(
 impl<'a> Builder<'a> {
     /// An empty builder, to be used while the graphs `open` are being expanded.
     pub fn new(
-        texts: &'a Texts,
+        texts: &'a SourceSet,
         catalog: &'a Catalog,
         diagnostics: &'a mut Diagnostics,
         open: Vec<GraphId>,
@@ -114,7 +116,7 @@ impl<'a> Builder<'a> {
             scopes: vec![],
             pins: vec![],
             wires: vec![],
-            excused: BTreeSet::new(),
+            suppressed: BTreeSet::new(),
             unknown: BTreeSet::new(),
             delays: vec![],
             claims: vec![],
@@ -160,7 +162,12 @@ impl<'a> Builder<'a> {
             let node = self.node(&port.name, 0, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
             table.insert(
                 &port.name,
-                Symbol::port(Place::Port(End { node, port: 0 }), kind, &self.nodes[node].ports[0].ty, &port.name.text),
+                Symbol::port(
+                    WireEnd::Port(PortId { node, port: 0 }),
+                    kind,
+                    &self.nodes[node].ports[0].ty,
+                    &port.name.text,
+                ),
                 self.diagnostics,
             );
         }
@@ -195,7 +202,7 @@ impl<'a> Builder<'a> {
             claims: self.claims,
             threads,
             open_pins,
-            excused: ports(&self.excused),
+            suppressed: ports(&self.suppressed),
             record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
@@ -327,13 +334,13 @@ impl<'a> Builder<'a> {
             _ => None,
         });
         let symbol = match (made, each) {
-            (Made::Node(signature), None) => self.library(body, name, signature, instance, docs)?,
-            (Made::Graph(id), None) => self.nested(body, name, id, instance, docs)?,
-            (Made::Node(signature), Some(each)) => {
+            (Constructor::Node(signature), None) => self.library(body, name, signature, instance, docs)?,
+            (Constructor::Graph(id), None) => self.nested(body, name, id, instance, docs)?,
+            (Constructor::Node(signature), Some(each)) => {
                 let inner = self.each_of_node(body, name, signature, instance)?;
                 self.each(body, name, inner, each, instance, docs)?
             }
-            (Made::Graph(id), Some(each)) => {
+            (Constructor::Graph(id), Some(each)) => {
                 let values = self.graph_args(body, id, instance);
                 self.diagnostics.enter(&name.text);
                 let inner = self.nested_program(id, instance.span, |builder| builder.top(id, Purpose::Body(values)));
@@ -407,8 +414,8 @@ impl<'a> Builder<'a> {
         let Some(port) = self.nodes[node].ports.iter().position(|p| p.name == Machine::BEGIN) else { return Some(()) };
         let start = Ident { text: "start".to_owned(), span };
         let start = self.own_node(body, &start, NodeKind::Start)?;
-        let from = Place::Port(End { node: start, port: 0 });
-        let to = Place::Port(End { node, port });
+        let from = WireEnd::Port(PortId { node: start, port: 0 });
+        let to = WireEnd::Port(PortId { node, port });
         self.wires.push(Wire { from, to, active: false, differs: false, span });
         Some(())
     }
@@ -428,7 +435,7 @@ impl<'a> Builder<'a> {
                 let resolved = self.ty(body.id, ty);
                 match &resolved {
                     Type::Param(_) => TypeArg::Open,
-                    _ => TypeArg::Spelled(resolved, self.texts.ty(body.id.file, ty).to_string()),
+                    _ => TypeArg::Verbatim(resolved, self.texts.ty(body.id.file, ty).to_string()),
                 }
             })
             .collect()
@@ -454,7 +461,7 @@ impl<'a> Builder<'a> {
             Instance { path: path.clone(), types: types.clone(), args: vec![], modifiers: vec![], span: ty.span };
         let made = self.texts.made(body.id.file, path, self.catalog);
         match made {
-            Ok(Made::Node(id)) if !self.catalog.signatures[id].is_function => {
+            Ok(Constructor::Node(id)) if !self.catalog.signatures[id].is_function => {
                 let signature = &self.catalog.signatures[id];
                 let params = vec![Value::RustDefault; signature.params.len()];
                 let types = self.type_args(body, signature.generics.len(), types, &instance);
@@ -524,13 +531,13 @@ impl<'a> Builder<'a> {
         });
         let scope = self.scopes.len() - 1;
         let mut inside = Table::new();
-        let mut symbol: Vec<(String, PortKind, Type, Place)> = vec![];
+        let mut symbol: Vec<(String, PortKind, Type, WireEnd)> = vec![];
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             let (name, docs) = (port.name.text.clone(), port.docs.clone());
             let (kind, span) = (port.kind, port.name.span);
             self.pins.push(Pin { name, kind, ty: ty.clone(), scope, span, docs, standard: false });
-            let place = Place::Pin(self.pins.len() - 1);
+            let place = WireEnd::Pin(self.pins.len() - 1);
             // Seen from inside, a port that takes tokens outside sends them.
             let inner = port.kind.seen_from_inside();
             inside.insert(&port.name, Symbol::port(place, inner, &ty, &port.name.text), self.diagnostics);
@@ -582,8 +589,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn ports(places: &BTreeSet<Place>) -> BTreeSet<End> {
-    places.iter().filter_map(|p| if let Place::Port(end) = p { Some(*end) } else { None }).collect()
+fn ports(places: &BTreeSet<WireEnd>) -> BTreeSet<PortId> {
+    places.iter().filter_map(|p| if let WireEnd::Port(end) = p { Some(*end) } else { None }).collect()
 }
 
 /// Makes connected parameters of functions required inputs, because a function cannot store their values.

@@ -2,7 +2,7 @@
 
 use crate::{
     catalog::{Match, Type},
-    graph::{End, Graph, NodeKind},
+    graph::{Graph, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -18,7 +18,7 @@ pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
         let inputs: Vec<usize> =
             (0..graph.nodes[id].ports.len()).filter(|p| graph.nodes[id].ports[*p].kind == PortKind::Input).collect();
         let lists: Vec<usize> =
-            inputs.iter().copied().filter(|port| is_list(graph, End { node: id, port: *port })).collect();
+            inputs.iter().copied().filter(|port| is_list(graph, PortId { node: id, port: *port })).collect();
         if let [only] = lists.as_slice() {
             let only = *only;
             if let NodeKind::Each(each) = &mut graph.nodes[id].kind {
@@ -39,7 +39,7 @@ pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
     }
 }
 
-fn is_list(graph: &Graph, input: End) -> bool {
+fn is_list(graph: &Graph, input: PortId) -> bool {
     let Some(connection) = graph.incoming(input) else { return false };
     let arriving = token_type(graph, connection.from);
     arriving.list_item().is_some_and(|item| item.compare(&graph.port(input).ty) != Match::Different)
@@ -47,11 +47,11 @@ fn is_list(graph: &Graph, input: End) -> bool {
 }
 
 /// The type of the tokens that leave a port. An `each` sends lists.
-pub fn token_type(graph: &Graph, from: End) -> Type {
+pub fn token_type(graph: &Graph, from: PortId) -> Type {
     let ty = &graph.port(from).ty;
     match &graph.nodes[from.node].kind {
         NodeKind::Each(each) => {
-            let list = graph.incoming(End { node: from.node, port: each.list });
+            let list = graph.incoming(PortId { node: from.node, port: each.list });
             match list.map(|c| token_type(graph, c.from)) {
                 Some(Type::Named(name, args)) if args.len() == 1 => Type::Named(name, vec![ty.clone()]),
                 _ => Type::Unknown(format!("list of {ty}")),

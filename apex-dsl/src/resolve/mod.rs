@@ -32,7 +32,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use link::{Link, Side};
 pub use lists::token_type;
-pub use names::{GraphId, Made, Meaning, Texts, suggest};
+pub use names::{Constructor, GraphId, Resolution, SourceSet, suggest};
 pub(crate) use unknown::{Known, everywhere, unknown};
 
 /// Largest number of nodes and nested graphs of a program. It has at most four times as many connections.
@@ -58,7 +58,7 @@ pub struct Budget {
 /// Result of the resolution of a source file.
 pub struct Resolved {
     /// The source file and those that it imports.
-    pub texts: Texts,
+    pub texts: SourceSet,
     /// Graphs of the first source file that are not used in another one of it: programs, and graphs that would be
     /// programs if all their parameters had a value.
     pub graphs: Vec<Graph>,
@@ -78,7 +78,7 @@ pub fn resolve(
     world: &mut dyn World,
     diagnostics: &mut Diagnostics,
 ) -> Resolved {
-    let texts = Texts::load(root, catalog, sources, world, diagnostics);
+    let texts = SourceSet::load(root, catalog, sources, world, diagnostics);
     let broken = texts.are_broken();
     types::check(&texts, catalog, diagnostics);
     let used = used(&texts.files[0].1);

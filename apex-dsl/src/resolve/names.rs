@@ -26,17 +26,17 @@ const MAX_FILES: usize = 256;
 /// A graph, by source file and number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GraphId {
-    /// Index in [`Texts::files`].
+    /// Index in [`SourceSet::files`].
     pub file: usize,
     /// Index in [`File::graphs`].
     pub graph: usize,
 }
 
 /// The source files of a program, with their names.
-pub struct Texts {
+pub struct SourceSet {
     /// The source files. The first one is the one that was given to the compiler.
     pub files: Vec<(FileId, File)>,
-    names: Vec<BTreeMap<String, Meaning>>,
+    names: Vec<BTreeMap<String, Resolution>>,
     /// The state machines.
     pub machines: Machines,
     /// The catalog nodes of the state machines in each source file.
@@ -48,7 +48,7 @@ pub struct Texts {
 
 /// Meaning of a name in a source file.
 #[derive(Debug, Clone)]
-pub enum Meaning {
+pub enum Resolution {
     /// A graph.
     Graph(GraphId),
     /// A state machine.
@@ -59,14 +59,14 @@ pub enum Meaning {
 
 /// Constructor of an instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Made {
+pub enum Constructor {
     /// A nested graph.
     Graph(GraphId),
     /// A node of the catalog.
     Node(SignatureId),
 }
 
-impl Texts {
+impl SourceSet {
     /// Parses `root` and all source files that it imports.
     pub fn load(
         root: FileId,
@@ -188,12 +188,12 @@ impl Texts {
         catalog: &Catalog,
         sources: &Sources,
         diagnostics: &mut Diagnostics,
-    ) -> (BTreeMap<String, Meaning>, BTreeSet<String>) {
-        let mut names: BTreeMap<String, Meaning> = BTreeMap::new();
+    ) -> (BTreeMap<String, Resolution>, BTreeSet<String>) {
+        let mut names: BTreeMap<String, Resolution> = BTreeMap::new();
         let mut unclear = BTreeSet::new();
         let mut places: BTreeMap<String, &Ident> = BTreeMap::new();
         let tree = &self.files[file].1;
-        let mut imports: Vec<(&Ident, Meaning)> = vec![];
+        let mut imports: Vec<(&Ident, Resolution)> = vec![];
         for u in &tree.uses {
             match self.import(file, &u.path, catalog, sources) {
                 Ok(meaning) => imports.push((&u.name, meaning)),
@@ -207,10 +207,13 @@ impl Texts {
                 }
             }
         }
-        let graphs =
-            tree.graphs.iter().enumerate().map(|(graph, item)| (&item.name, Meaning::Graph(GraphId { file, graph })));
+        let graphs = tree
+            .graphs
+            .iter()
+            .enumerate()
+            .map(|(graph, item)| (&item.name, Resolution::Graph(GraphId { file, graph })));
         let machines = tree.machines.iter().zip(&self.machine_nodes[file]);
-        let machines = machines.map(|(item, signature)| (&item.name, Meaning::Machine(*signature)));
+        let machines = machines.map(|(item, signature)| (&item.name, Resolution::Machine(*signature)));
         for (name, meaning) in imports.into_iter().chain(graphs).chain(machines) {
             if let Some(first) = places.insert(name.text.clone(), name) {
                 let message = format!("`{}` is already defined here", name.text);
@@ -231,7 +234,7 @@ impl Texts {
         path: &[Ident],
         catalog: &Catalog,
         sources: &Sources,
-    ) -> Result<Meaning, Option<Box<Diagnostic>>> {
+    ) -> Result<Resolution, Option<Box<Diagnostic>>> {
         let words: Vec<String> = path.iter().map(|s| s.text.clone()).collect();
         let (Some(first), Some(last)) = (path.first(), path.last()) else { return Err(None) };
         if catalog.is_crate(&first.text) {
@@ -239,10 +242,10 @@ impl Texts {
             if catalog.nodes(&words).is_empty() && catalog.types(&words).is_empty() && !is_constant() {
                 return Err(Some(Box::new(unknown_import(&words, last, catalog))));
             }
-            return Ok(Meaning::Rust(words));
+            return Ok(Resolution::Rust(words));
         }
         if catalog.is_extern(&first.text) {
-            return Ok(Meaning::Rust(words));
+            return Ok(Resolution::Rust(words));
         }
         let folder = sources.get(self.files[file].0).path.parent().map(std::path::Path::to_owned).unwrap_or_default();
         let sibling = folder.join(format!("{}.afg", first.text));
@@ -255,13 +258,13 @@ impl Texts {
     }
 
     /// The graph or state machine `name` of source file `other`, which is imported as `module`.
-    fn import_item(&self, other: usize, module: &Ident, name: &Ident) -> Result<Meaning, Option<Box<Diagnostic>>> {
+    fn import_item(&self, other: usize, module: &Ident, name: &Ident) -> Result<Resolution, Option<Box<Diagnostic>>> {
         let tree = &self.files[other].1;
         if let Some(machine) = tree.machines.iter().position(|m| m.name.text == name.text) {
-            return Ok(Meaning::Machine(self.machine_nodes[other][machine]));
+            return Ok(Resolution::Machine(self.machine_nodes[other][machine]));
         }
         if let Some(graph) = tree.graphs.iter().position(|g| g.name.text == name.text) {
-            return Ok(Meaning::Graph(GraphId { file: other, graph }));
+            return Ok(Resolution::Graph(GraphId { file: other, graph }));
         }
         if tree.broken {
             return Err(None);
@@ -283,14 +286,14 @@ impl Texts {
     }
 
     /// The names that source file `file` declares and imports, except those inside its graphs.
-    pub fn names(&self, file: usize) -> &BTreeMap<String, Meaning> {
+    pub fn names(&self, file: usize) -> &BTreeMap<String, Resolution> {
         &self.names[file]
     }
 
     /// The state machine with the name `name` in source file `file`.
     pub fn machine_named(&self, file: usize, name: &str) -> Option<&Machine> {
         match self.names(file).get(name)? {
-            Meaning::Machine(signature) => self.machines.get(signature),
+            Resolution::Machine(signature) => self.machines.get(signature),
             _ => None,
         }
     }
@@ -311,7 +314,7 @@ impl Texts {
     pub fn full_path(&self, file: usize, path: &PathExpr) -> Vec<String> {
         let words: Vec<String> = path.segments.iter().map(|s| s.text.clone()).collect();
         match words.first().and_then(|first| self.names[file].get(first)) {
-            Some(Meaning::Rust(full)) => full.iter().chain(&words[1..]).cloned().collect(),
+            Some(Resolution::Rust(full)) => full.iter().chain(&words[1..]).cloned().collect(),
             _ => words,
         }
     }
@@ -322,14 +325,19 @@ impl Texts {
     }
 
     /// The constructor that the path of an instance names. The error is `None` if the reason has been reported.
-    pub fn made(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Result<Made, Option<Box<Diagnostic>>> {
+    pub fn made(
+        &self,
+        file: usize,
+        path: &PathExpr,
+        catalog: &Catalog,
+    ) -> Result<Constructor, Option<Box<Diagnostic>>> {
         if self.is_unclear(file, path) {
             return Err(None);
         }
         if let [name] = path.segments.as_slice() {
             match self.names[file].get(&name.text) {
-                Some(Meaning::Graph(id)) => return Ok(Made::Graph(*id)),
-                Some(Meaning::Machine(id)) => return Ok(Made::Node(*id)),
+                Some(Resolution::Graph(id)) => return Ok(Constructor::Graph(*id)),
+                Some(Resolution::Machine(id)) => return Ok(Constructor::Node(*id)),
                 _ => {}
             }
         }
@@ -338,7 +346,7 @@ impl Texts {
             [one] if catalog.signatures[*one].path.is_empty() => {
                 Err(Some(Box::new(hidden_node(path, &catalog.signatures[*one]))))
             }
-            [one] => Ok(Made::Node(*one)),
+            [one] => Ok(Constructor::Node(*one)),
             [] => Err(Some(Box::new(self.unknown_node(file, path, &full, catalog)))),
             several => {
                 let message = format!("`{}` is the name of several nodes", path.text());
@@ -420,8 +428,8 @@ impl Texts {
     fn known<'a>(&'a self, file: usize, name: &'a str, used: &BTreeSet<&str>) -> Known<'a> {
         let tree = &self.files[file].1;
         let declared = match self.names[file].get(name) {
-            Some(Meaning::Graph(id)) if id.file == file => Some(self.graph(*id).name.span),
-            Some(Meaning::Machine(_)) => tree.machines.iter().find(|m| m.name.text == name).map(|m| m.name.span),
+            Some(Resolution::Graph(id)) if id.file == file => Some(self.graph(*id).name.span),
+            Some(Resolution::Machine(_)) => tree.machines.iter().find(|m| m.name.text == name).map(|m| m.name.span),
             _ => None,
         };
         Known { name, declared, used: used.contains(name) }
@@ -460,7 +468,7 @@ impl Texts {
     /// The constant of Rust that a path names; `None` for a name of the source file itself.
     pub fn constant(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Option<Constant> {
         let known =
-            path.segments.first().is_some_and(|s| matches!(self.names[file].get(&s.text), Some(Meaning::Rust(_))));
+            path.segments.first().is_some_and(|s| matches!(self.names[file].get(&s.text), Some(Resolution::Rust(_))));
         (known || path.segments.len() > 1).then(|| catalog.constant(&self.full_path(file, path)))
     }
 }

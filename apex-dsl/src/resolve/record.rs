@@ -2,7 +2,7 @@
 
 use super::names::suggest;
 use crate::{
-    graph::{End, Graph, NodeKind, Place, Record},
+    graph::{Graph, NodeKind, PortId, Record, WireEnd},
     report::{Diagnostic, Diagnostics},
     syntax::tree::{GraphItem, Ident, PortRef, RecordItem},
 };
@@ -20,9 +20,9 @@ pub fn record(graph: &Graph, item: &GraphItem, diagnostics: &mut Diagnostics) ->
         let error = Diagnostic::error("wrong-record", first.span, "the file of the recording has no name");
         diagnostics.push(error.note("write it as `record \"run.mcap\" { … }`"));
     }
-    let found: Vec<Option<Vec<End>>> = first.ports.iter().map(|port| port_of(graph, port, diagnostics)).collect();
+    let found: Vec<Option<Vec<PortId>>> = first.ports.iter().map(|port| port_of(graph, port, diagnostics)).collect();
     report_twice(first, diagnostics);
-    let ports: Vec<Vec<End>> = found.into_iter().collect::<Option<_>>()?;
+    let ports: Vec<Vec<PortId>> = found.into_iter().collect::<Option<_>>()?;
     Some(Record { file: first.file.clone(), ports: ports.concat(), span: first.span })
 }
 
@@ -37,7 +37,7 @@ fn report_twice(record: &RecordItem, diagnostics: &mut Diagnostics) {
 }
 
 /// The ports that a name stands for: a port of a node, or all ports that send to the port of a nested graph.
-fn port_of(graph: &Graph, port: &PortRef, diagnostics: &mut Diagnostics) -> Option<Vec<End>> {
+fn port_of(graph: &Graph, port: &PortRef, diagnostics: &mut Diagnostics) -> Option<Vec<PortId>> {
     let path = port.text();
     let ends = match sending_port(graph, &path) {
         Some(end) => vec![end],
@@ -47,7 +47,7 @@ fn port_of(graph: &Graph, port: &PortRef, diagnostics: &mut Diagnostics) -> Opti
         diagnostics.push(unknown(graph, port));
         return None;
     }
-    let is_connected = |end: &&End| graph.connections.iter().any(|c| c.from == **end);
+    let is_connected = |end: &&PortId| graph.connections.iter().any(|c| c.from == **end);
     if ends.iter().any(|end| !is_connected(&end)) {
         let message = format!("nothing is connected to `{path}`, so that its tokens go nowhere");
         let error = Diagnostic::error("wrong-record", port.span, message);
@@ -67,16 +67,16 @@ fn unknown(graph: &Graph, port: &PortRef) -> Diagnostic {
     suggest(error, &word, known.iter().map(String::as_str))
 }
 
-fn sending_ports(graph: &Graph) -> impl Iterator<Item = End> + '_ {
+fn sending_ports(graph: &Graph) -> impl Iterator<Item = PortId> + '_ {
     let nodes = (0..graph.nodes.len()).filter(|node| !matches!(graph.nodes[*node].kind, NodeKind::Start));
-    let ends = nodes.flat_map(|node| (0..graph.nodes[node].ports.len()).map(move |port| End { node, port }));
+    let ends = nodes.flat_map(|node| (0..graph.nodes[node].ports.len()).map(move |port| PortId { node, port }));
     ends.filter(|end| graph.port(*end).kind.sends())
 }
 
 /// The port that `path` names: `node.port`, an input of the graph, or `node` if only one of its ports sends.
-pub fn sending_port(graph: &Graph, path: &str) -> Option<End> {
-    let exact = |end: &End| format!("{}.{}", graph.path(end.node), graph.port(*end).name) == path;
-    let of_node: Vec<End> = sending_ports(graph)
+pub fn sending_port(graph: &Graph, path: &str) -> Option<PortId> {
+    let exact = |end: &PortId| format!("{}.{}", graph.path(end.node), graph.port(*end).name) == path;
+    let of_node: Vec<PortId> = sending_ports(graph)
         .filter(|end| graph.path(end.node) == path && graph.port(*end).parameter.is_none())
         .collect();
     sending_ports(graph).find(exact).or(if let [only] = of_node.as_slice() { Some(*only) } else { None })
@@ -87,19 +87,19 @@ fn pin_name(graph: &Graph, pin: usize) -> String {
 }
 
 /// The ports of nodes whose tokens leave a nested graph through its port `path`.
-fn ends_of_pin(graph: &Graph, path: &str) -> Vec<End> {
+fn ends_of_pin(graph: &Graph, path: &str) -> Vec<PortId> {
     let is_meant = |pin: &usize| graph.pins[*pin].kind.sends() && pin_name(graph, *pin) == path;
     let mut open: Vec<usize> = (0..graph.pins.len()).filter(is_meant).collect();
     let (mut seen, mut ends) = (open.clone(), vec![]);
     while let Some(pin) = open.pop() {
-        for wire in graph.wires.iter().filter(|wire| wire.to == Place::Pin(pin)) {
+        for wire in graph.wires.iter().filter(|wire| wire.to == WireEnd::Pin(pin)) {
             match wire.from {
-                Place::Port(end) => ends.push(end),
-                Place::Pin(inner) if !seen.contains(&inner) => {
+                WireEnd::Port(end) => ends.push(end),
+                WireEnd::Pin(inner) if !seen.contains(&inner) => {
                     seen.push(inner);
                     open.push(inner);
                 }
-                Place::Pin(_) => {}
+                WireEnd::Pin(_) => {}
             }
         }
     }

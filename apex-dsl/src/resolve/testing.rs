@@ -4,13 +4,13 @@ use super::{
     args,
     condition::Conditions,
     instance::{Builder, Purpose},
-    names::{GraphId, Made, Texts, suggest},
+    names::{Constructor, GraphId, SourceSet, suggest},
     record::sending_port,
     value::{Scope, Wanted, duration, element_of, evaluate},
 };
 use crate::{
     catalog::{Catalog, Type},
-    graph::{Connection, End, Graph, Modifiers, NodeId, NodeKind, Port, Subject, Value},
+    graph::{Connection, Graph, Modifiers, NodeId, NodeKind, Port, PortId, Subject, Value},
     report::{Diagnostic, Diagnostics},
     script::{Script, Seen, Step, Until, What},
     source::{Sources, Span},
@@ -20,7 +20,7 @@ use std::{collections::BTreeMap, time::Duration};
 
 /// Resolves test `item` of the first source file.
 pub fn test(
-    texts: &Texts,
+    texts: &SourceSet,
     catalog: &Catalog,
     item: &TestItem,
     sources: &Sources,
@@ -28,8 +28,8 @@ pub fn test(
     diagnostics: &mut Diagnostics,
 ) -> Option<(Graph, Script)> {
     let id = match texts.made(0, &item.graph, catalog) {
-        Ok(Made::Graph(id)) => id,
-        Ok(Made::Node(_)) => {
+        Ok(Constructor::Graph(id)) => id,
+        Ok(Constructor::Node(_)) => {
             let message = format!("`{}` is a node: a test runs a graph", item.graph.text());
             let note = "write a graph around it, with ports for what the test feeds and expects";
             diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
@@ -67,7 +67,7 @@ pub fn test(
 }
 
 fn arguments(
-    texts: &Texts,
+    texts: &SourceSet,
     catalog: &Catalog,
     item: &TestItem,
     id: GraphId,
@@ -261,7 +261,7 @@ impl Writer<'_> {
         let Some(from) = sending_port(self.graph, &path) else {
             let ends = (0..self.graph.nodes.len()).flat_map(|node| {
                 let graph = &*self.graph;
-                (0..graph.nodes[node].ports.len()).map(move |port| graph.end_name(End { node, port }))
+                (0..graph.nodes[node].ports.len()).map(move |port| graph.end_name(PortId { node, port }))
             });
             let known: Vec<String> = ends.collect();
             self.unknown(of.span, &path, known.iter().map(String::as_str));
@@ -280,7 +280,7 @@ impl Writer<'_> {
             starts_active: false,
         };
         self.graph.nodes.push(node);
-        let to = End { node: self.graph.nodes.len() - 1, port: 0 };
+        let to = PortId { node: self.graph.nodes.len() - 1, port: 0 };
         let (crossings, span) = (vec![], of.span);
         self.graph.connections.push(Connection {
             from,

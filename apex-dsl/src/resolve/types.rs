@@ -1,6 +1,6 @@
 //! Checks of the types in source files: each is examined once, however often the graph around it is used.
 
-use super::names::{Texts, suggest};
+use super::names::{SourceSet, suggest};
 use crate::{
     catalog::{Catalog, DURATION, PRIMITIVES, STD, is_path, library},
     report::{Diagnostic, Diagnostics},
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 /// Reports types in all source files that do not exist, that generated code cannot name, or that have a wrong number of
 /// arguments.
-pub fn check(texts: &Texts, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+pub fn check(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for file in 0..texts.files.len() {
         let tree = &texts.files[file].1;
         let mut missing = BTreeSet::new();
@@ -39,7 +39,7 @@ pub fn wrong_count(path: &PathExpr, takes: usize, given: usize, span: Span) -> D
 }
 
 struct Checker<'a> {
-    texts: &'a Texts,
+    texts: &'a SourceSet,
     catalog: &'a Catalog,
     file: usize,
     generics: Vec<&'a str>,

@@ -5,7 +5,7 @@ use super::{
     instance::{Body, Builder},
 };
 use crate::{
-    graph::Place,
+    graph::WireEnd,
     report::{Diagnostic, nearest, nearest_within},
     source::Span,
     syntax::tree::{Ident, PortRef},
@@ -164,7 +164,7 @@ impl Builder<'_> {
 
     /// Place of the declaration of a nested graph's port, and `true` if a wire uses the port.
     fn declaration(&self, owner: Owner, port: &Candidate) -> Option<(Span, bool)> {
-        let (Owner::Scope(_), Place::Pin(pin)) = (owner, port.place) else { return None };
+        let (Owner::Scope(_), WireEnd::Pin(pin)) = (owner, port.place) else { return None };
         let span = self.pins[pin].span;
         let used = self.wires.iter().any(|wire| wire.from == port.place || wire.to == port.place);
         Some((span, used))

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     catalog::{SignatureId, Type},
-    graph::{Each, End, Graph, Node, NodeId, NodeKind, Place, Port, Scope, Value, Wire},
+    graph::{Each, Graph, Node, NodeId, NodeKind, Port, PortId, Scope, Value, Wire, WireEnd},
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Expr, Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
@@ -48,7 +48,8 @@ impl Builder<'_> {
                 };
                 let outer = Port { kind, optional: true, rate: 1, ..inner };
                 let node = builder.node(&ident, 0, NodeKind::Boundary(boundary), vec![outer], "")?;
-                let (library, outside) = (Place::Port(End { node: 0, port }), Place::Port(End { node, port: 0 }));
+                let (library, outside) =
+                    (WireEnd::Port(PortId { node: 0, port }), WireEnd::Port(PortId { node, port: 0 }));
                 let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };
                 builder.wires.push(Wire { from, to, active: false, differs: false, span });
             }
@@ -68,7 +69,7 @@ impl Builder<'_> {
                 claims: vec![],
                 threads: vec![],
                 open_pins,
-                excused: BTreeSet::new(),
+                suppressed: BTreeSet::new(),
                 record: None,
             };
             generics::settle(&mut graph, builder.catalog);
@@ -180,12 +181,12 @@ impl Builder<'_> {
             self.delays.extend(expr.iter().map(|expr| (node, (*expr).clone())));
             self.wires.push(Wire {
                 from: out.place,
-                to: Place::Port(End { node, port: 0 }),
+                to: WireEnd::Port(PortId { node, port: 0 }),
                 active: false,
                 differs: false,
                 span,
             });
-            out.place = Place::Port(End { node, port: 1 });
+            out.place = WireEnd::Port(PortId { node, port: 1 });
         }
         Some(symbol)
     }
@@ -200,7 +201,7 @@ fn takes_missing(body: &Graph, boundary: NodeId) -> bool {
 /// Fits the initial tokens of delays to the types of their ports, which depend on the connections.
 pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mut Diagnostics) {
     for (node, expr) in delays {
-        let from = graph.incoming(End { node: *node, port: 0 }).map(|c| c.from);
+        let from = graph.incoming(PortId { node: *node, port: 0 }).map(|c| c.from);
         let (Some(from), NodeKind::Delay(initial)) = (from, &graph.nodes[*node].kind) else { continue };
         let origin = graph.origin(from);
         let ty = match token_type(graph, origin) {
@@ -226,8 +227,8 @@ pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mu
 
 /// Makes the connection into a delay active if one behind it is: only the latter is written.
 pub fn let_activity_into_delays(nodes: &[Node], wires: &mut [Wire]) {
-    let delay = |place: Place| match place {
-        Place::Port(end) if nodes[end.node].is_delay() => Some(end.node),
+    let delay = |place: WireEnd| match place {
+        WireEnd::Port(end) if nodes[end.node].is_delay() => Some(end.node),
         _ => None,
     };
     let active: BTreeSet<NodeId> = wires.iter().filter(|w| w.active).filter_map(|w| delay(w.from)).collect();

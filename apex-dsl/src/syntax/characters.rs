@@ -1,6 +1,6 @@
 //! Characters without a meaning in the language, and their probable meaning.
 
-use super::words::is_name;
+use super::keywords::is_name;
 use crate::{
     report::{Diagnostic, Diagnostics},
     source::Span,

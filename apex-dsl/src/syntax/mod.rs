@@ -2,13 +2,13 @@
 
 mod build;
 mod characters;
-pub(crate) mod concrete;
-mod lexical;
-mod mend;
-mod recover;
-mod slips;
+pub(crate) mod cst;
+pub mod keywords;
+mod mistakes;
+mod prescan;
+mod repair;
+mod syntax_errors;
 pub mod tree;
-pub mod words;
 
 use crate::{
     report::Diagnostics,
@@ -16,8 +16,8 @@ use crate::{
 };
 use pest::Parser as _;
 
-pub use lexical::{MAX_BYTES, MAX_DEPTH};
-pub use mend::mended;
+pub use prescan::{MAX_BYTES, MAX_DEPTH};
+pub use repair::repaired;
 
 use grammar::Grammar;
 pub(crate) use grammar::Rule;
@@ -33,7 +33,7 @@ mod grammar {
 /// Parses a source file. Always returns a tree; the parts that cannot be parsed are reported and left out.
 pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::File {
     let broken = || tree::File { broken: true, broken_items: true, ..Default::default() };
-    let Some(lexical) = lexical::scan(file, text, diagnostics) else {
+    let Some(lexical) = prescan::scan(file, text, diagnostics) else {
         return around_damage(file, text, diagnostics).unwrap_or_else(broken);
     };
     match Grammar::parse(Rule::file, &lexical.text) {
@@ -44,7 +44,7 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::F
             tree
         }
         Err(error) => {
-            diagnostics.push(recover::diagnose(file, 0, &lexical.text, &error));
+            diagnostics.push(syntax_errors::diagnose(file, 0, &lexical.text, &error));
             broken()
         }
     }
@@ -53,16 +53,16 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::F
 /// Parses the intact parts of a source file with wrong brackets, strings, comments or characters, so that errors
 /// elsewhere are reported, too. The wrong parts have been reported before.
 fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<tree::File> {
-    let mut mended = mend::mended(text)?;
-    let mut damage = mend::damage(text, &mended);
+    let mut repaired = repair::repaired(text)?;
+    let mut edits = repair::edits(text, &repaired);
     // Nothing behind a comment without an end is known to be code.
-    if let Some(at) = damage.iter().copied().find(|at| text[*at..].starts_with("/*")) {
-        mended = mend::mended_before(text, at)?;
-        damage = mend::damage(text, &mended);
+    if let Some(at) = edits.iter().copied().find(|at| text[*at..].starts_with("/*")) {
+        repaired = repair::repaired_before(text, at)?;
+        edits = repair::edits(text, &repaired);
     }
-    let lexical = lexical::scan(file, &mended, &mut Diagnostics::default())?;
+    let lexical = prescan::scan(file, &repaired, &mut Diagnostics::default())?;
     let pair = Grammar::parse(Rule::file, &lexical.text).ok()?.next()?;
-    let tree = build::Builder::new(file, &lexical.text, damage, diagnostics).until(text.len()).file(pair);
+    let tree = build::Builder::new(file, &lexical.text, edits, diagnostics).until(text.len()).file(pair);
     // Text that was added behind the end is not a place in the source file.
     let is_inside = |span: &Span| span.file != file || span.end as usize <= text.len();
     diagnostics.retain(|d| d.places().all(|span| is_inside(&span)));
@@ -70,17 +70,17 @@ fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Opt
 }
 
 /// Reads a source file with all its tokens and comments; `None` if it has errors, which are reported.
-pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<concrete::Text<'t>> {
-    let lexical = lexical::scan(file, text, diagnostics)?;
+pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<cst::Text<'t>> {
+    let lexical = prescan::scan(file, text, diagnostics)?;
     let pair = match Grammar::parse(Rule::file, &lexical.text) {
         Ok(mut pairs) => pairs.next()?,
         Err(error) => {
-            diagnostics.push(recover::diagnose(file, 0, &lexical.text, &error));
+            diagnostics.push(syntax_errors::diagnose(file, 0, &lexical.text, &error));
             return None;
         }
     };
     let tree = build::Builder::new(file, &lexical.text, vec![], diagnostics).file(pair.clone());
-    (!tree.broken && !diagnostics.has_errors()).then(|| concrete::read(text, &lexical, pair))
+    (!tree.broken && !diagnostics.has_errors()).then(|| cst::read(text, &lexical, pair))
 }
 
 /// The span of a pair in `file`, up to the byte `end`.

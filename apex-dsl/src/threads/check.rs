@@ -46,7 +46,7 @@ fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
 /// Reports watchdogs that cannot work: some thread must be watched, and the reaction to a hung node needs another
 /// thread.
 fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
-    let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Hung)) else { return };
+    let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Watchdog)) else { return };
     if graph.threads.iter().all(|t| t.hang.is_none()) {
         let error =
             Diagnostic::error("threads", graph.nodes[hung].span, "no thread is watched, so that `hung` never comes");

@@ -10,7 +10,7 @@ mod split;
 
 use crate::{
     analyse::Analysis,
-    graph::{End, Graph, NodeId},
+    graph::{Graph, NodeId, PortId},
 };
 
 pub use check::check;
@@ -46,7 +46,7 @@ pub enum Origin {
     /// A node.
     Node(NodeId),
     /// None: the node passes on the tokens of this port.
-    Token(End),
+    Token(PortId),
 }
 
 /// Room for one token between two thread groups. Connections from one port to nodes of one group share a cell, but a
@@ -54,7 +54,7 @@ pub enum Origin {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cell {
     /// The port in the whole graph that sends the tokens.
-    pub from: End,
+    pub from: PortId,
     /// The part that puts tokens in; `None` for the watchdog.
     pub sender: Option<usize>,
     /// The part that takes tokens out.
@@ -63,14 +63,14 @@ pub struct Cell {
 
 impl Part {
     /// The same port in the whole graph, if the node has a counterpart there.
-    pub fn node(&self, end: End) -> Option<End> {
+    pub fn node(&self, end: PortId) -> Option<PortId> {
         matches!(self.origins[end.node], Origin::Node(_)).then(|| self.origin(end))
     }
 
     /// The same port in the whole graph. For a node that only passes tokens on: the port that they come from.
-    pub fn origin(&self, end: End) -> End {
+    pub fn origin(&self, end: PortId) -> PortId {
         match self.origins[end.node] {
-            Origin::Node(node) => End { node, port: end.port },
+            Origin::Node(node) => PortId { node, port: end.port },
             Origin::Token(from) => from,
         }
     }

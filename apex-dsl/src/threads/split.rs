@@ -4,7 +4,9 @@ use super::{Cell, Origin, Part, Split};
 use crate::{
     analyse::{self, Analysis},
     catalog::Catalog,
-    graph::{Connection, Crossing, End, Far, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port, WATCH_GROUP},
+    graph::{
+        CellEnd, Connection, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port, PortId, WATCH_GROUP,
+    },
     report::Diagnostics,
     syntax::tree::PortKind,
 };
@@ -95,7 +97,7 @@ impl Draft {
 /// Key of a cell: the port that sends, the group of the receivers, and `true` for synchronous connections, which also
 /// transmit ⊥. Connections with the same key share the cell. A slot beside an input has a cell of its own: the sender
 /// is analysed as a node that sends to a slot.
-type Way = (End, usize, bool);
+type Way = (PortId, usize, bool);
 
 struct Splitter<'a> {
     whole: &'a Graph,
@@ -134,8 +136,8 @@ impl Splitter<'_> {
         }
     }
 
-    fn place(&self, end: End) -> End {
-        End { node: self.placed[end.node], port: end.port }
+    fn place(&self, end: PortId) -> PortId {
+        PortId { node: self.placed[end.node], port: end.port }
     }
 
     fn place_connection(&mut self, index: usize) {
@@ -162,7 +164,8 @@ impl Splitter<'_> {
             None => self.add_cell(index, receiver, leaving.to_vec()),
         };
         let draft = &mut self.drafts[receiver];
-        let mut connection = Connection { from: End { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
+        let mut connection =
+            Connection { from: PortId { node, port: 0 }, to, crossings: entering.to_vec(), ..c.clone() };
         if !entering.is_empty() && self.whole.is_synchronous(c) {
             // The inputs of a nested graph are taken together: a relay empties the cell before that.
             let outside = Connection { crossings: vec![], ..connection.clone() };
@@ -179,7 +182,7 @@ impl Splitter<'_> {
         let (shared, keeps_missing) = (&self.shared[&way], way.2);
         let cell = self.cells.len();
         self.cells.push(Cell { from: first.from, sender, receiver });
-        let far = Far {
+        let far = CellEnd {
             cell,
             takes_activity: analyse::takes_activity(self.whole, self.catalog, first.from.node),
             stamped: shared.iter().any(|c| self.is_stamped(*c)),
@@ -202,8 +205,8 @@ impl Splitter<'_> {
             // The outputs of a nested graph are sent together: a relay waits for that, and then fills the cell.
             connection.from = relay(draft, connection.clone(), first.from, token);
         }
-        let taker = draft.add(from, Origin::Token(first.from));
-        let to_cell = End { node: taker, port: 0 };
+        let consumer = draft.add(from, Origin::Token(first.from));
+        let to_cell = PortId { node: consumer, port: 0 };
         // `relayed` makes the connection to the cell asynchronous even if it comes from an output.
         draft.connect(Connection { to: to_cell, crossings: vec![], relayed: true, ..connection }, None);
         giver
@@ -219,14 +222,14 @@ impl Splitter<'_> {
 }
 
 /// Ends `connection` at a new relay. Returns the output of the relay.
-fn relay(draft: &mut Draft, connection: Connection, from: End, token: &Port) -> End {
+fn relay(draft: &mut Draft, connection: Connection, from: PortId, token: &Port) -> PortId {
     let beside = &draft.graph.nodes[connection.from.node];
     let ports =
         vec![Port::new("in", PortKind::Input, token.ty.clone()), Port::new("out", PortKind::Output, token.ty.clone())];
     let relay = node(beside, &format!("{}.{} relay", beside.name, token.name), NodeKind::Relay, ports);
     let node = draft.add(relay, Origin::Token(from));
-    draft.connect(Connection { to: End { node, port: 0 }, ..connection }, None);
-    End { node, port: 1 }
+    draft.connect(Connection { to: PortId { node, port: 0 }, ..connection }, None);
+    PortId { node, port: 1 }
 }
 
 fn node(beside: &Node, name: &str, kind: NodeKind, ports: Vec<Port>) -> Node {

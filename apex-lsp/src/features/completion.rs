@@ -62,7 +62,7 @@ fn kind(kind: CompletionKind) -> CompletionItemKind {
         CompletionKind::NodeType => CompletionItemKind::CLASS,
         CompletionKind::Type => CompletionItemKind::STRUCT,
         CompletionKind::Module => CompletionItemKind::MODULE,
-        CompletionKind::Word => CompletionItemKind::KEYWORD,
+        CompletionKind::Keyword => CompletionItemKind::KEYWORD,
     }
 }
 

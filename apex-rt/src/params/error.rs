@@ -1,57 +1,57 @@
-//! What can be wrong with a value for a parameter.
+//! Errors of values for parameters.
 
 use super::ParamInfo;
 use core::fmt;
 
-/// Why a value was not taken.
+/// Reason for the refusal of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refusal {
-    /// It is of another kind.
+pub enum Rejection {
+    /// The value is of another kind.
     Kind {
-        /// What the parameter takes: `a number`.
+        /// Kind that the parameter takes: `a number`.
         expected: &'static str,
-        /// What was given: `a string`.
+        /// Kind that was given: `a string`.
         found: &'static str,
     },
-    /// It does not fit into this type.
+    /// The value does not fit into this type.
     Fit(&'static str),
-    /// It is a list of another length.
+    /// The value is a list of another length.
     Length {
-        /// How many elements the parameter takes.
+        /// Number of elements that the parameter takes.
         expected: usize,
-        /// How many were given.
+        /// Number of elements that were given.
         found: usize,
     },
-    /// It is a list or a string that is too long.
+    /// The value is a list or a string that is too long.
     Long {
-        /// How many elements or bytes the parameter takes.
+        /// Maximum number of elements or bytes.
         most: usize,
     },
-    /// It is out of the declared range.
+    /// The value is out of the declared range.
     Range,
-    /// The type of the parameter is no [`ParamValue`](super::ParamValue).
+    /// The type of the parameter is not a [`ParamValue`](super::ParamValue).
     Opaque,
 }
 
-/// Why a parameter could not be read or set.
+/// Reason why a parameter could not be read or set.
 #[derive(Debug, Clone, Copy)]
 pub enum ParamError {
     /// There is no parameter of this name.
     Unknown {
-        /// The name that is most like it, if one is near enough to be meant.
+        /// The most similar name, if one is similar enough.
         nearest: Option<&'static str>,
     },
-    /// The parameter does not take the value; it keeps the one that it has.
+    /// The value was refused. The parameter keeps its value.
     Refused {
         /// The parameter.
         param: &'static ParamInfo,
-        /// Why.
-        refusal: Refusal,
+        /// Reason for the refusal.
+        refusal: Rejection,
     },
 }
 
-impl Refusal {
-    /// The sentence about `param`; `value` is shown if it is known.
+impl Rejection {
+    /// Writes a sentence about `param`, which includes `value` if it is known.
     pub(super) fn say(
         &self,
         param: &ParamInfo,
@@ -100,17 +100,17 @@ impl fmt::Display for ParamError {
 
 impl core::error::Error for ParamError {}
 
-/// Longer names are not compared.
+/// Length in bytes from which names are not compared.
 const MAX_NAME: usize = 128;
 
-/// The one of `names` that is most like `name`, if one is near enough to be meant.
+/// Returns the one of `names` that is most similar to `name`, if it is similar enough.
 pub(super) fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> Option<&'static str> {
     let limit = (name.len() / 3).max(1);
     let near = names.filter(|n| n.len().abs_diff(name.len()) <= limit).filter_map(|n| Some((distance(name, n)?, n)));
     near.filter(|(distance, _)| *distance <= limit).min_by_key(|(distance, _)| *distance).map(|(_, n)| n)
 }
 
-/// Edit distance of two names in bytes, in which a swap of two neighbours counts one; `None` for very long ones.
+/// Edit distance of two names in bytes, in which a swap of two neighbours counts 1; `None` if `b` is too long.
 fn distance(a: &str, b: &str) -> Option<usize> {
     let (a, b) = (a.as_bytes(), b.as_bytes());
     let width = b.len() + 1;

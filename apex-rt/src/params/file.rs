@@ -1,4 +1,4 @@
-//! Parameters in files.
+//! Files with parameters.
 
 use super::{LoadError, Parameters, load, save};
 use std::{
@@ -8,13 +8,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Most bytes of a file that is loaded.
+/// Maximum length of a file that is loaded, in bytes.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// Sets the parameters that are named in the file, as [`load`] does.
+/// Sets the parameters in the file, as [`load`] does.
 ///
 /// # Errors
-/// The file cannot be read, or something in it is wrong; then nothing is changed.
+/// The file cannot be read, or has errors; then no parameter is changed.
 pub fn load_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> Result<(), LoadError> {
     let path = path.as_ref();
     let text = read(path).map_err(|reason| LoadError::Read { path: path.to_owned(), reason })?;
@@ -24,14 +24,14 @@ pub fn load_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> Resu
     })
 }
 
-/// Writes all parameters into a file, as [`save`] does. A file that is there already is replaced as a whole: who reads
-/// it meanwhile sees the old one or the new one.
+/// Writes all parameters into a file, as [`save`] does. An existing file is replaced atomically: concurrent readers see
+/// the old file or the new one.
 ///
 /// # Errors
-/// The file cannot be written, or is no file (a device, a pipe); then the old one is left as it is.
+/// The file cannot be written, or is not a regular file (a device, a pipe). An existing file is then not changed.
 pub fn save_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> io::Result<()> {
     let text = save(program);
-    // A link is kept, and what it leads to is replaced.
+    // A link stays; its target is replaced.
     let path = fs::canonicalize(path.as_ref()).unwrap_or_else(|_| path.as_ref().to_owned());
     if fs::metadata(&path).is_ok_and(|old| !old.is_file()) {
         return Err(io::Error::other("it is no file that could be replaced"));
@@ -39,7 +39,7 @@ pub fn save_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> io::
     let beside = beside(&path)?;
     let result = write(&path, &beside, &text);
     if result.is_err() {
-        // What is wrong has been found already.
+        // The first error is the one to report.
         let _ = fs::remove_file(&beside);
     }
     result
@@ -68,7 +68,7 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// A name in the same folder, so that renaming is one step.
+/// Returns the name of a temporary file in the same folder, so that renaming is atomic.
 fn beside(path: &Path) -> io::Result<PathBuf> {
     let name =
         path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "this is no name of a file"))?;

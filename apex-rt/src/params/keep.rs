@@ -1,13 +1,14 @@
-//! What a program changed while it ran is kept for the next one, which may be another: `apex run --watch`.
+//! Parameters that a program changed while it ran, for its next run. The program may have been changed in between: see
+//! `apex run --watch`.
 
 use super::{Parameters, load, save};
 use std::{collections::BTreeMap, format, fs, path::Path, string::String};
 
-/// The parameters as the texts and files said them, and as they were at the end.
+/// Files with the parameters at the start, as declared in source files and parameter files, and at the end.
 const SAID: &str = "said.toml";
 const LAST: &str = "last.toml";
 
-/// Sets what the program before changed, except where the text now says something else than it said then.
+/// Sets the parameters that the previous run changed, except where a source file or parameter file has changed since.
 pub fn resume<P: Parameters>(program: &mut P, folder: &Path) -> Result<(), String> {
     let now = save(program);
     let read = |name| fs::read_to_string(folder.join(name)).unwrap_or_default();
@@ -16,7 +17,7 @@ pub fn resume<P: Parameters>(program: &mut P, folder: &Path) -> Result<(), Strin
     for (at, line) in last {
         let was = said.get(&at);
         if was.is_some_and(|was| *was != line) && was == same.get(&at) {
-            // The name, the type and the range are what they were: it is taken again.
+            // Name, type and range are the same, so that the value of the previous run is set again.
             let _ = load(program, &format!("{}\n{line}\n", at.0));
         }
     }
@@ -24,12 +25,12 @@ pub fn resume<P: Parameters>(program: &mut P, folder: &Path) -> Result<(), Strin
     keep(program, folder)
 }
 
-/// Remembers all parameters for the program after this one.
+/// Saves all parameters for the next run.
 pub fn keep<P: Parameters>(program: &mut P, folder: &Path) -> Result<(), String> {
     write(folder, LAST, &save(program))
 }
 
-/// The lines of a saved text, by their table and the name of the parameter.
+/// Returns the lines of a saved text by table and parameter name.
 fn lines(text: &str) -> BTreeMap<(&str, &str), &str> {
     let mut table = "";
     let mut lines = BTreeMap::new();

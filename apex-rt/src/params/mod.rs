@@ -1,7 +1,7 @@
-//! Parameters of a running program: a table of all, and access to each by its name.
+//! Parameters of a running program: a table of all of them, and access to each by name.
 //!
-//! Those of struct nodes are there, by the name of the node and their own: `fast.planner.speed`. Function nodes keep
-//! nothing; their parameters are part of the code.
+//! The table has the parameters of struct nodes, with the name of the node: `fast.planner.speed`. Function nodes have
+//! no state: their parameters are part of the code.
 
 mod error;
 #[cfg(feature = "params")]
@@ -15,7 +15,7 @@ mod run;
 mod text;
 mod value;
 
-pub use error::{ParamError, Refusal};
+pub use error::{ParamError, Rejection};
 #[cfg(feature = "params")]
 pub use file::{load_file, save_file};
 #[doc(hidden)]
@@ -24,48 +24,48 @@ pub use probe::{Known, Opaque, Probe};
 pub use run::run_with_files;
 #[cfg(feature = "params")]
 pub use text::{LoadError, Problem, load, not_saved, save, set_text};
-pub use value::{Give, Given, GivenList, ParamValue};
+pub use value::{GivenList, IntoParam, ParamRef, ParamValue};
 
 use core::fmt;
 
 /// A parameter of a program.
 #[derive(Debug, PartialEq)]
 pub struct ParamInfo {
-    /// Its name after that of its node: `fast.planner.speed`.
+    /// Full name: `fast.planner.speed`.
     pub name: &'static str,
-    /// Its type, as its declaration spells it.
+    /// Type, as written in its declaration.
     pub ty: &'static str,
-    /// The unit of its numbers, which is one of SI.
+    /// SI unit of its numbers.
     pub unit: Option<&'static str>,
-    /// The values that it may have, as far as they are known.
+    /// Range of its values, as far as it is known.
     pub range: ParamRange,
 }
 
-/// The range of a parameter, as far as the compiler knows it: bounds that are no plain numbers are missing.
+/// Range of a parameter, as far as the compiler knows it. A bound that is not a plain number is missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamRange {
     /// The smallest value.
     pub min: Option<f64>,
     /// The largest value.
     pub max: Option<f64>,
-    /// Whether the largest value itself belongs to the range.
+    /// `true` if the largest value is part of the range.
     pub inclusive: bool,
 }
 
 impl ParamInfo {
-    /// One row of the table.
+    /// Returns a row of the table.
     pub const fn new(name: &'static str, ty: &'static str, unit: Option<&'static str>, range: ParamRange) -> Self {
         Self { name, ty, unit, range }
     }
 }
 
 impl ParamRange {
-    /// From its bounds.
+    /// Returns the range with these bounds.
     pub const fn new(min: Option<f64>, max: Option<f64>, inclusive: bool) -> Self {
         Self { min, max, inclusive }
     }
 
-    /// Whether there is anything to say about it.
+    /// Returns `true` if at least one bound is known.
     pub const fn is_known(&self) -> bool {
         self.min.is_some() || self.max.is_some()
     }
@@ -83,37 +83,37 @@ impl fmt::Display for ParamRange {
 
 /// Access to the value of one parameter.
 pub trait Access {
-    /// The value that it has.
-    fn get(&mut self) -> Given<'_>;
+    /// Returns the value.
+    fn get(&mut self) -> ParamRef<'_>;
 
-    /// Whether `value` could be set.
+    /// Checks if `value` can be set.
     ///
     /// # Errors
-    /// Says why not: another type, or out of its range.
-    fn check(&self, value: Given<'_>) -> Result<(), Refusal>;
+    /// The value is of another type, or out of range.
+    fn check(&self, value: ParamRef<'_>) -> Result<(), Rejection>;
 
-    /// Sets it.
+    /// Sets the value.
     ///
     /// # Errors
-    /// Those of [`Access::check`]; then it keeps the value that it has.
-    fn set(&mut self, value: Given<'_>) -> Result<(), Refusal>;
+    /// The errors of [`Access::check`]; the parameter then keeps its value.
+    fn set(&mut self, value: ParamRef<'_>) -> Result<(), Rejection>;
 }
 
-/// Sees the parameters of a program one after the other.
+/// Visitor of the parameters of a program.
 pub trait ParamVisitor {
-    /// One parameter; `None` if its type is no [`ParamValue`].
+    /// Visits one parameter. `access` is `None` if its type is not a [`ParamValue`].
     fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>);
 }
 
 /// The parameters of a compiled graph.
 pub trait Parameters {
-    /// All parameters of all struct nodes, in the order of the text.
+    /// All parameters of all struct nodes, in the order of the source file.
     const PARAMS: &'static [ParamInfo];
 
-    /// Shows all parameters to `visitor`, in the order of [`Parameters::PARAMS`].
+    /// Passes all parameters to `visitor`, in the order of [`Parameters::PARAMS`].
     fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V);
 
-    /// The value of the parameter `name`.
+    /// Returns the value of the parameter `name`.
     ///
     /// # Errors
     /// There is no such parameter, or it is of another type.
@@ -121,21 +121,21 @@ pub trait Parameters {
         at::<Self, T>(self, name, &mut |access| T::take(access.get()))
     }
 
-    /// Sets the parameter `name` to `value` (in SI, a [`Duration`](core::time::Duration) or a number of seconds
-    /// for a time), from the next firing on.
+    /// Sets the parameter `name` to `value` from the next firing on. The value is in SI units; a time is a
+    /// [`Duration`](core::time::Duration) or a number of seconds.
     ///
     /// # Errors
-    /// There is no such parameter, it is of another type, or the value is out of its range; this is the check that
-    /// tokens at the port of the parameter pass, too. The parameter keeps the value that it has.
-    fn set_param(&mut self, name: &str, value: impl Give) -> Result<(), ParamError> {
+    /// There is no such parameter, it is of another type, or the value is out of its range. Tokens at the port of the
+    /// parameter are checked in the same way. The parameter keeps its value.
+    fn set_param(&mut self, name: &str, value: impl IntoParam) -> Result<(), ParamError> {
         at::<Self, ()>(self, name, &mut |access| access.set(value.give()))
     }
 }
 
-/// What `act` does with a parameter.
-type Act<'a, T> = &'a mut dyn FnMut(&mut dyn Access) -> Result<T, Refusal>;
+/// Operation on a parameter.
+type Act<'a, T> = &'a mut dyn FnMut(&mut dyn Access) -> Result<T, Rejection>;
 
-/// Looks for the parameter `name`.
+/// Visitor that applies `act` to the parameter `name`.
 struct At<'a, T> {
     name: &'a str,
     act: Act<'a, T>,
@@ -145,7 +145,7 @@ struct At<'a, T> {
 impl<T> ParamVisitor for At<'_, T> {
     fn param(&mut self, param: &'static ParamInfo, access: Option<&mut dyn Access>) {
         if param.name == self.name {
-            let result = access.map_or(Err(Refusal::Opaque), |access| (self.act)(access));
+            let result = access.map_or(Err(Rejection::Opaque), |access| (self.act)(access));
             self.result = Some(result.map_err(|refusal| ParamError::Refused { param, refusal }));
         }
     }

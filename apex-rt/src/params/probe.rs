@@ -1,15 +1,14 @@
-//! How generated code finds out whether the type of a parameter can be read and set: it calls `visit` on a
-//! [`Probe`], which is [`Known::visit`] if the type is a [`ParamValue`], and [`Opaque::visit`] otherwise, because rustc
-//! tries a value before a reference to it.
+//! Access to parameters of any type, for generated code. It calls `visit` on a [`Probe`], which is [`Known::visit`] if
+//! the type is a [`ParamValue`], and [`Opaque::visit`] otherwise, because rustc tries a value before a reference to it.
 
-use super::{Access, Give as _, Given, ParamInfo, ParamValue, ParamVisitor, Refusal};
+use super::{Access, IntoParam as _, ParamInfo, ParamRef, ParamValue, ParamVisitor, Rejection};
 use crate::{Param, ParamField};
 
 /// Parameter number `I` of a node.
 pub struct Probe<'a, N, const I: usize>(&'a mut N);
 
 impl<'a, N, const I: usize> Probe<'a, N, I> {
-    /// The parameter of `node`.
+    /// Returns the probe of a parameter of `node`.
     pub fn new(node: &'a mut N) -> Self {
         Self(node)
     }
@@ -20,19 +19,19 @@ where
     N: ParamField<I>,
     <N as Param<I>>::Value: ParamValue,
 {
-    fn get(&mut self) -> Given<'_> {
+    fn get(&mut self) -> ParamRef<'_> {
         self.0.field().give()
     }
 
-    fn check(&self, value: Given<'_>) -> Result<(), Refusal> {
+    fn check(&self, value: ParamRef<'_>) -> Result<(), Rejection> {
         let value = ParamValue::take(value)?;
-        if N::accepts(&value) { Ok(()) } else { Err(Refusal::Range) }
+        if N::accepts(&value) { Ok(()) } else { Err(Rejection::Range) }
     }
 
-    fn set(&mut self, value: Given<'_>) -> Result<(), Refusal> {
+    fn set(&mut self, value: ParamRef<'_>) -> Result<(), Rejection> {
         let value = ParamValue::take(value)?;
         if !N::accepts(&value) {
-            return Err(Refusal::Range);
+            return Err(Rejection::Range);
         }
         *self.0.field() = value;
         Ok(())
@@ -41,7 +40,7 @@ where
 
 /// A parameter whose type is a [`ParamValue`].
 pub trait Known {
-    /// Shows it to `visitor`.
+    /// Passes the parameter to `visitor`, with access.
     fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V);
 }
 
@@ -57,7 +56,7 @@ where
 
 /// A parameter of any other type.
 pub trait Opaque {
-    /// Shows `visitor` that it is there.
+    /// Passes the parameter to `visitor`, without access.
     fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V);
 }
 

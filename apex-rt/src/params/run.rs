@@ -1,15 +1,16 @@
-//! What `apex run` does with `--params`, `--save-params` and `--watch`.
+//! Implementation of `--params`, `--save-params` and `--watch` of `apex run`.
 
 use super::{Parameters, keep, load_file, save_file};
 use crate::{Clock, Program};
 use std::path::Path;
 
-/// Drives `program` as [`drive`](crate::drive) does, with parameters from the file `load`; at the end they are written
-/// into the file `save`. In the folder `kept` stands what the program before changed in its own: that is set again where
-/// nothing else was said meanwhile, and what this one changes is added. Returns the exit code of the program.
+/// Drives `program` as [`drive`](crate::drive) does, with parameters from the file `load`, and saves them in the file
+/// `save` at the end. The folder `kept` has the parameters that the previous run changed. They are set again unless
+/// their declarations have changed, and the changes of this run are added. Returns the exit code of the program.
 ///
 /// # Errors
-/// The first file cannot be loaded, and nothing is run; or the others cannot be written.
+/// The file `load` cannot be loaded or the folder `kept` cannot be written: nothing is run. Or `kept` or `save` cannot
+/// be written after the run.
 pub fn run_with_files<P: Program + Parameters, C: Clock>(
     mut program: P,
     clock: C,

@@ -1,6 +1,6 @@
-//! Parameters as a text in TOML: one table per node, values in SI.
+//! Parameters in TOML: one table per node, values in SI units.
 
-use super::{Access, Given, GivenList, ParamError, ParamInfo, ParamVisitor, Parameters, Refusal, error::nearest};
+use super::{Access, GivenList, ParamError, ParamInfo, ParamRef, ParamVisitor, Parameters, Rejection, error::nearest};
 use std::{
     collections::BTreeMap,
     fmt::{self, Write as _},
@@ -13,32 +13,32 @@ use toml::{
     de::{DeArray, DeTable, DeValue},
 };
 
-/// Something that is wrong with a text of parameters.
+/// An error in a text of parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// Error message.
     pub message: String,
 }
 
-/// Why parameters were not loaded. Nothing was changed.
+/// Reason why parameters were not loaded. No parameter was changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LoadError {
     /// The file cannot be read.
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         reason: String,
     },
-    /// The text is wrong.
+    /// The text has errors.
     Text {
-        /// The file that it stands in, if it is one.
+        /// The file with the text, if it comes from one.
         path: Option<PathBuf>,
-        /// All problems, in the order of the text.
+        /// All errors, in the order of the text.
         problems: Vec<Problem>,
     },
 }
@@ -64,25 +64,27 @@ impl fmt::Display for LoadError {
 
 impl std::error::Error for LoadError {}
 
-/// All parameters of `program` as a text that [`load`] reads: a table per node in the order of the graph, values in SI,
-/// units and ranges in comments. Those whose type is no [`ParamValue`](super::ParamValue) are named in comments.
+/// Returns all parameters of `program` as a text for [`load`]: a table per node in the order of the graph, values in SI
+/// units, units and ranges in comments. A parameter whose type is not a [`ParamValue`](super::ParamValue) is named in a
+/// comment.
 pub fn save<P: Parameters>(program: &mut P) -> String {
     let mut saved = Save::default();
     program.visit_params(&mut saved);
     saved.text
 }
 
-/// The names of the parameters that [`save`] leaves out because their type is no [`ParamValue`](super::ParamValue).
+/// Returns the names of the parameters that [`save`] leaves out because their type is not a
+/// [`ParamValue`](super::ParamValue).
 pub fn not_saved<P: Parameters>(program: &mut P) -> Vec<&'static str> {
     let mut saved = Save::default();
     program.visit_params(&mut saved);
     saved.left_out
 }
 
-/// Sets the parameters that are named in `text`, written as [`save`] writes it; all others keep their values.
+/// Sets the parameters in `text`, which has the form that [`save`] writes. All others keep their values.
 ///
 /// # Errors
-/// Everything that is wrong with the text; then nothing is changed.
+/// All errors in the text; then no parameter is changed.
 pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError> {
     let mut problems = Problems { text, found: vec![] };
     let (document, errors) = DeTable::parse_recoverable(text);
@@ -102,21 +104,21 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
     Ok(())
 }
 
-/// Sets the parameter `name` to a value that is spelled in TOML: `1.5`, `true`, `"text"`, `[1, 2]`.
+/// Sets the parameter `name` to a value in TOML: `1.5`, `true`, `"text"`, `[1, 2]`.
 ///
 /// # Errors
-/// Those of [`Parameters::set_param`]; what is no value of TOML is refused too.
+/// The errors of [`Parameters::set_param`]. A `value` that is not valid TOML is refused as one of the wrong kind.
 pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
     match DeValue::parse(value) {
         Ok(value) => program.set_param(name, given(value.get_ref())),
-        Err(_) => program.set_param(name, Given::Other("something that is no value of TOML")),
+        Err(_) => program.set_param(name, ParamRef::Other("something that is no value of TOML")),
     }
 }
 
 #[derive(Default)]
 struct Save {
     text: String,
-    /// The node whose table was begun last.
+    /// The node of the current table.
     node: Option<&'static str>,
     left_out: Vec<&'static str>,
 }
@@ -142,26 +144,26 @@ impl ParamVisitor for Save {
     }
 }
 
-/// The unit and the range.
+/// Returns the comment on a parameter: its unit and its range.
 fn comment(info: &ParamInfo) -> String {
     let range = info.range.is_known().then(|| info.range.to_string());
     let parts: Vec<String> = info.unit.map(str::to_owned).into_iter().chain(range).collect();
     parts.join(", ")
 }
 
-/// A name as a key.
+/// Returns a name as a TOML key.
 fn key(name: &str) -> String {
     let is_bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
-    if is_bare { name.to_owned() } else { Given::Text(name).to_string() }
+    if is_bare { name.to_owned() } else { ParamRef::Text(name).to_string() }
 }
 
-/// A value of the file, and where it stands.
+/// A value of the file, with its position as a byte offset.
 struct Entry<'a> {
     at: usize,
     value: &'a DeValue<'a>,
 }
 
-/// What a text says about the parameters of a program.
+/// Parsed text with values for the parameters of a program.
 struct File<'a> {
     params: &'static [ParamInfo],
     values: BTreeMap<&'static str, Entry<'a>>,
@@ -169,7 +171,7 @@ struct File<'a> {
 }
 
 impl<'a> File<'a> {
-    /// Reads a table; `prefix` is its name with a dot behind it.
+    /// Reads a table. `prefix` is its name with a trailing dot, or empty.
     fn table(&mut self, prefix: &str, table: &'a DeTable<'a>) {
         for (key, value) in table {
             let name = format!("{prefix}{}", key.get_ref());
@@ -210,20 +212,20 @@ impl<'a> File<'a> {
     }
 }
 
-/// So many names from the front of `param` as `like` has.
+/// Returns the leading part of `param` that has as many names as `like`.
 fn node_of(param: &'static str, like: &str) -> Option<&'static str> {
     let dots = like.matches('.').count();
     param.match_indices('.').nth(dots).map(|(end, _)| &param[..end])
 }
 
-/// Looks for values that are not taken.
+/// Visitor that finds values which would be refused.
 struct Check<'a, 'b>(&'a mut File<'b>);
 
 impl ParamVisitor for Check<'_, '_> {
     fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
         let Some(entry) = self.0.values.get(info.name) else { return };
         let value = given(entry.value);
-        if let Err(refusal) = access.map_or(Err(Refusal::Opaque), |access| access.check(value)) {
+        if let Err(refusal) = access.map_or(Err(Rejection::Opaque), |access| access.check(value)) {
             self.0.problems.add(entry.at, Refused { info, refusal, value }.to_string());
         }
     }
@@ -231,8 +233,8 @@ impl ParamVisitor for Check<'_, '_> {
 
 struct Refused<'a> {
     info: &'static ParamInfo,
-    refusal: Refusal,
-    value: Given<'a>,
+    refusal: Rejection,
+    value: ParamRef<'a>,
 }
 
 impl fmt::Display for Refused<'_> {
@@ -241,7 +243,7 @@ impl fmt::Display for Refused<'_> {
     }
 }
 
-/// Sets all values, which were checked.
+/// Visitor that sets all values, which were checked before.
 struct Set<'a, 'b>(&'a File<'b>);
 
 impl ParamVisitor for Set<'_, '_> {
@@ -253,22 +255,22 @@ impl ParamVisitor for Set<'_, '_> {
     }
 }
 
-/// A value of TOML as a program takes it.
-fn given<'a>(value: &'a DeValue<'_>) -> Given<'a> {
+/// Converts a value of TOML to a value of a parameter.
+fn given<'a>(value: &'a DeValue<'_>) -> ParamRef<'a> {
     match value {
-        DeValue::String(text) => Given::Text(text),
+        DeValue::String(text) => ParamRef::Text(text),
         DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
-            .map_or(Given::Other("an integer with very many digits"), Given::Integer),
+            .map_or(ParamRef::Other("an integer with very many digits"), ParamRef::Integer),
         DeValue::Float(float) => {
             let value = float.as_str().parse::<f64>().ok();
             let value =
                 value.filter(|value| value.is_finite() || !float.as_str().contains(|c: char| c.is_ascii_digit()));
-            value.map_or(Given::Other("a number that is too large"), Given::Float)
+            value.map_or(ParamRef::Other("a number that is too large"), ParamRef::Float)
         }
-        DeValue::Boolean(value) => Given::Bool(*value),
-        DeValue::Datetime(_) => Given::Other("a date"),
-        DeValue::Array(array) => Given::List(array),
-        DeValue::Table(_) => Given::Other("a table"),
+        DeValue::Boolean(value) => ParamRef::Bool(*value),
+        DeValue::Datetime(_) => ParamRef::Other("a date"),
+        DeValue::Array(array) => ParamRef::List(array),
+        DeValue::Table(_) => ParamRef::Other("a table"),
     }
 }
 
@@ -277,19 +279,19 @@ impl GivenList for DeArray<'_> {
         self.len()
     }
 
-    fn element(&self, index: usize) -> Given<'_> {
-        self.get(index).map_or(Given::Other("nothing"), |value| given(value.get_ref()))
+    fn element(&self, index: usize) -> ParamRef<'_> {
+        self.get(index).map_or(ParamRef::Other("nothing"), |value| given(value.get_ref()))
     }
 }
 
-/// What is wrong with a text.
+/// Errors in a text.
 struct Problems<'a> {
     text: &'a str,
     found: Vec<(usize, String)>,
 }
 
 impl Problems<'_> {
-    /// Something at byte `at` of the text.
+    /// Adds an error at byte `at` of the text.
     fn add(&mut self, at: usize, message: String) {
         self.found.push((at, message));
     }

@@ -1,53 +1,53 @@
-//! Values of parameters, independent of their types: what a program gives, and what it is given.
+//! Values of parameters, independent of their types.
 
-use super::Refusal;
+use super::Rejection;
 use core::{fmt, time::Duration};
 
-/// A value of a parameter, in SI. Displayed as TOML spells it.
+/// A value of a parameter, in SI units. `Display` writes it in TOML.
 #[derive(Clone, Copy)]
-pub enum Given<'a> {
-    /// A switch.
+pub enum ParamRef<'a> {
+    /// A truth value.
     Bool(bool),
-    /// A whole number.
+    /// An integer.
     Integer(i128),
-    /// A number.
+    /// A number of double precision.
     Float(f64),
-    /// A number of single precision; the same as a [`Given::Float`] but for its spelling.
+    /// A number of single precision. Equal to a [`ParamRef::Float`] except for its spelling.
     Single(f32),
-    /// A text.
+    /// A string.
     Text(&'a str),
     /// A list.
     List(&'a dyn GivenList),
-    /// Something that no parameter takes, with what it is: `a table`.
+    /// A value that no parameter takes, with its kind: `a table`.
     Other(&'static str),
 }
 
 /// The elements of a list.
 pub trait GivenList {
-    /// How many there are.
+    /// Number of elements.
     fn count(&self) -> usize;
-    /// Element number `index`, which is below [`GivenList::count`].
-    fn element(&self, index: usize) -> Given<'_>;
+    /// Returns element number `index`, which is below [`GivenList::count`].
+    fn element(&self, index: usize) -> ParamRef<'_>;
 }
 
-/// A value that a parameter can be set to.
-pub trait Give {
-    /// The value, without its type.
-    fn give(&self) -> Given<'_>;
+/// A value that can be assigned to a parameter.
+pub trait IntoParam {
+    /// Returns the value, independent of its type.
+    fn give(&self) -> ParamRef<'_>;
 }
 
-/// A type of parameters that can be read, set, saved and loaded. Implement it for types of your own by those that
-/// they consist of.
-pub trait ParamValue: Give + Sized {
-    /// The value that was given, if it is one of this type.
+/// A type of parameters that can be read, set, saved and loaded. Implement it for your own types by those of their
+/// contents.
+pub trait ParamValue: IntoParam + Sized {
+    /// Converts a given value to this type.
     ///
     /// # Errors
-    /// Says what it should have been.
-    fn take(given: Given<'_>) -> Result<Self, Refusal>;
+    /// The value is of another kind, or does not fit into this type.
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection>;
 }
 
-impl Given<'_> {
-    /// What it is, for messages: `a string`.
+impl ParamRef<'_> {
+    /// Returns the kind of the value, for messages: `a string`.
     pub const fn what(&self) -> &'static str {
         match self {
             Self::Bool(_) => "`true` or `false`",
@@ -59,19 +59,19 @@ impl Given<'_> {
         }
     }
 
-    /// The refusal where something else was expected.
-    pub const fn refuse(&self, expected: &'static str) -> Refusal {
-        Refusal::Kind { expected, found: self.what() }
+    /// Returns the refusal of this value where another kind was expected.
+    pub const fn refuse(&self, expected: &'static str) -> Rejection {
+        Rejection::Kind { expected, found: self.what() }
     }
 }
 
-impl fmt::Debug for Given<'_> {
+impl fmt::Debug for ParamRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
 }
 
-impl fmt::Display for Given<'_> {
+impl fmt::Display for ParamRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Bool(value) => write!(f, "{value}"),
@@ -93,7 +93,7 @@ impl fmt::Display for Given<'_> {
     }
 }
 
-/// A string as TOML spells it.
+/// Writes a string in TOML.
 fn quoted(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     use fmt::Write as _;
     f.write_char('"')?;
@@ -109,28 +109,28 @@ fn quoted(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     f.write_char('"')
 }
 
-impl<T: Give + ?Sized> Give for &T {
-    fn give(&self) -> Given<'_> {
+impl<T: IntoParam + ?Sized> IntoParam for &T {
+    fn give(&self) -> ParamRef<'_> {
         (**self).give()
     }
 }
 
-impl Give for Given<'_> {
-    fn give(&self) -> Given<'_> {
+impl IntoParam for ParamRef<'_> {
+    fn give(&self) -> ParamRef<'_> {
         *self
     }
 }
 
-impl Give for bool {
-    fn give(&self) -> Given<'_> {
-        Given::Bool(*self)
+impl IntoParam for bool {
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Bool(*self)
     }
 }
 
 impl ParamValue for bool {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         match given {
-            Given::Bool(value) => Ok(value),
+            ParamRef::Bool(value) => Ok(value),
             other => Err(other.refuse("`true` or `false`")),
         }
     }
@@ -138,17 +138,17 @@ impl ParamValue for bool {
 
 macro_rules! integers {
     ($($ty:ident)*) => { $(
-        impl Give for $ty {
-            fn give(&self) -> Given<'_> {
-                // All of these types fit.
-                Given::Integer(*self as i128)
+        impl IntoParam for $ty {
+            fn give(&self) -> ParamRef<'_> {
+                // An `i128` has room for all of these types.
+                ParamRef::Integer(*self as i128)
             }
         }
 
         impl ParamValue for $ty {
-            fn take(given: Given<'_>) -> Result<Self, Refusal> {
+            fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
                 match given {
-                    Given::Integer(value) => Self::try_from(value).map_err(|_| Refusal::Fit(stringify!($ty))),
+                    ParamRef::Integer(value) => Self::try_from(value).map_err(|_| Rejection::Fit(stringify!($ty))),
                     other => Err(other.refuse("an integer")),
                 }
             }
@@ -158,70 +158,70 @@ macro_rules! integers {
 
 integers!(i8 i16 i32 i64 isize u8 u16 u32 u64 usize);
 
-impl Give for f64 {
-    fn give(&self) -> Given<'_> {
-        Given::Float(*self)
+impl IntoParam for f64 {
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Float(*self)
     }
 }
 
 impl ParamValue for f64 {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         match given {
-            Given::Integer(value) => Ok(value as Self),
-            Given::Float(value) => Ok(value),
-            Given::Single(value) => Ok(Self::from(value)),
+            ParamRef::Integer(value) => Ok(value as Self),
+            ParamRef::Float(value) => Ok(value),
+            ParamRef::Single(value) => Ok(Self::from(value)),
             other => Err(other.refuse("a number")),
         }
     }
 }
 
-impl Give for f32 {
-    fn give(&self) -> Given<'_> {
-        Given::Single(*self)
+impl IntoParam for f32 {
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Single(*self)
     }
 }
 
 impl ParamValue for f32 {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
-        if let Given::Single(value) = given {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
+        if let ParamRef::Single(value) = given {
             return Ok(value);
         }
         let exact = f64::take(given)?;
         let value = exact as Self;
-        if value.is_infinite() && exact.is_finite() { Err(Refusal::Fit("f32")) } else { Ok(value) }
+        if value.is_infinite() && exact.is_finite() { Err(Rejection::Fit("f32")) } else { Ok(value) }
     }
 }
 
-impl Give for Duration {
-    /// In seconds.
-    fn give(&self) -> Given<'_> {
-        Given::Float(self.as_secs_f64())
+impl IntoParam for Duration {
+    /// Returns the time in seconds.
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Float(self.as_secs_f64())
     }
 }
 
 impl ParamValue for Duration {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         let seconds = f64::take(given).map_err(|_| given.refuse("a number of seconds"))?;
-        Self::try_from_secs_f64(seconds).map_err(|_| Refusal::Fit("Duration"))
+        Self::try_from_secs_f64(seconds).map_err(|_| Rejection::Fit("Duration"))
     }
 }
 
-impl Give for str {
-    fn give(&self) -> Given<'_> {
-        Given::Text(self)
+impl IntoParam for str {
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Text(self)
     }
 }
 
-impl<const N: usize> Give for heapless::String<N> {
-    fn give(&self) -> Given<'_> {
-        Given::Text(self)
+impl<const N: usize> IntoParam for heapless::String<N> {
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Text(self)
     }
 }
 
 impl<const N: usize> ParamValue for heapless::String<N> {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         match given {
-            Given::Text(text) => Self::try_from(text).map_err(|_| Refusal::Long { most: N }),
+            ParamRef::Text(text) => Self::try_from(text).map_err(|_| Rejection::Long { most: N }),
             other => Err(other.refuse("a string")),
         }
     }
@@ -230,19 +230,19 @@ impl<const N: usize> ParamValue for heapless::String<N> {
 macro_rules! lists {
     ($($(#[$cfg:meta])? [$($generics:tt)*] $ty:ty;)*) => { $(
         $(#[$cfg])?
-        impl<T: Give, $($generics)*> GivenList for $ty {
+        impl<T: IntoParam, $($generics)*> GivenList for $ty {
             fn count(&self) -> usize {
                 self.len()
             }
-            fn element(&self, index: usize) -> Given<'_> {
-                self.get(index).map_or(Given::Other("nothing"), T::give)
+            fn element(&self, index: usize) -> ParamRef<'_> {
+                self.get(index).map_or(ParamRef::Other("nothing"), T::give)
             }
         }
 
         $(#[$cfg])?
-        impl<T: Give, $($generics)*> Give for $ty {
-            fn give(&self) -> Given<'_> {
-                Given::List(self)
+        impl<T: IntoParam, $($generics)*> IntoParam for $ty {
+            fn give(&self) -> ParamRef<'_> {
+                ParamRef::List(self)
             }
         }
     )* };
@@ -255,51 +255,53 @@ lists! {
     [] alloc::vec::Vec<T>;
 }
 
-/// The elements of a list, one after the other.
-fn elements<T: ParamValue>(given: Given<'_>) -> Result<impl ExactSizeIterator<Item = Result<T, Refusal>>, Refusal> {
+/// Returns the elements of a list.
+fn elements<T: ParamValue>(
+    given: ParamRef<'_>,
+) -> Result<impl ExactSizeIterator<Item = Result<T, Rejection>>, Rejection> {
     match given {
-        Given::List(list) => Ok((0..list.count()).map(|index| T::take(list.element(index)))),
+        ParamRef::List(list) => Ok((0..list.count()).map(|index| T::take(list.element(index)))),
         other => Err(other.refuse("a list")),
     }
 }
 
 impl<T: ParamValue, const N: usize> ParamValue for heapless::Vec<T, N> {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         let mut list = Self::new();
         for element in elements(given)? {
-            list.push(element?).map_err(|_| Refusal::Long { most: N })?;
+            list.push(element?).map_err(|_| Rejection::Long { most: N })?;
         }
         Ok(list)
     }
 }
 
 impl<T: ParamValue, const N: usize> ParamValue for [T; N] {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         let found = elements::<T>(given)?.len();
         let list = if found == N { heapless::Vec::<T, N>::take(given)?.into_array().ok() } else { None };
-        list.ok_or(Refusal::Length { expected: N, found })
+        list.ok_or(Rejection::Length { expected: N, found })
     }
 }
 
 #[cfg(feature = "alloc")]
 impl<T: ParamValue> ParamValue for alloc::vec::Vec<T> {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         elements(given)?.collect()
     }
 }
 
 #[cfg(feature = "alloc")]
-impl Give for alloc::string::String {
-    fn give(&self) -> Given<'_> {
-        Given::Text(self)
+impl IntoParam for alloc::string::String {
+    fn give(&self) -> ParamRef<'_> {
+        ParamRef::Text(self)
     }
 }
 
 #[cfg(feature = "alloc")]
 impl ParamValue for alloc::string::String {
-    fn take(given: Given<'_>) -> Result<Self, Refusal> {
+    fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
         match given {
-            Given::Text(text) => Ok(text.into()),
+            ParamRef::Text(text) => Ok(text.into()),
             other => Err(other.refuse("a string")),
         }
     }

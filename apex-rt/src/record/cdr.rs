@@ -1,9 +1,9 @@
-//! CDR, the binary form of ROS 2 messages (XCDR1, little endian): what Foxglove and the Python package `mcap-ros2-support`
-//! read.
+//! CDR, the binary encoding of ROS 2 messages (XCDR1, little endian). Foxglove and the Python package
+//! `mcap-ros2-support` read it.
 
 use crate::Time;
 
-/// What a `std_msgs/Header` is, and what is in it.
+/// Definition of `std_msgs/Header` and of its contents.
 pub const STD_HEADER: &str = "
 ================================================================================
 MSG: std_msgs/Header
@@ -14,22 +14,22 @@ MSG: builtin_interfaces/Time
 int32 sec
 uint32 nanosec";
 
-/// Before each message: little endian, no options.
+/// Prefix of each message: little endian, no options.
 const HEADER: [u8; 4] = [0, 1, 0, 0];
 
-/// Nanoseconds of a second.
+/// Nanoseconds in a second.
 const NANOS: i64 = 1_000_000_000;
 
-/// Writes a message behind what is in a buffer.
+/// Writer that appends a message to a buffer.
 #[derive(Debug)]
 pub struct Writer<'a> {
     bytes: &'a mut Vec<u8>,
-    /// Where the message begins, from which numbers are aligned.
+    /// Beginning of the message in the buffer, from which numbers are aligned.
     start: usize,
 }
 
 impl<'a> Writer<'a> {
-    /// A message at the end of `bytes`.
+    /// Begins a message at the end of `bytes`.
     pub fn new(bytes: &'a mut Vec<u8>) -> Self {
         bytes.extend_from_slice(&HEADER);
         let start = bytes.len();
@@ -43,8 +43,8 @@ impl<'a> Writer<'a> {
         self.bytes.extend_from_slice(&number);
     }
 
-    /// A `std_msgs/Header`. Its seconds are an `i32`: a stamp more than 68 years from the zero of the clock is not the same
-    /// again.
+    /// Writes a `std_msgs/Header`. Its seconds are an `i32`: a stamp more than 68 years from the zero of the clock does
+    /// not survive.
     pub fn header(&mut self, stamp: Time, frame: &str) {
         let (seconds, rest) = (stamp.as_nanos().div_euclid(NANOS), stamp.as_nanos().rem_euclid(NANOS));
         self.i32(i32::try_from(seconds).unwrap_or(if seconds < 0 { i32::MIN } else { i32::MAX }));
@@ -52,7 +52,7 @@ impl<'a> Writer<'a> {
         self.text(frame);
     }
 
-    /// A text, which in CDR ends with a zero.
+    /// Writes a text, which ends with a zero byte in CDR.
     pub fn text(&mut self, text: &str) {
         self.u32(text.len() as u32 + 1);
         self.bytes.extend_from_slice(text.as_bytes());
@@ -60,7 +60,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Reads what a [`Writer`] wrote. After the end there is nothing: `None`.
+/// Reader of the messages of a [`Writer`]. All methods return `None` if the bytes do not have such a value.
 #[derive(Debug)]
 pub struct Reader<'a> {
     bytes: &'a [u8],
@@ -68,7 +68,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The message `bytes`; `None` if it does not begin as one.
+    /// Reads the message `bytes`; `None` if the prefix is another one.
     pub fn new(bytes: &'a [u8]) -> Option<Self> {
         Some(Self { bytes: bytes.strip_prefix(&HEADER)?, at: 0 })
     }
@@ -80,14 +80,14 @@ impl<'a> Reader<'a> {
         number.try_into().ok()
     }
 
-    /// The stamp of a `std_msgs/Header`.
+    /// Reads a `std_msgs/Header` and returns its stamp.
     pub fn header(&mut self) -> Option<Time> {
         let (seconds, rest) = (self.i32()?, self.u32()?);
         self.text()?;
         Some(Time::from_nanos(i64::from(seconds) * NANOS + i64::from(rest)))
     }
 
-    /// A text.
+    /// Reads a text.
     pub fn text(&mut self) -> Option<&'a str> {
         let length = usize::try_from(self.u32()?).ok()?;
         let (zero, text) = self.bytes.get(self.at..self.at.checked_add(length)?)?.split_last()?;
@@ -103,7 +103,7 @@ macro_rules! numbers {
     ($($ty:ident)*) => {
         impl Writer<'_> {
             $(
-                /// A number.
+                /// Writes a number.
                 pub fn $ty(&mut self, number: $ty) {
                     self.put(number.to_le_bytes());
                 }
@@ -111,7 +111,7 @@ macro_rules! numbers {
         }
         impl Reader<'_> {
             $(
-                /// A number.
+                /// Reads a number.
                 pub fn $ty(&mut self) -> Option<$ty> {
                     self.get().map($ty::from_le_bytes)
                 }

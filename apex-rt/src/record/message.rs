@@ -1,46 +1,46 @@
-//! Tokens as messages: which types there is a message for, and what becomes of all others.
+//! Tokens as messages: types with a ROS 2 message, and the encoding of all others.
 
 use super::cdr::{Reader, Writer};
 use crate::{Failure, Time};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
 
-/// A type whose tokens are recorded as messages of ROS 2, so that other programs can read them.
+/// A type whose tokens are recorded as ROS 2 messages, so that other programs can read them.
 ///
-/// Implement it for types of your own that shall be seen in Foxglove or in Python; for all others the traits of serde
-/// are enough. What is read must be what was written, bit by bit: a replay depends on it.
+/// Implement it for your own types that should be visible in Foxglove or Python. For all others the traits of serde are
+/// enough. Reading must give exactly the written value, bit by bit: replays depend on it.
 pub trait Message: Sized {
-    /// The name of the message: `sensor_msgs/msg/LaserScan`.
+    /// Name of the message: `sensor_msgs/msg/LaserScan`.
     const NAME: &'static str;
-    /// Its definition, and after lines of `=` those of the messages in it, as a `.msg` file has them. That of
-    /// `std_msgs/Header` is added.
+    /// Definition of the message as in a `.msg` file, and those of the messages in it after lines of `=`. The
+    /// definition of `std_msgs/Header` is added automatically.
     const DEFINITION: &'static str;
 
     /// Writes the fields in the order of the definition.
     fn write(&self, message: &mut Writer<'_>);
 
-    /// Reads them; `None` if they are no value of this type.
+    /// Reads the fields; `None` if they are not a value of this type.
     fn read(message: &mut Reader<'_>) -> Option<Self>;
 }
 
-/// What a channel carries.
+/// Schema of a channel: type and encoding of its tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schema {
-    /// The name of the message, or of the Rust type.
+    /// Name of the message, or of the Rust type.
     pub name: &'static str,
-    /// The definition of the message, without that of its header; nothing for a Rust type.
+    /// Definition of the message, without that of its header; empty for a Rust type.
     pub definition: &'static str,
-    /// How tokens are written: `cdr` or `postcard`.
+    /// Encoding: `cdr` or `postcard`.
     pub encoding: &'static str,
 }
 
-/// How tokens of a type are written, read and shown.
+/// Functions that write and read the tokens of a type.
 pub struct Codec<T> {
-    /// What its channel carries.
+    /// Schema of the channel.
     pub schema: Schema,
-    /// Writes a token behind what is there; `false` if it cannot be written.
+    /// Appends a token to the bytes; `false` if it cannot be written.
     pub write: fn(&T, &mut Vec<u8>) -> bool,
-    /// Reads a token.
+    /// Reads a token; `None` if the bytes are not one.
     pub read: fn(&[u8]) -> Option<T>,
 }
 
@@ -52,19 +52,19 @@ impl<T> Clone for Codec<T> {
 
 impl<T> Copy for Codec<T> {}
 
-/// A type of tokens, for generated code to find out how they are recorded: it calls `codec` on `&&&Kind`, which is
-/// [`ByMessage::codec`] if the type is a [`Message`], [`BySerde::codec`] if serde knows it, and [`ByNothing::codec`]
-/// otherwise, because rustc tries the type with more references first.
+/// A type of tokens, with which generated code selects its codec. A call of `codec` on `&&&Kind` is
+/// [`ByMessage::codec`] if the type is a [`Message`], [`BySerde::codec`] if it has the traits of serde, and
+/// [`ByNothing::codec`] otherwise, because rustc tries the type with more references first.
 pub struct Kind<T>(PhantomData<T>);
 
 impl<T> Kind<T> {
-    /// The type.
+    /// Value for the type.
     pub const NEW: Self = Self(PhantomData);
 }
 
-/// Types that are messages.
+/// Codec of types that are messages.
 pub trait ByMessage<T> {
-    /// How they are recorded.
+    /// Returns the codec.
     fn codec(&self) -> Option<Codec<T>>;
 }
 
@@ -81,9 +81,9 @@ impl<T: Message> ByMessage<T> for &&Kind<T> {
     }
 }
 
-/// Types that serde knows.
+/// Codec of types with the traits of serde.
 pub trait BySerde<T> {
-    /// How they are recorded.
+    /// Returns the codec.
     fn codec(&self) -> Option<Codec<T>>;
 }
 
@@ -97,9 +97,9 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
     }
 }
 
-/// All other types.
+/// Codec of all other types: none.
 pub trait ByNothing<T> {
-    /// They cannot be recorded.
+    /// Returns `None`.
     fn codec(&self) -> Option<Codec<T>>;
 }
 
@@ -151,7 +151,7 @@ impl Message for () {
     const NAME: &'static str = "std_msgs/msg/Empty";
     const DEFINITION: &'static str = "";
     fn write(&self, message: &mut Writer<'_>) {
-        // A message of ROS is never quite empty.
+        // An empty ROS message still has one byte.
         message.u8(0);
     }
     fn read(message: &mut Reader<'_>) -> Option<Self> {
@@ -197,7 +197,7 @@ mod tests {
     use super::*;
     use core::fmt::Debug;
 
-    /// A token that was written and read.
+    /// Writes and reads a token.
     fn again<T>(codec: Option<Codec<T>>, token: &T) -> (Schema, Option<T>) {
         let (codec, mut bytes) = (codec.expect("it can be recorded"), vec![]);
         assert!((codec.write)(token, &mut bytes));

@@ -1,10 +1,9 @@
-//! Recordings: everything that enters the deterministic part of a program, in an MCAP file, and what comes of it when it
-//! enters again.
+//! Recordings: all inputs of the deterministic part of a program in an MCAP file, and the replay of such a file.
 //!
-//! A program does the same again if it reacts at the same times, its sources send the same tokens, the same tokens are
-//! put into its mailboxes, its events are taken out at the same times, its parameters are set as they were, and its
-//! deadlines see the same delays. Where it runs on several threads, these also find the same when they look at what is
-//! between them. That is what is recorded; and, to be compared, what was chosen besides.
+//! A program repeats a run if it reacts at the same times, its sources send the same tokens, the same tokens are put
+//! into its mailboxes, its events are taken out at the same times, its parameters are set to the same values, and its
+//! deadlines see the same delays. If it runs on several threads, these must also find the same tokens in the cells
+//! between them. All of this is recorded, and also the tokens of selected ports, for comparison.
 
 pub mod cdr;
 mod message;
@@ -26,7 +25,7 @@ pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
 pub use report::{Compared, Difference, Report};
 pub use run::replay;
-pub(crate) use run::{Wish, drive};
+pub(crate) use run::{RunMode, drive};
 pub use tap::Tap;
 #[doc(hidden)]
 pub use tap::looked;
@@ -34,40 +33,40 @@ pub use threads::record_on_threads;
 #[doc(hidden)]
 pub use tokens::tokens;
 
-/// What passes a channel of a recording.
+/// Role of the tokens of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Tokens that are put into an input or a slot of the program.
     Mailbox,
-    /// Tokens that an event of the program keeps until they are taken.
+    /// Tokens of an event of the program, which stay in its mailbox until they are taken.
     Event,
-    /// Tokens that a source sends, of its outputs and of its events.
+    /// Tokens that a source sends over its outputs and events.
     Source,
-    /// Tokens that the program makes of them and that were chosen, to be compared.
+    /// Tokens of a port in a `record` statement, for comparison.
     Chosen,
 }
 
-/// A channel of a recording: the tokens of one port.
+/// Channel of a recording: the tokens of one port.
 #[derive(Debug, Clone, Copy)]
 pub struct Channel {
-    /// The port, with its node: `laser.scan`.
+    /// Name of the port and its node: `laser.scan`.
     pub name: &'static str,
-    /// The node that it belongs to.
+    /// Node of the port.
     pub node: usize,
-    /// The group of threads that it belongs to.
+    /// Thread group of the port.
     pub group: usize,
-    /// What passes it.
+    /// Role of its tokens.
     pub role: Role,
-    /// How its tokens are written; `None` if they cannot be.
+    /// Schema of its tokens; `None` if they cannot be recorded.
     pub schema: Option<Schema>,
-    /// Shows a written token; `None` if it cannot be read.
+    /// Converts a recorded token to readable text; `None` if it cannot be read.
     pub show: fn(&[u8]) -> Option<String>,
 }
 
-/// The table of all channels of a program. Generated code may stand in a crate that does not name the standard library.
+/// The table of all channels of a program. The crate of generated code may not name the standard library.
 pub type Channels = std::vec::Vec<Channel>;
 
-/// How tokens of a type are recorded, for generated code.
+/// Returns the codec of a type of tokens, for generated code.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __codec {
@@ -78,7 +77,7 @@ macro_rules! __codec {
     }};
 }
 
-/// A row of the table of channels, for generated code.
+/// Makes a row of the table of channels, for generated code.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __channel {

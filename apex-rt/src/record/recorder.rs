@@ -5,7 +5,7 @@ use super::{
 };
 use crate::{
     GroupInfo, Mailbox, Parameters, Program, Time,
-    params::{Access, Given, ParamInfo, ParamVisitor},
+    params::{Access, ParamInfo, ParamRef, ParamVisitor},
 };
 use core::time::Duration;
 use std::{
@@ -16,71 +16,72 @@ use std::{
     thread,
 };
 
-/// What happens when tokens come faster than they can be written.
+/// Behaviour if tokens come faster than they can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WhenFull {
-    /// They are dropped and counted: a robot cannot wait.
+    /// Tokens are dropped and counted: a robot cannot wait.
     Drop,
-    /// The program waits: its time is simulated.
+    /// The program waits, because its time is simulated.
     Wait,
 }
 
-/// How long one waits for room before one looks again.
+/// Time between two checks for room.
 const PAUSE: Duration = Duration::from_micros(100);
 
-/// Records a run, or what one group of threads does in it.
+/// Recorder of a run, or of one thread group in a run.
 pub struct Recorder {
     channels: Vec<Channel>,
-    /// The file, which one of the recorders of a run ends.
+    /// The file, in the recorder that ends it: one of all recorders of a run.
     sink: Option<Sink>,
     near: Near,
-    /// The ways to the file of the groups that have none yet.
+    /// Rings of the groups that have no recorder yet.
     others: Mutex<Vec<Near>>,
     frame: Frame,
-    /// The number of the group, if it is one of several that run side by side.
+    /// Number of the thread group, if there are several.
     group: Option<u32>,
-    /// How often this reaction has looked at what is between groups.
+    /// Number of checks of cells between groups in this reaction.
     looks: u32,
     when_full: WhenFull,
     path: PathBuf,
     now: Time,
-    /// How many reactions there were, with this one.
+    /// Number of reactions, including the current one.
     reactions: u32,
-    /// How often each node was called in this reaction.
+    /// Number of calls of each node in this reaction.
     calls: Vec<u32>,
-    /// Which mailboxes held a token after the last reaction, by channel.
+    /// `true` for the mailboxes that held a token after the last reaction, by channel.
     full: Vec<bool>,
-    /// The parameters after the last reaction, as bytes one after the other; nothing before the first.
+    /// Values of all parameters after the last reaction, as bytes; empty before the first reaction.
     params: Vec<u8>,
-    /// The same before this one.
+    /// Values of all parameters before this reaction, as bytes.
     params_now: Vec<u8>,
-    /// The reaction that goes on was dropped, and all in it.
+    /// `true` if the current reaction was dropped with all its messages.
     lost: bool,
 }
 
-/// What is left to say when a recording has ended.
+/// Result of a recording.
 #[derive(Debug)]
 pub struct Finished {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The channels that lost messages, because the file could not be written as fast, with how many.
+    /// Channels that lost messages because the file could not be written fast enough, with the numbers of these.
     pub dropped: Vec<(String, u64)>,
 }
 
 impl Recorder {
-    /// A recording of a program of type `P` in the file `path`, or, if that is there already, in one with a number.
+    /// Starts a recording of a program of type `P` in the file `path`. If that exists, a number is added to its name.
     ///
     /// # Errors
-    /// The file cannot be made, or a source sends tokens that cannot be recorded, so that the recording would be useless.
+    /// The file cannot be created, or a source sends tokens that cannot be recorded, so that the recording would be
+    /// useless.
     pub fn to_file<P: Program>(path: &Path, when_full: WhenFull) -> io::Result<Self> {
         Self::with_room::<P>(path, when_full, ROOM)
     }
 
-    /// The same without the channels that are `left_out`, for example of large images. A replay calls the sources of these
-    /// as ever, which therefore have to send the same again.
+    /// Starts a recording without the channels that are `left_out`, for example those of large images. A replay calls
+    /// the sources of these channels, which therefore have to send the same tokens again.
     ///
     /// # Errors
-    /// As [`to_file`](Self::to_file); tokens that are left out may be of any type.
+    /// The errors of [`to_file`](Self::to_file), except that tokens which are left out may be of any type.
     pub fn to_file_without<P: Program>(
         path: &Path,
         when_full: WhenFull,
@@ -89,13 +90,14 @@ impl Recorder {
         Self::new::<P>(path, when_full, ROOM, None, left_out)
     }
 
-    /// As [`to_file`](Self::to_file), with another number of bytes that can wait to be written.
+    /// Starts a recording as [`to_file`](Self::to_file) does, with `room` for that many bytes that wait to be written.
     #[doc(hidden)]
     pub fn with_room<P: Program>(path: &Path, when_full: WhenFull, room: usize) -> io::Result<Self> {
         Self::new::<P>(path, when_full, room, None, |_| false)
     }
 
-    /// A recording of a program whose `groups` run side by side: each has a recorder [`beside`](Self::beside) this one.
+    /// Starts a recording of a program whose `groups` run in parallel: each has a recorder [`beside`](Self::beside)
+    /// this one.
     pub(super) fn of_threads<P: Program>(path: &Path, groups: &[GroupInfo]) -> io::Result<Self> {
         Self::new::<P>(path, WhenFull::Drop, ROOM, Some(groups), |_| false)
     }
@@ -112,14 +114,14 @@ impl Recorder {
         if let Some(message) = why_useless(&kept) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
-        // As if they could not be written.
+        // Channels without a schema are not recorded.
         out.iter_mut().for_each(|channel| channel.schema = None);
         let path = free(path);
         let mut about = BTreeMap::from([("name".to_owned(), info.name.to_owned())]);
         if let Some(groups) = groups.filter(|groups| !groups.is_empty()) {
             about.insert(THREADS.to_owned(), names(groups));
         }
-        // One for each group, and one for who watches over them.
+        // One ring for each group, and one for the watchdog.
         let beside = groups.map_or(0, |groups| groups.len().max(1) + 1);
         let (sink, mut ends) = Sink::new(path.clone(), about, &channels, 1 + beside, room)?;
         let near = ends.remove(0);
@@ -127,7 +129,7 @@ impl Recorder {
         Ok(Self { sink: Some(sink), others: Mutex::new(ends), ..own })
     }
 
-    /// A recorder that writes by `near`.
+    /// Returns a recorder that writes into `near`.
     fn by(near: Near, channels: Vec<Channel>, when_full: WhenFull, path: PathBuf, nodes: usize) -> Self {
         Self {
             sink: None,
@@ -149,11 +151,11 @@ impl Recorder {
         }
     }
 
-    /// Records in the same file, where there are several groups what this `group` does. All that was sent by this one
-    /// comes before what is sent by that.
+    /// Returns a recorder of the same file, for this `group` if there are several. All messages that this recorder has
+    /// sent come before those of the new one.
     ///
     /// # Panics
-    /// There are more of them than was said.
+    /// There are more recorders than groups.
     pub(super) fn beside(&self, group: Option<usize>) -> Self {
         self.near.settle();
         let near = self.others.lock().unwrap_or_else(PoisonError::into_inner).pop();
@@ -162,15 +164,15 @@ impl Recorder {
         Self { group: group.map(|group| group as u32), ..own }
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes what is left, and ends the file.
+    /// Writes all remaining messages, and ends the file.
     ///
     /// # Errors
-    /// It could not be written.
+    /// The file could not be written.
     pub fn finish(self) -> io::Result<Finished> {
         let Self { sink: Some(sink), mut near, channels, path, .. } = self else {
             return Err(io::Error::other("another recorder ends the file"));
@@ -203,7 +205,8 @@ impl Recorder {
         }
     }
 
-    /// A look at what is between groups found something, or not. Groups that run in turn always find the same.
+    /// Records the result of a check of a cell between groups. Groups that run in turn always find the same, so that
+    /// nothing is recorded.
     pub(super) fn looked(&mut self, found: bool) -> bool {
         let Some(group) = self.group else { return found };
         let look = self.looks;
@@ -257,7 +260,7 @@ impl Recorder {
         self.full[channel] = is_full;
     }
 
-    /// The parameters that are not what they were after the last reaction; before the first one, all.
+    /// Records the parameters that have changed since the last reaction; before the first reaction, all.
     pub(super) fn changed_params<P: Parameters>(&mut self, program: &mut P) {
         let first = self.params.is_empty();
         let mut now = core::mem::take(&mut self.params_now);
@@ -276,7 +279,7 @@ impl Recorder {
         program.visit_params(&mut Bits(&mut self.params));
     }
 
-    /// Sends a message on a channel that every recording has.
+    /// Sends a message on one of the channels that every recording has.
     fn own(&mut self, channel: u16, write: impl FnOnce(&mut Writer<'_>)) -> bool {
         self.numbered(channel, 0, write)
     }
@@ -287,7 +290,7 @@ impl Recorder {
         self.send(usize::from(channel), true)
     }
 
-    /// Sends what was written of a message, or counts it as lost.
+    /// Sends the message in `self.frame` if it was `written`, or counts it as lost.
     fn send(&mut self, channel: usize, written: bool) -> bool {
         let written = written && !self.lost;
         loop {
@@ -303,12 +306,12 @@ impl Recorder {
     }
 }
 
-/// The groups of threads, as the file says them.
+/// Names of the thread groups, as written in the file.
 pub(super) fn names(groups: &[GroupInfo]) -> String {
     groups.iter().map(|group| group.name).collect::<Vec<_>>().join(" ")
 }
 
-/// Why nothing would be gained by a recording.
+/// Returns an error message if the recording would be useless.
 fn why_useless(channels: &[&mut Channel]) -> Option<String> {
     let lost = channels.iter().filter(|c| c.schema.is_none());
     let names: Vec<String> = lost.map(|c| format!("`{}`", c.name)).collect();
@@ -321,12 +324,12 @@ fn why_useless(channels: &[&mut Channel]) -> Option<String> {
     ))
 }
 
-/// Nothing happens before the zero of a clock.
+/// Time in ns as MCAP has it. Nothing happens before the zero of a clock.
 fn time(now: Time) -> u64 {
     u64::try_from(now.as_nanos()).unwrap_or(0)
 }
 
-/// Writes down all parameters, each with its length before it.
+/// Visitor that writes the values of all parameters as bytes, each with its length before it.
 struct Bits<'a>(&'a mut Vec<u8>);
 
 impl ParamVisitor for Bits<'_> {
@@ -341,26 +344,26 @@ impl ParamVisitor for Bits<'_> {
     }
 }
 
-/// Values are the same if their bits are.
-fn bits(value: Given<'_>, out: &mut Vec<u8>) {
+/// Appends the bytes of a value. Values are equal if their bytes are.
+fn bits(value: ParamRef<'_>, out: &mut Vec<u8>) {
     match value {
-        Given::Bool(value) => out.push(u8::from(value)),
-        Given::Integer(value) => out.extend_from_slice(&value.to_le_bytes()),
-        Given::Float(value) => out.extend_from_slice(&value.to_le_bytes()),
-        Given::Single(value) => out.extend_from_slice(&value.to_le_bytes()),
-        Given::Text(value) => out.extend_from_slice(value.as_bytes()),
-        Given::List(list) => {
+        ParamRef::Bool(value) => out.push(u8::from(value)),
+        ParamRef::Integer(value) => out.extend_from_slice(&value.to_le_bytes()),
+        ParamRef::Float(value) => out.extend_from_slice(&value.to_le_bytes()),
+        ParamRef::Single(value) => out.extend_from_slice(&value.to_le_bytes()),
+        ParamRef::Text(value) => out.extend_from_slice(value.as_bytes()),
+        ParamRef::List(list) => {
             for index in 0..list.count() {
                 bits(list.element(index), out);
-                // Texts in a list are told apart.
+                // Separates texts in a list.
                 out.push(0);
             }
         }
-        Given::Other(_) => {}
+        ParamRef::Other(_) => {}
     }
 }
 
-/// Records the parameters that are not as `before` says.
+/// Visitor that records the parameters whose values differ from `before`.
 struct Changes<'a> {
     recorder: &'a mut Recorder,
     before: &'a [u8],
@@ -387,7 +390,7 @@ impl ParamVisitor for Changes<'_> {
 }
 
 impl Changes<'_> {
-    /// Goes on to the next parameter; whether this one was `now` before.
+    /// Advances to the next parameter in `before`. Returns `true` if the value of this one is still `now`.
     fn skip(&mut self, now: &[u8]) -> bool {
         let Some((length, rest)) = self.before.split_first_chunk::<4>() else { return false };
         let Some((was, rest)) = rest.split_at_checked(u32::from_le_bytes(*length) as usize) else { return false };

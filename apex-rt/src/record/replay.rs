@@ -4,7 +4,7 @@ use super::{
     report::{Compared, Difference},
     sink::OWN,
     source::{CUT, FileMessage, Source},
-    waits::{Waited, Waits},
+    waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
     Parameters, Program, Time,
@@ -18,36 +18,36 @@ use std::{
     sync::Arc,
 };
 
-/// Why there is nothing to replay.
+/// Error that prevents a replay.
 #[derive(Debug)]
 pub enum ReplayError {
     /// The file cannot be read.
     File(PathBuf, io::Error),
-    /// It is an MCAP file of something else.
+    /// The file is an MCAP file, but not a recording of a program.
     NoRecording(PathBuf),
-    /// It is a recording of another program.
+    /// The file is a recording of another program.
     OtherProgram {
         /// The file.
         path: PathBuf,
-        /// Whose it is.
+        /// Name of the recorded program.
         recorded: String,
-        /// The program that was to replay it.
+        /// Name of the program that was to replay it.
         wanted: &'static str,
     },
-    /// It has not a single whole reaction.
+    /// The recording does not have a complete reaction.
     Nothing {
         /// The file.
         path: PathBuf,
-        /// Why it ends before.
+        /// Reason for its early end.
         why: Option<String>,
     },
-    /// It was recorded on other groups of threads than the program has.
+    /// The recording has other thread groups than the program.
     OtherThreads {
         /// The file.
         path: PathBuf,
-        /// The groups that ran side by side when it was recorded.
+        /// Thread groups that ran in parallel in the recorded run.
         recorded: String,
-        /// Those of the program.
+        /// Thread groups of the program.
         wanted: String,
     },
 }
@@ -79,7 +79,7 @@ impl fmt::Display for ReplayError {
 
 impl std::error::Error for ReplayError {}
 
-/// What a message of a file is for.
+/// Meaning of a message in the file.
 #[derive(Debug, Clone, Copy)]
 enum Meaning {
     Reaction,
@@ -92,17 +92,17 @@ enum Meaning {
     Token(usize),
 }
 
-/// What enters the program in one reaction.
+/// Recorded inputs of one reaction.
 #[derive(Debug, Default)]
 struct Reaction {
     elapsed: VecDeque<Duration>,
     params: Vec<(String, String, bool)>,
     taken: Vec<String>,
-    /// The numbers of the looks that found something.
+    /// Numbers of the checks of cells that found something.
     looks: BTreeSet<u32>,
-    /// It was recorded to its end.
+    /// `true` if the reaction was recorded to its end.
     ended: bool,
-    /// Tokens of each channel, with the call of the node that they belong to.
+    /// Tokens of each channel, with the number of their node's call.
     tokens: Vec<VecDeque<(u32, Vec<u8>)>>,
 }
 
@@ -112,52 +112,57 @@ impl Reaction {
     }
 }
 
-/// Repeats a run.
+/// Replay of a run, or of one thread group in a run.
 pub struct Replay {
     channels: Vec<Channel>,
     source: Source,
     meanings: BTreeMap<u16, Option<Meaning>>,
-    /// The beginning of the reaction after this one, which was read already.
+    /// Time of the next reaction, whose beginning was read already.
     next: Option<Time>,
-    /// The number and the time of the reaction that was read last.
+    /// Number and time of the reaction that was read last.
     read: (u32, Time),
-    /// The reaction that goes on.
+    /// Time of the current reaction.
     now: Time,
     reaction: Reaction,
-    /// How often each node was called in it.
+    /// Number of calls of each node in the current reaction.
     calls: Vec<u32>,
-    /// Which nodes are sources that were recorded, and are not called.
+    /// `true` for the sources that were recorded, and are not called.
     recorded: Vec<bool>,
-    /// The token of each channel that was taken last.
+    /// The last token of each channel.
     last: Vec<Option<Vec<u8>>>,
     report: Report,
-    /// Where a token is written to be compared.
+    /// Buffer for a token that is compared.
     bytes: Vec<u8>,
-    /// The group of threads that is repeated, if several ran side by side.
+    /// The thread group that is repeated, if several ran in parallel.
     group: Option<Side>,
-    /// How often this reaction has looked at what is between groups.
+    /// Number of checks of cells between groups in this reaction.
     looks: u32,
-    /// What it found would come from others, which end where the recording was cut: so does this one.
+    /// `true` if this group waited for a token of another one that has ended where the recording is cut off: this one
+    /// ends, too.
     over: bool,
 }
 
-/// One of several groups that ran side by side.
+/// One of several thread groups that ran in parallel.
 struct Side {
     number: usize,
-    waits: Arc<Waits>,
+    waits: Arc<ReplayBarrier>,
 }
 
 impl Replay {
-    /// Opens a recording of a program of type `P` that reacted on one thread.
+    /// Opens a recording of a program of type `P` that ran on one thread.
     ///
     /// # Errors
-    /// It cannot be read, or is none of such a program.
+    /// The file cannot be read, or is not a recording of such a program.
     pub(super) fn open<P: Program>(path: &Path) -> Result<Self, ReplayError> {
         Self::new::<P>(path, None)
     }
 
-    /// Opens a recording of groups that ran side by side, for what the group `number` did.
-    pub(super) fn of_group<P: Program>(path: &Path, number: usize, waits: Arc<Waits>) -> Result<Self, ReplayError> {
+    /// Opens a recording of parallel thread groups, for the replay of group `number`.
+    pub(super) fn of_group<P: Program>(
+        path: &Path,
+        number: usize,
+        waits: Arc<ReplayBarrier>,
+    ) -> Result<Self, ReplayError> {
         Self::new::<P>(path, Some(Side { number, waits }))
     }
 
@@ -199,7 +204,7 @@ impl Replay {
         Ok(replay)
     }
 
-    /// Which channels of the program the file has, and which not.
+    /// Matches the channels of the program with those of the file.
     fn match_channels(&mut self) {
         let known = |c: &Channel| {
             let same = |f: &super::source::FileChannel| {
@@ -223,7 +228,7 @@ impl Replay {
         for channel in missing {
             self.report.missing.push((channel.name, channel.role));
             if channel.role == Role::Source {
-                // One token of a firing alone would be of no use.
+                // If some ports of a source are missing, the source is called: tokens of one firing belong together.
                 self.recorded[channel.node] = false;
             }
         }
@@ -233,8 +238,8 @@ impl Replay {
         self.report.gone = gone.map(|f| f.name.clone()).collect();
     }
 
-    /// Reads up to the beginning of the next reaction; what was read before belongs to the one that begins now. `None`
-    /// at the end.
+    /// Reads all inputs of the next reaction, up to the beginning of the one after it. Returns the time of the
+    /// reaction, or `None` at the end.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -243,7 +248,7 @@ impl Replay {
         self.now = now;
         self.reaction = Reaction::new(self.channels.len());
         self.load()?;
-        // What was written of the last reaction is not all of it.
+        // The last reaction of a file that is cut off is incomplete.
         if self.next.is_none() && self.source.cut.is_some() && !self.reaction.ended {
             return Ok(None);
         }
@@ -270,10 +275,10 @@ impl Replay {
         Ok(())
     }
 
-    /// A reaction is read, which comes after the one before.
+    /// Checks that a reaction follows the previous one, and stores its time.
     fn follow(&mut self, number: u32, time: Time) {
         let (last, before) = mem::replace(&mut self.read, (number, time));
-        // Older recordings do not number them.
+        // Older recordings do not number reactions.
         let ahead = if number == 0 { 1 } else { number.wrapping_sub(last) };
         if time < before || !(1..=u32::MAX / 2).contains(&ahead) {
             self.source.damaged(&format!("the reaction at {time} comes after the one at {before}"));
@@ -283,7 +288,7 @@ impl Replay {
         self.next = Some(time);
     }
 
-    /// What messages of a channel of the file are for, which is found out once.
+    /// Returns the meaning of the messages of a channel, which is stored for the next call.
     fn meaning(&mut self, id: u16) -> Option<Meaning> {
         if let Some(known) = self.meanings.get(&id) {
             return *known;
@@ -299,7 +304,7 @@ impl Replay {
         meaning
     }
 
-    /// Whether what belongs to a group is repeated here.
+    /// Returns `true` if this replay repeats the group.
     fn is_own(&self, group: u32) -> bool {
         self.group.as_ref().is_none_or(|own| own.number == group as usize)
     }
@@ -337,9 +342,9 @@ impl Replay {
         }
     }
 
-    /// What came of it.
+    /// Reads the rest of the file, and returns the report.
     pub(super) fn finish(mut self) -> Report {
-        // Whether the rest is as it should be: a thread that waits for what others were cut off from ends before.
+        // The rest may be damaged: a group that waits for a token of a group that was cut off ends before it is read.
         while let Some(more) = self.source.next().transpose() {
             if let Err(error) = more {
                 self.source.cut = Some(error.to_string());
@@ -356,7 +361,7 @@ impl Replay {
         self.calls.fill(0);
     }
 
-    /// A look at what is between groups finds what it found when it was recorded.
+    /// Repeats a check of a cell between groups. Returns the recorded result, and waits until the token is there.
     pub(super) fn looked(&mut self, finds: impl Fn() -> bool) -> bool {
         let Some(group) = &self.group else { return finds() };
         let look = self.looks;
@@ -365,11 +370,11 @@ impl Replay {
             return false;
         }
         match group.waits.wait(group.number, finds) {
-            Waited::Found => return true,
-            Waited::Missed => self.report.missed += 1,
-            Waited::Cut => {
+            WaitOutcome::Found => return true,
+            WaitOutcome::Missed => self.report.missed += 1,
+            WaitOutcome::Cut => {
                 self.over = true;
-                // This one is not whole.
+                // The current reaction is incomplete.
                 self.report.reactions -= 1;
             }
         }
@@ -468,13 +473,13 @@ impl Replay {
     }
 }
 
-/// The group and the time of a reaction.
+/// Returns the group and the time of a reaction.
 fn time_of(reaction: &[u8]) -> Option<(u32, Time)> {
     let mut fields = Reader::new(reaction)?;
     Some((fields.u32()?, Time::from_nanos(fields.i64()?)))
 }
 
-/// The value of a parameter, as TOML spells it.
+/// Returns the value of a parameter in TOML.
 fn now<P: Parameters>(program: &mut P, name: &str) -> Option<String> {
     struct Find<'a>(&'a str, Option<String>);
     impl ParamVisitor for Find<'_> {

@@ -2,52 +2,52 @@ use super::{Channel, Role};
 use crate::Time;
 use core::fmt::{self, Display, Formatter};
 
-/// What came of a replay.
+/// Report on a replay.
 #[derive(Debug, Default)]
 pub struct Report {
-    /// The reactions that were repeated.
+    /// Number of repeated reactions.
     pub reactions: u64,
-    /// The time of the last one.
+    /// Time of the last one.
     pub last: Option<Time>,
-    /// Reactions that are missing between others.
+    /// Number of reactions that are missing between others.
     pub skipped: u64,
-    /// The connections that were compared.
+    /// Results of comparison, by port.
     pub compared: Vec<Compared>,
     /// Channels of the program that the recording does not have.
     pub missing: Vec<(&'static str, Role)>,
     /// Channels of the recording that the program does not have.
     pub gone: Vec<String>,
-    /// Parameters that were not what they are.
+    /// Messages on parameters whose values differ from the recorded ones.
     pub params: Vec<String>,
-    /// Messages that were lost when the run was recorded.
+    /// Numbers of messages that were lost during the recording, by channel.
     pub dropped: Vec<(String, u64)>,
-    /// Tokens of the recording that are no values of their types any more.
+    /// Number of recorded tokens that are not values of their types any more.
     pub unreadable: u64,
-    /// How often a source that always sends was due where it had sent nothing, and sent its last token again.
+    /// Number of times that a source which always sends had no recorded token, and sent its last one again.
     pub repeated: u64,
-    /// How often a thread waited in vain for what it had found between it and another one.
+    /// Number of times that a thread waited in vain for a token that it had found in the recorded run.
     pub missed: u64,
-    /// Why the recording ends before the run did.
+    /// Reason why the recording ends before the run did.
     pub cut: Option<String>,
 }
 
-/// How the tokens of a connection compare.
+/// Comparison of the tokens of a port.
 #[derive(Debug)]
 pub struct Compared {
-    /// The port that sends them.
+    /// Name of the port.
     pub name: &'static str,
-    /// How many were the same, bit by bit, in the same reaction.
+    /// Number of tokens that were the same, bit by bit, in the same reaction.
     pub equal: u64,
-    /// How many were not, or were there only once.
+    /// Number of tokens that differed, or existed in only one of the runs.
     pub different: u64,
-    /// The first of these.
+    /// The first difference.
     pub first: Option<Difference>,
 }
 
 /// Two tokens that should be the same.
 #[derive(Debug)]
 pub struct Difference {
-    /// How many tokens of the connection came before.
+    /// Number of tokens of the port before this one.
     pub index: u64,
     /// The time of the reaction.
     pub time: Time,
@@ -64,17 +64,17 @@ impl Compared {
 }
 
 impl Report {
-    /// Whether all tokens that could be compared were the same.
+    /// Returns `true` if all tokens that could be compared were the same.
     pub fn is_same(&self) -> bool {
         self.missed == 0 && self.compared.iter().all(|c| c.different == 0)
     }
 
-    /// Whether all that happened was repeated: nothing of the recording is missing or was lost.
+    /// Returns `true` if the whole run was repeated: nothing in the recording is missing, lost or unreadable.
     pub fn is_whole(&self) -> bool {
         self.cut.is_none() && self.skipped == 0 && self.dropped.is_empty() && self.unreadable == 0
     }
 
-    /// What came of all groups of a program, each of which has a report of its own; that of the main group is the first.
+    /// Merges the reports of all groups of a program, of which that of the main group is the first.
     pub(super) fn of_groups(reports: Vec<Self>, channels: &[Channel]) -> Self {
         let mut all = Self::default();
         for (group, report) in reports.into_iter().enumerate() {
@@ -86,7 +86,8 @@ impl Report {
             all.missed += report.missed;
             all.compared.extend(report.compared);
             all.missing.extend(report.missing);
-            // What is said of the whole file is the same in all of them; one that ended early may not know it.
+            // Facts on the whole file are the same in all reports, except that a group that ended early may not know
+            // them.
             all.cut = all.cut.or(report.cut);
             if all.dropped.is_empty() {
                 all.dropped = report.dropped;
@@ -173,11 +174,11 @@ impl Display for Compared {
     }
 }
 
-/// The characters shown before the first difference of two texts, and after it.
+/// Numbers of characters shown before the first difference of two texts, and from it on.
 const BEFORE: usize = 40;
 const AFTER: usize = 60;
 
-/// Two texts that differ, without what is far from the place.
+/// Shortens two texts to the surroundings of their first difference.
 fn around(a: &str, b: &str) -> (String, String) {
     let same = a.chars().zip(b.chars()).take_while(|(a, b)| a == b).count();
     let start = same.saturating_sub(BEFORE);

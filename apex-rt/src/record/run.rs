@@ -1,4 +1,4 @@
-//! What [`drive`](crate::drive) and the `apex` command do.
+//! Recording and replay by [`drive`](crate::drive) and the `apex` command.
 
 use super::{
     Finished, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
@@ -13,19 +13,19 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The file that is replayed.
+/// Environment variable with the file to replay.
 const REPLAY: &str = "APEX_REPLAY";
-/// The file that is written.
+/// Environment variable with the file to record to.
 const RECORD: &str = "APEX_RECORD";
 
-/// What is to be done with a recording.
-pub enum Wish {
+/// Request to record a run or to replay a recording.
+pub enum RunMode {
     Record(PathBuf),
     Replay(PathBuf),
 }
 
-impl Wish {
-    /// What the environment says, or a `record` statement of the program.
+impl RunMode {
+    /// Returns the request in the environment variables, or that of the program's `record` statement.
     pub fn of<P: Program>() -> Option<Self> {
         let file = |name| env::var_os(name).map(PathBuf::from);
         match (file(REPLAY), file(RECORD), P::RECORD) {
@@ -36,14 +36,14 @@ impl Wish {
     }
 }
 
-/// Drives a program and records it, or replays a recording of it.
-pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, wish: &Wish) -> u8 {
+/// Drives a program and records it, or replays a recording of it. Returns the exit code.
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, wish: &RunMode) -> u8 {
     match wish {
-        Wish::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
+        RunMode::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
             eprintln!("error: cannot record to `{}`: {error}", path.display());
             2
         }),
-        Wish::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
+        RunMode::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
             Ok(report) => {
                 print!("{report}");
                 u8::from(!report.is_same() || !report.is_whole())
@@ -69,7 +69,7 @@ fn record<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, path:
     Ok(code)
 }
 
-/// Records a program on one thread.
+/// Records a program that runs on one thread.
 fn record_in_turn<P: Program, C: Clock>(
     program: P,
     clock: C,
@@ -83,11 +83,11 @@ fn record_in_turn<P: Program, C: Clock>(
     Ok((code, recorder.finish()?))
 }
 
-/// Lets a program react as it did when `path` was recorded, and says what came out differently. If its groups of threads ran
-/// side by side, they do so again, each with an observer of its own.
+/// Repeats the run that was recorded in `path`, and reports the differences. If its thread groups ran in parallel, they
+/// do so again, each with a clone of `observer`.
 ///
 /// # Errors
-/// The file is no recording of such a program, or cannot be read.
+/// The file is not a recording of such a program, or cannot be read.
 pub fn replay<P: Program>(
     mut program: P,
     path: &Path,
@@ -107,10 +107,10 @@ pub fn replay<P: Program>(
     something(replay.finish(), path)
 }
 
-/// A report of at least one reaction.
+/// Returns the report if it has at least one reaction.
 ///
 /// # Errors
-/// Nothing was repeated, which is the same as anything.
+/// No reaction was repeated, so that the replay proves nothing.
 pub(super) fn something(report: Report, path: &Path) -> Result<Report, ReplayError> {
     match report.reactions {
         0 => Err(ReplayError::Nothing { path: path.to_owned(), why: report.cut }),

@@ -1,4 +1,4 @@
-//! Frames go through a ring of bytes to a thread that writes them into an MCAP file.
+//! Output of recordings: frames pass through rings of bytes to a thread that writes them into an MCAP file.
 
 use super::{Channel, Schema, cdr::STD_HEADER};
 use mcap::{WriteOptions, Writer, records::MessageHeader, records::Metadata};
@@ -16,32 +16,32 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// So many bytes can wait to be written.
+/// Size of a ring, in bytes.
 pub const ROOM: usize = 16 << 20;
-/// What came within this time is written together; a power failure takes no more.
+/// Time between two writes to the disk; a power failure destroys no more than that.
 const FLUSH: Duration = Duration::from_millis(500);
-/// How long the thread sleeps when it has written all there is: what comes meanwhile is written together. If nothing
-/// comes, it sleeps until something does.
+/// Sleep of the thread when it has written all frames, so that later frames are written together. If no frame comes
+/// meanwhile, it sleeps until one does.
 const NAP: Duration = Duration::from_millis(2);
-/// The largest part of a file that is read and found as a whole.
+/// Size of a chunk of the file, in bytes. A chunk is read and indexed as a whole.
 const CHUNK: u64 = 1 << 20;
 
-/// The channels that every recording has, before those of the program.
+/// Beginnings of reactions. The channels that every recording has come before those of the program.
 pub const REACTION: u16 = 0;
-/// How long reactions had been going on, where a deadline asked.
+/// Times since the beginning of a reaction, for deadlines.
 pub const ELAPSED: u16 = 1;
-/// Parameters, when they were set from outside.
+/// Parameters that were set from outside.
 pub const PARAMETER: u16 = 2;
 /// Events of the program that were taken out.
 pub const TAKEN: u16 = 3;
-/// Looks at what is between groups of threads that found something.
+/// Checks of cells between thread groups that found something.
 pub const LOOKED: u16 = 4;
-/// The end of a reaction of a group of threads.
+/// Ends of reactions of a thread group.
 pub const ENDED: u16 = 5;
-/// The first channel of the program.
+/// Number of the first channel of the program.
 pub const FIRST: usize = 6;
 
-/// The names and messages of the channels that every recording has.
+/// Names and schemas of the channels that every recording has.
 pub const OWN: [(&str, Schema); FIRST] = [
     ("apex/reaction", own("apex_msgs/msg/Reaction", "uint32 group\nint64 nanoseconds")),
     ("apex/elapsed", own("apex_msgs/msg/Elapsed", "uint64 nanoseconds\nuint32 group")),
@@ -55,23 +55,23 @@ const fn own(name: &'static str, definition: &'static str) -> Schema {
     Schema { name, definition, encoding: "cdr" }
 }
 
-/// The name under which the file says what was lost.
+/// Name of the metadata with the numbers of lost messages.
 pub const DROPPED: &str = "apex/dropped";
-/// The name under which the file says what program was recorded.
+/// Name of the metadata on the recorded program.
 pub const PROGRAM: &str = "apex/program";
 
-/// In what the file says of the program: the groups of threads that ran side by side, if any did.
+/// Key of the thread groups that ran in parallel, in the metadata on the program.
 pub const THREADS: &str = "threads";
 
-/// Bytes before each frame: channel, call, time, length.
+/// Length of the header of each frame, in bytes: channel, call, time, length.
 const HEADER: usize = 2 + 4 + 8 + 4;
 
-/// A message on its way to the ring.
+/// A message for the ring, with its header.
 #[derive(Default)]
 pub struct Frame(Vec<u8>);
 
 impl Frame {
-    /// Begins a message; what is in it is written behind.
+    /// Begins a message. Its content is appended to the result.
     pub fn begin(&mut self, channel: u16, call: u32, time: u64) -> &mut Vec<u8> {
         self.0.clear();
         self.0.extend_from_slice(&channel.to_le_bytes());
@@ -81,7 +81,7 @@ impl Frame {
         &mut self.0
     }
 
-    /// The bytes with their length; `None` if they are too many.
+    /// Returns the bytes of header and message; `None` if the message is too long.
     fn whole(&mut self) -> Option<&[u8]> {
         let length = u32::try_from(self.0.len() - HEADER).ok()?;
         self.0[HEADER - 4..HEADER].copy_from_slice(&length.to_le_bytes());
@@ -89,35 +89,36 @@ impl Frame {
     }
 }
 
-/// The near ends of the rings: one for each thread that writes, so that none of them ever waits for another one.
+/// Access to the thread that writes the file. Each thread that sends has a ring of its own, so that none ever waits for
+/// another.
 pub struct Sink {
     shared: Arc<Shared>,
-    /// Until it has ended.
+    /// The thread, until it has ended.
     thread: Option<JoinHandle<io::Result<()>>>,
 }
 
-/// What the near end of a ring and the thread at the far ends share.
+/// State that the sending ends and the writing thread share.
 struct Shared {
     over: AtomicBool,
-    /// The thread sleeps until it is unparked.
+    /// `true` if the thread sleeps until it is unparked.
     sleeps: AtomicBool,
-    /// Messages that were lost, by channel.
+    /// Numbers of lost messages, by channel.
     dropped: Box<[AtomicU64]>,
 }
 
-/// The near end of one ring.
+/// The sending end of a ring.
 pub struct Near {
     ring: Producer<u8>,
     shared: Arc<Shared>,
     far: Thread,
-    /// Bytes of the largest frame that ever fits.
+    /// Size of the ring, and thus of the largest frame that fits, in bytes.
     room: usize,
 }
 
 impl Sink {
-    /// Makes the file and begins to write, from so many `rings`. `about` says what program it is, and `room` bytes can
-    /// wait in each ring. What is in the first ring is written before what is in the others, once it is
-    /// [`settled`](Near::settle).
+    /// Creates the file, and starts the thread that writes frames from `rings` rings of `room` bytes. `about` is the
+    /// metadata on the program. Frames in the first ring are written before those that other rings get after
+    /// [`settle`](Near::settle).
     pub fn new(
         path: PathBuf,
         about: BTreeMap<String, String>,
@@ -138,13 +139,13 @@ impl Sink {
         Ok((Self { shared, thread: Some(thread) }, near))
     }
 
-    /// How many messages were lost, by channel.
+    /// Returns the numbers of lost messages, by channel.
     pub fn dropped(&self) -> impl Iterator<Item = u64> + '_ {
         self.shared.dropped.iter().map(|count| count.load(Ordering::Relaxed))
     }
 
-    /// Writes what is left, and what was lost, and ends the file. `near` is any of the ends; the others are not used
-    /// any more.
+    /// Writes all remaining frames and the numbers of lost messages, and ends the file. `near` is any of the sending
+    /// ends; the others are not used any more.
     pub fn finish(mut self, near: &mut Near, dropped: &[(String, u64)]) -> io::Result<()> {
         let fields: BTreeMap<String, String> = dropped.iter().map(|(name, n)| (name.clone(), n.to_string())).collect();
         if let Ok(text) = postcard::to_allocvec(&fields) {
@@ -157,7 +158,7 @@ impl Sink {
         self.end()
     }
 
-    /// Ends the file with what was sent.
+    /// Ends the file after all frames that were sent.
     fn end(&mut self) -> io::Result<()> {
         let Some(thread) = self.thread.take() else { return Ok(()) };
         self.shared.over.store(true, Ordering::Release);
@@ -173,8 +174,9 @@ impl Drop for Sink {
 }
 
 impl Shared {
-    /// Wakes the thread that writes, if it sleeps until somebody does. It says that it sleeps and looks once more; here
-    /// one sends and asks then: whoever changes `sleeps` last has seen what the other did before.
+    /// Wakes the thread that writes, if it sleeps. That thread sets `sleeps` and then looks at the rings once more; the
+    /// caller sends a frame and then clears `sleeps`. The one that changes `sleeps` last sees what the other did
+    /// before.
     fn stir(&self, far: &Thread) {
         if self.sleeps.swap(false, Ordering::AcqRel) {
             far.unpark();
@@ -183,7 +185,7 @@ impl Shared {
 }
 
 impl Near {
-    /// Sends a message; whether there was room for it.
+    /// Sends a message. Returns `false` if there is no room for it.
     pub fn send(&mut self, frame: &mut Frame) -> bool {
         let sent = frame.whole().is_some_and(|bytes| self.ring.push_entire_slice(bytes).is_ok());
         if sent {
@@ -192,17 +194,17 @@ impl Near {
         sent
     }
 
-    /// Whether there will be room for a message, if one waits.
+    /// Returns `true` if there will be room for a message after a wait.
     pub fn may_fit(&self, frame: &Frame) -> bool {
         frame.0.len() <= self.room && !self.ring.is_abandoned()
     }
 
-    /// A message of a channel was lost.
+    /// Counts a lost message of a channel.
     pub fn lose(&self, channel: usize) {
         self.shared.dropped[channel].fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Waits until all that was sent is on its way to the file, before anything that is sent from now on by others.
+    /// Waits until the ring is empty: all its frames then come before those that other rings get from now on.
     pub fn settle(&self) {
         while self.ring.slots() < self.room && !self.ring.is_abandoned() {
             thread::sleep(NAP);
@@ -216,7 +218,7 @@ fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mc
     let options = WriteOptions::new()
         .compression(None)
         .chunk_size(Some(CHUNK))
-        // A chunk is written when it is whole: one that was begun could not be read.
+        // A chunk is written as a whole: an incomplete one could not be read.
         .disable_seeking(true)
         .profile("ros2")
         .library(concat!("apex ", env!("CARGO_PKG_VERSION")));
@@ -235,7 +237,7 @@ fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mc
     Ok(writer)
 }
 
-/// The far ends of the rings.
+/// The receiving ends of the rings, on the thread that writes.
 struct Far {
     rings: Vec<Consumer<u8>>,
     writer: Out,
@@ -250,7 +252,7 @@ impl Far {
         let result = self.write_all().and_then(|()| self.writer.finish().map(drop).map_err(as_io));
         if let Err(error) = &result {
             eprintln!("error: cannot write `{}` any further: {error}", self.path.display());
-            // The program goes on; what it says is dropped from now on, as the rings are abandoned.
+            // The program continues. Its messages are dropped from now on, because the rings are abandoned.
         }
         result
     }
@@ -258,7 +260,7 @@ impl Far {
     fn write_all(&mut self) -> io::Result<()> {
         let (mut flushed, mut dirty, mut idle) = (Instant::now(), false, false);
         loop {
-            // Asked before looking: what was sent before the end is then seen.
+            // Loaded before the rings are read, so that all frames from before the end are seen.
             let over = self.shared.over.load(Ordering::Acquire);
             let wrote = self.write_waiting(flushed + FLUSH)?;
             dirty |= wrote;
@@ -278,14 +280,14 @@ impl Far {
                 idle = !wrote;
             } else {
                 self.sleep(dirty.then(|| FLUSH.saturating_sub(flushed.elapsed())));
-                // Nothing to flush came long ago.
+                // Without unflushed data the time until the next flush begins now.
                 flushed = if dirty { flushed } else { Instant::now() };
                 idle = false;
             }
         }
     }
 
-    /// Sleeps until something is sent, or for some time.
+    /// Sleeps until a frame is sent, at most for `time`.
     fn sleep(&self, time: Option<Duration>) {
         self.shared.sleeps.swap(true, Ordering::AcqRel);
         let is_quiet = self.rings.iter().all(Consumer::is_empty) && !self.shared.over.load(Ordering::Acquire);
@@ -297,7 +299,7 @@ impl Far {
         self.shared.sleeps.store(false, Ordering::Release);
     }
 
-    /// Writes what waits in the rings, one after the other, until `end`; whether there was anything.
+    /// Writes the frames of all rings in sequence, until `end`. Returns `true` if there were any.
     fn write_waiting(&mut self, end: Instant) -> io::Result<bool> {
         let mut any = false;
         for ring in 0..self.rings.len() {
@@ -311,10 +313,10 @@ impl Far {
         Ok(any)
     }
 
-    /// Writes a frame of a ring, if one is there.
+    /// Writes a frame of a ring. Returns `false` if there is none.
     fn write_one(&mut self, ring: usize) -> io::Result<bool> {
         let (ring, mut head) = (&mut self.rings[ring], [0; HEADER]);
-        // Frames come in one piece: with the head the rest is there.
+        // A frame is pushed as a whole: if its header is there, so is the rest.
         if ring.pop_entire_slice(&mut head).is_err() {
             return Ok(false);
         }
@@ -346,7 +348,7 @@ fn as_io(error: mcap::McapError) -> io::Error {
     }
 }
 
-/// `path`, or, as nothing is overwritten, the first of `run-2.mcap`, `run-3.mcap` … that is not there yet.
+/// Returns `path`, or the first of `run-2.mcap`, `run-3.mcap`, … that does not exist: nothing is overwritten.
 pub fn free(path: &Path) -> PathBuf {
     let (stem, end) = (path.file_stem().unwrap_or_default(), path.extension().unwrap_or_default());
     let numbered = |n: u32| {
@@ -354,7 +356,7 @@ pub fn free(path: &Path) -> PathBuf {
         name.push(format!("-{n}"));
         let mut file = path.with_file_name(name);
         if !end.is_empty() {
-            // `with_extension` would take a part of a name with points for one.
+            // `with_extension` would replace the last part of a name with dots.
             file.as_mut_os_string().push(".");
             file.as_mut_os_string().push(end);
         }

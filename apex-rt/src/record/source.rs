@@ -1,6 +1,6 @@
-//! Reads an MCAP file from its beginning, one message after the other, as far as it goes: also a file that was cut off
-//! in the middle of a chunk, or has wrong bytes in it. What the file says of itself at its end is compared with what
-//! was read: one that is read to its end without a word is what was written.
+//! Reader of an MCAP file from its beginning, one message after the other. It also reads a file that was cut off in the
+//! middle of a chunk, or has wrong bytes, up to that place. Checksums and the statistics at the end of the file are
+//! compared with what was read, so that a file without an error is complete and unchanged.
 
 use super::sink::{DROPPED, PROGRAM, THREADS};
 use crc32fast::Hasher;
@@ -15,18 +15,18 @@ use std::{
     path::Path,
 };
 
-/// No record is larger: a length that says so is damage.
+/// Maximum length of a record, in bytes. A larger length is damage.
 const LARGEST: u64 = 1 << 30;
-/// Why a file ends where nothing is wrong before.
+/// Reason for the end of a file that ends in the middle of a record.
 pub const CUT: &str = "it was cut off";
-/// The bytes of a chunk before the records in it.
+/// Length of a chunk before its records, in bytes.
 const CHUNK_HEAD: u64 = 40;
-/// The kinds of the records that hold data, beside chunks.
+/// Kinds of records with data, except chunks.
 const DATA: [u8; 8] =
     [op::HEADER, op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA, op::MESSAGE_INDEX, op::ATTACHMENT, op::DATA_END];
-/// The kinds of the records in a chunk.
+/// Kinds of records in a chunk.
 const IN_CHUNK: [u8; 3] = [op::SCHEMA, op::CHANNEL, op::MESSAGE];
-/// The kinds of the records behind the data.
+/// Kinds of records after the data.
 const SUMMARY: [u8; 7] = [
     op::SCHEMA,
     op::CHANNEL,
@@ -37,53 +37,53 @@ const SUMMARY: [u8; 7] = [
     op::SUMMARY_OFFSET,
 ];
 
-/// A channel of a file.
+/// Channel of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileChannel {
-    /// Its name.
+    /// Name of the channel.
     pub name: String,
-    /// The name of its schema.
+    /// Name of its schema.
     pub schema: String,
-    /// How its messages are written.
+    /// Encoding of its messages.
     pub encoding: String,
 }
 
-/// A message of a file.
+/// Message of a file.
 #[derive(Debug)]
 pub struct FileMessage {
-    /// Its channel.
+    /// Number of its channel.
     pub channel: u16,
-    /// Its time, in nanoseconds.
+    /// Time in ns.
     pub time: u64,
-    /// Its number.
+    /// Sequence number.
     pub sequence: u32,
-    /// Its bytes.
+    /// Bytes of the message.
     pub data: Vec<u8>,
 }
 
-/// A file that is read.
+/// A file that is being read.
 pub struct Source {
     file: Summed,
-    /// How many chunks were read, and messages of each channel.
+    /// Number of chunks and of messages in each channel that were read.
     chunks: u32,
     counts: BTreeMap<u16, u64>,
-    /// The records of the chunk that is read, and how far it is.
+    /// Records of the current chunk, with the position in them.
     chunk: io::Cursor<Vec<u8>>,
     schemas: BTreeMap<u16, String>,
-    /// The channels that it has named so far.
+    /// Channels that were read, by their number.
     pub channels: BTreeMap<u16, FileChannel>,
-    /// The program that was recorded, as soon as it is known.
+    /// Name of the recorded program, once it was read.
     pub program: Option<String>,
-    /// The groups of threads that ran side by side, if any did.
+    /// Names of the thread groups that ran in parallel, if any did.
     pub threads: Option<String>,
-    /// What was lost, as the file says at its end.
+    /// Numbers of lost messages by channel, from the end of the file.
     pub dropped: Vec<(String, u64)>,
-    /// Why it could not be read to its end.
+    /// Reason why the file could not be read to its end.
     pub cut: Option<String>,
     over: bool,
 }
 
-/// A file with the checksum of what was read of it.
+/// File with the checksum of the bytes that were read.
 struct Summed {
     file: BufReader<File>,
     sum: Hasher,
@@ -97,13 +97,13 @@ impl Read for Summed {
     }
 }
 
-/// Why there is no next record.
+/// Reason why there is no next record.
 enum Stop {
-    /// The file ends in the middle of one.
+    /// The file ends in the middle of a record.
     Cut,
-    /// It makes no sense.
+    /// The file is damaged.
     Damage(String),
-    /// It cannot be read.
+    /// The file cannot be read.
     Io(io::Error),
 }
 
@@ -111,7 +111,7 @@ impl Source {
     /// Opens a file.
     ///
     /// # Errors
-    /// Says why it cannot be read.
+    /// The file cannot be read, or is not an MCAP file.
     pub fn open(path: &Path) -> io::Result<Self> {
         if path.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
@@ -138,10 +138,10 @@ impl Source {
         })
     }
 
-    /// The next message; `None` at the end, or where the file was cut.
+    /// Returns the next message; `None` at the end, or where the file is cut off or damaged.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The file cannot be read.
     pub fn next(&mut self) -> io::Result<Option<FileMessage>> {
         while !self.over {
             match self.next_record().and_then(|record| self.record(record)) {
@@ -155,7 +155,7 @@ impl Source {
         Ok(None)
     }
 
-    /// What is left of the file makes no sense.
+    /// Reports that the rest of the file is damaged.
     pub fn damaged(&mut self, what: &str) {
         self.stop(&format!("it is damaged: {what}"));
     }
@@ -187,7 +187,7 @@ impl Source {
         }
     }
 
-    /// Reads what the file says of itself behind its data, and compares that with what was read.
+    /// Reads the summary after the data, and compares its statistics with what was read.
     fn read_summary(&mut self) -> Result<(), Stop> {
         self.file.sum = Hasher::new();
         let mut statistics = None;
@@ -205,7 +205,7 @@ impl Source {
         self.compare(&statistics.ok_or_else(|| Stop::Damage("it does not say how much is in it".to_owned()))?)
     }
 
-    /// Reads the last record, whose last field is the sum of all after the data, and what ends the file.
+    /// Reads the last record, whose last field is the checksum of everything after the data, and the end of the file.
     fn read_footer(&mut self, length: u64) -> Result<(), Stop> {
         let (mut places, mut sum, mut magic) = ([0; 16], [0; 4], [0; MAGIC.len()]);
         self.file.read_exact(&mut places).map_err(stop)?;
@@ -220,7 +220,7 @@ impl Source {
         }
     }
 
-    /// Compares what is in the file with what it says.
+    /// Compares the statistics of the file with what was read.
     fn compare(&self, said: &Statistics) -> Result<(), Stop> {
         let count: u64 = self.counts.values().sum();
         // Channels without messages are not counted.
@@ -238,11 +238,11 @@ impl Source {
         }
     }
 
-    /// Loads a chunk of so many bytes, or what is there of it.
+    /// Loads a chunk of `length` bytes, or the part of it that is in the file.
     fn begin_chunk(&mut self, length: u64) -> Result<(), Stop> {
         let mut body = vec![];
         (&mut self.file).take(length).read_to_end(&mut body).map_err(Stop::Io)?;
-        // Times, the size and the sum of what is in it, how it is compressed, and its length in the file.
+        // Start and end time, uncompressed size, checksum, compression, and size in the file.
         let (head, rest) = body.split_at_checked(24).ok_or(Stop::Cut)?;
         let (sum, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
         let (name, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
@@ -303,7 +303,7 @@ impl Source {
     }
 }
 
-/// Whether a record of this kind may stand here.
+/// Checks that a record of this kind may be at this place.
 fn belongs(kind: u8, kinds: &[u8]) -> Result<(), Stop> {
     match kinds.contains(&kind) {
         true => Ok(()),
@@ -311,7 +311,7 @@ fn belongs(kind: u8, kinds: &[u8]) -> Result<(), Stop> {
     }
 }
 
-/// Whether `sum` is what was written; 0 says that there is none.
+/// Checks that `sum` is the checksum that was `written`; 0 stands for no checksum.
 fn is_sum(sum: Hasher, written: u32, of: &str) -> Result<(), Stop> {
     match written == 0 || sum.finalize() == written {
         true => Ok(()),
@@ -319,7 +319,7 @@ fn is_sum(sum: Hasher, written: u32, of: &str) -> Result<(), Stop> {
     }
 }
 
-/// The kind of a record and the length of its body.
+/// Reads the kind of a record and the length of its body.
 fn read_head(from: &mut impl Read) -> Result<(u8, u64), Stop> {
     let mut head = [0; 9];
     from.read_exact(&mut head).map_err(stop)?;

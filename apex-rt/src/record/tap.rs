@@ -2,15 +2,15 @@ use super::{Codec, Recorder, Replay};
 use crate::{Mailbox, Observer, Parameters, Time};
 use core::time::Duration;
 
-/// Where a program lets tokens out, to be recorded, or takes recorded ones in. The observer of a reaction has it; generated
-/// code calls it.
+/// Tap of a program: records its tokens, or supplies recorded ones. Generated code calls the tap of the reaction's
+/// observer.
 ///
 /// Ports are given by their index in [`Program::channels`](crate::Program::channels).
 #[allow(clippy::large_enum_variant, reason = "a program has one")]
 pub enum Tap {
-    /// A run is recorded.
+    /// Records a run.
     Record(Recorder),
-    /// A run is repeated.
+    /// Repeats a run.
     Replay(Replay),
 }
 
@@ -22,7 +22,7 @@ impl Observer for Tap {
 
 #[doc(hidden)]
 impl Tap {
-    /// A reaction at `now` begins.
+    /// Begins a reaction at `now`.
     pub fn begin(&mut self, now: Time) {
         match self {
             Self::Record(recorder) => recorder.begin(now),
@@ -30,7 +30,7 @@ impl Tap {
         }
     }
 
-    /// A group looks at what is between it and another one: whether it finds something.
+    /// Checks a cell between two groups. Returns `true` if there is something in it; in a replay, if there was.
     pub fn looked(&mut self, finds: impl Fn() -> bool) -> bool {
         match self {
             Self::Record(recorder) => recorder.looked(finds()),
@@ -38,7 +38,7 @@ impl Tap {
         }
     }
 
-    /// The reaction has ended.
+    /// Ends the reaction.
     pub fn end(&mut self) {
         match self {
             Self::Record(recorder) => recorder.end(),
@@ -46,7 +46,7 @@ impl Tap {
         }
     }
 
-    /// Before a reaction: what may have been set from outside.
+    /// Records the parameters that were set from outside, or sets recorded ones. Called before a reaction.
     pub fn set_params<P: Parameters>(&mut self, program: &mut P) {
         match self {
             Self::Record(recorder) => recorder.changed_params(program),
@@ -54,20 +54,20 @@ impl Tap {
         }
     }
 
-    /// After a reaction: what the program may have set itself.
+    /// Stores the parameters, which the program itself may have set. Called after a reaction.
     pub fn keep_params<P: Parameters>(&mut self, program: &mut P) {
         if let Self::Record(recorder) = self {
             recorder.keep_params(program);
         }
     }
 
-    /// Before a reaction: a token may have been put in.
+    /// Records a token that was put into a mailbox, or puts a recorded one in. Called before a reaction.
     pub fn put_in<T>(&mut self, channel: usize, codec: Option<Codec<T>>, mailbox: &mut Mailbox<T>) {
         match self {
             Self::Record(recorder) => recorder.put_in(channel, codec, mailbox),
             Self::Replay(replay) => {
                 if let Some(token) = replay.take(channel, codec) {
-                    // The one before was taken when this was recorded.
+                    // In the recorded run the previous token had been taken.
                     mailbox.take();
                     let _ = mailbox.put(token);
                 }
@@ -75,7 +75,7 @@ impl Tap {
         }
     }
 
-    /// Before a reaction: a token may have been taken out.
+    /// Records that a token was taken out of a mailbox, or takes one out as recorded. Called before a reaction.
     pub fn taken_out<T>(&mut self, channel: usize, mailbox: &mut Mailbox<T>) {
         match self {
             Self::Record(recorder) => recorder.taken_out(channel, mailbox.is_full()),
@@ -87,14 +87,15 @@ impl Tap {
         }
     }
 
-    /// After a reaction: whether a mailbox holds a token.
+    /// Stores if a mailbox is full. Called after a reaction.
     pub fn keep_mailbox(&mut self, channel: usize, is_full: bool) {
         if let Self::Record(recorder) = self {
             recorder.keep_mailbox(channel, is_full);
         }
     }
 
-    /// A source fires, or takes a token at a slot. Whether it is not to be called, because what it sent is recorded.
+    /// Called before a source fires or takes a token at a slot. Returns `true` if the source must not be called because
+    /// its tokens are recorded.
     pub fn calls(&mut self, node: usize) -> bool {
         match self {
             Self::Record(recorder) => {
@@ -105,14 +106,14 @@ impl Tap {
         }
     }
 
-    /// What a source sent at a port, after it was called.
+    /// Records the token that a source sent at a port. Called after the source.
     pub fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: Option<&T>) {
         if let (Self::Record(recorder), Some(token)) = (self, token) {
             recorder.token(channel, codec, token);
         }
     }
 
-    /// What a source sent at a port when it was recorded.
+    /// Returns the recorded token of a source at a port.
     pub fn take<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
         match self {
             Self::Record(_) => None,
@@ -120,7 +121,8 @@ impl Tap {
         }
     }
 
-    /// As [`take`](Self::take), of a source that always sends: where nothing was recorded, the one before again.
+    /// Returns the recorded token as [`take`](Self::take) does, for a source that always sends. If there is none,
+    /// returns the previous one again.
     pub fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
         match self {
             Self::Record(_) => None,
@@ -128,7 +130,7 @@ impl Tap {
         }
     }
 
-    /// A token passed a port that was chosen.
+    /// Records a token of a selected port, or compares it with the recorded one.
     pub fn token<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: Option<&T>) {
         let Some(token) = token else { return };
         match self {
@@ -137,7 +139,7 @@ impl Tap {
         }
     }
 
-    /// How long a reaction has been going on.
+    /// Records the time since the beginning of the reaction, or returns the recorded one.
     pub fn elapsed(&mut self, elapsed: Duration) -> Duration {
         match self {
             Self::Record(recorder) => recorder.elapsed(elapsed),
@@ -146,7 +148,8 @@ impl Tap {
     }
 }
 
-/// Whether a group finds something between it and another one, for generated code: what it found when it was recorded.
+/// Checks a cell between two groups, for generated code. Returns `true` if there is something in it; in a replay, if
+/// there was.
 #[doc(hidden)]
 #[inline]
 pub fn looked<O: Observer>(observer: &mut O, finds: impl Fn() -> bool) -> bool {

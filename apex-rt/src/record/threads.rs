@@ -1,14 +1,16 @@
-//! Programs whose groups run side by side, each on a thread of its own.
+//! Recording and replay of programs whose thread groups run in parallel.
 //!
-//! Only cells carry anything from one group to another, and a group looks at its cells at certain points alone. So what it
-//! does follows, besides from what enters it, from what these looks find: that is recorded, and in a replay a group that
-//! found something waits until it is there.
+//! Groups exchange tokens only through cells, and a group checks its cells only at certain points. Its behaviour thus
+//! follows from its inputs and from the results of these checks. The results are recorded; in a replay, a group whose
+//! check found something waits until it is there.
 
-use super::{Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source, waits::Waits};
+use super::{
+    Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source, waits::ReplayBarrier,
+};
 use crate::{
     CellSender, Observer, Ports, Program,
     ports::Ways,
-    threads::{Group, Pace, Parcel, Spawn, Wake, drive_from_threads},
+    threads::{CellMessage, Group, Pace, Spawn, Wake, drive_from_threads},
 };
 use std::{
     io, mem,
@@ -18,8 +20,8 @@ use std::{
     thread::{Scope, ScopedJoinHandle, scope},
 };
 
-/// As [`drive_on_threads`](crate::threads::drive_on_threads), and records the run in the file `path`, or, if that is
-/// there already, in one with a number. Returns the exit code besides.
+/// Drives a program as [`drive_on_threads`](crate::threads::drive_on_threads) does, and records the run in the file
+/// `path`. If that exists, a number is added to its name. Also returns the exit code.
 ///
 /// # Errors
 /// The file cannot be written, or a source sends tokens that cannot be recorded.
@@ -32,7 +34,7 @@ pub fn record_on_threads<P: Program, O: Observer + Send>(
     record_from_threads(program, pace, Ports::<P>::new().0, path, observer)
 }
 
-/// The same, with ways into the program and out of it for other threads.
+/// Records a program as [`record_on_threads`] does, with ports for other threads.
 pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     pace: Pace,
@@ -40,7 +42,7 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
     path: &Path,
     observer: impl Fn(usize) -> O,
 ) -> io::Result<(u8, Finished)> {
-    // A single group is recorded as ever; it may have settings that need a thread.
+    // A single group is recorded like a program without groups; it may have settings that need a thread.
     let several = P::INFO.groups.len() > 1;
     let groups = if several { const { P::INFO.groups } } else { &[] };
     let mut tap = Tap::Record(Recorder::of_threads::<P>(path, groups)?);
@@ -53,7 +55,7 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
     Ok((code, recorder.finish()?))
 }
 
-/// The groups that ran side by side when `path` was recorded, if there were several.
+/// Returns the groups that ran in parallel when `path` was recorded, if there were several.
 pub(super) fn recorded_threads(path: &Path) -> Result<Option<String>, ReplayError> {
     let at = |error| ReplayError::File(path.to_owned(), error);
     let mut source = Source::open(path).map_err(at)?;
@@ -73,7 +75,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
         let (path, recorded) = (path.to_owned(), recorded.to_owned());
         return Err(ReplayError::OtherThreads { path, recorded, wanted: recorder::names(groups) });
     }
-    let waits = Arc::new(Waits::new(groups.len()));
+    let waits = Arc::new(ReplayBarrier::new(groups.len()));
     let open = |group| Replay::of_group::<P>(path, group, Arc::clone(&waits)).map(Tap::Replay);
     let mut taps = (0..groups.len()).map(open).collect::<Result<Vec<Tap>, ReplayError>>()?;
     if let Some(main) = taps.first_mut() {
@@ -91,7 +93,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
     run::something(Report::of_groups(reports, &P::channels()), path)
 }
 
-/// Groups look for themselves whether something has come.
+/// Wake that does nothing: in a replay, groups check for themselves if something has come.
 #[derive(Clone, Copy)]
 struct Nobody;
 
@@ -99,15 +101,15 @@ impl Wake for Nobody {
     fn wake(&self, _group: usize) {}
 }
 
-/// The way to tell a group that a node hangs.
-type Hung<'a> = CellSender<'a, Parcel<()>>;
+/// Cell that reports a hanging node to a group.
+type Hung<'a> = CellSender<'a, CellMessage<()>>;
 
-/// Repeats what each group did.
+/// Runner that repeats the recorded run of each group.
 struct Repeat<'scope, 'env, O> {
     scope: &'scope Scope<'scope, 'env>,
     observer: &'env O,
-    waits: &'env Waits,
-    /// What each group did, until it begins.
+    waits: &'env ReplayBarrier,
+    /// Recording of each group, until the group starts.
     taps: Vec<Option<Tap>>,
     hung: Vec<(usize, Hung<'env>)>,
     threads: Vec<ScopedJoinHandle<'scope, io::Result<Report>>>,
@@ -115,7 +117,7 @@ struct Repeat<'scope, 'env, O> {
 }
 
 impl<'env, O: Observer + Send + Clone> Repeat<'_, 'env, O> {
-    /// What a group is repeated with.
+    /// Returns the parts of the repetition of a group.
     fn part<G: Group>(&mut self, group: usize, part: G) -> Option<Part<'env, G, O>> {
         let tap = self.taps.get_mut(group)?.take()?;
         let all = mem::take(&mut self.hung);
@@ -147,7 +149,7 @@ struct Part<'a, G, O> {
     tap: Tap,
     hung: Vec<(usize, Hung<'a>)>,
     observer: O,
-    waits: &'a Waits,
+    waits: &'a ReplayBarrier,
 }
 
 impl<G: Group, O: Observer> Part<'_, G, O> {
@@ -156,7 +158,8 @@ impl<G: Group, O: Observer> Part<'_, G, O> {
         loop {
             let Tap::Replay(replay) = &mut self.tap else { unreachable!("it was made so") };
             let Some(now) = replay.next_reaction()? else { break };
-            // When a node was seen to hang is recorded with the looks: it may be told at any time.
+            // The time at which a hanging node was noticed is recorded by the checks of cells, so that the report may
+            // come early.
             for (_, hung) in &mut self.hung {
                 hung.put(|parcel| parcel.token = Some(()));
             }
@@ -169,9 +172,9 @@ impl<G: Group, O: Observer> Part<'_, G, O> {
     }
 }
 
-/// Tells the others that a group has ended, in whatever way.
+/// Guard that reports the end of a group to the others, even after a panic.
 struct Ends<'a> {
-    waits: &'a Waits,
+    waits: &'a ReplayBarrier,
     group: usize,
     cut: bool,
 }

@@ -1,4 +1,4 @@
-//! The tokens of one channel, for a test.
+//! Tokens of one channel of a recording, for tests.
 
 use super::{Codec, source::Source};
 use core::time::Duration;
@@ -7,10 +7,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The tokens of the channel `channel` of a recording, with their times. `file` is given from the folder of `text`.
+/// Returns the tokens of the channel `channel` of a recording, with their times. The path `file` is relative to the
+/// folder of the source file `text`.
 ///
 /// # Panics
-/// It cannot be read, or has no such tokens.
+/// The file cannot be read, or has no such tokens.
 pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>) -> Vec<(Duration, T)> {
     try_tokens(&find(text, file), channel, codec).unwrap_or_else(|message| panic!("{message}"))
 }
@@ -41,7 +42,8 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
     Ok(tokens)
 }
 
-/// Tests run in the folder of their package, but texts are named from that of the workspace.
+/// Returns the path of `file`. Tests run in the folder of their package, but paths of source files begin at the
+/// workspace.
 fn find(text: &str, file: &str) -> PathBuf {
     let from_text = Path::new(text).parent().unwrap_or(Path::new("")).join(file);
     let here = env::current_dir().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! How groups of threads wait for each other in a replay, and when one waits for what cannot come any more.
+//! Waits between thread groups in a replay, with detection of waits that cannot end.
 
 use std::{
     hint,
@@ -7,69 +7,69 @@ use std::{
     time::Duration,
 };
 
-/// So often a group looks again before it sleeps.
+/// Number of checks before a group sleeps.
 const SPINS: u32 = 100;
-/// How long it sleeps between two looks.
+/// Sleep between two checks.
 const PAUSE: Duration = Duration::from_micros(50);
 
-/// What the groups of a replay know of each other.
+/// State that the groups of a replay share.
 #[derive(Debug)]
-pub struct Waits(Mutex<State>);
+pub struct ReplayBarrier(Mutex<State>);
 
 #[derive(Debug)]
 struct State {
     groups: Vec<Group>,
-    /// Counts what happens to `groups`.
+    /// Number of changes of `groups`.
     changes: u64,
-    /// A group ended because the recording was cut there.
+    /// `true` if a group has ended where the recording is cut off.
     cut: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Group {
     Runs,
-    /// It has looked in vain after so many changes.
-    Waits(u64),
+    /// The group waits, and its last check in vain came after so many changes.
+    ReplayBarrier(u64),
     Ended,
 }
 
-/// What comes of a wait.
+/// Result of a wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Waited {
-    /// What was recorded.
+pub enum WaitOutcome {
+    /// The awaited token is there, as recorded.
     Found,
-    /// It does not come any more: this run is another one.
+    /// The awaited token cannot come any more: this run differs from the recorded one.
     Missed,
-    /// It would come from what was not recorded any more.
+    /// The awaited token would come from a part of the run that is cut off in the recording.
     Cut,
 }
 
-impl Waits {
-    /// So many groups run.
+impl ReplayBarrier {
+    /// Returns the state in which `groups` groups run.
     pub fn new(groups: usize) -> Self {
         Self(Mutex::new(State { groups: vec![Group::Runs; groups], changes: 0, cut: false }))
     }
 
-    /// Group `group` waits until it `finds` what it is looking for, or until this cannot come any more.
-    pub fn wait(&self, group: usize, finds: impl Fn() -> bool) -> Waited {
+    /// Waits in group `group` until `finds` returns `true`, or until that cannot happen any more.
+    pub fn wait(&self, group: usize, finds: impl Fn() -> bool) -> WaitOutcome {
         for _ in 0..SPINS {
             if finds() {
-                return Waited::Found;
+                return WaitOutcome::Found;
             }
             hint::spin_loop();
         }
-        let mut seen = self.state().change(group, Group::Waits(0));
+        let mut seen = self.state().change(group, Group::ReplayBarrier(0));
         loop {
             if finds() {
                 self.state().change(group, Group::Runs);
-                return Waited::Found;
+                return WaitOutcome::Found;
             }
             let mut state = self.state();
-            // Others may have changed something after this group looked: then `seen` is not the last change.
-            state.groups[group] = Group::Waits(seen);
+            // Other groups may have changed something after this group looked: then `seen` is not the last change.
+            state.groups[group] = Group::ReplayBarrier(seen);
             if state.gives_up(group) {
                 state.change(group, Group::Runs);
-                return if state.cut { Waited::Cut } else { Waited::Missed };
+                return if state.cut { WaitOutcome::Cut } else { WaitOutcome::Missed };
             }
             seen = state.changes;
             drop(state);
@@ -77,7 +77,7 @@ impl Waits {
         }
     }
 
-    /// Group `group` does nothing any more.
+    /// Reports that group `group` has ended, and if that is because the recording is `cut` off.
     pub fn end(&self, group: usize, cut: bool) {
         let mut state = self.state();
         state.cut |= cut;
@@ -96,11 +96,11 @@ impl State {
         self.changes
     }
 
-    /// Whether all groups have ended or have looked in vain since the last change, and `group` is the first of those that
-    /// wait: which one gives up is then the same each time.
+    /// Returns `true` if all groups have ended or have checked in vain since the last change, and `group` is the first
+    /// of those that wait. The group that gives up is thus the same each time.
     fn gives_up(&self, group: usize) -> bool {
-        let stuck = |g: &Group| matches!(*g, Group::Ended) || *g == Group::Waits(self.changes);
-        let first = self.groups.iter().position(|g| matches!(g, Group::Waits(_)));
+        let stuck = |g: &Group| matches!(*g, Group::Ended) || *g == Group::ReplayBarrier(self.changes);
+        let first = self.groups.iter().position(|g| matches!(g, Group::ReplayBarrier(_)));
         first == Some(group) && self.groups.iter().all(stuck)
     }
 }
@@ -112,19 +112,19 @@ mod tests {
 
     #[test]
     fn one_that_waits_for_another_finds_what_comes() {
-        let (waits, there) = (Waits::new(2), AtomicBool::new(false));
+        let (waits, there) = (ReplayBarrier::new(2), AtomicBool::new(false));
         thread::scope(|scope| {
             let waiting = scope.spawn(|| waits.wait(0, || there.load(Ordering::Acquire)));
             thread::sleep(Duration::from_millis(20));
             there.store(true, Ordering::Release);
             waits.end(1, false);
-            assert_eq!(waiting.join().ok(), Some(Waited::Found));
+            assert_eq!(waiting.join().ok(), Some(WaitOutcome::Found));
         });
     }
 
     #[test]
     fn the_first_of_those_that_wait_in_vain_gives_up_and_others_may_go_on() {
-        let (waits, there) = (Waits::new(3), AtomicBool::new(false));
+        let (waits, there) = (ReplayBarrier::new(3), AtomicBool::new(false));
         thread::scope(|scope| {
             let second = scope.spawn(|| waits.wait(1, || there.load(Ordering::Acquire)));
             let first = scope.spawn(|| {
@@ -136,15 +136,15 @@ mod tests {
             thread::sleep(Duration::from_millis(20));
             assert!(!first.is_finished(), "the last group still runs");
             waits.end(2, false);
-            assert_eq!(first.join().ok(), Some(Waited::Missed));
-            assert_eq!(second.join().ok(), Some(Waited::Found));
+            assert_eq!(first.join().ok(), Some(WaitOutcome::Missed));
+            assert_eq!(second.join().ok(), Some(WaitOutcome::Found));
         });
     }
 
     #[test]
     fn what_would_come_after_a_cut_is_told_apart() {
-        let waits = Waits::new(2);
+        let waits = ReplayBarrier::new(2);
         waits.end(1, true);
-        assert_eq!(waits.wait(0, || false), Waited::Cut);
+        assert_eq!(waits.wait(0, || false), WaitOutcome::Cut);
     }
 }

@@ -1,10 +1,10 @@
-//! One thread for each group.
+//! Execution of the thread groups, each on a thread of its own.
 
 use super::{
-    Group, Parcel, Spawn, Wake,
+    CellMessage, Group, Spawn, Wake,
     idle::{Alarm, Shared},
     settings,
-    watch::{Felt, Off, Pulse, Watched, watch},
+    watch::{Heartbeat, StopSignal, WatchdogObserver, Watched, watch},
 };
 use crate::{
     CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways, run::Stopwatch,
@@ -19,34 +19,34 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// What sets the pace of threads: the machine's clock, until somebody ends it.
+/// Timing of threads: the machine's clock, and a switch that ends the program.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace {
-    /// The clock.
+    /// Clock of all threads.
     pub clock: WallClock,
-    /// The program ends when this is turned.
+    /// Switch that ends the program.
     pub stopped: Option<&'static Switch>,
 }
 
-/// How long a thread stays awake after it has slept for less than this.
+/// Longest busy wait of a thread. A thread only waits busily if its last sleep was shorter than this.
 const LINGER: Duration = Duration::from_micros(50);
 
-/// What all threads of a program share.
+/// State that all threads of a program share.
 struct Run {
     info: &'static Info,
     sleep: Shared<Sleeping>,
     time: Timing,
-    /// The exit code, once a group has one.
+    /// The first exit code of a group that is not 0.
     code: AtomicU8,
-    /// For each group what it runs.
-    pulses: Box<[Pulse]>,
-    /// Ends the watch over them.
-    off: Off,
-    /// There is a core for each group: who stays awake takes it from nobody.
+    /// The pulse of each group, for the watchdog.
+    pulses: Box<[Heartbeat]>,
+    /// Ends the watchdog.
+    off: StopSignal,
+    /// `true` if there is a core for each group, so that busy waiting takes none from other groups.
     has_cores: bool,
 }
 
-/// How long groups run.
+/// Duration of the run of all groups.
 enum Timing {
     /// Until the program ends.
     Paced(Pace),
@@ -54,7 +54,7 @@ enum Timing {
     Once(Time),
 }
 
-/// A thread, once it runs.
+/// The thread of a group; empty until it runs.
 #[derive(Default)]
 struct Sleeping(OnceLock<Thread>);
 
@@ -82,11 +82,12 @@ impl Watched for Run {
     }
 }
 
-/// Runs every thread group of `program` on a thread of its own, the main group on this one, until nothing can happen any
-/// more, the pace ends, or a token comes to `exit`. Returns the exit code. `observer` makes an observer for each group.
+/// Runs every thread group of `program` on a thread of its own, the main group on this one. Ends when nothing can
+/// happen any more, when the switch of `pace` is turned, or when a token comes to `exit` or `abort`. Returns the exit
+/// code. `observer` returns an observer for each group.
 ///
-/// While a group has nothing to do its thread sleeps. A panic in one group ends the others after what they are doing, and goes
-/// on here.
+/// The thread of a group sleeps while there is nothing to do. A panic in one group ends the other groups after their
+/// current reaction, and is then continued on this thread.
 pub fn drive_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     pace: Pace,
@@ -95,7 +96,7 @@ pub fn drive_on_threads<P: Program, O: Observer + Send>(
     drive_from_threads(program, pace, Ports::<P>::new().0, observer)
 }
 
-/// The same, with ways into the program and out of it for other threads.
+/// Runs the thread groups as [`drive_on_threads`] does, with ports for other threads.
 pub(crate) fn drive_from_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     pace: Pace,
@@ -105,8 +106,9 @@ pub(crate) fn drive_from_threads<P: Program, O: Observer + Send>(
     run_groups(program, Timing::Paced(pace), ways, observer)
 }
 
-/// One reaction of all thread groups of `program` at `now`, each on a thread of its own, until nothing is ready in any of
-/// them. Returns the exit code: what [`react_with`](Program::react_with) does with one group after the other.
+/// Executes one reaction of all thread groups of `program` at `now`, each on a thread of its own, until nothing is
+/// ready in any of them. Returns the exit code. [`react_with`](Program::react_with) does the same with one group after
+/// the other.
 pub fn react_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     now: Time,
@@ -125,8 +127,8 @@ fn run_groups<P: Program, O: Observer + Send>(
     let groups = info.groups.len().max(1);
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
     let has_cores = thread::available_parallelism().is_ok_and(|cores| cores.get() >= groups);
-    let pulses = (0..groups).map(|_| Pulse::default()).collect();
-    let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: Off::default(), has_cores };
+    let pulses = (0..groups).map(|_| Heartbeat::default()).collect();
+    let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: StopSignal::default(), has_cores };
     let panicked = thread::scope(|scope| {
         let mut spawner = Spawner { scope, run: &run, observer, ways: Some(ways), hung: vec![], threads: vec![] };
         program.on_threads(&run, &mut spawner);
@@ -144,15 +146,15 @@ struct Spawner<'scope, 'env, F, W> {
     scope: &'scope Scope<'scope, 'env>,
     run: &'env Run,
     observer: F,
-    /// The ways into the main group, until it begins.
+    /// The ports of the main group, until it starts.
     ways: Option<W>,
-    /// The ways to tell groups that a node hangs.
-    hung: Vec<(usize, CellSender<'env, Parcel<()>>)>,
+    /// Cells that report hanging nodes to groups.
+    hung: Vec<(usize, CellSender<'env, CellMessage<()>>)>,
     threads: Vec<ScopedJoinHandle<'scope, ()>>,
 }
 
 impl<'env, F, W> Spawner<'_, 'env, F, W> {
-    /// Begins a thread, without which the program cannot run.
+    /// Starts a thread. A failure ends the program.
     fn thread(&mut self, name: &str, body: impl FnOnce() + Send + 'env) {
         match thread::Builder::new().name(name.to_owned()).spawn_scoped(self.scope, body) {
             Ok(thread) => self.threads.push(thread),
@@ -174,7 +176,7 @@ where
         self.thread(run.info.groups[group].name, move || run.group(group, part, observer, None));
     }
 
-    fn watch(&mut self, group: usize, hung: CellSender<'env, Parcel<()>>) {
+    fn watch(&mut self, group: usize, hung: CellSender<'env, CellMessage<()>>) {
         self.hung.push((group, hung));
     }
 
@@ -188,7 +190,7 @@ where
     }
 }
 
-/// Ends the program if its thread panics.
+/// Guard that ends the program if its thread panics.
 struct EndOnPanic<'a>(&'a Run);
 
 impl Drop for EndOnPanic<'_> {
@@ -200,7 +202,7 @@ impl Drop for EndOnPanic<'_> {
 }
 
 impl Run {
-    /// Whether somebody looks for nodes that hang.
+    /// Returns `true` if a watchdog looks for hanging nodes.
     fn is_watched(&self) -> bool {
         matches!(self.time, Timing::Paced(_)) && self.info.groups.iter().any(|g| g.hang.is_some())
     }
@@ -211,7 +213,7 @@ impl Run {
         self.off.end();
     }
 
-    /// What the thread of a group does. The main group has the `ways` into the program.
+    /// Runs a group on the current thread. The main group has the ports of the program, `ways`.
     fn group<G: Group, O: Observer>(
         &self,
         group: usize,
@@ -227,7 +229,7 @@ impl Run {
             self.end(1);
         }
         let pulse = self.pulses.get(group).filter(|_| settings.is_some_and(|group| group.hang.is_some()));
-        let observer = Felt { observer, pulse, info: self.info };
+        let observer = WatchdogObserver { observer, pulse, info: self.info };
         match self.time {
             Timing::Paced(pace) => {
                 let _stops = pace.stopped.map(Switch::listen);
@@ -268,7 +270,7 @@ impl Run {
         }
     }
 
-    /// Whether the program ends, perhaps because somebody wants it.
+    /// Returns `true` if the program ends. Stops all groups if the switch is turned.
     fn is_over(&self, pace: Pace) -> bool {
         if !self.sleep.is_stopped() && pace.stopped.is_some_and(Switch::is_set) {
             self.sleep.stop();
@@ -276,8 +278,8 @@ impl Run {
         self.sleep.is_stopped()
     }
 
-    /// Whether a group is woken soon. Where tokens go to and fro quickly, falling asleep and waking up would take most
-    /// of the time; who slept for long before sleeps at once.
+    /// Waits busily for a short time; returns `true` if the group was woken meanwhile. Where tokens are exchanged
+    /// quickly, falling asleep and waking up would take most of the time.
     fn lingers<I, E>(&self, member: &Member<I, E>, since: Instant) -> bool {
         while self.has_cores && since.elapsed() < LINGER {
             if self.sleep.is_woken(member.group) || member.rings() || self.is_over(member.pace) {
@@ -308,7 +310,7 @@ impl Run {
         }
     }
 
-    /// Sleeps until the group is woken, by other groups or because of what `ends` the sleep.
+    /// Sleeps until the group is woken, by another group or because `ends` returns `true`.
     fn idle(&self, group: usize, ends: &dyn Fn() -> bool) {
         if !self.sleep.may_idle(group) {
             return;
@@ -323,18 +325,18 @@ impl Run {
     }
 }
 
-/// A group that runs on this thread.
+/// The group that runs on this thread.
 struct Member<I, E> {
     group: usize,
     pace: Pace,
-    /// The ways into the program, which the main group has.
+    /// The ports of the program, in the main group.
     ways: Option<Ways<I, E>>,
-    /// Somebody at the other end of one of them keeps the program from ending.
+    /// `true` if other threads may still use the ports, which keeps the program from ending.
     held: bool,
 }
 
 impl<I, E> Member<I, E> {
-    /// Moves tokens into the program and out of it; whether there were some.
+    /// Moves tokens through the ports. Returns `true` if there were any.
     fn exchange<G: Group<Inputs = I, Events = E>>(&mut self, part: &mut G, sleep: &Shared<Sleeping>) -> bool {
         let Some(ways) = &mut self.ways else { return false };
         let came = ways.pass(part.mailboxes());
@@ -347,7 +349,7 @@ impl<I, E> Member<I, E> {
         came
     }
 
-    /// Whether there is something to be moved.
+    /// Returns `true` if there may be tokens to move.
     fn rings(&self) -> bool {
         self.ways.as_ref().is_some_and(Ways::rings)
     }

@@ -1,24 +1,24 @@
-//! Which groups sleep, and when all of them do: then nothing can happen any more.
+//! Sleep of thread groups. When all of them are idle, nothing can happen any more.
 
 use crate::sync::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
 
-/// It reacts.
+/// The group reacts.
 const RUNNING: u8 = 0;
-/// It was told that there is something to look at.
+/// The group was woken: there is something to react to.
 const WOKEN: u8 = 1;
-/// It sleeps until some time, or until it is woken.
+/// The group sleeps until some time, or until it is woken.
 const WAITING: u8 = 2;
-/// It sleeps until it is woken.
+/// The group sleeps until it is woken.
 const IDLE: u8 = 3;
 
-/// What all groups know of each other.
+/// Sleep states of all groups.
 #[derive(Debug)]
 pub struct Shared<T> {
     groups: Box<[Sleeper<T>]>,
-    /// How many groups are not idle.
+    /// Number of groups that are not idle.
     busy: AtomicUsize,
     stopped: AtomicBool,
-    /// Who watches over the groups sleeps until one of them begins.
+    /// `true` if the watchdog sleeps until a group begins to react.
     watch_sleeps: AtomicBool,
 }
 
@@ -28,14 +28,14 @@ struct Sleeper<T> {
     thread: T,
 }
 
-/// How a thread sleeps, and is woken by others.
+/// A thread that can sleep and be woken by other threads.
 pub trait Alarm {
-    /// Ends the sleep of the thread, or lets its next one end at once.
+    /// Ends the sleep of the thread. If it does not sleep, its next sleep ends at once.
     fn ring(&self);
 }
 
 impl<T: Alarm> Shared<T> {
-    /// All groups run.
+    /// Returns the state in which all groups run.
     pub fn new(threads: impl IntoIterator<Item = T>) -> Self {
         let group = |thread| Sleeper { state: AtomicU8::new(RUNNING), thread };
         let groups: Box<[Sleeper<T>]> = threads.into_iter().map(group).collect();
@@ -43,17 +43,18 @@ impl<T: Alarm> Shared<T> {
         Self { groups, busy, stopped, watch_sleeps: AtomicBool::new(false) }
     }
 
-    /// The alarm of a group.
+    /// Returns the alarm of a group.
     pub fn alarm(&self, group: usize) -> &T {
         &self.groups[group].thread
     }
 
-    /// Group `group` has something to look at.
+    /// Wakes group `group`, because there is something to react to.
     pub fn wake(&self, group: usize) {
         let Sleeper { state, thread } = &self.groups[group];
         let mut seen = state.load(Ordering::Acquire);
         loop {
-            // It counts as busy before it can know that it is: else it could be idle again before that, and be the last.
+            // The group counts as busy before it can notice that it is woken. Otherwise it could be idle again before
+            // it is counted, as the last one, and stop the program.
             if seen == IDLE {
                 self.busy.fetch_add(1, Ordering::AcqRel);
             }
@@ -70,24 +71,25 @@ impl<T: Alarm> Shared<T> {
         }
     }
 
-    /// One group fewer is busy. If it was the last one, the program stops.
+    /// Decrements the number of busy groups. If it was the last one, the program stops.
     fn leave(&self) {
         if self.busy.fetch_sub(1, Ordering::AcqRel) == 1 {
             self.stop();
         }
     }
 
-    /// Group `group` is about to react: it will see everything that it was told of.
+    /// Called before group `group` reacts: the reaction sees everything that happened before it was woken.
     pub fn begin(&self, group: usize) {
         self.groups[group].state.swap(RUNNING, Ordering::AcqRel);
     }
 
-    /// Whether group `group` may sleep until some time: it was not told of anything since it began.
+    /// Returns `true` if group `group` may sleep until some time: it was not woken since it began to react.
     pub fn may_wait(&self, group: usize) -> bool {
         self.change(group, RUNNING, WAITING)
     }
 
-    /// Whether group `group` may sleep until it is woken. If all others do so already, the program stops.
+    /// Returns `true` if group `group` may sleep until it is woken: it was not woken since it began to react. If all
+    /// other groups already sleep so, the program stops.
     pub fn may_idle(&self, group: usize) -> bool {
         let idle = self.change(group, RUNNING, IDLE);
         if idle {
@@ -96,12 +98,12 @@ impl<T: Alarm> Shared<T> {
         idle
     }
 
-    /// Whether group `group` was told of something since it began.
+    /// Returns `true` if group `group` was woken since it began to react.
     pub fn is_woken(&self, group: usize) -> bool {
         self.groups[group].state.load(Ordering::Acquire) == WOKEN
     }
 
-    /// Whether group `group` still sleeps.
+    /// Returns `true` if group `group` still sleeps and the program has not stopped.
     pub fn sleeps(&self, group: usize) -> bool {
         self.groups[group].state.load(Ordering::Acquire) == IDLE && !self.is_stopped()
     }
@@ -110,11 +112,11 @@ impl<T: Alarm> Shared<T> {
         self.groups[group].state.compare_exchange(from, to, Ordering::AcqRel, Ordering::Acquire).is_ok()
     }
 
-    /// Ends all groups, as soon as they have finished what they do.
+    /// Ends all groups after their current reaction.
     ///
-    /// A thread sets its alarm, changes its state to begin, and looks then whether the program ends. Here the end is
-    /// written, the state changed, and then the alarm rung: whichever changes the state last has seen what the other
-    /// wrote before.
+    /// A thread sets its alarm, then changes its state when it begins to react, and then checks if the program ends.
+    /// Here, `stopped` is written, then the state is changed, and then the alarm is rung. The one that changes the
+    /// state last sees everything that the other wrote before.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Release);
         for Sleeper { state, thread } in &self.groups {
@@ -123,21 +125,20 @@ impl<T: Alarm> Shared<T> {
         }
     }
 
-    /// Somebody else than the groups can wake one of them: that counts as a group that is not idle. Only a group that
-    /// is busy may say so.
+    /// Counts another thread that can wake a group as a busy group. Only a busy group may call this.
     pub fn hold(&self) {
         self.busy.fetch_add(1, Ordering::AcqRel);
     }
 
-    /// It cannot any more.
+    /// Ends the effect of [`hold`](Self::hold).
     pub fn release(&self) {
         self.leave();
     }
 
-    /// Whether who watches over the groups may sleep until one of them begins: all sleep.
+    /// Returns `true` if the watchdog may sleep until a group begins to react: all groups sleep.
     ///
-    /// A group that begins changes its state, and then looks whether it has to wake the watch. Whichever of the two
-    /// changes `watch_sleeps` last has seen what the other did before.
+    /// A group that begins to react changes its state, and then checks if it has to wake the watchdog. The one that
+    /// changes `watch_sleeps` last sees everything that the other did before.
     pub fn may_watch_sleep(&self) -> bool {
         self.watch_sleeps.swap(true, Ordering::AcqRel);
         let all = self.groups.iter().all(|group| matches!(group.state.load(Ordering::Acquire), WAITING | IDLE));
@@ -147,12 +148,12 @@ impl<T: Alarm> Shared<T> {
         all
     }
 
-    /// Whether a group that began has to wake who watches over it.
+    /// Returns `true` if a group that begins to react has to wake the watchdog.
     pub fn wakes_watch(&self) -> bool {
         self.watch_sleeps.swap(false, Ordering::AcqRel)
     }
 
-    /// Whether the program ends.
+    /// Returns `true` if the program ends.
     pub fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Acquire)
     }

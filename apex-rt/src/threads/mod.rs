@@ -1,4 +1,4 @@
-//! Programs whose nodes run in several thread groups: what passes between the groups, and how they run side by side.
+//! Programs with several thread groups: exchange between the groups, and their parallel execution.
 
 #[cfg(feature = "std")]
 mod drive;
@@ -13,40 +13,40 @@ use crate::{Observer, Program, Time};
 use core::cell::Cell;
 
 #[cfg(feature = "std")]
-pub use watch::Felt;
+pub use watch::WatchdogObserver;
 
 #[cfg(feature = "std")]
 pub(crate) use drive::drive_from_threads;
 #[cfg(feature = "std")]
 pub use drive::{Pace, drive_on_threads, react_on_threads};
 
-/// A token on its way from one thread group to another, with what goes with it.
+/// A token between two thread groups, with its stamp and activity.
 #[derive(Debug)]
-pub struct Parcel<T> {
+pub struct CellMessage<T> {
     /// The token; `None` is ⊥.
     pub token: Option<T>,
-    /// It carries activity.
+    /// `true` if the token carries activity.
     pub active: bool,
-    /// When the source fired that it descends from.
+    /// Firing time of the source from which the token descends.
     pub stamp: Time,
 }
 
-impl<T> Parcel<T> {
-    /// An empty one.
+impl<T> CellMessage<T> {
+    /// Returns a parcel without a token.
     pub const fn new() -> Self {
         Self { token: None, active: false, stamp: Time::ZERO }
     }
 }
 
-impl<T> Default for Parcel<T> {
+impl<T> Default for CellMessage<T> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-/// Tells thread groups, by number, that something has come for them, or has been taken from them.
+/// Wakes thread groups, by number, when a token has come for them or has been taken from them.
 pub trait Wake {
-    /// Group `group` has something to look at.
+    /// Wakes group `group`, because there is something to react to.
     fn wake(&self, group: usize);
 }
 
@@ -56,66 +56,66 @@ impl<W: Wake> Wake for &W {
     }
 }
 
-/// The most thread groups that a program can have: each has a bit of [`Woken`].
+/// Maximum number of thread groups in a program: each has a bit of [`ReadySet`].
 pub const MAX_GROUPS: usize = u64::BITS as usize;
 
-/// Remembers which groups were woken: for groups that run one after the other on one thread.
+/// Set of the groups that were woken, for groups that run in turn on one thread.
 #[derive(Debug, Default)]
-pub struct Woken(Cell<u64>);
+pub struct ReadySet(Cell<u64>);
 
-impl Woken {
-    /// All `groups` of a program are awake: it starts.
+impl ReadySet {
+    /// Returns the set of all `groups`, for the start of a program.
     ///
     /// # Panics
-    /// There are more than [`MAX_GROUPS`], which the compiler of texts refuses.
+    /// There are more than [`MAX_GROUPS`]; the compiler rejects such programs.
     pub const fn all(groups: usize) -> Self {
         assert!(groups <= MAX_GROUPS, "a program has at most 64 thread groups");
         Self(Cell::new(if groups < MAX_GROUPS { (1 << groups) - 1 } else { u64::MAX }))
     }
 
-    /// Whether a group was woken. It sleeps then.
+    /// Removes a group. Returns `true` if it was woken.
     pub fn take(&self, group: usize) -> bool {
         let woken = self.0.get();
         self.0.set(woken & !(1 << group));
         woken & 1 << group != 0
     }
 
-    /// Whether none is awake.
+    /// Returns `true` if no group is awake.
     pub fn is_none(&self) -> bool {
         self.0.get() == 0
     }
 }
 
-impl Wake for Woken {
+impl Wake for ReadySet {
     fn wake(&self, group: usize) {
         self.0.set(self.0.get() | 1 << group);
     }
 }
 
-/// A part of a program that one thread runs.
+/// A part of a program that runs on one thread.
 pub trait Group: Program {
-    /// Reacts at `now`. Sources without a pace fire only if a reaction `begins`, not if it goes on because of what other
-    /// groups did meanwhile.
+    /// Reacts at `now`. Sources without a period fire only if `begins` is `true`: the reaction then begins, instead of
+    /// continuing because of actions of other groups.
     fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next;
 }
 
-/// Takes the thread groups of a program with the mailboxes `I` and `E`, to run each of them.
+/// Runner of the thread groups of a program with the mailboxes `I` and `E`. Each group is passed to it.
 pub trait Spawn<'a, I, E> {
-    /// Takes a group that may run on any thread.
+    /// Runs a group on any thread.
     fn spawn<G: Group + Send + 'a>(&mut self, group: usize, part: G);
 
-    /// Takes the way to tell group `group` that a node hangs: it comes before all groups.
-    fn watch(&mut self, group: usize, hung: crate::CellSender<'a, Parcel<()>>);
+    /// Takes the cell that reports hanging nodes to group `group`. Called before the other methods.
+    fn watch(&mut self, group: usize, hung: crate::CellSender<'a, CellMessage<()>>);
 
-    /// Takes the main group, which has the ports of the program and stays where it is: it comes last.
+    /// Runs the main group, which has the ports of the program, on the current thread. Called last.
     fn stay<G: Group<Inputs = I, Events = E> + 'a>(&mut self, group: usize, part: G);
 }
 
-/// A program that is a single group.
+/// A program with a single group.
 #[derive(Debug)]
-pub struct Alone<'a, P>(pub &'a mut P);
+pub struct SingleGroup<'a, P>(pub &'a mut P);
 
-impl<P: Program> Program for Alone<'_, P> {
+impl<P: Program> Program for SingleGroup<'_, P> {
     const INFO: crate::Info = P::INFO;
     type Inputs = P::Inputs;
     type Events = P::Events;
@@ -129,13 +129,13 @@ impl<P: Program> Program for Alone<'_, P> {
     }
 }
 
-impl<P: Program> Group for Alone<'_, P> {
+impl<P: Program> Group for SingleGroup<'_, P> {
     fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next {
         if begins { self.0.react_with(now, observer) } else { crate::Next::Input }
     }
 }
 
-/// Rounds between groups that may follow on one another while the time stands still.
+/// Maximum number of rounds of all groups in one reaction.
 pub const MAX_ROUNDS: u32 = 1_000_000;
 
 #[cfg(test)]
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn as_many_groups_as_there_may_be_are_woken_one_by_one() {
-        let woken = Woken::all(MAX_GROUPS);
+        let woken = ReadySet::all(MAX_GROUPS);
         assert!((0..MAX_GROUPS).all(|group| woken.take(group)));
         assert!(woken.is_none());
         woken.wake(MAX_GROUPS - 1);
@@ -154,6 +154,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "at most 64 thread groups")]
     fn more_groups_are_refused() {
-        Woken::all(MAX_GROUPS + 1);
+        ReadySet::all(MAX_GROUPS + 1);
     }
 }

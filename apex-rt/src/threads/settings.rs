@@ -1,11 +1,11 @@
-//! What the text says about the thread of a group.
+//! Settings of the thread of a group.
 
 use crate::{Info, info::GroupInfo};
 
-/// Gives the current thread the cores and the priority of its group.
+/// Applies the cores and the priority of its group to the current thread.
 ///
 /// # Errors
-/// If the rights for it are missing and the text wants the program to end then.
+/// The settings cannot be applied, for example because rights are missing, and the group has `rights = strict`.
 pub fn apply(info: &Info, group: &GroupInfo) -> Result<(), String> {
     let Err(reason) = set(group) else { return Ok(()) };
     let message = format!("{}: thread `{}` {reason}", info.name, group.name);

@@ -1,6 +1,6 @@
-//! Watches over threads: which node each of them is running, and since when.
+//! Watchdog: detects nodes that hang.
 
-use super::Parcel;
+use super::CellMessage;
 use crate::{CellSender, Info, Observer};
 use std::{
     sync::{
@@ -10,27 +10,27 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// What a thread says of itself: the node that it runs, and how many it has run. Whoever watches reads it from time to time; the
-/// thread never waits, nor looks at a clock.
+/// Pulse of a thread: the node that it runs, and the number of nodes that it has begun and finished. The watchdog reads
+/// it periodically, so that the thread never waits nor reads a clock.
 #[derive(Debug, Default)]
-pub struct Pulse {
-    /// The number of the node, from 1; 0 between nodes.
+pub struct Heartbeat {
+    /// Number of the node, from 1; 0 between nodes.
     node: AtomicUsize,
     beats: AtomicUsize,
 }
 
-/// An observer that keeps the pulse of its thread.
-pub struct Felt<'a, O> {
-    /// The observer that is told all of it.
+/// Observer that updates the pulse of its thread.
+pub struct WatchdogObserver<'a, O> {
+    /// Observer to which all calls are passed on.
     pub observer: O,
     /// The pulse, if the thread is watched.
-    pub pulse: Option<&'a Pulse>,
-    /// Who takes the token on each connection.
+    pub pulse: Option<&'a Heartbeat>,
+    /// Description of the program, for the node at the end of each connection.
     pub info: &'static Info,
 }
 
-impl<O> Felt<'_, O> {
-    /// The thread runs a node, by its number from 1, or none (0).
+impl<O> WatchdogObserver<'_, O> {
+    /// Sets the node that the thread runs, by its number from 1; 0 for none.
     #[inline(always)]
     pub(crate) fn runs(&self, node: usize) {
         if let Some(pulse) = self.pulse {
@@ -40,7 +40,7 @@ impl<O> Felt<'_, O> {
     }
 }
 
-/// One thread, as it was seen last.
+/// Last observation of a thread.
 struct Seen {
     group: usize,
     hang: Duration,
@@ -49,9 +49,9 @@ struct Seen {
     told: bool,
 }
 
-/// Ends the watch, or wakes it.
+/// Signal that ends the watchdog, or wakes it.
 #[derive(Debug, Default)]
-pub struct Off {
+pub struct StopSignal {
     state: Mutex<Watch>,
     changed: Condvar,
 }
@@ -59,30 +59,30 @@ pub struct Off {
 #[derive(Debug, Default)]
 struct Watch {
     over: bool,
-    /// A thread began to work while the watch slept.
+    /// `true` if a group began to react while the watchdog slept.
     stirred: bool,
 }
 
-impl Off {
-    /// The watch is over.
+impl StopSignal {
+    /// Ends the watchdog.
     pub fn end(&self) {
         self.state().over = true;
         self.changed.notify_all();
     }
 
-    /// There is something to watch again.
+    /// Wakes the watchdog, because a group has begun to react.
     pub fn stir(&self) {
         self.state().stirred = true;
         self.changed.notify_all();
     }
 
-    /// Whether it is over within `time`.
+    /// Waits for `time`. Returns `true` if the watchdog was ended.
     fn is_over_within(&self, time: Duration) -> bool {
         let waited = self.changed.wait_timeout_while(self.state(), time, |watch| !watch.over);
         waited.unwrap_or_else(PoisonError::into_inner).0.over
     }
 
-    /// Sleeps until there is something to watch; whether the watch is over.
+    /// Sleeps until the watchdog is woken or ended. Returns `true` if it was ended.
     fn is_over_when_stirred(&self) -> bool {
         let waited = self.changed.wait_while(self.state(), |watch| !watch.over && !watch.stirred);
         let mut watch = waited.unwrap_or_else(PoisonError::into_inner);
@@ -95,23 +95,22 @@ impl Off {
     }
 }
 
-/// What the watch does with the threads: it wakes the one of a group, and asks whether it may sleep until one of them
-/// begins.
+/// The threads, as the watchdog accesses them.
 pub trait Watched {
-    /// Something has come for a group.
+    /// Wakes a group, because a token has come for it.
     fn wake(&self, group: usize);
-    /// Whether all threads sleep, so that none can hang before it has stirred the watch.
+    /// Returns `true` if all threads sleep, so that none can hang before it has woken the watchdog.
     fn may_sleep(&self) -> bool;
 }
 
-/// Looks at the threads that are to be watched until the watch is over, and sleeps while all of them do. A node that
-/// hangs is told to `observer` once, and to the groups that want to know; where the text says so, the process ends
-/// then, because a thread that hangs cannot be ended.
+/// Runs the watchdog until it is ended; it sleeps while all threads do. Each hanging node is reported once to
+/// `observer`, and to the other groups in `hung`. If the program is set to end then, the process exits, because a
+/// hanging thread cannot be stopped.
 pub fn watch<O: Observer>(
     info: &'static Info,
-    pulses: &[Pulse],
-    off: &Off,
-    mut hung: Vec<(usize, CellSender<'_, Parcel<()>>)>,
+    pulses: &[Heartbeat],
+    off: &StopSignal,
+    mut hung: Vec<(usize, CellSender<'_, CellMessage<()>>)>,
     threads: &impl Watched,
     mut observer: O,
 ) {

@@ -9,7 +9,7 @@ use apex_dsl::{
     format, ide, passes,
     report::{Diagnostics, json, render},
     source::Sources,
-    syntax::mended,
+    syntax::repaired,
 };
 use apex_host::Disk;
 use apex_tests::texts::generate;
@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// States that are looked at to decide claims: enough to see the code, few enough for thousands of texts.
 const STATES: usize = 500;
 
-struct Texts {
+struct SourceSet {
     catalog: Catalog,
     texts: Vec<String>,
     vocabulary: Vec<String>,
@@ -44,10 +44,10 @@ pub fn texts() -> Box<dyn Target> {
     texts.extend((0..200).flat_map(|seed| generate(seed).texts).map(|text| text.text()));
     let mut vocabulary: BTreeSet<String> = BTreeSet::new();
     texts.iter().for_each(|text| vocabulary.extend(split(text).into_iter().map(str::to_owned)));
-    Box::new(Texts { catalog, texts, vocabulary: vocabulary.into_iter().collect(), step: 0 })
+    Box::new(SourceSet { catalog, texts, vocabulary: vocabulary.into_iter().collect(), step: 0 })
 }
 
-impl Target for Texts {
+impl Target for SourceSet {
     fn make(&mut self, dice: &mut Dice) -> Vec<u8> {
         let others: Vec<&str> = (0..12).map(|_| dice.of(&self.vocabulary).as_str()).collect();
         let mut text = dice.of(&self.texts).clone();
@@ -95,8 +95,8 @@ impl Target for Texts {
                 "formatted twice is another text"
             );
         }
-        if let Some(mended) = mended(&text) {
-            assert!(text.len() <= mended.len() + text.len() && !mended.is_empty(), "repaired to nothing");
+        if let Some(repaired) = repaired(&text) {
+            assert!(text.len() <= repaired.len() + text.len() && !repaired.is_empty(), "repaired to nothing");
         }
     }
 }

@@ -175,7 +175,7 @@ impl ScanLog {
     /// Creates a node with an open log, so that errors are found before the program runs.
     ///
     /// # Errors
-    /// Those of [`ScanLogReader::open`].
+    /// The errors of [`ScanLogReader::open`].
     pub fn open(path: impl AsRef<Path>, geometry: LogGeometry) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let reader = Some(ScanLogReader::open(path, geometry)?);

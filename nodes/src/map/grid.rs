@@ -154,7 +154,7 @@ impl<T: Clone> Grid<T> {
     /// Same as [`new`](Self::new), but reuses the allocated storage.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new). The grid is then unchanged.
+    /// The errors of [`new`](Self::new). The grid is then unchanged.
     pub fn reset(&mut self, raster: Raster, value: T) -> Result<(), TooManyCells> {
         // One of the sides may be zero, so both are checked.
         let longer = raster.width.max(raster.height);

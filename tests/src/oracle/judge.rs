@@ -3,7 +3,7 @@
 use super::script;
 use apex_dsl::{
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind, Value},
+    graph::{Graph, NodeId, NodeKind, PortId, Value},
     passes,
     petri::{self, Call, Net, Origin, Replay},
     report::{Diagnostics, Severity},
@@ -45,7 +45,7 @@ pub enum Record {
     /// `T`: what the call that came last found; `None` is ⊥.
     Took(Vec<Option<i64>>),
     /// `E`: the reaction ends.
-    End,
+    PortId,
 }
 
 /// What is wrong with a run: the number of the record, from 0, and why.
@@ -63,7 +63,7 @@ impl Record {
             }
             Self::Activity(node, active) => format!("{} {}active", name(*node), if *active { "" } else { "in" }),
             Self::Took(tokens) => format!("  took {tokens:?}"),
-            Self::End => "reaction ends".to_owned(),
+            Self::PortId => "reaction ends".to_owned(),
         }
     }
 }
@@ -128,7 +128,7 @@ fn record(line: &str) -> Option<Record> {
         "H" => Record::Handled(first as usize),
         "A" => Record::Activity(first as usize, numbers.get(1) == Some(&Some(1))),
         "T" => Record::Took(numbers),
-        "E" => Record::End,
+        "E" => Record::PortId,
         _ => return None,
     })
 }
@@ -175,7 +175,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
         }
         None => true,
     };
-    let is_connected = |node: NodeId, port: usize| graph.incoming(End { node, port }).is_some();
+    let is_connected = |node: NodeId, port: usize| graph.incoming(PortId { node, port }).is_some();
     // For each input of the node that fired last whether it is connected.
     let mut inputs: Vec<bool> = vec![];
     let mut replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
@@ -209,7 +209,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
                     found.iter().enumerate().filter(|(i, f)| f.is_some() || !is_open(*i)).map(|(_, f)| *f).collect();
                 replay.took(&found)
             }
-            Record::End => replay.end(),
+            Record::PortId => replay.end(),
         };
         result.map_err(|wrong| (step, wrong.to_string()))?;
     }
@@ -218,11 +218,11 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
 
 /// Where a value was made. What no scripted node has made comes from a port that there is not.
 fn origin(graph: &Graph, by_id: &BTreeMap<i64, NodeId>, value: i64) -> Origin {
-    let nowhere = Origin { end: End { node: usize::MAX, port: 0 }, call: 0 };
+    let nowhere = Origin { end: PortId { node: usize::MAX, port: 0 }, call: 0 };
     let Some((id, port, call)) = script::origin(value) else { return nowhere };
     let Some(node) = by_id.get(&id).copied() else { return nowhere };
     let Some(port) = graph.nodes[node].ports.iter().position(|p| p.name == port && p.kind.sends()) else {
         return nowhere;
     };
-    Origin { end: End { node, port }, call }
+    Origin { end: PortId { node, port }, call }
 }

@@ -7,8 +7,8 @@ use super::{
 use crate::Dice;
 use apex_dsl::{
     catalog::Catalog,
-    graph::{End, Graph, NodeId, NodeKind},
-    petri::{Call, Meaning, State, Token, TransitionId},
+    graph::{Graph, NodeId, NodeKind, PortId},
+    petri::{Call, State, Token, TransitionId, TransitionKind},
 };
 use std::{collections::BTreeMap, time::Duration};
 
@@ -42,8 +42,8 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
             };
             let ready: Vec<TransitionId> = (0..net.transitions.len())
                 .filter(|t| state.is_enabled(*t))
-                .filter(|t| match net.transitions[*t].meaning {
-                    Meaning::Take(node) | Meaning::Release(node) => is_due(node),
+                .filter(|t| match net.transitions[*t].kind {
+                    TransitionKind::Take(node) | TransitionKind::Release(node) => is_due(node),
                     _ => true,
                 })
                 .collect();
@@ -51,14 +51,14 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
                 break;
             }
             let transition = *dice.of(&ready);
-            let meaning = net.transitions[transition].meaning;
-            if let Meaning::Take(node) | Meaning::Release(node) = meaning {
+            let kind = net.transitions[transition].kind;
+            if let TransitionKind::Take(node) | TransitionKind::Release(node) = kind {
                 *fired.entry(node).or_default() += 1;
                 plain.push(node);
             }
-            occur(graph, &mut state, transition, meaning, net, &mut records);
+            occur(graph, &mut state, transition, kind, net, &mut records);
         }
-        records.push(Record::End);
+        records.push(Record::PortId);
     }
     records
 }
@@ -68,15 +68,17 @@ fn occur(
     graph: &Graph,
     state: &mut State<'_>,
     transition: TransitionId,
-    meaning: Meaning,
+    kind: TransitionKind,
     net: &apex_dsl::petri::Net,
     records: &mut Vec<Record>,
 ) {
-    let (node, record, after) = match meaning {
-        Meaning::Take(node) => (node, state.preview(node).reported.then_some(Record::Fired(node)), Meaning::Send(node)),
-        Meaning::Handle(connection) => {
+    let (node, record, after) = match kind {
+        TransitionKind::Take(node) => {
+            (node, state.preview(node).reported.then_some(Record::Fired(node)), TransitionKind::Send(node))
+        }
+        TransitionKind::Handle(connection) => {
             let node = graph.connections[connection].to.node;
-            (node, Some(Record::Handled(connection)), Meaning::Handled(node))
+            (node, Some(Record::Handled(connection)), TransitionKind::Handled(node))
         }
         _ => {
             state.occur(transition);
@@ -92,7 +94,9 @@ fn occur(
         records.push(Record::Took(tokens.iter().map(|t| value(graph, *t)).collect()));
     }
     let ports = 0..graph.nodes[node].ports.len();
-    let decisions = ports.flat_map(|port| [Meaning::Trigger(End { node, port }), Meaning::Hush(End { node, port })]);
+    let decisions = ports.flat_map(|port| {
+        [TransitionKind::Trigger(PortId { node, port }), TransitionKind::Suppress(PortId { node, port })]
+    });
     for next in [after].into_iter().chain(decisions) {
         if let Some(transition) = net.find(next).filter(|t| state.is_enabled(*t)) {
             state.occur(transition);
@@ -107,7 +111,7 @@ fn changes(state: &mut State<'_>, records: &mut Vec<Record>) {
 
 /// The value that a scripted node sends; 7 is what delays begin with.
 fn value(graph: &Graph, token: Token) -> Option<i64> {
-    let made = |end: End, call: usize| {
+    let made = |end: PortId, call: usize| {
         let NodeKind::Library(library) = &graph.nodes[end.node].kind else { return 7 };
         let id = library.params.first();
         let id = match id {

@@ -26,26 +26,26 @@ fn items_and_imports() {
 #[test]
 fn statements_of_a_graph() {
     let in_graph = |text: &str| at_end(&format!("use a::{{b, c}};\n/// x\ngraph A(x: u8) {{ in a: u8; {text}"));
-    let name = |parts: &[&str]| Some(End::Reference(parts.iter().map(|p| (*p).to_owned()).collect()));
+    let name = |parts: &[&str]| Some(PortId::Reference(parts.iter().map(|p| (*p).to_owned()).collect()));
     assert_eq!(in_graph(""), Context::Statement);
     assert_eq!(in_graph("sc"), Context::Statement);
     assert_eq!(in_graph("in x: Sc"), Context::Type);
-    assert_eq!(in_graph("node n = "), Context::Made(false));
-    assert_eq!(in_graph("node n: "), Context::Made(true));
+    assert_eq!(in_graph("node n = "), Context::Constructor(false));
+    assert_eq!(in_graph("node n: "), Context::Constructor(true));
     assert_eq!(in_graph("node n = a::b::"), Context::Path(path("a::b")));
     assert_eq!(in_graph("x.y -> "), Context::Name(Named::Takes, name(&["x", "y"])));
     assert_eq!(in_graph("x -> [y, z"), Context::Name(Named::Takes, name(&["x"])));
     assert_eq!(in_graph("[x, y] => "), Context::Name(Named::Takes, name(&["x"])));
     assert_eq!(
         in_graph("x -> a::B(c = 1) -> y."),
-        Context::Port(End::Reference(vec!["y".into()]), Named::Takes, Some(End::InPlace(path("a::B"))))
+        Context::Port(PortId::Reference(vec!["y".into()]), Named::Takes, Some(PortId::InPlace(path("a::B"))))
     );
-    assert_eq!(in_graph("x."), Context::Port(End::Reference(vec!["x".into()]), Named::Sends, None));
+    assert_eq!(in_graph("x."), Context::Port(PortId::Reference(vec!["x".into()]), Named::Sends, None));
     assert_eq!(in_graph("claim "), Context::Claim);
     assert_eq!(in_graph("claim exclusive(a, "), Context::Name(Named::Node, None));
     assert_eq!(in_graph("record "), Context::Nothing);
     assert_eq!(in_graph("record \"a.mcap\" { x.y; "), Context::Name(Named::Node, None));
-    let of = End::Reference(vec!["x".into()]);
+    let of = PortId::Reference(vec!["x".into()]);
     assert_eq!(in_graph("record \"a.mcap\" { x."), Context::Port(of, Named::Tested, None));
 }
 
@@ -78,7 +78,7 @@ fn machines_and_tests() {
     assert_eq!(in_test("expect "), Context::Name(Named::Tested, None));
     assert_eq!(in_test("expect active("), Context::Name(Named::Node, None));
     assert_eq!(in_test("expect x within 1"), Context::Unit(Quantity::Time));
-    assert_eq!(in_test("replace a = "), Context::Made(false));
+    assert_eq!(in_test("replace a = "), Context::Constructor(false));
 }
 
 #[test]

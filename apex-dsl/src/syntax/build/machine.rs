@@ -1,7 +1,7 @@
 //! `fsm` items.
 
 use super::{Builder, push_doc};
-use crate::syntax::{Rule, recover, tree::*};
+use crate::syntax::{Rule, syntax_errors, tree::*};
 use pest::iterators::Pair;
 
 impl Builder<'_> {
@@ -16,7 +16,7 @@ impl Builder<'_> {
                 Rule::fsm_stmt => match part.into_inner().next() {
                     Some(stmt) if stmt.as_rule() == Rule::port_stmt => ports.extend(self.port(stmt)),
                     Some(stmt) if stmt.as_rule() == Rule::state_item => states.extend(self.state(stmt)),
-                    Some(stmt) => self.bad(recover::in_machine, &stmt),
+                    Some(stmt) => self.bad(syntax_errors::in_machine, &stmt),
                     None => {}
                 },
                 _ => {}
@@ -45,7 +45,7 @@ impl Builder<'_> {
                                 hook.extend(self.actions(actions));
                             }
                         }
-                        _ => self.bad(recover::in_machine, &stmt),
+                        _ => self.bad(syntax_errors::in_machine, &stmt),
                     }
                 }
                 _ => {}

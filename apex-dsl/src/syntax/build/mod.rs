@@ -4,7 +4,7 @@ mod expr;
 mod machine;
 mod script;
 
-use super::{Rule, recover, span_of, tree::*};
+use super::{Rule, span_of, syntax_errors, tree::*};
 use crate::{
     report::{Diagnostic, Diagnostics},
     source::{FileId, Span},
@@ -22,15 +22,15 @@ pub struct Builder<'a> {
     open: usize,
     /// Places, in ascending order, where the text was changed to make it parsable. Errors around them have been
     /// reported.
-    damage: Vec<usize>,
+    edits: Vec<usize>,
     /// End of the original text. No span goes beyond it, because the rest was added to make the text parsable.
     end: usize,
 }
 
 impl<'a> Builder<'a> {
-    /// A builder for `file`, whose text was changed at the places `damage`.
-    pub fn new(file: FileId, text: &'a str, damage: Vec<usize>, diagnostics: &'a mut Diagnostics) -> Self {
-        Self { file, text, diagnostics, broken: false, broken_items: false, open: 0, damage, end: text.len() }
+    /// A builder for `file`, whose text was changed at the places `edits`.
+    pub fn new(file: FileId, text: &'a str, edits: Vec<usize>, diagnostics: &'a mut Diagnostics) -> Self {
+        Self { file, text, diagnostics, broken: false, broken_items: false, open: 0, edits, end: text.len() }
     }
 
     /// The same builder for a text whose first `end` bytes were written by the user.
@@ -77,7 +77,7 @@ impl<'a> Builder<'a> {
             Rule::fsm_item => file.machines.extend(self.machine(pair)),
             _ => {
                 self.broken_items = true;
-                self.bad(recover::item, &pair);
+                self.bad(syntax_errors::item, &pair);
             }
         }
     }
@@ -155,8 +155,8 @@ impl<'a> Builder<'a> {
         self.broken = true;
         let (start, end) = (pair.as_span().start(), pair.as_span().end());
         let blanks = self.text[..start].trim_end().len();
-        let next = self.damage.partition_point(|at| *at < blanks);
-        if self.damage.get(next).is_some_and(|at| *at <= end) {
+        let next = self.edits.partition_point(|at| *at < blanks);
+        if self.edits.get(next).is_some_and(|at| *at <= end) {
             return;
         }
         if self.diagnostics.is_full() {
@@ -236,7 +236,7 @@ impl<'a> Builder<'a> {
                 graph.chains.push(chain);
             }
             _ => {
-                self.bad(recover::statement, &pair);
+                self.bad(syntax_errors::statement, &pair);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! `test` items.
 
 use super::{Builder, expr::unescape, push_doc};
-use crate::syntax::{Rule, recover, tree::*};
+use crate::syntax::{Rule, syntax_errors, tree::*};
 use pest::iterators::Pair;
 
 /// Operators for comparing a token with a value.
@@ -24,7 +24,7 @@ impl Builder<'_> {
                     let Some(stmt) = part.into_inner().next() else { continue };
                     match stmt.as_rule() {
                         Rule::replace_stmt => replaced.extend(self.replaced(stmt)),
-                        Rule::bad_test => self.bad(recover::in_test, &stmt),
+                        Rule::bad_test => self.bad(syntax_errors::in_test, &stmt),
                         _ => steps.extend(self.test_step(stmt)),
                     }
                 }

@@ -1,6 +1,6 @@
 //! The concrete syntax of a source file: all its tokens and comments, under the rules of the grammar.
 
-use super::{Rule, lexical::Lexical};
+use super::{Rule, prescan::Lexical};
 use pest::iterators::Pair;
 use std::ops::Range;
 
@@ -17,11 +17,11 @@ pub struct Node {
     /// The rule.
     pub rule: Rule,
     /// Its parts, in order.
-    pub kids: Vec<Kid>,
+    pub kids: Vec<Child>,
 }
 
 /// A part of a [`Node`].
-pub enum Kid {
+pub enum Child {
     /// The match of another rule.
     Node(Node),
     /// A token without a rule of its own, by its index in [`Text::tokens`].
@@ -102,7 +102,7 @@ impl Shape<'_> {
             for pair in inner {
                 self.signs(at..pair.as_span().start(), &mut kids);
                 at = pair.as_span().end();
-                kids.push(Kid::Node(self.node(pair)));
+                kids.push(Child::Node(self.node(pair)));
             }
             self.signs(at..span.end(), &mut kids);
         }
@@ -112,7 +112,7 @@ impl Shape<'_> {
         Node { rule, kids }
     }
 
-    fn signs(&mut self, range: Range<usize>, kids: &mut Vec<Kid>) {
+    fn signs(&mut self, range: Range<usize>, kids: &mut Vec<Child>) {
         let mut at = range.start;
         while at < range.end {
             let rest = &self.blanked[at..range.end];
@@ -129,10 +129,10 @@ impl Shape<'_> {
         }
     }
 
-    fn token(&mut self, start: usize, length: usize) -> Kid {
+    fn token(&mut self, start: usize, length: usize) -> Child {
         self.places.push(start..start + length);
         self.begins.push(false);
-        Kid::Token(self.places.len() - 1)
+        Child::Token(self.places.len() - 1)
     }
 }
 

@@ -32,7 +32,7 @@ pub fn characteristics(graph: &Graph, catalog: &Catalog, links: &Links, order: &
     let mut list = vec![Characteristics::default(); graph.nodes.len()];
     let siblings = siblings(graph, links, order);
     for &node in order.iter().rev() {
-        let essential = graph.nodes[node].modifiers.essential || super::is_told(graph, catalog, node);
+        let essential = graph.nodes[node].modifiers.essential || super::handles_absence(graph, catalog, node);
         let downstream = links.successors(graph, node).map(|next| list[next].essential || list[next].required);
         let required = downstream.fold(false, |any, one| any | one);
         list[node] =

@@ -15,18 +15,18 @@ use std::collections::BTreeSet;
 
 /// Connected nodes without any guards upstream, and the nodes that take their tokens.
 #[derive(Debug)]
-pub struct Pulled {
+pub struct DemandDriven {
     /// Nodes, which fire together.
     pub nodes: BTreeSet<NodeId>,
     /// Consumers of their tokens outside the group. Each has guards.
-    pub takers: BTreeSet<NodeId>,
+    pub consumers: BTreeSet<NodeId>,
 }
 
-impl Pulled {
+impl DemandDriven {
     /// Guards of the taker with the fewest, if all other takers have these guards, too. `None` if they have not, or if
     /// these guards are only [`Guard::Events`]: room for events does not determine a time.
     pub fn guards(&self, guards: &[Guard], accumulated: &[BTreeSet<usize>]) -> Option<BTreeSet<usize>> {
-        let sets = || self.takers.iter().map(|taker| &accumulated[*taker]);
+        let sets = || self.consumers.iter().map(|consumer| &accumulated[*consumer]);
         let least = sets().min_by_key(|set| set.len())?;
         let has_pace = least.iter().any(|guard| !matches!(guards[*guard], Guard::Events(_)));
         (has_pace && sets().all(|set| least.is_subset(set))).then(|| least.clone())
@@ -35,7 +35,7 @@ impl Pulled {
 
 /// Groups of nodes that could fire with their takers, because nothing else observes the time of their firings. `above`
 /// holds the guards upstream of each node.
-pub fn pulled(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<Pulled> {
+pub fn demand_driven(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<DemandDriven> {
     let is_free = |node: &NodeId| above[*node].is_empty() && view.fires(*node);
     let mut seen: BTreeSet<NodeId> = BTreeSet::new();
     let mut found = vec![];
@@ -43,7 +43,7 @@ pub fn pulled(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<Pulled> {
         if !seen.contains(&node) {
             let together = together(view, node, &is_free);
             seen.extend(&together.nodes);
-            if !together.takers.is_empty() && together.nodes.iter().all(|n| is_unnoticed(view, *n)) {
+            if !together.consumers.is_empty() && together.nodes.iter().all(|n| is_unnoticed(view, *n)) {
                 found.push(together);
             }
         }
@@ -52,8 +52,8 @@ pub fn pulled(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<Pulled> {
 }
 
 /// Group of all free nodes that are connected with `node`.
-fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -> Pulled {
-    let mut group = Pulled { nodes: BTreeSet::new(), takers: BTreeSet::new() };
+fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -> DemandDriven {
+    let mut group = DemandDriven { nodes: BTreeSet::new(), consumers: BTreeSet::new() };
     let mut ends = vec![node];
     while let Some(node) = ends.pop() {
         if !group.nodes.insert(node) {
@@ -67,7 +67,7 @@ fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -
             if is_free(&to) {
                 ends.push(to);
             } else if view.fires(to) {
-                group.takers.insert(to);
+                group.consumers.insert(to);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Repair of unfinished text for editors: makes it parsable without moving the rest.
 
-use super::lexical::{self, MAX_BYTES, MAX_DEPTH};
+use super::prescan::{self, MAX_BYTES, MAX_DEPTH};
 use crate::{report::Diagnostics, source::FileId};
 
 /// Keywords that begin an item.
@@ -9,41 +9,41 @@ const ITEMS: [&str; 5] = ["use", "graph", "robot", "fsm", "test"];
 /// Parsable replacement for a `text` with wrong brackets, strings, comments or characters; `None` if there are none.
 /// Wrong bytes become blanks, and open items are closed: in existing blanks, or behind the end. Every other byte of
 /// `text` keeps its offset, so that places in both texts are the same.
-pub fn mended(text: &str) -> Option<String> {
-    let is_fine = lexical::scan(FileId(0), text, &mut Diagnostics::default()).is_some();
+pub fn repaired(text: &str) -> Option<String> {
+    let is_fine = prescan::scan(FileId(0), text, &mut Diagnostics::default()).is_some();
     if is_fine || text.len() > MAX_BYTES {
         return None;
     }
-    repaired(text)
+    made_parsable(text)
 }
 
-fn repaired(text: &str) -> Option<String> {
+fn made_parsable(text: &str) -> Option<String> {
     let bytes = text.as_bytes().to_vec();
-    let mut mender = Mender { text, bytes, at: 0, open: vec![], angles: 0, solid: 0, ends_in_comment: false };
-    mender.run();
-    String::from_utf8(mender.bytes).ok()
+    let mut repairer = Repairer { text, bytes, at: 0, open: vec![], angles: 0, solid: 0, ends_in_comment: false };
+    repairer.run();
+    String::from_utf8(repairer.bytes).ok()
 }
 
 /// Parsable replacement for a text with a comment that begins at `comment` and never ends. The rest of the text becomes
 /// blank, because no part of it is known to be code.
-pub fn mended_before(text: &str, comment: usize) -> Option<String> {
+pub fn repaired_before(text: &str, comment: usize) -> Option<String> {
     let blank = |b: u8| if b == b'\n' { b } else { b' ' };
     let (before, behind) = text.as_bytes().split_at_checked(comment)?;
     let cut = before.iter().copied().chain(behind.iter().map(|b| blank(*b))).collect();
-    repaired(&String::from_utf8(cut).ok()?)
+    made_parsable(&String::from_utf8(cut).ok()?)
 }
 
-/// Offsets at which `mended` differs from `text`, in ascending order. If something was added behind the end, they
+/// Offsets at which `repaired` differs from `text`, in ascending order. If something was added behind the end, they
 /// include the end, where a statement may be incomplete.
-pub fn damage(text: &str, mended: &str) -> Vec<usize> {
-    let end = (mended.len() > text.len()).then(|| text.trim_end().len());
-    let differ = text.bytes().zip(mended.bytes()).enumerate().filter(|(_, (a, b))| a != b);
+pub fn edits(text: &str, repaired: &str) -> Vec<usize> {
+    let end = (repaired.len() > text.len()).then(|| text.trim_end().len());
+    let differ = text.bytes().zip(repaired.bytes()).enumerate().filter(|(_, (a, b))| a != b);
     let mut places: Vec<usize> = differ.map(|(at, _)| at).filter(|at| text.is_char_boundary(*at)).chain(end).collect();
     places.sort_unstable();
     places
 }
 
-struct Mender<'a> {
+struct Repairer<'a> {
     text: &'a str,
     bytes: Vec<u8>,
     at: usize,
@@ -57,7 +57,7 @@ struct Mender<'a> {
     ends_in_comment: bool,
 }
 
-impl Mender<'_> {
+impl Repairer<'_> {
     fn run(&mut self) {
         while let Some(&byte) = self.bytes.get(self.at) {
             let start = self.at;
@@ -234,19 +234,19 @@ mod tests {
 
     #[test]
     fn the_rest_keeps_its_place() {
-        assert_eq!(mended("graph A { }"), None);
-        assert_eq!(mended("graph A {").as_deref(), Some("graph A {}"));
-        assert_eq!(mended("use a::{b, c").as_deref(), Some("use a::{b, c};"));
-        assert_eq!(mended("graph A { x -> B(; }").as_deref(), Some("graph A { x -> B ; }"));
-        assert_eq!(mended("graph A { x -> B[(1]; ) }").as_deref(), Some("graph A { x -> B[ 1];   }"));
-        assert_eq!(mended("graph A { ü }").as_deref(), Some("graph A {    }"));
-        assert_eq!(mended("graph A {\n\nrobot B { }").as_deref(), Some("graph A {}\nrobot B { }"));
-        assert_eq!(mended("graph A { x = \"a\\\"; }\n}").as_deref(), Some("graph A { x =  a  ; }\n "));
-        assert_eq!(mended("/* graph").as_deref(), Some("   graph"));
-        assert_eq!(mended("graph A { // b").as_deref(), Some("graph A { // b\n}"));
-        assert_eq!(mended("graph A { /// b\n").as_deref(), Some("graph A { /// b\n}"));
-        assert_eq!(mended("graph A { /* { // b").as_deref(), Some("graph A {    { // b\n}}"));
-        assert_eq!(mended_before("graph A { /* ü\n{", 10).as_deref(), Some("graph A {      \n }"));
+        assert_eq!(repaired("graph A { }"), None);
+        assert_eq!(repaired("graph A {").as_deref(), Some("graph A {}"));
+        assert_eq!(repaired("use a::{b, c").as_deref(), Some("use a::{b, c};"));
+        assert_eq!(repaired("graph A { x -> B(; }").as_deref(), Some("graph A { x -> B ; }"));
+        assert_eq!(repaired("graph A { x -> B[(1]; ) }").as_deref(), Some("graph A { x -> B[ 1];   }"));
+        assert_eq!(repaired("graph A { ü }").as_deref(), Some("graph A {    }"));
+        assert_eq!(repaired("graph A {\n\nrobot B { }").as_deref(), Some("graph A {}\nrobot B { }"));
+        assert_eq!(repaired("graph A { x = \"a\\\"; }\n}").as_deref(), Some("graph A { x =  a  ; }\n "));
+        assert_eq!(repaired("/* graph").as_deref(), Some("   graph"));
+        assert_eq!(repaired("graph A { // b").as_deref(), Some("graph A { // b\n}"));
+        assert_eq!(repaired("graph A { /// b\n").as_deref(), Some("graph A { /// b\n}"));
+        assert_eq!(repaired("graph A { /* { // b").as_deref(), Some("graph A {    { // b\n}}"));
+        assert_eq!(repaired_before("graph A { /* ü\n{", 10).as_deref(), Some("graph A {      \n }"));
     }
 
     /// Every byte keeps its place or becomes blank, except for closing brackets in blanks. The result can be parsed.
@@ -294,18 +294,18 @@ mod tests {
         for _ in 0..20_000 {
             let text: String = (0..roll(24)).map(|_| PIECES[roll(PIECES.len())]).collect();
             let comment = text.find("/*").unwrap_or(text.len());
-            for mended in [mended(&text), mended_before(&text, comment)].into_iter().flatten() {
+            for repaired in [repaired(&text), repaired_before(&text, comment)].into_iter().flatten() {
                 changed += 1;
-                assert!(mended.len() >= text.len(), "{text:?}: {mended:?}");
+                assert!(repaired.len() >= text.len(), "{text:?}: {repaired:?}");
                 for (at, c) in text.char_indices() {
-                    let new = &mended[at..at + c.len_utf8()];
+                    let new = &repaired[at..at + c.len_utf8()];
                     let is_kept = new.chars().eq([c]);
                     let is_blank = new.bytes().all(|b| b == b' ');
                     let is_closer = c.is_ascii_whitespace() && matches!(new, "}" | ";");
-                    assert!(is_kept || is_blank || is_closer, "{text:?}: {mended:?}");
+                    assert!(is_kept || is_blank || is_closer, "{text:?}: {repaired:?}");
                 }
-                let read = lexical::scan(FileId(0), &mended, &mut Diagnostics::default());
-                assert!(read.is_some(), "{text:?}: {mended:?}");
+                let read = prescan::scan(FileId(0), &repaired, &mut Diagnostics::default());
+                assert!(read.is_some(), "{text:?}: {repaired:?}");
             }
         }
         assert!(changed > 10_000, "{changed}");

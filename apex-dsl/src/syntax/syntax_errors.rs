@@ -2,8 +2,8 @@
 
 use super::{
     Grammar, Rule,
-    slips::Slip,
-    words::{self, Place},
+    keywords::{self, KeywordPosition},
+    mistakes::CommonMistake,
 };
 use crate::{
     report::{Diagnostic, nearest},
@@ -72,7 +72,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
         _ => {
             let message = format!("`{first}` begins nothing that can stand here");
             let error = Diagnostic::error("syntax", span, message).note(OUTSIDE);
-            let known = words::words_at(Place::Item).map(|word| word.text);
+            let known = keywords::words_at(KeywordPosition::Item).map(|word| word.text);
             match if first == "import" { Some("use") } else { nearest(first, known) } {
                 Some(meant) => error.guess(format!("did you mean `{meant}`?"), span, meant),
                 None => error,
@@ -108,7 +108,7 @@ pub fn diagnose(file: FileId, start: usize, text: &str, error: &Error<Rule>) -> 
     if ends && expected.contains(&"`;`") {
         expected = vec!["`;`"];
     }
-    let slip = Slip { file, start, text, at, expected: &expected };
+    let slip = CommonMistake { file, start, text, at, expected: &expected };
     if let Some(diagnostic) = slip.explained().filter(|_| expected != ["`;`"] || !ends) {
         return diagnostic;
     }

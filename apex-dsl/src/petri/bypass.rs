@@ -4,8 +4,8 @@
 //! the difference cannot be observed. Such a token is a debt: the others have to follow before anything else happens.
 
 use super::{
-    Meaning, Net, PlaceId, TransitionId,
-    route::{Leg, Loop, Stop},
+    Net, PlaceId, TransitionId, TransitionKind,
+    route::{Loop, Segment, SegmentEnd},
     state::Token,
 };
 use crate::graph::Crossing;
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Tokens that have crossed a boundary early.
 #[derive(Clone)]
-pub struct Early {
+pub struct Bypass {
     sides: BTreeMap<Crossing, Side>,
     /// For each leg that begins at a boundary, by the place of its token: the boundary, and the number of the leg
     /// there.
@@ -25,14 +25,14 @@ struct Side {
     pass: TransitionId,
     enabled: PlaceId,
     waiting: PlaceId,
-    ways: Vec<Way>,
+    routes: Vec<Route>,
     /// Ways on which a token has crossed early.
     ahead: BTreeSet<usize>,
 }
 
 /// A connection through a boundary: the place of its token before it, and the places behind it.
 #[derive(Clone)]
-struct Way {
+struct Route {
     before: PlaceId,
     free: PlaceId,
     gives: Vec<PlaceId>,
@@ -40,28 +40,28 @@ struct Way {
 
 type Marking = [VecDeque<Token>];
 
-impl Early {
+impl Bypass {
     /// Initial state, without early tokens.
-    pub fn new(legs: &[Leg], loops: &[Loop], net: &Net) -> Self {
-        // `build` makes two places for each leg: `2 * leg` for its token, and `2 * leg + 1` while it is free.
-        let mut gives: Vec<Vec<PlaceId>> = (0..legs.len()).map(|leg| vec![2 * leg]).collect();
+    pub fn new(segments: &[Segment], loops: &[Loop], net: &Net) -> Self {
+        // `build` makes two places for each leg: `2 * segment` for its token, and `2 * segment + 1` while it is free.
+        let mut gives: Vec<Vec<PlaceId>> = (0..segments.len()).map(|segment| vec![2 * segment]).collect();
         // The copies (`echo`) for legs into loops follow the places of all legs.
         let entries = loops.iter().flat_map(|on_loop| &on_loop.entries);
-        for (echo, entry) in (2 * legs.len()..).zip(entries) {
+        for (echo, entry) in (2 * segments.len()..).zip(entries) {
             gives[*entry].push(echo);
         }
         let (mut sides, mut begins) = (BTreeMap::new(), BTreeMap::new());
         for (pass, transition) in net.transitions.iter().enumerate() {
-            let Meaning::Pass(side) = transition.meaning else { continue };
-            let mut ways = vec![];
-            for leg in (0..legs.len()).filter(|l| legs[*l].from == Stop::Side(side)) {
-                begins.insert(2 * leg, (side, ways.len()));
+            let TransitionKind::Pass(side) = transition.kind else { continue };
+            let mut routes = vec![];
+            for segment in (0..segments.len()).filter(|l| segments[*l].from == SegmentEnd::Side(side)) {
+                begins.insert(2 * segment, (side, routes.len()));
                 // The preceding leg is the part of the same connection before the boundary.
-                ways.push(Way { before: 2 * (leg - 1), free: 2 * leg + 1, gives: gives[leg].clone() });
+                routes.push(Route { before: 2 * (segment - 1), free: 2 * segment + 1, gives: gives[segment].clone() });
             }
             // `Builder::side` takes a token of each way, then `enabled`. The last place that it gives to is `waiting`.
-            let (enabled, waiting) = (transition.takes[ways.len()], transition.gives[transition.gives.len() - 1]);
-            sides.insert(side, Side { pass, enabled, waiting, ways, ahead: BTreeSet::new() });
+            let (enabled, waiting) = (transition.takes[routes.len()], transition.gives[transition.gives.len() - 1]);
+            sides.insert(side, Side { pass, enabled, waiting, routes, ahead: BTreeSet::new() });
         }
         Self { sides, begins }
     }
@@ -69,22 +69,22 @@ impl Early {
     /// The place where a token waits that reaches `place` through a boundary.
     pub fn before(&self, place: PlaceId) -> Option<PlaceId> {
         let (side, index) = self.begins.get(&place)?;
-        Some(self.sides.get(side)?.ways[*index].before)
+        Some(self.sides.get(side)?.routes[*index].before)
     }
 
     /// Advances a token to `place`, if only the other tokens at boundaries hold it back. Returns `true` if it did.
     pub fn advance(&mut self, place: PlaceId, marking: &mut Marking) -> bool {
         let Some((crossing, index)) = self.begins.get(&place).copied() else { return false };
         let Some(side) = self.sides.get(&crossing) else { return false };
-        let way = side.ways[index].clone();
-        if marking[side.enabled].is_empty() || side.ahead.contains(&index) || marking[way.free].is_empty() {
+        let route = side.routes[index].clone();
+        if marking[side.enabled].is_empty() || side.ahead.contains(&index) || marking[route.free].is_empty() {
             return false;
         }
         // The token may itself have to cross an outer boundary first.
-        if marking[way.before].is_empty() && !self.advance(way.before, marking) {
+        if marking[route.before].is_empty() && !self.advance(route.before, marking) {
             return false;
         }
-        go(&way, marking);
+        go(&route, marking);
         self.sides.get_mut(&crossing).is_some_and(|s| s.ahead.insert(index))
     }
 
@@ -93,8 +93,8 @@ impl Early {
     pub fn follow(&mut self, marking: &mut Marking) -> Vec<TransitionId> {
         let mut passed = vec![];
         for side in self.sides.values_mut().filter(|s| !s.ahead.is_empty()) {
-            let rest: Vec<&Way> =
-                side.ways.iter().enumerate().filter(|(i, _)| !side.ahead.contains(i)).map(|(_, w)| w).collect();
+            let rest: Vec<&Route> =
+                side.routes.iter().enumerate().filter(|(i, _)| !side.ahead.contains(i)).map(|(_, w)| w).collect();
             if rest.iter().all(|w| !marking[w.before].is_empty() && !marking[w.free].is_empty()) {
                 rest.into_iter().for_each(|w| go(w, marking));
                 marking[side.enabled].pop_front();
@@ -112,8 +112,8 @@ impl Early {
     }
 }
 
-fn go(way: &Way, marking: &mut Marking) {
-    marking[way.free].pop_front();
-    let token = marking[way.before].pop_front().unwrap_or_default();
-    way.gives.iter().for_each(|p| marking[*p].push_back(token));
+fn go(route: &Route, marking: &mut Marking) {
+    marking[route.free].pop_front();
+    let token = marking[route.before].pop_front().unwrap_or_default();
+    route.gives.iter().for_each(|p| marking[*p].push_back(token));
 }

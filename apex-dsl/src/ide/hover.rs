@@ -6,8 +6,8 @@ use crate::{
     resolve::Link,
     source::Span,
     syntax::{
+        keywords::{KEYWORDS, Keyword, KeywordPosition, words_at},
         tree::PortKind,
-        words::{Place, WORDS, Word, words_at},
     },
 };
 
@@ -52,7 +52,9 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
             &view.texts.graph(id).generics[i].text,
             "A type that the connections decide, or that is written where the graph is used.",
         ),
-        Definition::Own(name) => page(name, words_at(Place::Node).find(|w| w.text == name).map_or("", |w| w.docs)),
+        Definition::Own(name) => {
+            page(name, words_at(KeywordPosition::Node).find(|w| w.text == name).map_or("", |w| w.docs))
+        }
         Definition::Type(def) => page(&format!("type {}", view.catalog.name(def)), ""),
     }
 }
@@ -87,12 +89,12 @@ pub fn describe_word(view: &View<'_>, text: &str, offset: usize) -> Option<Strin
     let tree = &view.texts.files[0].1;
     let around = |s: Span| s.start as usize <= offset && offset <= s.end as usize;
     let place = match () {
-        () if tree.machines.iter().any(|m| around(m.extent)) => Place::Machine,
-        () if tree.tests.iter().any(|t| around(t.extent)) => Place::Test,
-        () => Place::Graph,
+        () if tree.machines.iter().any(|m| around(m.extent)) => KeywordPosition::Machine,
+        () if tree.tests.iter().any(|t| around(t.extent)) => KeywordPosition::Test,
+        () => KeywordPosition::Graph,
     };
-    let is_word = |w: &&Word| w.text == word;
-    let found = words_at(place).find(is_word).or_else(|| WORDS.iter().find(is_word))?;
+    let is_word = |w: &&Keyword| w.text == word;
+    let found = words_at(place).find(is_word).or_else(|| KEYWORDS.iter().find(is_word))?;
     Some(page(word, found.docs))
 }
 

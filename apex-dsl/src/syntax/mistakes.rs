@@ -1,6 +1,6 @@
 //! Common mistakes in statements: explains them better than "expected …" does, and suggests a fix.
 
-use super::words;
+use super::keywords;
 use crate::{
     report::{Diagnostic, nearest},
     source::{FileId, Span},
@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// The place in a statement where the grammar does not match.
-pub struct Slip<'a> {
+pub struct CommonMistake<'a> {
     /// The file.
     pub file: FileId,
     /// Offset of the statement in the file.
@@ -24,10 +24,10 @@ pub struct Slip<'a> {
 /// Keywords that begin a statement of a graph.
 const STATEMENTS: [&str; 7] = ["node", "in", "out", "slot", "event", "claim", "record"];
 
-impl Slip<'_> {
+impl CommonMistake<'_> {
     /// The explanation of the mistake, if it is a common one.
     pub fn explained(&self) -> Option<Diagnostic> {
-        let slips = [
+        let mistakes = [
             Self::number,
             Self::unit,
             Self::reserved,
@@ -40,7 +40,7 @@ impl Slip<'_> {
             Self::keyword,
             Self::modifier,
         ];
-        slips.iter().find_map(|slip| slip(self))
+        mistakes.iter().find_map(|slip| slip(self))
     }
 
     fn rest(&self) -> &str {
@@ -102,7 +102,7 @@ impl Slip<'_> {
     /// Explains `node in = …`.
     fn reserved(&self) -> Option<Diagnostic> {
         let word = word(self.rest());
-        if !self.expects("a name") || !words::RESERVED.contains(&word) {
+        if !self.expects("a name") || !keywords::RESERVED.contains(&word) {
             return None;
         }
         let message = format!("`{word}` is a word of the language: it cannot be a name");
@@ -309,7 +309,7 @@ impl Slip<'_> {
 
 /// Keywords of modifiers.
 fn modifiers() -> impl Iterator<Item = &'static str> {
-    words::words_at(words::Place::Modifier).map(|word| word.text)
+    keywords::words_at(keywords::KeywordPosition::Modifier).map(|word| word.text)
 }
 
 /// The word at the start of `text`; empty if there is none.
