@@ -91,9 +91,8 @@ fn main_file(file: &str, programs: &[&Program], of_all: &[Vec<Piece>]) -> String
     }
     format!(
         r"#![allow(dead_code)]
-use apex_rt::prelude::*;
 
-graph!({file:?});
+apex_macros::graph!({file:?});
 
 fn main() {{
     fn size<P, T>(_: fn(&P) -> &T) -> usize {{

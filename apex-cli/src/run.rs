@@ -194,7 +194,7 @@ impl Wanted<'_> {
         }
         let folder = package(self.file)?;
         let workspace = Workspace::load(&folder)?;
-        has_runtime(&folder, &workspace)?;
+        has_apex(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
         // A program of one's own may have a loop of its own, which repeats nothing.
         let repeats = matches!(self.recording, Recording::Repeated(_));
@@ -333,12 +333,16 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
 }
 
 /// Refuses a package whose texts cannot be compiled.
-pub fn has_runtime(folder: &Path, workspace: &Workspace) -> Result<(), String> {
-    if workspace.libraries().iter().any(|(name, _)| *name == "apex-rt") {
-        return Ok(());
+pub fn has_apex(folder: &Path, workspace: &Workspace) -> Result<(), String> {
+    let libraries = workspace.libraries();
+    match ["apex-rt", "apex-macros"].iter().find(|name| libraries.iter().all(|(library, _)| library != *name)) {
+        None => Ok(()),
+        Some(name) => {
+            let manifest = folder.join("Cargo.toml");
+            let manifest = manifest.display();
+            Err(format!("the package in `{manifest}` does not depend on `{name}`: add it to `[dependencies]`"))
+        }
     }
-    let manifest = folder.join("Cargo.toml");
-    Err(format!("the package in `{}` does not depend on `apex-rt`: add it to `[dependencies]`", manifest.display()))
 }
 
 /// The whole path of a text, as a made package names it.
@@ -350,11 +354,12 @@ pub fn absolute(file: &Path) -> Result<PathBuf, String> {
 fn main_file(file: &str, name: &str, params: bool) -> String {
     if !params {
         return format!(
-            "use apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({name}::new(), WallClock::new());\n}}\n"
+            "use apex_macros::graph;\nuse apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({name}::new(), WallClock::new());\n}}\n"
         );
     }
     format!(
-        r#"use apex_rt::{{UntilStopped, params::run_with_files, prelude::*}};
+        r#"use apex_macros::graph;
+use apex_rt::{{UntilStopped, params::run_with_files, prelude::*}};
 use std::{{env, path::PathBuf, process::ExitCode}};
 
 graph!({file:?});

@@ -29,7 +29,7 @@ pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, Stri
     let names = chosen(&scripts, filter)?;
     let folder = run::package(file)?;
     let workspace = Workspace::load(&folder)?;
-    run::has_runtime(&folder, &workspace)?;
+    run::has_apex(&folder, &workspace)?;
     let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
     let recorded = scripts.iter().flat_map(|script| &script.steps).any(is_recorded);
     let tests = Tests {
@@ -128,7 +128,7 @@ impl Tests<'_> {
             program: "",
             features: self.features,
             file: "src/lib.rs",
-            code: &format!("use apex_rt::prelude::*;\n\ngraph!({:?});\n", made::utf8(self.text)?),
+            code: &format!("apex_macros::graph!({:?});\n", made::utf8(self.text)?),
         };
         let Some(built) = build::build(&made.make()?, build::TESTS, self.how)?.program()? else {
             return Ok(None);

@@ -577,18 +577,27 @@ fn a_machine_without_cargo() {
     }
 }
 
-/// Without the runtime a text can be checked, but not run.
+/// Without the runtime or `graph!` a text can be checked, but not run.
 #[test]
-fn a_package_without_the_runtime() {
-    let folder = Folder::new("no_runtime");
-    folder.file("Cargo.toml", "[package]\nname = \"plain\"\nedition = \"2024\"\n[workspace]\n");
+fn a_package_without_the_runtime_or_the_macro() {
+    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../apex-rt");
+    cannot_run("no_runtime", "", "apex-rt");
+    cannot_run("no_macro", &format!("[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"), "apex-macros");
+}
+
+/// A package with these dependencies, which `apex run` and `apex test` refuse because `missing` is not one of them.
+fn cannot_run(name: &str, dependencies: &str, missing: &str) {
+    let folder = Folder::new(name);
+    let manifest = format!("[package]\nname = \"plain\"\nedition = \"2024\"\n[workspace]\n{dependencies}");
+    folder.file("Cargo.toml", manifest);
     fs::create_dir(folder.0.join("src")).unwrap();
     folder.file("src/lib.rs", "");
     let file = folder.file("a.afg", BELL.to_owned() + "test a: House { feed push; }\n");
     for (command, code) in [("check", 0), ("run", 2), ("test", 2)] {
         let output = apex().arg(command).arg(&file).output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{command}: {}", stderr(&output));
-        assert_eq!(stderr(&output).contains("does not depend on `apex-rt`: add it"), code == 2, "{}", stderr(&output));
+        let message = format!("does not depend on `{missing}`: add it");
+        assert_eq!(stderr(&output).contains(&message), code == 2, "{}", stderr(&output));
     }
 }
 

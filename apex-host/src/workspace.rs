@@ -13,6 +13,9 @@ use std::{
     process::Command,
 };
 
+/// The crates that every program needs: the runtime, and the macro `graph!`.
+const APEX: [&str; 2] = ["apex-rt", "apex-macros"];
+
 /// Place from which a graph is seen; decides the meaning of `crate`.
 pub enum Seen<'a> {
     /// A crate that is being compiled: its name, and `true` if it is a binary or an example.
@@ -28,8 +31,8 @@ pub struct Workspace {
     pub root: PathBuf,
     /// The folder in which cargo builds.
     pub target: PathBuf,
-    /// The manifest of `apex-rt`.
-    runtime: Option<PathBuf>,
+    /// The manifests of those of `APEX` that a package of the workspace depends on.
+    apex: BTreeMap<String, PathBuf>,
     packages: Vec<Package>,
     here: usize,
     /// Conditions (`cfg`) of a compilation for this machine, from rustc.
@@ -111,7 +114,6 @@ impl Workspace {
         let packages = list(&metadata["packages"]);
         let runtime: BTreeSet<String> =
             packages.iter().filter(|p| p["name"] == "apex-rt").map(|p| text(&p["id"])).collect();
-        let runtime_package = packages.iter().find(|p| p["name"] == "apex-rt");
         let uses_runtime =
             |node: &&Value| list(&node["deps"]).iter().any(|d| runtime.contains(d["pkg"].as_str().unwrap_or_default()));
         let same = |p: &Value| fs::canonicalize(text(&p["manifest_path"])).ok() == fs::canonicalize(manifest).ok();
@@ -145,6 +147,9 @@ impl Workspace {
                     .collect(),
             })
         };
+        let is_apex = |p: &&Value| APEX.iter().any(|name| p["name"] == *name);
+        let apex =
+            packages.iter().filter(is_apex).map(|p| (text(&p["name"]), text(&p["manifest_path"]).into())).collect();
         let packages = scanned
             .iter()
             .map(package)
@@ -154,7 +159,7 @@ impl Workspace {
             root: text(&metadata["workspace_root"]).into(),
             target: text(&metadata["target_directory"]).into(),
             packages,
-            runtime: runtime_package.map(|p| text(&p["manifest_path"]).into()),
+            apex,
             here: index[&own],
             conditions: conditions(),
             stamps: vec![],
@@ -249,8 +254,8 @@ impl Workspace {
     /// Returns the crates that a program outside of the package needs for a graph in it: name and folder.
     pub fn libraries(&self) -> Vec<(&str, &Path)> {
         let libraries = self.packages.iter().filter(|p| p.targets.iter().any(|t| is_library(&t.kind)));
-        let runtime = self.runtime.iter().map(|manifest| ("apex-rt", manifest));
-        let all = runtime.chain(libraries.map(|p| (p.name.as_str(), &p.manifest)));
+        let apex = self.apex.iter().map(|(name, manifest)| (name.as_str(), manifest));
+        let all = apex.chain(libraries.map(|p| (p.name.as_str(), &p.manifest)));
         all.map(|(name, manifest)| (name, manifest.parent().unwrap_or(Path::new(".")))).collect()
     }
 }

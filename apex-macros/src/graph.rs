@@ -71,15 +71,13 @@ fn expand_with(input: proc_macro::TokenStream, folder: &Path, kept: &mut Kept) -
     let checked = passes::check(text.root, catalog, &mut text.sources, &mut disk, &mut diagnostics);
     disk.save();
     let place = |span: Span| place(&text, span);
-    let code = passes::generate(
-        &checked.programs,
-        &checked.texts.machines,
-        catalog,
-        &text.sources,
-        &place,
-        cfg!(feature = "record"),
-        &mut diagnostics,
-    );
+    let mut generate = |recordable| {
+        let (programs, machines) = (&checked.programs, &checked.texts.machines);
+        passes::generate(programs, machines, catalog, &text.sources, &place, recordable, &mut diagnostics)
+    };
+    // Only the runtime knows whether it can record.
+    let (recordable, plain) = (generate(true), generate(false));
+    let code = quote! { ::apex_rt::__if_record! { { #recordable } { #plain } } };
     // The state machines belong to this source.
     catalog.forget_machines();
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error).map(|d| error(d, &text));

@@ -1,22 +1,8 @@
-//! The macros of Apex: thin wrappers around `apex-dsl`.
+//! `graph!`: a thin wrapper around the compiler, `apex-dsl`. The code that it generates calls the runtime, `apex-rt`.
 
 mod graph;
-mod node;
-mod outputs;
 
 use proc_macro::TokenStream;
-
-/// Makes a function, a struct or its `impl` a node. The signature is the interface.
-#[proc_macro_attribute]
-pub fn node(args: TokenStream, item: TokenStream) -> TokenStream {
-    node::expand(args.into(), item.into()).unwrap_or_else(|error| error.into_compile_error()).into()
-}
-
-/// Makes every field of a struct an output of the node that returns it. A field of type `Option<T>` may be ⊥.
-#[proc_macro_derive(Outputs)]
-pub fn outputs(item: TokenStream) -> TokenStream {
-    outputs::expand(item.into()).unwrap_or_else(|error| error.into_compile_error()).into()
-}
 
 /// Compiles a graph: `graph!("robot.afg")`, or the source itself in braces.
 #[proc_macro]

@@ -44,7 +44,7 @@ mod time;
 mod timer;
 mod token;
 
-pub use apex_macros::{Outputs, graph, node};
+pub use apex_attributes::{Outputs, node};
 
 pub use cell::{CellReceiver, CellSender, TokenCell};
 #[cfg(feature = "std")]
@@ -82,12 +82,28 @@ pub use time::Time;
 pub use timer::{Agenda, Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
-/// The items that most users of Apex need, macros included.
+/// The items that most users of Apex need besides `apex_macros::graph`.
 pub mod prelude {
     pub use crate::{
-        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, graph,
-        node, run,
+        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, node,
+        run,
     };
     #[cfg(feature = "std")]
     pub use crate::{StdErr, WallClock};
+}
+
+/// Generated code for programs that can be recorded, or else the code for all others.
+#[cfg(feature = "record")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __if_record {
+    ({ $($recordable:tt)* } { $($plain:tt)* }) => { $($recordable)* };
+}
+
+/// Generated code for programs that can be recorded, or else the code for all others.
+#[cfg(not(feature = "record"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __if_record {
+    ({ $($recordable:tt)* } { $($plain:tt)* }) => { $($plain)* };
 }

@@ -1,5 +1,6 @@
 //! A graph of as many nodes as `apex-bench compile` writes into its text.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph!("growth.afg");

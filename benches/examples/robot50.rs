@@ -1,5 +1,6 @@
 //! A robot of 50 nodes: what `apex-bench compile` edits and builds again.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph!("robot50.afg");

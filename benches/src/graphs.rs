@@ -1,5 +1,6 @@
 //! The compiled graphs, each as a function from a number of ticks to the checksum.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::time::Instant;
 

@@ -1,6 +1,7 @@
 //! Nodes and programs that run on two threads.
 
 use crate::tworegion;
+use apex_macros::graph;
 use apex_rt::{prelude::*, threads::drive_on_threads};
 use std::{
     hint::black_box,

@@ -7,7 +7,7 @@ use std::{fmt::Write as _, fs, path::Path};
 
 mod programs {
     #![allow(missing_docs)]
-    apex_rt::graph!("library.afg");
+    apex_macros::graph!("library.afg");
 }
 
 /// Type as spelled in a source file; type parameters become `f64`.

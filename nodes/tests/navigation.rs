@@ -1,5 +1,6 @@
 //! `navigation.afg`, a robot that navigates, in a simulated arena.
 
+use apex_macros::graph;
 use apex_nodes::{
     map::{Grid, Occupancy, Raster},
     nav::Twist,

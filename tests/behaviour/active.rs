@@ -1,5 +1,6 @@
 //! More of activity: what keeps it and what loses it, nested graphs, resets, delays, `timeout`.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{Log, active, active_after_each, react, simulate};
 

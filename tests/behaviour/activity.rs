@@ -1,5 +1,6 @@
 //! Activity: which node is active when, and what tokens carry.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{Log, active_after_each};
 

@@ -1,5 +1,6 @@
 //! Events and slots where they meet inputs, ⊥, timers, other rates, nested graphs, and each other.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{Log, react, simulate};
 

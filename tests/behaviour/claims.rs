@@ -1,5 +1,6 @@
 //! Claims that the compiler could not decide are looked at while the program runs.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::react;
 

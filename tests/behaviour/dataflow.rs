@@ -1,5 +1,6 @@
 //! Data flow: chains, fans, joins, loops.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::react;
 

@@ -1,5 +1,6 @@
 //! `each`: order, length, filters, broadcast, nesting, state.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::react;
 

@@ -1,5 +1,6 @@
 //! Slots, events, and connections between synchronous and asynchronous ports.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::react;
 

@@ -1,5 +1,6 @@
 //! Failures that are told and contained, nodes that are switched off and on, and how a program ends.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{react, simulate};
 use std::{process::Command, time::Duration};

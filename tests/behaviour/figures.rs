@@ -1,5 +1,6 @@
 //! Figures of the thesis, as texts in `../figures`: each test asserts the point that its figure makes.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{Log, active, active_after_each, react, simulate};
 
@@ -19,7 +20,7 @@ graph!("../figures/fig_8_02.afg");
 graph!("../figures/fig_8_10.afg");
 graph!("../figures/fig_8_11.afg");
 mod by_activity {
-    apex_rt::graph!("../figures/fig_7_04.afg");
+    apex_macros::graph!("../figures/fig_7_04.afg");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The forms of nodes: generic ones, several outputs, outputs written in place.
 
-use apex_rt::prelude::*;
+use apex_macros::graph;
 use apex_tests::{nodes::Label, react};
 
 graph!("forms.afg");

@@ -1,5 +1,6 @@
 //! Nodes and tokens that come from Rust.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{nodes::Held, react};
 

@@ -1,5 +1,6 @@
 //! Names that collide with nothing, whatever they are.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::react;
 

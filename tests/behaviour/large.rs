@@ -1,5 +1,6 @@
 //! Graphs so large that the dispatcher uses tables and lists.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph!("large.afg");

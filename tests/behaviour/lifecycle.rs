@@ -1,6 +1,6 @@
 //! Failures: a node that fails sends nothing, and all else goes on.
 
-use apex_rt::prelude::*;
+use apex_macros::graph;
 use apex_tests::react;
 
 graph! {

@@ -1,5 +1,6 @@
 //! `fsm`: states, transitions with guards and actions, states inside states.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph!("machines.afg");

@@ -1,5 +1,6 @@
 //! ⊥: who sees it, who is spared, and what it costs.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{expand, react};
 

@@ -1,5 +1,6 @@
 //! Any name that the language allows can be used.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{react, simulate};
 

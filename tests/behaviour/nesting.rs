@@ -1,5 +1,6 @@
 //! Nested graphs: one node towards their parent, and nothing changes by grouping.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::react;
 

@@ -1,6 +1,6 @@
 //! Parameters: values in the text, values that arrive, values that are refused.
 
-use apex_rt::prelude::*;
+use apex_macros::graph;
 use apex_tests::react;
 use std::{f32::consts::PI, time::Duration};
 

@@ -1,5 +1,6 @@
 //! Parameters of a running program: read, set, saved and loaded.
 
+use apex_macros::graph;
 use apex_rt::{
     params::{
         LoadError, ParamError, ParamRange, ParamRef, ParamValue, Problem, Rejection, load, load_file, not_saved,

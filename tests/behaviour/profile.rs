@@ -1,5 +1,6 @@
 //! Profiles: what is measured, not how long it takes.
 
+use apex_macros::graph;
 use apex_rt::{drive_with, prelude::*, profile::Profile};
 use std::{env, fs, sync::Mutex};
 

@@ -2,6 +2,7 @@
 //!
 //! The texts are made by `apex_tests::text` and committed; `APEX_BLESS=1` writes them anew.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{Case, Log, SEED, Trace, cases, nodes::take_tape, text};
 

@@ -1,6 +1,6 @@
 //! Several tokens per firing (Lee 1987): balance, ⊥ among the tokens, delays, loops.
 
-use apex_rt::prelude::*;
+use apex_macros::graph;
 use apex_tests::react;
 
 graph!("rates.afg");

@@ -1,5 +1,6 @@
 //! Large programs: deep chains of filters, more conditions than one word has bits.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{react, simulate};
 

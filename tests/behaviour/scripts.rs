@@ -1,5 +1,5 @@
 //! `test` items: each is a Rust test of its own.
 
-use apex_rt::prelude::*;
+use apex_macros::graph;
 
 graph!("scripts.afg");

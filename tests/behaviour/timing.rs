@@ -1,5 +1,6 @@
 //! Time: exact paces, and paces that hold each other back.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{Log, react, simulate};
 

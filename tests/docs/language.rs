@@ -1,3 +1,4 @@
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph! {

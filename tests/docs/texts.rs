@@ -1,40 +1,40 @@
 //! The examples that have tests, compiled so that their tests run.
 
 mod answers {
-    apex_rt::graph!("texts/answers.afg");
+    apex_macros::graph!("texts/answers.afg");
 }
 mod duty {
-    apex_rt::graph!("texts/duty.afg");
+    apex_macros::graph!("texts/duty.afg");
 }
 mod filled {
-    apex_rt::graph!("texts/filled.afg");
+    apex_macros::graph!("texts/filled.afg");
 }
 mod gate {
-    apex_rt::graph!("texts/gate.afg");
+    apex_macros::graph!("texts/gate.afg");
 }
 mod help {
-    apex_rt::graph!("texts/help.afg");
+    apex_macros::graph!("texts/help.afg");
 }
 mod hours {
-    apex_rt::graph!("texts/hours.afg");
+    apex_macros::graph!("texts/hours.afg");
 }
 mod join {
-    apex_rt::graph!("texts/join.afg");
+    apex_macros::graph!("texts/join.afg");
 }
 mod lamp {
-    apex_rt::graph!("texts/lamp.afg");
+    apex_macros::graph!("texts/lamp.afg");
 }
 mod mission {
-    apex_rt::graph!("texts/mission.afg");
+    apex_macros::graph!("texts/mission.afg");
 }
 mod stop {
-    apex_rt::graph!("texts/stop.afg");
+    apex_macros::graph!("texts/stop.afg");
 }
 mod times {
-    apex_rt::graph!("texts/times.afg");
+    apex_macros::graph!("texts/times.afg");
 }
 mod waiting {
-    apex_rt::graph!("texts/waiting.afg");
+    apex_macros::graph!("texts/waiting.afg");
 }
 
 /// Their texts.

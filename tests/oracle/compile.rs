@@ -160,7 +160,9 @@ impl Part<'_> {
             let file = self.file.with_file_name(name).with_extension("afg");
             write(&file, text)?;
             let module = name.to_lowercase();
-            graphs.push_str(&format!("mod {module} {{\n    use apex_rt::prelude::*;\n    graph!({file:?});\n}}\n"));
+            graphs.push_str(&format!(
+                "mod {module} {{\n    use apex_rt::prelude::*;\n    apex_macros::graph!({file:?});\n}}\n"
+            ));
             runs.push_str(&format!("observe({module}::{name}::new, &how);\n    "));
         }
         let source = self.file.with_extension("rs");

@@ -1,6 +1,7 @@
 //! A file that was cut off, or is something else.
 
 use crate::{Folder, record, repeat};
+use apex_macros::graph;
 use apex_rt::{drive_with, prelude::*, record::replay};
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! A test that takes its tokens from a recording: twelve milliseconds of `Small` in `cut.rs`.
 
-use apex_rt::prelude::*;
+use apex_macros::graph;
 
 graph! {
     use apex_tests::nodes::Mean;

@@ -1,6 +1,7 @@
 //! Tokens that come faster than they can be written.
 
 use crate::{Folder, repeat};
+use apex_macros::graph;
 use apex_rt::{
     drive_with,
     prelude::*,

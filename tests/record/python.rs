@@ -1,6 +1,7 @@
 //! Others read what was recorded: the Python packages `mcap` and `mcap-ros2-support`.
 
 use crate::{Folder, record};
+use apex_macros::graph;
 use apex_rt::{drive_with, prelude::*};
 use apex_tests::python;
 use std::{path::Path, process::Command};

@@ -1,6 +1,7 @@
 //! There and back.
 
 use crate::{Folder, record, repeat};
+use apex_macros::graph;
 use apex_rt::{Program, drive_with, prelude::*, record::replay};
 use std::time::Duration;
 

@@ -2,6 +2,7 @@
 //! when it had it.
 
 use crate::{Folder, record, repeat};
+use apex_macros::graph;
 use apex_rt::{
     Program, drive_with,
     prelude::*,
@@ -251,7 +252,7 @@ graph! {
 }
 
 mod before {
-    apex_rt::prelude::graph! {
+    apex_macros::graph! {
         use crate::threads::{Enough, Heard};
 
         graph Asked {

@@ -8,7 +8,7 @@ use std::{
 };
 
 /// What such programs use.
-const USED: [&str; 3] = ["apex_nodes", "apex_rt", "apex_tests"];
+const USED: [&str; 4] = ["apex_macros", "apex_nodes", "apex_rt", "apex_tests"];
 
 /// Compiled libraries. In a package made for a test, cargo would compile all of them again, and the compiler with them.
 pub struct Libraries {
@@ -35,7 +35,7 @@ impl Libraries {
             .filter_map(|message| {
                 let name = message["target"]["name"].as_str().filter(|name| USED.contains(name))?;
                 let mut files = message["filenames"].as_array()?.iter().filter_map(Value::as_str);
-                Some((name.to_owned(), files.find(|file| file.ends_with(".rlib"))?.into()))
+                Some((name.to_owned(), files.find(|file| !file.ends_with(".rmeta"))?.into()))
             })
             .collect();
         assert_eq!(files.len(), USED.len(), "cargo has not compiled all of {USED:?}: {files:?}");

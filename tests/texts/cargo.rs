@@ -73,7 +73,8 @@ fn manifest(slot: usize, shape: Shape) -> String {
     };
     format!(
         "[package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n{binary}[features]\nfast = []\n\n[dependencies]\n\
-         apex-rt = {{ path = {:?}, features = [\"record\"] }}\napex-nodes = {{ path = {:?} }}\n",
+         apex-macros = {{ path = {:?} }}\napex-rt = {{ path = {:?}, features = [\"record\"] }}\napex-nodes = {{ path = {:?} }}\n",
+        format!("{root}/apex-macros"),
         format!("{root}/apex-rt"),
         format!("{root}/nodes"),
     )
@@ -189,7 +190,7 @@ fn message(message: &Value, source: &Path) -> Option<Message> {
         return None;
     }
     let lines = fs::read_to_string(source).unwrap_or_default();
-    let call = lines.lines().position(|l| l.contains("::apex_rt::graph!")).map_or(usize::MAX, |l| l + 1);
+    let call = lines.lines().position(|l| l.contains("::apex_macros::graph!")).map_or(usize::MAX, |l| l + 1);
     let children = message["children"].as_array().into_iter().flatten().flat_map(|c| c["spans"].as_array());
     let spans: Vec<&Value> = message["spans"].as_array().into_iter().chain(children).flatten().collect();
     let start = |span: &Value| span["line_start"].as_u64().unwrap_or(0) as usize;

@@ -55,7 +55,7 @@ impl Checker {
         let seen = Seen::Crate(&target, case.shape == Shape::Both);
         let root = folder.join("src").join(if case.shape == Shape::Both { "main.rs" } else { "lib.rs" });
         let lines = std::fs::read_to_string(&root).unwrap_or_default();
-        let calls = lines.lines().enumerate().filter(|(_, line)| line.contains("::apex_rt::graph!"));
+        let calls = lines.lines().enumerate().filter(|(_, line)| line.contains("::apex_macros::graph!"));
         let mut names = vec![];
         for (call, (line, _)) in case.calls.iter().zip(calls) {
             let site = (root.clone(), line + 1);

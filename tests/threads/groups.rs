@@ -1,5 +1,6 @@
 //! What crosses from one thread group to another.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{active, react, simulate};
 

@@ -1,6 +1,7 @@
 //! What Ctrl-C does to a program that is driven: this test runs itself as another process, which hangs.
 #![cfg(unix)]
 
+use apex_macros::graph;
 use apex_rt::{UntilStopped, drive, prelude::*};
 use std::{
     env,

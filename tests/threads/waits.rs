@@ -1,5 +1,6 @@
 //! Programs that wait for other threads: they sleep, they are woken, and they end when nobody can wake them any more.
 
+use apex_macros::graph;
 use apex_rt::{PortReceiver, PortSender, Ports, Switch, UntilStopped, drive, drive_from, prelude::*};
 use std::{cell::Cell, thread};
 

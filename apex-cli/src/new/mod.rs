@@ -92,6 +92,7 @@ pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result
         ("{name}", name.to_owned()),
         ("{crate}", name.replace('-', "_")),
         ("{checkout}", checkout.display().to_string()),
+        ("{macros}", path("apex-macros")?),
         ("{runtime}", path("apex-rt")?),
         ("{nodes}", path("nodes")?),
         ("{sim}", path("robots/sim")?),

@@ -54,9 +54,11 @@ pub fn stderr(output: &Output) -> String {
 
 /// Makes a package with nodes and no program of its own.
 pub fn package(folder: &Folder, nodes: &str) {
-    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../apex-rt");
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (macros, runtime) = (checkout.join("apex-macros"), checkout.join("apex-rt"));
     let manifest = format!(
-        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\napex-rt = {{ path = {runtime:?} }}\n"
+        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n\
+         apex-macros = {{ path = {macros:?} }}\napex-rt = {{ path = {runtime:?} }}\n"
     );
     folder.file("Cargo.toml", manifest);
     fs::create_dir_all(folder.0.join("src")).unwrap();

@@ -141,7 +141,7 @@ fn each_package_has_its_own_nodes() {
 fn nothing_is_built_twice() {
     let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = Folder::new("together-once");
-    package(&folder, &format!("{NODES}graph!(\"robot.afg\");\n"));
+    package(&folder, &format!("{NODES}apex_macros::graph!(\"robot.afg\");\n"));
     // Cargo takes packages of one name that lie in different workspaces for the same, if they share a target folder.
     let manifest = fs::read_to_string(folder.0.join("Cargo.toml")).unwrap().replace("\"robot\"", "\"once\"");
     folder.file("Cargo.toml", manifest);

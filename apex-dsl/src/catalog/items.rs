@@ -1,7 +1,8 @@
 //! Items of one Rust file that matter to the catalog: modules, imports, types and node signatures. They are cached
 //! between runs, and so contain no syntax trees and do not depend on other files.
 
-use super::{signature, ty::Ty};
+use super::ty::Ty;
+use apex_signature as signature;
 use quote::ToTokens as _;
 use serde::{Deserialize, Serialize};
 use syn::{Attribute, Item as Syn, UseTree, Visibility, spanned::Spanned};

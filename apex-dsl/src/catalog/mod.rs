@@ -6,7 +6,6 @@ mod constants;
 mod items;
 pub mod library;
 mod reach;
-pub mod signature;
 mod traits;
 mod tree;
 mod ty;

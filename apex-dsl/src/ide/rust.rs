@@ -1,7 +1,8 @@
 //! Places of ports and parameters in the Rust source of a node. The catalog knows only the line of the node; its parts
 //! are searched on demand.
 
-use crate::{catalog::signature::marked, syntax::tree::PortKind};
+use crate::syntax::tree::PortKind;
+use apex_signature::marked;
 use proc_macro2::Span;
 use std::ops::Range;
 use syn::{

@@ -4,6 +4,7 @@ use crate::{
     mutate::{Dice, bytes, words},
     worker::Target,
 };
+use apex_macros::graph;
 use apex_nodes::{
     io::{CsvReader, LogGeometry, ScanLogReader},
     learn::{Mlp, Model},
@@ -11,7 +12,7 @@ use apex_nodes::{
     scan::Scan,
     slam::PoseGraph,
 };
-use apex_rt::{params, prelude::*};
+use apex_rt::params;
 use std::{env, fmt::Write as _, fs, path::PathBuf, process};
 
 graph! {

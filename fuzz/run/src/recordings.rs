@@ -4,6 +4,7 @@ use crate::{
     mutate::{Dice, bytes},
     worker::Target,
 };
+use apex_macros::graph;
 use apex_rt::{
     drive_with,
     prelude::*,

@@ -7,7 +7,7 @@ use std::f32::consts::TAU;
 
 mod programs {
     #![allow(missing_docs)]
-    apex_rt::graph!("hall.afg");
+    apex_macros::graph!("hall.afg");
 }
 
 /// Time between two scans, in s.

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 mod programs {
     #![allow(missing_docs)]
-    apex_rt::graph!("localize.afg");
+    apex_macros::graph!("localize.afg");
 }
 
 /// A recording, or `None` (with a message) if it does not exist.

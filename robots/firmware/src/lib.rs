@@ -6,6 +6,7 @@ mod line;
 
 pub use line::Line;
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph!("../firmware.afg");

@@ -31,11 +31,11 @@ pub use sim_laser::{SimLaser, Truth};
 
 /// Compiled robots of `patsy.afg`.
 pub mod programs {
-    apex_rt::graph!("patsy.afg");
+    apex_macros::graph!("patsy.afg");
 }
 
 /// The mission on its own, with the tests of `mission.afg`.
 #[cfg(test)]
 mod mission {
-    apex_rt::graph!("mission.afg");
+    apex_macros::graph!("mission.afg");
 }

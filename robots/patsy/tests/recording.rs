@@ -1,5 +1,6 @@
 //! Recording and replay of PATSY's perception.
 
+use apex_macros::graph;
 use apex_rt::{
     StdErr, drive_with,
     prelude::*,

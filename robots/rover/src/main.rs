@@ -1,5 +1,6 @@
 //! Drives the robot of `robot.afg` by the system clock, or with `--fast` as fast as the machine can.
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 graph!("robot.afg");

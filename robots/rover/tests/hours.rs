@@ -1,3 +1,3 @@
 //! The robot of `robot.afg`, for hours of simulated time.
 
-apex_rt::graph!("hours.afg");
+apex_macros::graph!("hours.afg");

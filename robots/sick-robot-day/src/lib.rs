@@ -37,26 +37,26 @@ pub mod programs {
     };
 
     mod competition {
-        apex_rt::graph!("competition.afg");
+        apex_macros::graph!("competition.afg");
     }
 
     mod cross {
-        apex_rt::graph!("cross.afg");
+        apex_macros::graph!("cross.afg");
     }
 
     mod cube {
-        apex_rt::graph!("cube.afg");
+        apex_macros::graph!("cube.afg");
     }
 
     mod number {
-        apex_rt::graph!("number.afg");
+        apex_macros::graph!("number.afg");
     }
 
     mod signs {
-        apex_rt::graph!("signs.afg");
+        apex_macros::graph!("signs.afg");
     }
 
     mod target {
-        apex_rt::graph!("target.afg");
+        apex_macros::graph!("target.afg");
     }
 }

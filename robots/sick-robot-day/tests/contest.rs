@@ -229,7 +229,7 @@ fn a_hall_is_driven_by_its_nodes() {
 }
 
 mod wired {
-    apex_rt::graph! {
+    apex_macros::graph! {
         use apex_nodes::{image::{Camera, GrayImage}, nav::Twist, scan::{Pose2, Scan}};
         use sick_robot_day::contest::{
             Base, FrontCamera, FrontLaser, HopperCamera, Lamp, RearLaser, Remote, WheelOdometry,

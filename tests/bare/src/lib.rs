@@ -2,6 +2,7 @@
 //! looked at too.
 #![no_std]
 
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use heapless::Vec;
 

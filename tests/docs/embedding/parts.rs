@@ -1,3 +1,4 @@
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 /// Sends lines that were read beforehand.

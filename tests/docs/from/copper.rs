@@ -1,3 +1,4 @@
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 /// The speed, but no more than `most`.

@@ -1,4 +1,5 @@
 //! The second line of the message is the place in the text.
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 #[node]

@@ -1,4 +1,5 @@
 //! rustc underlines the very token.
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 #[node]

@@ -1,4 +1,5 @@
 //! What only rustc can judge, of nodes and tokens: its message names the node, the port and the line of the text.
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::{ops::Add, rc::Rc};
 

@@ -1,4 +1,5 @@
 //! What only rustc can judge, of thread groups: whether nodes and tokens can be moved to another thread.
+use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::rc::Rc;
 

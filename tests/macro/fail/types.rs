@@ -1,4 +1,5 @@
 //! What only rustc can see: the type behind a trait.
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 pub struct Image;

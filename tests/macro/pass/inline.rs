@@ -1,4 +1,5 @@
 //! A program in a crate of its own.
+use apex_macros::graph;
 use apex_rt::prelude::*;
 
 #[node]

@@ -117,9 +117,9 @@ impl Case {
     fn call(&self, call: &Call) -> String {
         let text = self.texts.iter().find(|text| text.name == call.text).map(Text::text).unwrap_or_default();
         let macro_call = if call.inline {
-            format!("::apex_rt::graph! {{\n{text}}}\n")
+            format!("::apex_macros::graph! {{\n{text}}}\n")
         } else {
-            format!("::apex_rt::graph!(\"{}.afg\");\n", call.text)
+            format!("::apex_macros::graph!(\"{}.afg\");\n", call.text)
         };
         match &call.module {
             Some(module) => format!("\npub mod {module} {{\n    use ::apex_rt::prelude::*;\n{macro_call}}}\n"),

@@ -52,7 +52,7 @@ impl Debounce {
 
 #[cfg(test)]
 mod graphs {
-    apex_rt::graph!("tests.afg");
+    apex_macros::graph!("tests.afg");
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub fn expand(item: TokenStream) -> syn::Result<TokenStream> {
     let name = &input.ident;
     let (generics, args, bounds) = input.generics.split_for_impl();
     let fields = named.iter().enumerate().map(|(i, field)| {
-        let ty = apex_dsl::catalog::signature::option_of(&field.ty).unwrap_or(&field.ty);
+        let ty = apex_signature::option_of(&field.ty).unwrap_or(&field.ty);
         quote! {
             impl #generics ::apex_rt::Field<#i> for #name #args #bounds { type Token = #ty; }
         }

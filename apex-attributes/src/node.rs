@@ -1,6 +1,6 @@
 //! `#[node]`: keeps the item except for its attributes, and adds the implementations that generated code uses.
 
-use apex_dsl::catalog::signature::{self, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
+use apex_signature::{self as signature, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::{Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, TypeParamBound, Visibility};

@@ -1,12 +1,12 @@
-//! Reads the interface of a node out of Rust syntax. `#[node]` and the catalog scan share this, so that they
-//! cannot disagree about what a signature means.
+//! Interface of a node, read from Rust syntax. `#[node]` and the catalog of the compiler share this crate, so that a
+//! signature has the same meaning for both.
 
 use syn::{
     Attribute, Expr, ExprLit, Field, FnArg, GenericArgument, ImplItem, ItemFn, ItemImpl, ItemStruct, Lit, Pat,
     PathArguments, ReturnType, Signature, Type, spanned::Spanned,
 };
 
-/// What a `process` function or a slot takes and gives.
+/// Arguments and returned value of a `process` function or a slot.
 pub struct Callable {
     /// The arguments in order, without `self`.
     pub args: Vec<Arg>,
@@ -16,13 +16,13 @@ pub struct Callable {
 
 /// One argument.
 pub struct Arg {
-    /// Its name, which is the name of the port or parameter.
+    /// Name, which is also that of the port or parameter.
     pub name: String,
-    /// What it stands for.
+    /// Role.
     pub form: Form,
 }
 
-/// What an argument stands for.
+/// Role of an argument.
 pub enum Form {
     /// `&T`, `Option<&T>` or `&[T; N]`.
     Input(InputForm),
@@ -48,7 +48,7 @@ pub struct InputForm {
 pub struct Token {
     /// The type of one token.
     pub ty: Type,
-    /// How many tokens a firing takes or gives; `None` is one, not in an array.
+    /// Number of tokens per firing; `None` is one token, not in an array.
     pub batch: Option<usize>,
 }
 
@@ -63,13 +63,13 @@ pub struct Returns {
     pub fallible: bool,
 }
 
-/// `#[param(…)]` with the type it stands on.
+/// `#[param(…)]` with the type of its argument or field.
 pub struct ParamDecl {
     /// The type of the value.
     pub ty: Type,
     /// Unit of plain numbers, for example `m/s`.
     pub unit: Option<String>,
-    /// Value where the text gives none.
+    /// Value without an argument in the source file.
     pub default: Option<Expr>,
     /// Legal values.
     pub range: Option<syn::ExprRange>,
@@ -170,7 +170,7 @@ impl Methods {
     }
 }
 
-/// Whether `attrs` contain `#[node]`, also by its path.
+/// Returns `true` if `attrs` contain `#[node]`, also by its path.
 pub fn is_node(attrs: &[Attribute]) -> bool {
     attrs.iter().any(|a| {
         let segments = &a.path().segments;
@@ -178,7 +178,7 @@ pub fn is_node(attrs: &[Attribute]) -> bool {
     })
 }
 
-/// Whether `attrs` contain `#[name]`.
+/// Returns `true` if `attrs` contain `#[name]`.
 pub fn marked(attrs: &[Attribute], name: &str) -> bool {
     attrs.iter().any(|a| a.path().is_ident(name))
 }
