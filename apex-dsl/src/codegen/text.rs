@@ -77,9 +77,8 @@ const RUNTIME: &str = "rt";
 
 /// `rt` instead of `::apex_rt`, and numbers without the suffix `usize`, which the types around them say.
 fn abbreviated(code: TokenStream) -> TokenStream {
-    let mut tokens = code.into_iter().peekable();
     let mut short: Vec<TokenTree> = vec![];
-    while let Some(token) = tokens.next() {
+    for token in code {
         match token {
             TokenTree::Group(group) => {
                 let mut inner = Group::new(group.delimiter(), abbreviated(group.stream()));
