@@ -10,7 +10,7 @@
 use super::{Delivery, Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
-    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{Flow, Graph, Node, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,7 +56,10 @@ impl Asynchronous {
         let to_slot = |c: &usize| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
         let slots: Vec<usize> = (0..graph.connections.len()).filter(to_slot).collect();
         let timeouts = graph.nodes.iter().filter(|node| node.modifiers.timeout.is_some()).count();
-        let is_tabled = slots.len().max(timeouts) > MANY;
+        // The tables have a bit for each event of a node.
+        let count = |node: &Node| node.ports.iter().filter(|port| port.kind == PortKind::Event).count();
+        let is_narrow = graph.nodes.iter().all(|node| count(node) <= u64::BITS as usize);
+        let is_tabled = is_narrow && slots.len().max(timeouts) > MANY;
         let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut may_block = may_block(graph, links, &slots);
         live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);

@@ -256,7 +256,9 @@ impl Generator<'_> {
             }
             None => {
                 let name = self.reaction();
+                // Without the hint it would not be inlined where a caller of another module compiles it.
                 quote! {
+                    #[inline]
                     fn #name<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next
                 }
             }

@@ -14,15 +14,15 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The rows of ports, and what they speak of.
+/// The rows of ports, and the tokens of each node.
 struct Ports<'a> {
     rows: Vec<&'a Port>,
     /// The rows of each node: the first of them, and the end.
     of: BTreeMap<NodeId, (usize, usize)>,
-    /// The tokens, by number.
-    tokens: Vec<PortId>,
+    /// The tokens of each node, by their number in the node.
+    tokens: BTreeMap<NodeId, Vec<PortId>>,
 }
 
 impl<'a> Ports<'a> {
@@ -30,7 +30,7 @@ impl<'a> Ports<'a> {
     fn new(generator: &Generator<'_>, view: ProgramView<'a>) -> Self {
         let wiring = view.wiring;
         let nodes = wiring.slots.iter().map(|slot| slot.node).chain(wiring.timeouts.iter().map(|t| t.node));
-        let mut ports = Self { rows: vec![], of: BTreeMap::new(), tokens: vec![] };
+        let mut ports = Self { rows: vec![], of: BTreeMap::new(), tokens: BTreeMap::new() };
         for node in nodes {
             if ports.of.contains_key(&node) {
                 continue;
@@ -38,11 +38,17 @@ impl<'a> Ports<'a> {
             let first = ports.rows.len();
             ports.rows.extend(wiring.of(node).iter().filter(|port| generator.is_sent_event(view, port.end)));
             ports.of.insert(node, (first, ports.rows.len()));
+            let tokens: BTreeSet<PortId> = ports.rows[first..].iter().map(|port| port.end).collect();
+            if !tokens.is_empty() {
+                ports.tokens.insert(node, tokens.into_iter().collect());
+            }
         }
-        ports.tokens = ports.rows.iter().map(|port| port.end).collect();
-        ports.tokens.sort_unstable();
-        ports.tokens.dedup();
         ports
+    }
+
+    /// The number of a token in its node.
+    fn number(&self, end: PortId) -> Option<usize> {
+        self.tokens.get(&end.node)?.iter().position(|token| *token == end)
     }
 
     fn range(&self, node: NodeId) -> TokenStream {
@@ -66,19 +72,18 @@ impl Generator<'_> {
         let rows: Vec<TokenStream> = ports.rows.iter().map(|port| self.port_row(view, &ports, port)).collect();
         let slots: Vec<TokenStream> = view.wiring.slots.iter().map(|slot| self.slot_row(view, &ports, slot)).collect();
         let (port_count, slot_count) = (rows.len(), slots.len());
-        let (token, clear, leave) =
-            (self.token_function(view, &ports), self.clear_function(&ports), self.leave(view, &ports));
+        let (tokens, leave) = (self.token_functions(view, &ports), self.leave(view, &ports));
         let (slot, call, turns) = (self.slot_function(view), self.call_function(view), self.turns(view));
         let expire = self.expire_table(view, &ports);
         quote! {
             const PORTS: [::apex_rt::tables::Port; #port_count] = { use ::apex_rt::tables::Port; [#(#rows),*] };
             const SLOTS: [::apex_rt::tables::Slot; #slot_count] = { use ::apex_rt::tables::Slot; [#(#slots),*] };
-            #token #clear #leave #slot #call #turns #expire
+            #tokens #leave #slot #call #turns #expire
         }
     }
 
     fn port_row(&self, view: ProgramView<'_>, ports: &Ports<'_>, port: &Port) -> TokenStream {
-        let Ok(token) = ports.tokens.binary_search(&port.end) else {
+        let Some(token) = ports.number(port.end) else {
             return self.bug(view.graph.nodes[port.end.node].span, "the token of an event is in no table");
         };
         let token = Literal::usize_unsuffixed(token);
@@ -136,29 +141,35 @@ impl Generator<'_> {
         row
     }
 
-    /// The function that says where the token of an event lies.
-    fn token_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
+    /// The functions that read which events of a node have tokens, and that empty them before the node may trigger them.
+    fn token_functions(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
+        if ports.tokens.is_empty() {
+            return quote! { fn clear(&mut self, node: usize) {} };
+        }
         let state = self.item(view.graph, "State");
-        let Some((last, tokens)) = ports.tokens.split_last() else { return quote!() };
-        let arms = tokens.iter().enumerate().map(|(number, end)| {
-            let (number, name) = (Literal::usize_unsuffixed(number), self.name(*end));
-            quote! { #number => &mut state.#name, }
+        let present = ports.tokens.iter().map(|(node, tokens)| {
+            let node = Literal::usize_unsuffixed(self.index(*node));
+            let bits = tokens.iter().enumerate().map(|(number, end)| {
+                let (name, number) = (self.name(*end), Literal::usize_unsuffixed(number));
+                quote!((state.#name.is_some() as u64) << #number)
+            });
+            quote! { #node => #(#bits)|*, }
         });
-        let last = self.name(*last);
+        let clear = ports.tokens.iter().map(|(node, tokens)| {
+            let node = Literal::usize_unsuffixed(self.index(*node));
+            let names = tokens.iter().map(|end| self.name(*end));
+            quote! { #node => { #(state.#names = None;)* } }
+        });
         quote! {
-            /// The token of an event.
-            fn token(state: &mut #state, number: usize) -> &mut dyn ::apex_rt::tables::Token {
-                match number { #(#arms)* _ => &mut state.#last, }
+            /// The events of a node that have tokens, as bits.
+            fn present(state: &#state, node: usize) -> u64 {
+                match node { #(#present)* _ => 0 }
+            }
+            fn clear(&mut self, node: usize) {
+                let state = &mut self.state;
+                match node { #(#clear)* _ => {} }
             }
         }
-    }
-
-    /// The function that empties the events of a node before it may trigger them.
-    fn clear_function(&self, ports: &Ports<'_>) -> TokenStream {
-        let clear = (!ports.tokens.is_empty()).then(|| {
-            quote! { for port in &Self::PORTS[first..end] { Self::token(&mut self.state, port.token).clear(); } }
-        });
-        quote! { fn clear(&mut self, (first, end): (usize, usize)) { #clear } }
     }
 
     /// The function that sends what a node has triggered, with its activity.
@@ -185,6 +196,8 @@ impl Generator<'_> {
                     #gains
                     let Self { state, .. } = self;
                     #check
+                    // The node may have triggered `deactivated`.
+                    present = Self::present(&self.state, node);
                 }
             }
         });
@@ -201,7 +214,7 @@ impl Generator<'_> {
         let stamps =
             stamped.then(|| quote! { for stamp in port.stamps { self.state.stamps[*stamp as usize] = ctx.stamp(); } });
         let chosen = self.chosen_function(view, ports);
-        let choose = (!chosen.is_empty()).then(|| quote! { self.chosen(port.token, observer); });
+        let choose = (!chosen.is_empty()).then(|| quote! { self.chosen(row, observer); });
         quote! {
             /// Sends the events that a node has triggered. Its activity goes with the first over an active connection.
             fn leave<O: ::apex_rt::Observer>(
@@ -211,11 +224,13 @@ impl Generator<'_> {
                 ctx: &::apex_rt::Ctx,
                 observer: &mut O,
             ) {
+                let mut present = Self::present(&self.state, node);
+                if present == 0 { return; }
                 for port in &Self::PORTS[first..end] {
-                    if Self::token(&mut self.state, port.token).is_there() { #takes_away #passes }
+                    if present & 1 << port.token != 0 { #takes_away #passes }
                 }
-                for port in &Self::PORTS[first..end] {
-                    if Self::token(&mut self.state, port.token).is_there() { #choose #queue #bits #stamps }
+                for (row, port) in (first..end).zip(&Self::PORTS[first..end]) {
+                    if present & 1 << port.token != 0 { #choose #queue #bits #stamps }
                 }
             }
             #chosen
@@ -224,22 +239,20 @@ impl Generator<'_> {
 
     /// The function that records chosen events.
     fn chosen_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
-        let arms: Vec<TokenStream> = ports
-            .tokens
-            .iter()
-            .enumerate()
-            .map(|(number, end)| (number, self.chosen_event(view.graph, *end)))
+        let rows = ports.rows.iter().enumerate();
+        let arms: Vec<TokenStream> = rows
+            .map(|(row, port)| (row, self.chosen_event(view.graph, port.end)))
             .filter(|(_, code)| !code.is_empty())
-            .map(|(number, code)| quote! { #number => { #code } })
+            .map(|(row, code)| quote! { #row => { #code } })
             .collect();
         if arms.is_empty() {
             return quote!();
         }
         quote! {
             /// Records events that were chosen.
-            fn chosen<O: ::apex_rt::Observer>(&mut self, token: usize, observer: &mut O) {
+            fn chosen<O: ::apex_rt::Observer>(&mut self, row: usize, observer: &mut O) {
                 let Self { state, .. } = self;
-                match token { #(#arms)* _ => {} }
+                match row { #(#arms)* _ => {} }
             }
         }
     }
@@ -293,7 +306,7 @@ impl Generator<'_> {
                 #since
                 if let Some(connection) = row.connection { observer.handled(connection); }
                 #frees
-                self.clear(row.ports);
+                self.clear(row.node);
                 #activity
                 self.call(slot, ctx, observer);
                 observer.finished(row.node);
@@ -413,7 +426,7 @@ impl Generator<'_> {
             /// The `timeout` of a node is triggered.
             fn expire<O: ::apex_rt::Observer>(&mut self, timeout: usize, ctx: &::apex_rt::Ctx, observer: &mut O) {
                 let row = &Self::TIMEOUTS[timeout];
-                self.clear(row.ports);
+                self.clear(row.node);
                 let Self { state, .. } = self;
                 state.timeouts[timeout].stop();
                 #open
