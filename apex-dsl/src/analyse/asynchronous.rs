@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of clusters, slots or timeouts that are inlined. More are called by number, because the compile time
 /// of rustc grows with the square of the size of a function.
-pub const MANY: usize = 32;
+pub const MANY: usize = 128;
 
 /// The asynchronous part of a graph.
 #[derive(Debug)]
