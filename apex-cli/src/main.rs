@@ -126,8 +126,8 @@ enum Command {
     Graph {
         /// Source file.
         file: PathBuf,
-        /// Name of the graph, robot or state machine. By default the only robot, else the only graph that is not part of
-        /// another one, else the only state machine.
+        /// Name of the graph, robot or state machine. By default the only robot, else the only graph that is not part
+        /// of another one, else the only state machine.
         #[arg(long, alias = "robot", value_name = "NAME")]
         graph: Option<String>,
         /// Draw only the nodes that can be active, and the paths of activity, as a state diagram.
@@ -239,12 +239,12 @@ enum Command {
         /// Build and start the program again after each change of its source files or Rust code; Ctrl-C ends both.
         #[arg(long)]
         watch: bool,
-        /// Measure every node: write a trace for Perfetto or Chrome to this file, and print a table at the end of the run,
-        /// also after Ctrl-C.
+        /// Measure every node: write a trace for Perfetto or Chrome to this file, and print a table at the end of the
+        /// run, also after Ctrl-C.
         #[arg(long, value_name = "FILE")]
         profile: Option<PathBuf>,
-        /// Record all inputs of the robot, and the ports of its `record` statement, to this file (MCAP). An existing file
-        /// is kept, and the new one gets a number.
+        /// Record all inputs of the robot, and the ports of its `record` statement, to this file (MCAP). An existing
+        /// file is kept, and the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
         #[command(flatten)]

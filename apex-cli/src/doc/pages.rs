@@ -70,7 +70,7 @@ impl<'a> Site<'a> {
         let modules = book.nodes.chunk_by(|a, b| a.module == b.module);
         let nodes = modules.map(|m| format!("<h3>{}</h3>\n{}", code(&m[0].module), list(&self.entries(m))));
         let title = "Graphs and nodes";
-        let body = section("Texts", &texts) + &section("Nodes", &nodes.collect::<String>());
+        let body = section("Source files", &texts) + &section("Nodes", &nodes.collect::<String>());
         page(title, &[], &format!("<h1>{title}</h1>\n{body}"))
     }
 

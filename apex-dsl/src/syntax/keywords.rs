@@ -90,9 +90,9 @@ pub const KEYWORDS: [Keyword; 53] = [
     keyword(
         "expect",
         KeywordPosition::Test,
-        "Fails unless the condition has held by now, or holds `within` or `by` a time.",
+        "Requires that something has happened by now, or happens `within` or `by` a time.",
     ),
-    keyword("never", KeywordPosition::Test, "Fails if the condition holds from here on."),
+    keyword("never", KeywordPosition::Test, "Requires that something does not happen from here on."),
     keyword("every", KeywordPosition::Modifier, "The source fires at 0 and then once per period."),
     keyword("after", KeywordPosition::Modifier, "The first firing of the source; without `every` the only one."),
     keyword(
@@ -103,7 +103,7 @@ pub const KEYWORDS: [Keyword; 53] = [
     keyword(
         "deadline",
         KeywordPosition::Modifier,
-        "The longest time from the firing of the source to the end of the node; if it takes longer, the node triggers `late`.",
+        "The maximum age of the oldest token at the end of a firing. If it is older, the node triggers `late`.",
     ),
     keyword("on", KeywordPosition::Modifier, "The thread that the node runs on."),
     keyword(
@@ -116,17 +116,21 @@ pub const KEYWORDS: [Keyword; 53] = [
         KeywordPosition::Modifier,
         "Holds the outputs back for as many iterations as there are initial tokens. Breaks cycles.",
     ),
-    keyword("pipelined", KeywordPosition::Modifier, "Starts with the next token before the previous one is finished."),
-    keyword("essential", KeywordPosition::Modifier, "The node fires for ⊥, too."),
+    keyword(
+        "pipelined",
+        KeywordPosition::Modifier,
+        "The node releases its inputs as soon as it has fired, before the nodes downstream have.",
+    ),
+    keyword("essential", KeywordPosition::Modifier, "The node processes ⊥, too."),
     keyword("restart", KeywordPosition::Modifier, "After a failure, the node is replaced by a new one."),
     keyword("par", KeywordPosition::Inside, "`each par`: processes the elements in parallel, with the same result."),
     keyword("as", KeywordPosition::Inside, "Imports under another name."),
     keyword("if", KeywordPosition::Inside, "The transition is taken only if this condition holds."),
-    keyword("by", KeywordPosition::Inside, "The latest time of the expected condition, counted from the start."),
+    keyword("by", KeywordPosition::Inside, "The latest time at which it is expected, counted from the start."),
     keyword(
         "within",
         KeywordPosition::Inside,
-        "The latest time of the expected condition, counted from the previous step.",
+        "The latest time at which it is expected, counted from the previous step.",
     ),
     keyword("recording", KeywordPosition::Inside, "The tokens that passed a port in a recorded run, at their times."),
     keyword("active", KeywordPosition::Inside, "True if a node or nested graph is active."),

@@ -15,7 +15,7 @@ pub fn prepare(ready: &Ready<'_>, position: Position) -> Result<PrepareRenameRes
     let name = ide::may_rename(&view, found.definition)?.text.clone();
     if view.sources.text(found.span) != name {
         return Err(format!(
-            "`{name}` has this name only through an import; rename `{name}` itself, or change the import"
+            "this is another name for `{name}` from an import; rename `{name}` itself, or change the import"
         ));
     }
     Ok(PrepareRenameResponse::RangeWithPlaceholder {
