@@ -14,9 +14,10 @@ pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> 
         Item::Fn(item) => function(item),
         Item::Struct(item) => structure(item),
         Item::Impl(item) => implementation(item),
-        other => {
-            Err(syn::Error::new_spanned(other, "`#[node]` goes on a function, a struct, or the `impl` of a struct"))
-        }
+        other => Err(syn::Error::new_spanned(
+            other,
+            "`#[node]` can only mark a function, a struct, or the `impl` of a struct",
+        )),
     }
 }
 
@@ -94,7 +95,7 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
         }
         syn::Fields::Unit => quote!(Self),
         syn::Fields::Unnamed(_) => {
-            return Err(syn::Error::new_spanned(&item.fields, "a node has named fields"));
+            return Err(syn::Error::new_spanned(&item.fields, "the fields of a node must have names"));
         }
     };
     // Without `Default` for all of its state a node cannot be constructed by a graph, only passed to it. The lifetime
@@ -132,7 +133,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
     if let Some((path, _)) = &item.trait_ {
         return Err(syn::Error::new_spanned(
             path,
-            "`#[node]` goes on the inherent `impl` of a node, not on that of a trait",
+            "`#[node]` can only mark the inherent `impl` of a node, not that of a trait",
         ));
     }
     let methods = signature::methods(&item)?;

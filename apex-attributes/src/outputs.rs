@@ -17,7 +17,7 @@ pub fn expand(item: TokenStream) -> syn::Result<TokenStream> {
                 ));
             }
         },
-        _ => return Err(syn::Error::new(input.ident.span(), "`Outputs` is for structs")),
+        _ => return Err(syn::Error::new(input.ident.span(), "`Outputs` can only be derived for structs")),
     };
     let name = &input.ident;
     let (generics, args, bounds) = input.generics.split_for_impl();

@@ -98,7 +98,7 @@ impl Turn {
             Err(TryLockError::WouldBlock) => {
                 if !how.quiet {
                     let target = workspace.target.display();
-                    print_error(&format!("waiting until another `apex` has built what it needs in `{target}`"));
+                    print_error(&format!("waiting for another `apex` that builds in `{target}`"));
                 }
                 lock.lock().map_err(failed)?;
                 Ok(Self(Some(lock)))
@@ -149,7 +149,7 @@ impl Outcome {
         match self {
             Self::Built(built) => Ok(Some(built)),
             Self::Broken => Ok(None),
-            Self::Nothing => Err("cargo has built no program".to_owned()),
+            Self::Nothing => Err("cargo did not build a program".to_owned()),
         }
     }
 }
@@ -212,7 +212,7 @@ impl Messages {
         let mut messages = Self::default();
         let Some(output) = child.stdout.take() else { return Ok(messages) };
         for line in BufReader::new(output).lines() {
-            let line = line.map_err(|e| format!("cargo cannot be understood: {e}"))?;
+            let line = line.map_err(|e| format!("cannot read the output of cargo: {e}"))?;
             // Lines of other programs are not JSON.
             let Ok(message) = serde_json::from_str::<Value>(&line) else { continue };
             messages.is_new |= message["fresh"] == false;

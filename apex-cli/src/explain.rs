@@ -50,7 +50,7 @@ fn code(code: &str) -> Result<ExitCode, String> {
         let near = nearest(code, PAGES.iter().map(|(code, _)| *code));
         let hint =
             near.map_or("`apex explain --list` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
-        return Err(format!("`{code}` is neither a text nor the code of a message; {hint}"));
+        return Err(format!("`{code}` is neither a source file nor the code of a diagnostic; {hint}"));
     };
     project::print(page.trim_end())?;
     Ok(ExitCode::SUCCESS)

@@ -70,7 +70,7 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     };
     if item.count() > MAX_ITEMS {
         return Err(format!(
-            "a picture of `{}` would have {} boxes, more than {MAX_ITEMS}: close those in it with `--depth 0`, or draw them one by one",
+            "the diagram of `{}` would have {} boxes, more than {MAX_ITEMS}: close nested graphs with `--depth 0`, or draw them one by one",
             item.name,
             item.count()
         ));
@@ -81,7 +81,10 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     };
     match &wanted.output {
         Some(path) if is_same(path, file) => {
-            return Err(format!("the picture would overwrite its text `{}`: name another file", path.display()));
+            return Err(format!(
+                "the diagram would overwrite its source file `{}`: choose another file",
+                path.display()
+            ));
         }
         Some(path) => replace::write(path, &text)?,
         None => project::print(text.trim_end())?,
@@ -105,7 +108,7 @@ fn picture(item: Item, wanted: &Wanted) -> Result<Item, String> {
             })
         }
     };
-    drawn.ok_or_else(|| format!("no activity comes to a node of `{name}`: it has no `=>` and no state machine"))
+    drawn.ok_or_else(|| format!("no activity reaches a node of `{name}`: it has no `=>` and no state machine"))
 }
 
 fn say_what_is_folded(name: &str, folding: &Folding) {
@@ -115,7 +118,7 @@ fn say_what_is_folded(name: &str, folding: &Folding) {
     if !said.is_empty() {
         let said = said.join(", ");
         project::print_error(&format!(
-            "note: `{name}` is too large to be read at once: {said}; `--depth all` opens all"
+            "note: `{name}` is too large to be readable as a whole: {said}; `--depth all` opens all"
         ));
     }
 }
@@ -130,7 +133,7 @@ fn format(wanted: &Wanted) -> Result<Picture, String> {
     match path.extension().and_then(|e| e.to_str()) {
         Some("svg") => Ok(Picture::Svg),
         Some("dot" | "gv") => Ok(Picture::Dot),
-        _ => Err(format!("`{}` ends neither in .svg nor in .dot: say which with `--format`", path.display())),
+        _ => Err(format!("`{}` ends neither in .svg nor in .dot: choose the format with `--format`", path.display())),
     }
 }
 
@@ -174,7 +177,9 @@ fn choose<'a>(checked: &'a Checked, file: &Path, name: Option<&str>) -> Result<D
     let kinds = [robots, programs.map(Drawn::Graph).collect(), parts, machines().collect()];
     match kinds.iter().find(|kind| !kind.is_empty()).map(Vec::as_slice) {
         Some([only]) => Ok(*only),
-        Some(_) => Err(format!("`{}` has several: say which with `--graph NAME`; {}", file.display(), list(&all))),
+        Some(_) => {
+            Err(format!("`{}` has several graphs: choose one with `--graph NAME`; {}", file.display(), list(&all)))
+        }
         None => Err("there is no graph to draw".to_owned()),
     }
 }

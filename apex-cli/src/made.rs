@@ -171,7 +171,7 @@ pub fn select_features(workspace: &Workspace, features: &[&str]) -> Vec<OsString
 /// A path as a text of TOML and Rust.
 pub fn utf8(path: &Path) -> Result<&str, String> {
     path.to_str()
-        .ok_or_else(|| format!("the path `{}` is not UTF-8: cargo cannot build what lies there", path.display()))
+        .ok_or_else(|| format!("the path `{}` is not UTF-8: cargo cannot build packages there", path.display()))
 }
 
 /// Paths in a table are meant from `root` on.

@@ -32,7 +32,7 @@ use std::{path::PathBuf, process::ExitCode};
 #[command(
     name = "apex",
     version,
-    after_help = "Exit codes: 0 fine, 1 the text has errors, 2 the command could not be carried out."
+    after_help = "Exit codes: 0: success, 1: the file has errors, 2: the command failed."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -41,22 +41,22 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Check texts and say what is wrong with them.
+    /// Check source files and report their errors.
     #[command(
-        after_help = "--fix makes the changes of which there is no doubt, and says which; those that are guesses are shown as ever.\nExit code 0: no error is left.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
+        after_help = "--fix applies the unambiguous fixes and lists them; other suggestions are only printed.\nExit code 0: no errors remain.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
     )]
     Check {
-        /// The texts; of a folder all `.afg` below it.
+        /// Source files, or folders with `.afg` files.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
-        /// How to say it.
+        /// Format of the output.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
-        /// Mend what can be mended without doubt.
+        /// Apply unambiguous fixes.
         #[arg(long)]
         fix: bool,
     },
-    /// Print what a shell needs to complete this command.
+    /// Print the script with which a shell completes this command.
     #[command(after_help = "Example:\n  apex completions bash > ~/.local/share/bash-completion/completions/apex")]
     Completions {
         /// The shell.
@@ -64,185 +64,187 @@ enum Command {
     },
     /// Write pages about graphs and nodes, with diagrams.
     #[command(
-        after_help = "Texts that are imported get pages too, and so do the nodes that are used. The pages are HTML and need nothing else.\nA folder with other things in it is refused. If a text has errors, nothing is written.\n\nExample:\n  apex doc robot.afg\n  apex doc robots --output pages"
+        after_help = "Imported source files get pages, too, and so do the nodes that are used. The pages are self-contained HTML.\nA folder that contains other files is refused. If a source file has errors, nothing is written.\n\nExample:\n  apex doc robot.afg\n  apex doc robots --output pages"
     )]
     Doc {
-        /// The texts; of a folder all `.afg` below it.
+        /// Source files, or folders with `.afg` files.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
-        /// The folder to write to; without it, `apex/doc` below the target folder of the package.
+        /// Folder for the pages; by default `apex/doc` in the target folder of the package.
         #[arg(short, long, value_name = "FOLDER")]
         output: Option<PathBuf>,
     },
-    /// Bring texts into the one style of the language.
+    /// Format source files.
     #[command(
-        after_help = "Texts with errors are left alone. Exit code 1: one has errors, or would be changed by what --check leaves undone.\n\nExample:\n  apex fmt robots\n  apex fmt --check robots/patsy/patsy.afg\n  apex fmt - < robot.afg"
+        after_help = "Files with errors are left unchanged. Exit code 1: a file has errors or, with --check, is not formatted.\n\nExample:\n  apex fmt robots\n  apex fmt --check robots/patsy/patsy.afg\n  apex fmt - < robot.afg"
     )]
     Fmt {
-        /// The texts; of a folder all `.afg` below it; `-` for standard input, formatted to standard output.
+        /// Source files, or folders with `.afg` files; `-` formats standard input to standard output.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
-        /// Change nothing; say which texts would be changed.
+        /// Change nothing, but list the files that would be changed.
         #[arg(long)]
         check: bool,
     },
-    /// Print the Rust that a text is compiled to.
+    /// Print the Rust code that a source file is compiled to.
     Expand {
-        /// The text.
+        /// Source file.
         file: PathBuf,
     },
-    /// Print what the compiler has decided about a text, or what the code of a message means.
+    /// Print the decisions of the compiler about a source file, or the meaning of a diagnostic code.
     #[command(
-        after_help = "Of a text: regions, guards, clusters, schedule, rates, pruning, memory, claims. Of a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain --memory robots/firmware/firmware.afg\n  apex explain missing-unit\n  apex explain --list"
+        after_help = "For a source file: regions, guards, clusters, schedule, rates, pruning, memory, claims. For a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain --memory robots/firmware/firmware.afg\n  apex explain missing-unit\n  apex explain --list"
     )]
     Explain {
-        /// The text, or a code such as `missing-unit`.
+        /// Source file, or a code such as `missing-unit`.
         #[arg(required_unless_present = "list", value_name = "FILE | CODE")]
         what: Option<PathBuf>,
         /// Print all codes.
         #[arg(long, exclusive = true)]
         list: bool,
-        /// How to say it.
+        /// Format of the output.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
-        /// Print the program that Rust is generated from instead: conditions, clusters, slots, timers.
+        /// Print the intermediate program instead: conditions, clusters, slots, timers.
         #[arg(long, conflicts_with_all = ["format", "pnml", "memory", "profile"])]
         program: bool,
         /// Print the Petri net of each program instead, as PNML.
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
-        /// Print how many bytes each program has in memory instead, by node and by buffer. Builds it.
+        /// Print the size of each program in memory instead, by node and buffer. Builds the program.
         #[arg(long, conflicts_with = "pnml")]
         memory: bool,
-        /// Print how long clusters take at worst and how busy each thread is instead, from a profile that `apex run --profile` made.
+        /// Print the worst execution times of clusters and the load of threads instead, from a profile of
+        /// `apex run --profile`.
         #[arg(long, value_name = "FILE", conflicts_with_all = ["pnml", "memory"])]
         profile: Option<PathBuf>,
     },
     /// Draw a graph or a state machine.
     #[command(
-        after_help = "Single lines are `->`, double ones `=>`. Data goes from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted ones lead from the one to the other. Coloured: where activity can be.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
+        after_help = "Single lines are `->`, double lines `=>`. Data flows from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted lines hybrid. Nodes that can be active are coloured.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
     )]
     Graph {
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Which graph, robot or state machine. Without it: the only robot, else the only graph that is not part of another one, else
-        /// the only state machine.
+        /// Name of the graph, robot or state machine. By default the only robot, else the only graph that is not part
+        /// of another one, else the only state machine.
         #[arg(long, alias = "robot", value_name = "NAME")]
         graph: Option<String>,
-        /// Only where activity can be, and where it goes, as a state diagram.
+        /// Draw only the nodes that can be active, and the paths of activity, as a state diagram.
         #[arg(long)]
         activity: bool,
-        /// Opens nested graphs only so deep: 0 draws them as boxes with their ports, `all` opens everything. Without it, large
-        /// pictures have nested graphs closed, and chains of nodes as one box, until they can be read.
+        /// Levels of nested graphs that are opened: 0 draws them as boxes with their ports, `all` opens everything. By
+        /// default, large diagrams are simplified: nested graphs are closed, and chains of nodes drawn as one box.
         #[arg(long, value_name = "N | all")]
         depth: Option<graph::Depth>,
-        /// The file to write; without it, standard output.
+        /// Output file; by default standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
-        /// What to write; without it, what the name of the file says.
+        /// Format of the diagram; by default that of the file extension.
         #[arg(long, value_enum)]
         format: Option<graph::Picture>,
     },
-    /// Turn a graph file of CS::APEX into a text.
+    /// Convert a graph file of CS::APEX to a source file.
     #[command(
-        after_help = "What the library does not have stands in the text with a comment; --nodes writes Rust for it, to be filled in.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
+        after_help = "Nodes that the library does not have are marked by comments; --nodes writes Rust skeletons for them.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
     )]
     Import {
-        /// The graph file: .apex, or a snippet .apexs.
+        /// Graph file: .apex, or a snippet .apexs.
         file: PathBuf,
-        /// Where the text is written, if not to standard output.
+        /// Output file; by default standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
-        /// Writes skeletons of the node types that the library does not have into this Rust file.
+        /// Write skeletons of the node types that the library does not have to this Rust file.
         #[arg(long, value_name = "FILE")]
         nodes: Option<PathBuf>,
     },
-    /// Serve an editor: the language server, on standard input and output.
-    #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
+    /// Run the language server for editors on standard input and output.
+    #[command(after_help = "Editors start the server themselves; docs/editors.md describes their setup.")]
     Lsp,
-    /// Make a project that works at once.
+    /// Create a project that runs immediately.
     #[command(
         after_help = "Example:\n  apex new my-robot\n  cd my-robot\n  apex check robot.afg\n  apex test robot.afg\n  cargo run"
     )]
     New {
-        /// The folder of the project; its name is that of the package.
+        /// Folder of the project; its name becomes that of the package.
         #[arg(value_name = "NAME")]
         folder: PathBuf,
-        /// The kind of project.
+        /// Kind of project.
         #[arg(long, value_enum, default_value_t)]
         template: new::Template,
-        /// The checkout that the crates of Apex are taken from, if not the one that this command was built from.
+        /// Checkout with the crates of Apex; by default the one that this command was built from.
         #[arg(long, value_name = "FOLDER")]
         path: Option<PathBuf>,
     },
     /// List the nodes that a package can use, or describe one.
     #[command(
-        after_help = "A node has to do with a word that stands in its path, its documentation, or a port or parameter of it. If one is named\nexactly so, or only one is left, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
+        after_help = "A node matches a word in its path, its documentation, or the names of its ports and parameters. If one node has exactly\nthis name, or only one matches, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
     )]
     Nodes {
-        /// Only nodes that have to do with all of these words.
+        /// List only nodes that match all these words.
         words: Vec<String>,
-        /// The folder of the package, if not the current one.
+        /// Folder of the package; by default the current one.
         #[arg(long, value_name = "FOLDER", default_value = ".", hide_default_value = true)]
         package: PathBuf,
-        /// Print all about them as a page in Markdown.
+        /// Print the full documentation as Markdown.
         #[arg(long)]
         markdown: bool,
     },
-    /// Repeat a recorded run, and say what comes out differently.
+    /// Repeat a recorded run and report the differences.
     #[command(
-        after_help = "The robot is built, and takes what its sources sent, at the times at which they did. What it makes of that is compared with\nthe recording, token by token, for the ports that its `record` statement names.\nExit code 0: all the same, 1: something was different or is missing (or the text has errors).\n\nExample:\n  apex run robot.afg --record run.mcap\n  apex replay run.mcap robot.afg"
+        after_help = "Builds the robot and feeds it the recorded tokens of its sources at the recorded times. The tokens of the ports in its\n`record` statement are compared with the recording.\nExit code 0: no differences, 1: tokens are different or missing (or the file has errors).\n\nExample:\n  apex run robot.afg --record run.mcap\n  apex replay run.mcap robot.afg"
     )]
     Replay {
-        /// The recording (MCAP), by `apex run --record` or a `record` statement.
+        /// Recording (MCAP) by `apex run --record` or a `record` statement.
         recording: PathBuf,
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Which robot or graph, if the text has several.
+        /// Name of the robot or graph, if the file has several.
         #[arg(long)]
         robot: Option<String>,
-        /// Sets parameters from this file (TOML) before the run, as `apex run` does.
+        /// File (TOML) with parameters that are set before the run, as with `apex run`.
         #[arg(long, value_name = "FILE")]
         params: Option<PathBuf>,
         #[command(flatten)]
         how: Building,
     },
-    /// Run the tests of a text on simulated time.
+    /// Run the tests of a source file in simulated time.
     #[command(
-        after_help = "If the package of the text compiles it with `graph!(\"…\")`, those are the tests, and `cargo test` runs them too. Otherwise\na package is made for them, below the target folder. Either way what `cargo build` has built is not built again.\nExit code 0: all passed, 1: one failed (or the text has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
+        after_help = "If the package compiles the file with `graph!(\"…\")`, the tests are those that `cargo test` runs, too. Otherwise a package\nis generated for them in the target folder. In both cases, crates that `cargo build` has built are reused.\nExit code 0: all passed, 1: one failed (or the file has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
     )]
     Test {
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Only the tests whose names contain this.
+        /// Run only the tests whose names contain this text.
         filter: Option<String>,
         #[command(flatten)]
         how: Building,
     },
     /// Build and run a robot.
     #[command(
-        after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock. Only that one takes --params and --save-params: a program of your\nown calls `apex_rt::params::load_file` and `save_file`.\nIt is built as `cargo build` does it, in the same folder, and what is there already is not built again.\nExit code: that of the program (0, or 1 after `abort`); 1 if the text has errors, 2 if it could not be built or started.\n\nExample:\n  apex run robot.afg\n  apex run --release --robot Rover robot.afg -- --fast\n  apex run --record run.mcap robot.afg"
+        after_help = "If the package has its own program for the file, this program is run with ARGS. Otherwise a program is generated\nthat drives the robot in real time. Only this one takes --params and --save-params: your own program calls\n`apex_rt::params::load_file` and `save_file`.\nThe program is built like with `cargo build`, in the same folder, and crates that are already built are reused.\nExit code: that of the program (0, or 1 after `abort`); 1 if the file has errors, 2 if it could not be built or started.\n\nExample:\n  apex run robot.afg\n  apex run --release --robot Rover robot.afg -- --fast\n  apex run --record run.mcap robot.afg"
     )]
     Run {
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Which robot or graph, if the text has several.
+        /// Name of the robot or graph, if the file has several.
         #[arg(long)]
         robot: Option<String>,
-        /// Sets parameters from this file (TOML) before the robot runs; others keep what the text says.
+        /// File (TOML) with parameters that are set before the run; others keep the values of the source file.
         #[arg(long, value_name = "FILE")]
         params: Option<PathBuf>,
-        /// Writes all parameters into this file when the run ends, also by Ctrl-C.
+        /// File to which all parameters are written at the end of the run, also after Ctrl-C.
         #[arg(long, value_name = "FILE")]
         save_params: Option<PathBuf>,
-        /// Builds and starts it anew whenever its text or the Rust beside it changes; Ctrl-C ends both.
+        /// Build and start the program again after each change of its source files or Rust code; Ctrl-C ends both.
         #[arg(long)]
         watch: bool,
-        /// Measures every node: writes a trace for Perfetto or Chrome into this file, and a table when the run ends, also by Ctrl-C.
+        /// Measure every node: write a trace for Perfetto or Chrome to this file, and print a table at the end of the
+        /// run, also after Ctrl-C.
         #[arg(long, value_name = "FILE")]
         profile: Option<PathBuf>,
-        /// Records everything that enters the robot, and what its `record` statement names, in this file (MCAP); a file that is
-        /// there is kept, and the next one has a number.
+        /// Record all inputs of the robot, and the ports of its `record` statement, to this file (MCAP). An existing
+        /// file is kept, and the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
         #[command(flatten)]
@@ -253,13 +255,13 @@ enum Command {
     },
 }
 
-/// How a program is built.
+/// Options for building a program.
 #[derive(clap::Args)]
 struct Building {
-    /// Build it optimised, as `cargo build --release` does.
+    /// Build with optimisations, as `cargo build --release`.
     #[arg(long)]
     release: bool,
-    /// Say nothing about building but what is wrong; without it there is cargo's progress, or a line for each crate.
+    /// Print only errors of the build, without the progress of cargo.
     #[arg(short, long)]
     quiet: bool,
 }
@@ -270,13 +272,13 @@ impl Building {
     }
 }
 
-/// How results are printed.
+/// Format of printed results.
 #[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people.
+    /// Text for humans.
     #[default]
     Text,
-    /// For programs.
+    /// JSON for programs.
     Json,
 }
 

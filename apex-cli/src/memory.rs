@@ -63,7 +63,7 @@ fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -
     let how = How::new(false, false);
     let _turn = Turn::wait(&workspace, how)?;
     let built = build::build(&made.make()?, build::PROGRAM, how)?.program()?;
-    let unknown = || format!("rustc does not take the program of `{}`: sizes are not known", file.display());
+    let unknown = || format!("rustc rejects the program of `{}`: its sizes are unknown", file.display());
     let built = built.ok_or_else(unknown)?;
     let output = built.command().stderr(Stdio::inherit()).output().map_err(|e| built.not_started(&e))?;
     let said = String::from_utf8_lossy(&output.stdout);
@@ -76,7 +76,7 @@ fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -
         Some(measured)
     });
     let measured: Option<Vec<Measured<'_>>> = measured.collect();
-    measured.ok_or_else(|| format!("the program of `{}` did not say all sizes", file.display()))
+    measured.ok_or_else(|| format!("the program of `{}` did not report all sizes", file.display()))
 }
 
 /// The program: it stands where the graphs do, and sees what is private in them.

@@ -17,8 +17,7 @@ pub fn run(folder: &Path, words: &[String], markdown: bool) -> Result<ExitCode, 
     let text = folder.join("nodes.afg");
     if project::package_of(&text).is_none() {
         return Err(format!(
-            "`{}` is in no cargo package, so that there are no nodes to list; go to one, or name its folder with \
-             `--package`",
+            "`{}` is not in a cargo package, so there are no nodes to list; change to a package, or name its folder with `--package`",
             folder.display()
         ));
     }
@@ -91,12 +90,12 @@ impl<'a> Index<'a> {
     fn nothing(&self, words: &[String]) -> String {
         let names = self.entries.iter().map(|entry| entry.signature.name.as_str());
         match words {
-            [] => "the package has no nodes, and depends on no crate that has some".to_owned(),
+            [] => "neither the package nor its dependencies have nodes".to_owned(),
             [word] => match nearest(word, names) {
-                Some(near) => format!("no node has to do with `{word}`; did you mean `{near}`?"),
-                None => format!("no node has to do with `{word}`; `apex nodes` lists them all"),
+                Some(near) => format!("no node matches `{word}`; did you mean `{near}`?"),
+                None => format!("no node matches `{word}`; `apex nodes` lists them all"),
             },
-            several => format!("no node has to do with all of `{}`; take fewer words", several.join("`, `")),
+            several => format!("no node matches all of `{}`; give fewer words", several.join("`, `")),
         }
     }
 }
@@ -148,7 +147,7 @@ impl Entry<'_> {
                 1 => port.ty.to_string(),
                 rate => format!("[{}; {rate}]", port.ty),
             };
-            let open = if port.optional { " (may stay open)" } else { "" };
+            let open = if port.optional { " (optional)" } else { "" };
             [port.kind.word().to_owned(), port.name.clone(), ty + open, plain(&sentence(&port.docs))]
         };
         let param = |param: &ParamFacts| {

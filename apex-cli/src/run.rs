@@ -43,10 +43,13 @@ impl Params {
         }
         let Some(save) = &self.save else { return Ok(()) };
         if is_same(save, text) {
-            return Err(format!("the parameters would overwrite the text `{}`: name another file", shown(save)));
+            return Err(format!(
+                "the parameters would overwrite the source file `{}`: choose another file",
+                shown(save)
+            ));
         }
         if save.exists() && !save.is_file() {
-            return Err(format!("cannot write `{}`: it is no file, which could be replaced", shown(save)));
+            return Err(format!("cannot write `{}`: it is not a regular file", shown(save)));
         }
         has_folder(save).map_err(|e| format!("cannot write `{}`: {e}", shown(save)))
     }
@@ -92,7 +95,7 @@ impl Recording<'_> {
         match self {
             Self::Stated => Ok(()),
             Self::Made(path) if path.is_dir() => {
-                Err(format!("cannot record to `{}`: it is a folder; name a file in it", path.display()))
+                Err(format!("cannot record to `{}`: it is a folder; choose a file in it", path.display()))
             }
             Self::Made(path) => has_folder(path).map_err(|e| format!("cannot record to `{}`: {e}", path.display())),
             Self::Repeated(path) => {
@@ -103,7 +106,7 @@ impl Recording<'_> {
                 let mut magic = [0; 8];
                 match fs::File::open(path).and_then(|mut file| file.read_exact(&mut magic)) {
                     Ok(()) if magic == *MAGIC => Ok(()),
-                    Ok(()) => what("it is no MCAP file, or its beginning is damaged"),
+                    Ok(()) => what("it is not an MCAP file, or its beginning is damaged"),
                     Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
                         what("it is empty, or was cut off before anything was recorded")
                     }
@@ -189,7 +192,7 @@ impl Wanted<'_> {
         self.recording.look()?;
         if self.profile.is_some() && !self.how.release && !self.how.quiet {
             project::print_error(
-                "note: an unoptimised program is measured; `--release` measures the one that robots run",
+                "note: this profile is of an unoptimised program; measure with `--release` for realistic times",
             );
         }
         let folder = package(self.file)?;
@@ -203,7 +206,7 @@ impl Wanted<'_> {
         };
         if self.params.are_wanted() {
             return Err(format!(
-                "`--params` and `--save-params` are for programs that are made for the text, but `{binary}` is a program of its own: leave them out, or choose a robot with `--robot`"
+                "`--params` and `--save-params` only apply to programs that `apex run` generates, but the package has its own program `{binary}`: remove them, or choose a robot with `--robot`"
             ));
         }
         let graphs: Vec<&Graph> = programs.iter().map(|p| &p.graph).collect();
@@ -237,7 +240,7 @@ impl Wanted<'_> {
         let graph = &program.graph;
         if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
             return Err(format!(
-                "`{}` of `{}` is made in Rust: run it from a program of your own{}",
+                "`{}` of `{}` is made in Rust: run the robot from your own program{}",
                 node.name,
                 graph.name,
                 if matches!(self.recording, Recording::Repeated(_)) { ", with `apex_rt::record::replay`" } else { "" }
@@ -269,7 +272,7 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     let status = wait_for(command, program)?;
     if status.success() && !path.exists() {
         return Err(format!(
-            "nothing was recorded to `{}`: a program of your own records if `apex_rt::run` or `apex_rt::drive` drives it, or with an `apex_rt::record::Recorder`",
+            "nothing was recorded to `{}`: your own program records if `apex_rt::run` or `apex_rt::drive` drives it, or with an `apex_rt::record::Recorder`",
             path.display()
         ));
     }
@@ -293,7 +296,7 @@ fn become_program(command: Command, program: Found) -> Result<ExitCode, String> 
 fn wait_for(mut command: Command, program: Found) -> Result<ExitStatus, String> {
     let mut child = command.spawn().map_err(|e| program.not_started(&e))?;
     drop(program);
-    child.wait().map_err(|e| format!("the program is lost: {e}"))
+    child.wait().map_err(|e| format!("cannot wait for the program: {e}"))
 }
 
 /// The exit code of a program, or what a shell says of one that was ended by a signal.
@@ -308,7 +311,7 @@ fn exit_code(status: ExitStatus) -> ExitCode {
 /// The package that a text belongs to.
 pub fn package(file: &Path) -> Result<PathBuf, String> {
     project::package_of(file).ok_or_else(|| {
-        format!("`{}` is in no cargo package, so that its nodes cannot be found; put it beside a Cargo.toml that depends on `apex-rt`", file.display())
+        format!("`{}` is not in a cargo package, so its nodes cannot be found; move it to a package that depends on `apex-rt`", file.display())
     })
 }
 
@@ -320,7 +323,7 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
         return programs.iter().copied().find(|p| p.graph.name == name).ok_or_else(|| {
             match nearest(name, programs.iter().map(|p| p.graph.name.as_str())) {
                 Some(near) => format!("there is no robot or graph `{name}`; did you mean `{near}`?"),
-                None => format!("there is no robot or graph `{name}`; there are {}", names()),
+                None => format!("there is no robot or graph `{name}`; the file has {}", names()),
             }
         });
     }
@@ -328,7 +331,7 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
     match (robots.as_slice(), programs.as_slice()) {
         ([only], _) => Ok(*only),
         ([], [only]) => Ok(*only),
-        _ => Err(format!("which one is to run? choose with `--robot`: {}", names())),
+        _ => Err(format!("there are several robots or graphs: choose one with `--robot`: {}", names())),
     }
 }
 

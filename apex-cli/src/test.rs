@@ -50,7 +50,7 @@ pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, Stri
     command.args(["--quiet", "--exact"]).args(names).current_dir(&folder).env("RUST_BACKTRACE", "0");
     let mut child = command.spawn().map_err(|e| built.not_started(&e))?;
     drop(turn);
-    let status = child.wait().map_err(|e| format!("the tests are lost: {e}"))?;
+    let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
@@ -133,7 +133,8 @@ impl Tests<'_> {
         let Some(built) = build::build(&made.make()?, build::TESTS, self.how)?.program()? else {
             return Ok(None);
         };
-        let tests = named(&listed(&built)?, &[], self.text, names).ok_or("rustc has left out tests of the text")?;
+        let tests =
+            named(&listed(&built)?, &[], self.text, names).ok_or("rustc has left out tests of the source file")?;
         Ok(Some((built, tests)))
     }
 }

@@ -13,7 +13,7 @@ pub fn named(path: &Path) -> Result<Vec<PathBuf>, String> {
     let mut found = vec![];
     collect(path, &mut found).map_err(|(folder, e)| format!("cannot read `{}`: {e}", folder.display()))?;
     if found.is_empty() {
-        return Err(format!("there is no `.afg` text in `{}`", path.display()));
+        return Err(format!("there is no `.afg` file in `{}`", path.display()));
     }
     Ok(found)
 }

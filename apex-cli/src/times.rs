@@ -50,13 +50,13 @@ pub fn run(file: &Path, profile: &Path, format: Format) -> Result<ExitCode, Stri
 fn read(path: &Path) -> Result<Profile, String> {
     let size = fs::metadata(path).map_err(|e| e.to_string())?;
     if !size.is_file() || size.len() > MAX_BYTES {
-        return Err(format!("it is no file of at most {MAX_BYTES} bytes"));
+        return Err(format!("it is not a file of at most {MAX_BYTES} bytes"));
     }
     let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
     let events: Vec<Value> =
-        serde_json::from_str(&text).map_err(|e| format!("it is not what `apex run --profile` writes: {e}"))?;
+        serde_json::from_str(&text).map_err(|e| format!("it was not written by `apex run --profile`: {e}"))?;
     let program = events.iter().find(|e| e["name"] == "process_name").and_then(|e| e["args"]["name"].as_str());
-    let program = program.ok_or("it is not what `apex run --profile` writes: it names no program")?.to_owned();
+    let program = program.ok_or("it was not written by `apex run --profile`: it does not name a program")?.to_owned();
     let (mut nodes, mut first, mut last) = (BTreeMap::<String, Measured>::new(), f64::INFINITY, 0.0f64);
     for event in events.iter().filter(|e| e["ph"] == "X") {
         let (Some(name), Some(at), Some(took)) = (event["name"].as_str(), event["ts"].as_f64(), event["dur"].as_f64())
@@ -116,7 +116,7 @@ fn text(program: &Program, profile: &Profile) -> String {
             let _ = writeln!(text, "    slots of {node}: at worst {longest:.1} µs a call");
         }
     }
-    text.push_str("  at worst: all nodes of the cluster as slow as each of them ever was\n");
+    text.push_str("  at worst: the sum of the longest times of all nodes of the cluster\n");
     text
 }
 

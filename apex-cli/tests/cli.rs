@@ -476,7 +476,7 @@ fn large_graphs_are_folded_unless_all_is_wanted() {
     let file = folder.file("town.afg", format!("graph Town {{\n    slot push;\n{rooms}}}\n{BELL}"));
     let (folded, all) = (graph(&[], &file), graph(&["--depth", "all"], &file));
     assert_eq!((folded.status.code(), all.status.code()), (Some(0), Some(0)));
-    assert!(stderr(&folded).contains("note: `Town` is too large to be read at once"), "{}", stderr(&folded));
+    assert!(stderr(&folded).contains("note: `Town` is too large to be readable as a whole"), "{}", stderr(&folded));
     assert!(stderr(&folded).contains("`--depth all` opens all"), "{}", stderr(&folded));
     assert_eq!(stderr(&all), "");
     let bells = |picture: &Output| String::from_utf8_lossy(&picture.stdout).matches("<title>bell").count();
@@ -493,21 +493,21 @@ fn graphs_that_cannot_be_drawn() {
         assert!(stderr(&output).contains(words), "{arguments:?}: {}", stderr(&output));
     };
     fails(&[], &folder.0.join("none.afg"), "cannot read");
-    fails(&["-o", "bell.png"], &file, "ends neither in .svg nor in .dot: say which with `--format`");
+    fails(&["-o", "bell.png"], &file, "ends neither in .svg nor in .dot: choose the format with `--format`");
     fails(&["-o", "bell"], &file, "ends neither in .svg nor in .dot");
     fails(&["-o", folder.0.join("no/such/folder.svg").to_str().unwrap()], &file, "there is no folder `");
     fails(&["--graph", "Hose"], &file, "there is no graph `Hose` to draw; did you mean `House`?");
     fails(&["--graph", "Bath"], &file, "there is no graph `Bath` to draw; there are graph `House`, fsm `Bell`");
     let robot = |name: &str| format!("robot {name} {{\n    node bell = Bell();\n    start -> bell.push;\n}}\n");
     let two = [&BELL[..BELL.find("graph").unwrap()], &robot("House"), &robot("Home")].concat();
-    let named = "has several: say which with `--graph NAME`; there are robot `House`, robot `Home`, fsm `Bell`";
+    let named = "has several graphs: choose one with `--graph NAME`; there are robot `House`, robot `Home`, fsm `Bell`";
     fails(&[], &folder.file("two.afg", &two), named);
     fails(&["--depth", "deep"], &file, "a whole number, or `all`");
-    fails(&["-o", file.to_str().unwrap(), "--format", "svg"], &file, "would overwrite its text");
+    fails(&["-o", file.to_str().unwrap(), "--format", "svg"], &file, "would overwrite its source file");
     assert_eq!(fs::read_to_string(&file).unwrap(), BELL);
     let empty = graph(&[], &folder.file("empty.afg", "\n"));
     assert!(empty.status.code() == Some(1) && stderr(&empty).contains("no-graph"), "{}", stderr(&empty));
-    fails(&["--activity"], &folder.file("still.afg", "graph Still { }\n"), "no activity comes to a node of `Still`");
+    fails(&["--activity"], &folder.file("still.afg", "graph Still { }\n"), "no activity reaches a node of `Still`");
     let wrong = folder.file("wrong.afg", "graph A {\n    node a = Nothing();\n}\n");
     let picture = folder.0.join("wrong.svg");
     let output = graph(&["-o", picture.to_str().unwrap()], &wrong);
@@ -609,7 +609,7 @@ fn nodes_in_broken_rust() {
     let file = folder.file("a.afg", "use crate::ramp;\ngraph A {\n    out y: u64;\n    ramp() -> y;\n}\n");
     for _ in 0..2 {
         let said = stderr(&check(&[], &file));
-        let reason = "note: the nodes in src/lib.rs are not known: its line 3 cannot be read (";
+        let reason = "note: the nodes in src/lib.rs are unknown: line 3 cannot be read (";
         assert_eq!(said.matches(reason).count(), 1, "{said}");
     }
 }
@@ -624,8 +624,8 @@ fn files_of_a_run() {
     for (option, path, reason) in [
         ("--params", &missing, "such.toml`: there is no such file"),
         ("--save-params", &missing, "such.toml`: there is no folder `"),
-        ("--save-params", &folder.0, "it is no file, which could be replaced"),
-        ("--save-params", &file, "the parameters would overwrite the text `"),
+        ("--save-params", &folder.0, "it is not a regular file"),
+        ("--save-params", &file, "the parameters would overwrite the source file `"),
     ] {
         let output = apex().arg("run").arg(&file).arg(option).arg(path).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{option}");

@@ -53,8 +53,8 @@ fn signature(node: &Node) -> Option<usize> {
 fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
     for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
         let how = match (graph.flow(c), analysis.asynchronous.may_block[index]) {
-            _ if is_cell(graph, c.to.node) => "occupied until the other thread is done with it",
-            (Flow::ToInput, _) => "occupied until the region behind it has finished",
+            _ if is_cell(graph, c.to.node) => "occupied until the other thread has processed the token",
+            (Flow::ToInput, _) => "occupied until the region downstream has finished",
             (_, true) => "occupied until the slot can be served",
             (_, false) => "served at once",
         };
@@ -78,13 +78,13 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {c}")).collect();
         let waits = guards.into_iter().chain(upstream).collect::<Vec<_>>().join(", ");
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
-        let never = if cluster.fires { "" } else { ", and never fires: not all of that can come" };
+        let never = if cluster.fires { "" } else { ", and never fires: some of these never arrive" };
         let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}{never}", cluster.region);
         if !graph.is_body && cluster.fires && cluster.upstream.is_empty() {
             let steps = match analysis.steps_after(graph, index) {
                 Some(1) => "it is the only step until it is notified".to_owned(),
-                Some(steps) => format!("at most {steps} steps until all that it causes has finished"),
-                None => "its events can go round: there is no bound of the steps until all has finished".to_owned(),
+                Some(steps) => format!("at most {steps} steps until all its effects have finished"),
+                None => "event cycle: the number of steps is unbounded".to_owned(),
             };
             let _ = writeln!(text, "{pad}  {steps}");
         }
@@ -96,7 +96,7 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         if analysis.asynchronous.endless {
             let _ = writeln!(
                 text,
-                "{pad}  tokens can go round while the time stands still: the steps of a reaction are counted"
+                "{pad}  tokens can circulate endlessly within one reaction: the number of its steps is limited"
             );
         }
     }
@@ -110,7 +110,7 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
             if skipped.is_empty() { String::new() } else { format!("  ⊥ from it skips {}", shortened(&skipped)) };
         let _ = writeln!(text, "{pad}  {:width$}  {words}{skips}", graph.path(node));
     }
-    let _ = writeln!(text, "{pad}memory besides the nodes' own state");
+    let _ = writeln!(text, "{pad}memory besides the state of the nodes");
     let kept = kept(graph, analysis, catalog);
     for (end, what) in &kept {
         let _ = writeln!(text, "{pad}  {}: {what} of `{}`", graph.end_name(*end), graph.port(*end).ty);
@@ -137,7 +137,7 @@ fn claims(text: &mut String, graph: &Graph, decided: &Decided, pad: &str) {
     if decided.verdicts.is_empty() {
         return;
     }
-    let _ = writeln!(text, "{pad}claims ({} states of activity looked at)", decided.states);
+    let _ = writeln!(text, "{pad}claims ({} states of activity searched)", decided.states);
     for (claim, verdict) in graph.claims.iter().zip(&decided.verdicts) {
         let _ = writeln!(text, "{pad}  {}: {}", graph.claim_text(claim), verdict.words());
     }

@@ -78,7 +78,7 @@ impl Queue {
     pub fn overdue(&self, now: Instant) -> Vec<Response> {
         let mut state = self.state();
         let late: Vec<RequestId> = state.due.iter().filter(|(_, due)| **due <= now).map(|(id, _)| id.clone()).collect();
-        let reason = "the server is still at work on something else; ask again later";
+        let reason = "the server is busy with another request; try again later";
         late.into_iter().map(|id| state.refuse(id, ErrorCode::ServerCancelled, reason)).collect()
     }
 
@@ -157,7 +157,7 @@ impl State {
         });
         let stale: Vec<RequestId> = stale.collect();
         self.waiting.retain(|message| !matches!(message, Message::Request(r) if stale.contains(&r.id)));
-        let reason = "the text has changed since";
+        let reason = "the file has changed since the request";
         stale.into_iter().map(|id| self.refuse(id, ErrorCode::ContentModified, reason)).collect()
     }
 

@@ -77,7 +77,7 @@ fn initialize(connection: &Connection) -> Option<Client> {
                 return Some(client);
             }
             Message::Request(request) => {
-                let message = "the first request is `initialize`".to_owned();
+                let message = "the first request must be `initialize`".to_owned();
                 Response::new_err(request.id, ErrorCode::ServerNotInitialized as i32, message)
             }
             Message::Notification(n) if n.method == notification::Exit::METHOD => return None,

@@ -104,8 +104,7 @@ fn from_file(name: &str, folder: &Path, workspace: &Workspace, disk: &mut Disk) 
     let path = beside.filter(|p| disk.exists(p)).unwrap_or_else(|| folder.join(name));
     let text = disk.read(&path).map_err(|reason| {
         format!(
-            "cannot read `{name}`: {reason}\nnote: it is looked for beside this source file, then in the folder of the \
-             package"
+            "cannot read `{name}`: {reason}\nnote: it is searched for next to this Rust file, then in the folder of the package"
         )
     })?;
     let shown = path.strip_prefix(&workspace.root).unwrap_or(&path).to_owned();

@@ -195,7 +195,10 @@ impl Observer for StdErr {
         eprintln!("{}: `{}` failed: {error}", self.0.name, self.0.nodes[node].name);
     }
     fn late(&mut self, node: usize, age: Duration) {
-        eprintln!("{}: `{}` is late: it had finished after {age:.1?}", self.0.name, self.0.nodes[node].name);
+        eprintln!(
+            "{}: `{}` missed its deadline: it finished {age:.1?} after its source fired",
+            self.0.name, self.0.nodes[node].name
+        );
     }
     fn hung(&mut self, node: usize, running: Duration) {
         eprintln!("{}: `{}` hangs: it has been running for {running:.1?}", self.0.name, self.0.nodes[node].name);
@@ -207,11 +210,14 @@ impl Observer for StdErr {
     fn waits(&mut self, connection: usize) {
         let (info, c) = (self.0, &self.0.connections[connection]);
         let (from, to) = (info.nodes[c.from].name, info.nodes[c.to].name);
-        eprintln!("{}: `{to}` waits for the event `{from}.{}`, which never came", info.name, c.output);
+        eprintln!(
+            "{}: deadlock: `{to}` waits for the event `{from}.{}`, which can no longer be triggered",
+            info.name, c.output
+        );
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let total: u32 = counts.iter().sum();
-        eprintln!("{}: tokens go round while the time stands still; of the last {total} steps:", self.0.name);
+        eprintln!("{}: endless cycle of tokens at one point in time; of the last {total} steps:", self.0.name);
         for (node, count) in nodes.iter().zip(counts).filter(|(_, count)| **count > 0) {
             eprintln!("{count:>8}  `{}`", self.0.nodes[*node].name);
         }

@@ -46,7 +46,7 @@ impl<C: Clock> UntilStopped<C> {
 #[cfg(feature = "ctrl-c")]
 fn asked() {
     if STOPPED.is_set() {
-        eprintln!("ended at once, since it was asked to end again before it had");
+        eprintln!("ended immediately: it was asked to stop a second time");
         std::process::exit(INTERRUPTED);
     }
     STOPPED.set();

@@ -109,7 +109,7 @@ impl Timeline {
         let mut text = String::new();
         let left_out = self.moments.len().saturating_sub(SHOWN);
         if left_out > 0 {
-            let _ = writeln!(text, "  … {left_out} moments before");
+            let _ = writeln!(text, "  … {left_out} earlier moments");
         }
         for (time, moment) in &self.moments[left_out..] {
             let fired = match moment.fired.as_slice() {
@@ -143,7 +143,7 @@ impl Observer for Timeline {
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let names = nodes.iter().zip(counts).filter(|(_, count)| **count > 0).map(|(node, _)| self.names[*node]);
         let names: Vec<&str> = names.collect();
-        self.now.notes.push(format!("endless loop of {}", names.join(", ")));
+        self.now.notes.push(format!("endless cycle of {}", names.join(", ")));
     }
 }
 
@@ -255,7 +255,7 @@ impl<P: Program + 'static> Test<P> {
             let met = stop.is_some_and(|stop| stop(&self.program));
             if let Some((_, text, place)) = self.nevers.iter().find(|(seen, ..)| seen(&self.program)).copied() {
                 self.close();
-                self.fail(&format!("`{text}` was never to happen"), self.now, place);
+                self.fail(&format!("`{text}` happened, but never should"), self.now, place);
             }
             self.close();
             if met {

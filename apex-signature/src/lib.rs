@@ -154,7 +154,10 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
     for (name, ty) in methods.events() {
         let text = quote::ToTokens::to_token_stream(ty).to_string();
         if known.iter().any(|(other, token)| *other == name && *token != text) {
-            return Err(syn::Error::new_spanned(ty, format!("the event `{name}` has another type elsewhere")));
+            return Err(syn::Error::new_spanned(
+                ty,
+                format!("the event `{name}` has different types in different methods"),
+            ));
         }
         known.push((name, text));
     }
@@ -209,7 +212,7 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
     if callable.returns.token.is_some() {
         return Err(syn::Error::new_spanned(
             &method.sig.output,
-            "a slot returns nothing (or `Result<(), E>` if it may fail); send what it finds by an event",
+            "a slot returns nothing (or `Result<(), E>` if it may fail); send its result over an event",
         ));
     }
     let mut token = None;
@@ -222,7 +225,7 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
             _ => {
                 return Err(syn::Error::new_spanned(
                     syntax,
-                    "a slot takes one token `&T` at most, besides events and `&Ctx`",
+                    "a slot takes at most one token `&T`, besides events and `&Ctx`",
                 ));
             }
         }
@@ -235,13 +238,13 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
 
 fn callable(sig: &Signature) -> syn::Result<Callable> {
     if let Some(token) = &sig.asyncness {
-        return Err(syn::Error::new(token.span(), "a node runs to completion; `async` is not possible"));
+        return Err(syn::Error::new(token.span(), "a node runs to completion and cannot be `async`"));
     }
     if let syn::Safety::Unsafe(token) = &sig.safety {
-        return Err(syn::Error::new(token.span(), "a node is called by safe code: `unsafe` belongs inside of it"));
+        return Err(syn::Error::new(token.span(), "a node is called by safe code: use `unsafe` only inside it"));
     }
     if let Some(lifetime) = sig.generics.lifetimes().next() {
-        return Err(syn::Error::new(lifetime.span(), "a node takes tokens by plain reference: leave the lifetime out"));
+        return Err(syn::Error::new(lifetime.span(), "a node takes tokens by plain references: remove the lifetime"));
     }
     let mut args = Vec::new();
     for arg in &sig.inputs {
@@ -249,7 +252,7 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
         let Pat::Ident(name) = &*arg.pat else {
             return Err(syn::Error::new_spanned(
                 &arg.pat,
-                "the name of an argument is the name of its port: give it a plain name",
+                "the name of an argument is the name of its port: write a plain name instead of a pattern",
             ));
         };
         let form = match param(&arg.attrs, &arg.ty)? {
@@ -300,7 +303,7 @@ fn token(ty: &Type) -> syn::Result<Token> {
         Some(n) => Ok(Token { ty: (*array.elem).clone(), batch: Some(n) }),
         None => Err(syn::Error::new(
             array.len.span(),
-            "an array at a port is a number of tokens per firing: write it as a literal above 1 (for an array as one token, wrap it in a type)",
+            "an array at a port means several tokens per firing: write its length as a literal greater than 1 (to pass an array as one token, wrap it in a type)",
         )),
     }
 }

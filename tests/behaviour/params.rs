@@ -259,7 +259,7 @@ fn par_04_unknown_names_are_errors() {
             "1:8: there is no parameter `handed.bye`; did you mean `handed.by`?",
             "3:1: there is no parameter `kinds.speeed`; did you mean `kinds.speed`?",
             "5:9: there is no node `nested.bodi` with parameters; did you mean `nested.body`?",
-            "7:2: there is no node `nothing` with parameters; remove it, or save the parameters to see what there are",
+            "7:2: there is no node `nothing` with parameters; remove it, or save the parameters to see all names",
             "8:1: `late.gain` (i64) takes an integer, not a table",
         ]
     );
@@ -267,7 +267,7 @@ fn par_04_unknown_names_are_errors() {
         problems("[latte]\ngain = 2\n"),
         ["1:2: there is no node `latte` with parameters; did you mean `late`?"]
     );
-    assert_eq!(problems("late = 2"), ["1:1: `late` is a node: its parameters stand in a table, such as `late.gain`"]);
+    assert_eq!(problems("late = 2"), ["1:1: `late` is a node: its parameters are in a table, such as `late.gain`"]);
     let Err(LoadError::Text { problems, .. }) = load(&mut Plain::new(), "x = 1") else { panic!("`x` is unknown") };
     assert_eq!(problems[0].message, "there is no parameter `x`; the program has none: remove it");
 }
@@ -286,10 +286,10 @@ fn values_that_are_not_taken() {
             "6:10: `kinds.offset` cannot be 5: its range is -5..5",
             "7:9: `kinds.title` (String) takes a string, not an integer",
             "8:8: `kinds.list` (Vec<f64>) takes a number, not a string",
-            "9:8: `kinds.rows` ([[u16; 2]; 2]) takes 2 elements; here are 1",
+            "9:8: `kinds.rows` ([[u16; 2]; 2]) takes 2 elements, not 1",
             "10:8: `kinds.mode` is a `Mode`: parameters of this type can only be set in the graph",
             "11:9: `kinds.fixed` is a `&str`: parameters of this type can only be set in the graph",
-            "13:10: `late.gain` (i64) takes an integer, not a number with a point",
+            "13:10: `late.gain` (i64) takes an integer, not a number with a decimal point",
             "15:6: `handed.by` (i64) takes an integer, not a date",
         ]
     );
@@ -306,8 +306,8 @@ fn values_that_are_not_taken() {
 fn syntax_errors_stand_where_they_are() {
     let found = problems("[kinds]\non = \nspeed = 0.5\n# ü\n  pause == 1\nspeed = 0.6\n");
     assert_eq!(found.len(), 4, "{found:?}");
-    assert!(found[0].starts_with("2:") && found[1].starts_with("5:10: this is no TOML: "), "{found:?}");
-    assert!(found[3].starts_with("6:1: this is no TOML: duplicate key"), "{found:?}");
+    assert!(found[0].starts_with("2:") && found[1].starts_with("5:10: this is not TOML: "), "{found:?}");
+    assert!(found[3].starts_with("6:1: this is not TOML: duplicate key"), "{found:?}");
     assert!(!problems(&"[".repeat(100_000)).is_empty());
 }
 

@@ -68,7 +68,7 @@ fn what_is_no_recording_is_said_so() {
     let message = |name: &str| replay(Small::new(), &folder.file(name), ()).expect_err("no recording").to_string();
     fs::write(folder.file("text"), "Hello, this is no recording at all").expect("room for it");
     fs::write(folder.file("empty"), "").expect("room for it");
-    assert!(message("text").ends_with("it is no MCAP file, or its beginning is damaged"), "{}", message("text"));
+    assert!(message("text").ends_with("it is not an MCAP file, or its beginning is damaged"), "{}", message("text"));
     assert!(message("empty").contains("it is empty"), "{}", message("empty"));
     assert!(message("missing").starts_with("cannot read `"), "{}", message("missing"));
     let error = replay(Small::new(), &folder.0, ()).expect_err("a folder").to_string();

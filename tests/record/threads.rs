@@ -434,7 +434,7 @@ fn a_recording_of_other_threads_is_refused() {
     first.inputs().question.put(7).expect("there is room");
     on_threads(&mut first, &path);
     let error = replay(before::Asked::new(), &path, ()).expect_err("other threads").to_string();
-    let end = "was recorded on the threads `main other`, but the program has `main elsewhere`: replay it with the `on` that it had";
+    let end = "was recorded on the threads `main other`, but the program has `main elsewhere`: replay it with the same `on` as recorded";
     assert!(error.ends_with(end), "{error}");
 }
 

@@ -43,7 +43,7 @@ impl Folder {
         };
         if list.is_none() && !is_empty {
             return Err(format!(
-                "`{}` has things in it that `apex doc` did not make: name another folder with `--output`",
+                "`{}` contains files that `apex doc` did not write: choose another folder with `--output`",
                 path.display()
             ));
         }
@@ -59,7 +59,7 @@ impl Folder {
         let others = |name: &&String| !self.pages.contains(*name) && self.path.join(name).symlink_metadata().is_ok();
         if let Some(other) = pages.keys().find(others) {
             let path = self.path.join(other);
-            return Err(format!("`{}` was not made by `apex doc`: move it away", path.display()));
+            return Err(format!("`{}` was not written by `apex doc`: move it elsewhere", path.display()));
         }
         fs::create_dir_all(&self.path).map_err(|e| failed("make", &self.path, &e))?;
         // Wherever it is broken off, the next run knows what is of ours.

@@ -77,12 +77,12 @@ impl Reader {
 
     /// Where pages go if nobody says so.
     fn folder(&mut self) -> Result<PathBuf, String> {
-        let Some(first) = self.waiting.front().cloned() else { return Err("there is no text".to_owned()) };
+        let Some(first) = self.waiting.front().cloned() else { return Err("there is no source file".to_owned()) };
         let checker = checker(&mut self.checkers, &first)?;
         // That a text is not there is to be said before all else.
         checker.read(&first)?;
         checker.workspace.as_ref().map(|workspace| workspace.cache_folder().join("doc")).ok_or_else(|| {
-            format!("`{}` belongs to no package: say with `--output` where the pages go", first.display())
+            format!("`{}` does not belong to a package: choose a folder for the pages with `--output`", first.display())
         })
     }
 

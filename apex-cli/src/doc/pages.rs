@@ -70,7 +70,7 @@ impl<'a> Site<'a> {
         let modules = book.nodes.chunk_by(|a, b| a.module == b.module);
         let nodes = modules.map(|m| format!("<h3>{}</h3>\n{}", code(&m[0].module), list(&self.entries(m))));
         let title = "Graphs and nodes";
-        let body = section("Texts", &texts) + &section("Nodes", &nodes.collect::<String>());
+        let body = section("Source files", &texts) + &section("Nodes", &nodes.collect::<String>());
         page(title, &[], &format!("<h1>{title}</h1>\n{body}"))
     }
 
@@ -164,7 +164,7 @@ impl<'a> Site<'a> {
                 1 => format!(" · {}", code(&port.ty.to_string())),
                 rate => format!(" · {}", code(&format!("[{}; {rate}]", port.ty))),
             };
-            let optional = if port.optional { " · may stay open" } else { "" };
+            let optional = if port.optional { " · optional" } else { "" };
             let facts = format!("<span class=\"soft\">{}{ty}{optional}</span>", port.kind.word());
             self.entry(&format!("{} {facts}", code(&port.name)), &port.docs)
         };
@@ -219,7 +219,7 @@ fn figure(picture: &Picture, of: &str) -> String {
             let width = width(svg).map(|width| format!(" style=\"--width: {width}px\"")).unwrap_or_default();
             format!("<figure role=\"group\" aria-label=\"{label}\" tabindex=\"0\"{width}>\n{svg}</figure>\n")
         }
-        Err(count) => format!("<p>A picture would have {count} boxes, too many to be read.</p>\n"),
+        Err(count) => format!("<p>A diagram would have {count} boxes, too many to be readable.</p>\n"),
     }
 }
 

@@ -116,7 +116,7 @@ fn groups(yaml: &Yaml) -> Result<BTreeMap<String, String>, Wrong> {
 impl File {
     fn graph(&mut self, yaml: &Yaml, name: &str, path: &str, depth: usize) -> Result<Graph, Wrong> {
         if depth > MAX_DEPTH {
-            return Err(Wrong::new(yaml.line, format!("graphs are nested deeper than {MAX_DEPTH} times")));
+            return Err(Wrong::new(yaml.line, format!("graphs are nested more than {MAX_DEPTH} levels deep")));
         }
         let name = self.graph_names.unique(names::camel(name));
         let mut graph = Graph { name, nodes: vec![], connections: vec![], ports: BTreeSet::new() };
@@ -126,7 +126,7 @@ impl File {
             let uuid = node.need("uuid", "a node")?;
             let id = uuid.scalar("`uuid`")?;
             if let Some((_, line)) = places.insert(id, (graph.nodes.len(), uuid.line)) {
-                let message = format!("the node `{id}` is there twice; the first stands in line {line}");
+                let message = format!("the node `{id}` occurs twice, first in line {line}");
                 return Err(Wrong::new(uuid.line, message));
             }
             graph.nodes.push(self.node(node, id, path, depth, &mut taken)?);
@@ -274,12 +274,12 @@ impl Form {
     fn read(self, yaml: &Yaml) -> Result<Param, Wrong> {
         let Value::Scalar(text) = &yaml.value else { return Ok(Param::None) };
         let (param, what) = match self {
-            Self::Text => (Some(Param::Text(text.clone())), "text"),
-            Self::Int => (text.parse().ok().map(Param::Int), "whole number"),
+            Self::Text => (Some(Param::Text(text.clone())), "a text"),
+            Self::Int => (text.parse().ok().map(Param::Int), "a whole number"),
             Self::Bool => (text.parse().ok().map(Param::Bool), "`true` or `false`"),
-            Self::Float => (read_float(text), "number"),
+            Self::Float => (read_float(text), "a number"),
         };
-        param.ok_or_else(|| Wrong::new(yaml.line, format!("this is no {what}")))
+        param.ok_or_else(|| Wrong::new(yaml.line, format!("this is not {what}")))
     }
 }
 

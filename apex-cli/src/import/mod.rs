@@ -35,11 +35,13 @@ impl Wrong {
 pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<ExitCode, String> {
     for path in [output, nodes].into_iter().flatten() {
         if path.exists() {
-            return Err(format!("`{}` is there already: remove it first, or take another name", path.display()));
+            return Err(format!("`{}` already exists: remove it first, or choose another name", path.display()));
         }
     }
     if output.is_some() && output == nodes {
-        return Err("the text and its nodes need files of their own: `--output` and `--nodes` name the same".to_owned());
+        return Err(
+            "the source file and its nodes need separate files: `--output` and `--nodes` name the same one".to_owned()
+        );
     }
     let yaml = read_text(file, MAX_BYTES).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
@@ -53,7 +55,7 @@ pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<E
     };
     let module = nodes.map_or_else(|| "crate".to_owned(), module);
     let text = apex_dsl::format(&text::write(&imported, &module))
-        .map_err(|errors| format!("this graph cannot be written as a text: {}", errors.sorted()[0].message))?;
+        .map_err(|errors| format!("this graph cannot be written as a source file: {}", errors.sorted()[0].message))?;
     let skeletons = nodes.map(|path| Ok::<_, String>((path, skeletons::write(&imported)?))).transpose()?;
     match output {
         Some(path) => replace::write(path, &text)?,

@@ -129,10 +129,10 @@ impl PortId {
             let own = id.rsplit_once('_').and_then(|(name, k)| {
                 Some(Self::Own(kinds.iter().find(|(relay, _)| *relay == name)?.1, k.parse().ok()?))
             });
-            return own.ok_or_else(|| unknown("it is no port such as `node:|:in_0` or `relayin_0`".to_owned()));
+            return own.ok_or_else(|| unknown("it is not a port such as `node:|:in_0` or `relayin_0`".to_owned()));
         };
         let index = node(owner).ok_or_else(|| unknown(format!("there is no node `{owner}` in this graph")))?;
-        let port = read_port(port).ok_or_else(|| unknown(format!("`{port}` is no port")))?;
+        let port = read_port(port).ok_or_else(|| unknown(format!("`{port}` is not a port")))?;
         Ok(Self::Node(index, port))
     }
 

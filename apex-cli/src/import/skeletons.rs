@@ -65,7 +65,7 @@ impl Type<'_> {
     // Writing into a string cannot fail.
     fn write(&self, ty: &str, rust: &mut String) {
         let name = names::camel(ty);
-        let _ = writeln!(rust, "/// Stands for `{}`: takes everything and sends nothing.", one_line(ty));
+        let _ = writeln!(rust, "/// Placeholder for `{}`: takes all tokens and sends none.", one_line(ty));
         rust.push_str("#[node]\n");
         if self.params.is_empty() {
             let _ = writeln!(rust, "#[derive(Default)]\npub struct {name};");
@@ -143,9 +143,9 @@ fn one_line(text: &str) -> String {
 /// The Rust file.
 pub fn write(top: &Graph) -> Result<String, String> {
     let mut rust = format!(
-        "//! Nodes of a graph of CS::APEX, to be filled in. Ports carry `{MESSAGE}` until they get types of their own.\n\
+        "//! Nodes of a graph of CS::APEX, to be completed. Ports have the type `{MESSAGE}` until you give them others.\n\
          use apex_rt::prelude::*;\n\n\
-         /// What ports carry whose types are not known yet.\n\
+         /// Type of the ports whose types are not known yet.\n\
          #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]\npub struct {MESSAGE};\n"
     );
     for (ty, shown) in types(top) {

@@ -25,7 +25,7 @@ pub fn write(top: &Graph, module: &str) -> String {
         let _ = writeln!(text, "use apex_nodes::{module}::{name};");
     }
     if has_ports {
-        text += "// The file does not say what the ports of graphs carry: put the types in.\n";
+        text += "// The file does not contain the types of the ports of graphs: add them here.\n";
         let _ = writeln!(text, "use {module}::{MESSAGE};");
     }
     visit(top, &mut |graph| write_graph(graph, &mut text));
@@ -58,7 +58,7 @@ fn write_connection(graph: &Graph, connection: &Connection, text: &mut String) {
     let Connection { from, to, active } = connection;
     // What the language has no port for stays in the text for whoever knows better.
     for whole in [from, to].into_iter().filter_map(PortId::without_counterpart) {
-        let _ = write!(text, "// `{whole}` of CS::APEX itself has nothing like it here: ");
+        let _ = write!(text, "// `{whole}` of CS::APEX itself has no counterpart here: ");
     }
     let arrow = if *active { "=>" } else { "->" };
     let signal = if connection.needs_signal() { format!("Signal() {arrow} ") } else { String::new() };

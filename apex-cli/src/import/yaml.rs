@@ -87,12 +87,12 @@ pub fn read(text: &str) -> Result<Yaml, Wrong> {
     let mut whole = None;
     for event in Parser::new_from_str(text) {
         let (event, span) =
-            event.map_err(|e| Wrong::new(e.marker().line().max(1), format!("this is no YAML: {}", e.info())))?;
+            event.map_err(|e| Wrong::new(e.marker().line().max(1), format!("this is not YAML: {}", e.info())))?;
         let line = span.start.line().max(1);
         let done = match event {
             Event::Scalar(text, ..) => Yaml { line, value: Value::Scalar(text.into_owned()) },
             Event::SequenceStart(..) | Event::MappingStart(..) if open.len() >= MAX_DEPTH => {
-                return Err(Wrong::new(line, format!("this is nested deeper than {MAX_DEPTH} times")));
+                return Err(Wrong::new(line, format!("this is nested more than {MAX_DEPTH} levels deep")));
             }
             Event::SequenceStart(..) => {
                 open.push(Open::List(line, vec![]));
@@ -108,7 +108,9 @@ pub fn read(text: &str) -> Result<Yaml, Wrong> {
                 None => continue,
             },
             // A graph that contains itself can only be written so.
-            Event::Alias(_) => return Err(Wrong::new(line, "references (`*name`) are not read: write it out")),
+            Event::Alias(_) => {
+                return Err(Wrong::new(line, "aliases (`*name`) are not supported: write the value out"));
+            }
             _ => continue,
         };
         match open.last_mut() {
@@ -129,7 +131,7 @@ impl Open {
                 None => {
                     let name = value.scalar("a key")?;
                     if !entries.keys.insert(name.to_owned()) {
-                        return Err(Wrong::new(value.line, format!("the key `{name}` is there twice")));
+                        return Err(Wrong::new(value.line, format!("the key `{name}` occurs twice")));
                     }
                     entries.key = Some(name.to_owned());
                 }

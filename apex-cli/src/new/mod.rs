@@ -102,7 +102,7 @@ pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result
         write(&folder.join(file), &text)?;
     }
     let next: String = template.next().iter().map(|line| format!("\n  {line}")).collect();
-    project::print(&format!("made `{name}`; next\n  cd {}{next}", shell_word(folder)))?;
+    project::print(&format!("created `{name}`; next\n  cd {}{next}", shell_word(folder)))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -112,10 +112,10 @@ fn is_free(folder: &Path) -> Result<(), String> {
     match fs::read_dir(folder) {
         Ok(mut entries) => match entries.next() {
             None => Ok(()),
-            Some(_) => Err(format!("the folder `{shown}` is not empty: take another name")),
+            Some(_) => Err(format!("the folder `{shown}` is not empty: choose another name")),
         },
         Err(_) if fs::symlink_metadata(folder).is_err() => Ok(()),
-        Err(reason) => Err(format!("cannot make a project in `{shown}`: {reason}")),
+        Err(reason) => Err(format!("cannot create a project in `{shown}`: {reason}")),
     }
 }
 
@@ -131,7 +131,7 @@ fn find(given: Option<&Path>) -> Result<PathBuf, String> {
         Some(_) => {
             format!("`{shown}` is not a checkout of Apex: there is no `apex-rt`, `nodes` and `robots/sim` in it")
         }
-        None => format!("the checkout of Apex is no longer in `{shown}`: say where it is with `--path`"),
+        None => format!("the checkout of Apex is no longer in `{shown}`: name its folder with `--path`"),
     })
 }
 

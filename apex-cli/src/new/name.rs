@@ -25,10 +25,7 @@ pub fn locked(checkout: &Path) -> Vec<String> {
 /// The name of the package in `folder`: that of the folder. It must not be the same as one of `others`.
 pub fn of<'a>(folder: &'a Path, others: &[String]) -> Result<&'a str, String> {
     let Some(name) = folder.file_name() else {
-        return Err(format!(
-            "`{}` has no name for the project: give the folder one, as in `my-robot`",
-            folder.display()
-        ));
+        return Err(format!("`{}` is not a name for the project: name a folder, such as `my-robot`", folder.display()));
     };
     let shown = name.to_string_lossy();
     match problem(&shown, others).map_or_else(|| name.to_str().ok_or("it is not UTF-8"), Err) {
@@ -48,11 +45,11 @@ fn problem(name: &str, others: &[String]) -> Option<&'static str> {
     } else if !first.is_ascii_alphabetic() {
         Some("it must begin with a letter")
     } else if TAKEN.split(' ').any(|word| word == plain) {
-        Some("it is taken by Rust or cargo")
+        Some("it is reserved by Rust or cargo")
     } else if is_device(&plain) {
-        Some("Windows has no files of that name")
+        Some("Windows does not allow files of this name")
     } else if plain == "apex" || plain.starts_with("apex-") {
-        Some("names that begin with `apex` are those of Apex itself")
+        Some("names that begin with `apex` are reserved for Apex itself")
     } else if others.iter().any(|other| other.replace('_', "-") == plain) {
         Some("it is the name of a crate that Apex needs")
     } else if name.len() > LONGEST {

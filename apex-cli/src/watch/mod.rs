@@ -25,7 +25,7 @@ const INTERVAL: Duration = Duration::from_millis(200);
 /// Set when the user wants to end.
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
-/// Builds and runs until Ctrl-C; after each change anew. While the text has errors, the program from before goes on.
+/// Builds and runs until Ctrl-C; after each change anew. While the text has errors, the previous program keeps running.
 pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed))
         .map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
@@ -66,7 +66,7 @@ fn built(wanted: &Wanted<'_>) -> Result<Option<Found>, String> {
 
 /// What happens until the next change.
 fn waiting(running: Option<&Running>) -> &'static str {
-    running.map_or("waiting for a change", |_| "the program from before goes on")
+    running.map_or("waiting for a change", |_| "the previous program keeps running")
 }
 
 /// Waits until files have changed and nobody writes any more, or the user wants to end.

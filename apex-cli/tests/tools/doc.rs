@@ -244,7 +244,10 @@ fn without_a_folder_pages_go_where_cargo_builds() {
     outside.file("a.afg", "graph A { }\n");
     let output = doc(&outside, &["a.afg"]);
     assert_eq!((output.status.code(), files(&outside.0).len()), (Some(2), 1));
-    assert_eq!(stderr(&output), "error: `a.afg` belongs to no package: say with `--output` where the pages go\n");
+    assert_eq!(
+        stderr(&output),
+        "error: `a.afg` does not belong to a package: choose a folder for the pages with `--output`\n"
+    );
     let output = doc(&outside, &["missing.afg"]);
     assert_eq!(stderr(&output), "error: cannot read `missing.afg`: there is no such file\n");
 }
@@ -272,7 +275,11 @@ fn old_pages_go_and_other_files_stay() {
     folder.file("a.afg", "graph A { }\n\ngraph B { }\n");
     let output = doc(&folder, &["a.afg", "-o", "pages"]);
     assert_eq!((output.status.code(), files(&pages)), (Some(2), before));
-    assert!(stderr(&output).ends_with("a.B.html` was not made by `apex doc`: move it away\n"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).ends_with("a.B.html` was not written by `apex doc`: move it elsewhere\n"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 /// A list that a stranger has put there names files that nobody made: they stay, and are not written over.
@@ -304,7 +311,11 @@ fn a_planted_list_takes_nothing() {
         (output.status.code(), fs::read_to_string(pages.join("a.A.html")).unwrap()),
         (Some(2), "mine".to_owned())
     );
-    assert!(stderr(&output).ends_with("a.A.html` was not made by `apex doc`: move it away\n"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).ends_with("a.A.html` was not written by `apex doc`: move it elsewhere\n"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -314,7 +325,7 @@ fn a_folder_with_other_things_is_refused() {
     let output = doc(&folder, &["a.afg", "-o", "."]);
     assert_eq!((output.status.code(), files(&folder.0).len()), (Some(2), 1));
     assert!(
-        stderr(&output).starts_with("error: `.` has things in it that `apex doc` did not make"),
+        stderr(&output).starts_with("error: `.` contains files that `apex doc` did not write"),
         "{}",
         stderr(&output)
     );
@@ -343,7 +354,7 @@ fn what_cannot_be_read_is_two() {
     for (path, reason) in [
         ("missing.afg", "error: cannot read `missing.afg`: there is no such file"),
         ("latin1.afg", "error: cannot read `latin1.afg`: byte 6 is not UTF-8"),
-        ("empty", "error: there is no `.afg` text in `empty`"),
+        ("empty", "error: there is no `.afg` file in `empty`"),
     ] {
         let output = doc(&folder, &[path, "-o", "pages"]);
         assert_eq!((output.status.code(), folder.0.join("pages").exists()), (Some(2), false), "{path}");
@@ -359,5 +370,5 @@ fn a_graph_that_is_too_large_for_a_picture_has_a_page() {
     folder.file("large.afg", format!("use crate::ramp;\n\ngraph Large {{\n{nodes}}}\n"));
     assert_eq!(doc(&folder, &["large.afg", "-o", "pages"]).status.code(), Some(0));
     let page = &pages(&folder.0.join("pages"))["large.Large.html"];
-    assert!(page.contains("A picture would have 601 boxes") && !page.contains("<svg"), "{page}");
+    assert!(page.contains("A diagram would have 601 boxes") && !page.contains("<svg"), "{page}");
 }

@@ -88,7 +88,7 @@ const TEXT: &str = r#"//! Imported from a graph of CS::APEX.
 use apex_nodes::flow::Count;
 use apex_nodes::flow::Latch;
 use apex_nodes::flow::Signal;
-// The file does not say what the ports of graphs carry: put the types in.
+// The file does not contain the types of the ports of graphs: add them here.
 use crate::nodes::Message;
 
 graph MyRobot {
@@ -156,7 +156,7 @@ fn a_graph_becomes_a_text_in_the_style() {
     // What is there is not overwritten.
     let output = import(&file, &["--nodes", nodes.to_str().unwrap()]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert!(stderr(&output).ends_with("is there already: remove it first, or take another name\n"));
+    assert!(stderr(&output).ends_with("already exists: remove it first, or choose another name\n"));
     assert_eq!(text_of(&folder, ROBOT), TEXT.replace("crate::nodes::", "crate::"));
 }
 
@@ -215,22 +215,22 @@ fn wrong_files_are_refused_with_the_line() {
     let connection = |line: &str| format!("{node}  - {line}\n");
     let deep = |n: usize| "{nodes: [{type: G, uuid: g, subgraph: ".repeat(n) + "{nodes: []}" + &"}]}".repeat(n);
     for (graph, message) in [
-        ("nodes: [\n".to_owned(), "2: this is no YAML: "),
+        ("nodes: [\n".to_owned(), "2: this is not YAML: "),
         (String::new(), "1: the file is empty"),
         ("just words\n".to_owned(), "1: a graph must be a map with the key `nodes`"),
         ("connections: []\n".to_owned(), "1: a graph has no `nodes`"),
         ("nodes:\n  - type: A\n".to_owned(), "2: a node has no `uuid`"),
         ("nodes:\n  - uuid: a\n".to_owned(), "2: a node has no `type`"),
         ("nodes: 5\n".to_owned(), "1: `nodes` must be a list"),
-        ("nodes: []\nnodes: []\n".to_owned(), "2: the key `nodes` is there twice"),
+        ("nodes: []\nnodes: []\n".to_owned(), "2: the key `nodes` occurs twice"),
         ("nodes: []\n---\nnodes: []\n".to_owned(), "4: a second document begins here"),
         (
             "nodes:\n  - {type: A, uuid: a}\n  - {type: B, uuid: a}\n".to_owned(),
-            "3: the node `a` is there twice; the first stands in line 2",
+            "3: the node `a` occurs twice, first in line 2",
         ),
         (
             "nodes:\n  - {type: A, uuid: a, state: {params: {x: {int: many}}}}\n".to_owned(),
-            "2: this is no whole number",
+            "2: this is not a whole number",
         ),
         ("nodes: &all\n  - {type: A, uuid: a, subgraph: {nodes: *all}}\n".to_owned(), "2: references (`*name`)"),
         (connection("{targets: []}"), "5: a connection has no `uuid`"),
@@ -239,9 +239,9 @@ fn wrong_files_are_refused_with_the_line() {
             connection("{uuid: 'c:|:out_0', targets: []}"),
             "5: unknown id `c:|:out_0`: there is no node `c` in this graph",
         ),
-        (connection("{uuid: 'a:|:port', targets: []}"), "5: unknown id `a:|:port`: `port` is no port"),
-        (connection("{uuid: 'a:|:slot_x', targets: []}"), "5: unknown id `a:|:slot_x`: `slot_x` is no port"),
-        (connection("{uuid: relay_0, targets: []}"), "5: unknown id `relay_0`: it is no port such as"),
+        (connection("{uuid: 'a:|:port', targets: []}"), "5: unknown id `a:|:port`: `port` is not a port"),
+        (connection("{uuid: 'a:|:slot_x', targets: []}"), "5: unknown id `a:|:slot_x`: `slot_x` is not a port"),
+        (connection("{uuid: relay_0, targets: []}"), "5: unknown id `relay_0`: it is not a port such as"),
         (connection("{uuid: 'a:|:in_0', targets: []}"), "5: `a:|:in_0` sends nothing"),
         (connection("{uuid: 'a:|:out_0', targets: ['b:|:out_0']}"), "5: `b:|:out_0` takes nothing"),
         (
@@ -252,7 +252,7 @@ fn wrong_files_are_refused_with_the_line() {
             connection("{uuid: 'a:|:out_0', targets: ['b:|:in_0'], types: [active, active]}"),
             "5: there are 1 `targets`, but 2 `types`",
         ),
-        (deep(66), "1: graphs are nested deeper than 64 times"),
+        (deep(66), "1: graphs are nested more than 64 levels deep"),
         ("[".repeat(100_000), "1: "),
         ("- ".repeat(100_000), "1: "),
     ] {

@@ -76,9 +76,9 @@ const SHAPES_TEXT: &str = "    // `csapex::Filter` is not in the library; uses o
 
     start            -> filter_0.slot_2;
     start            => count.disable;
-    // `event_deactivation` of CS::APEX itself has nothing like it here: event_deactivation -> filter_0.slot_3;
+    // `event_deactivation` of CS::APEX itself has no counterpart here: event_deactivation -> filter_0.slot_3;
     filter_0.out_0   -> Signal() -> exit;
-    // `slot_save` of CS::APEX itself has nothing like it here: filter_0.out_0 -> slot_save;
+    // `slot_save` of CS::APEX itself has no counterpart here: filter_0.out_0 -> slot_save;
     filter_0.event_3 => Signal() => abort;
 }
 ";

@@ -86,13 +86,13 @@ fn what_is_there_is_not_overwritten() {
     let file = folder.file("robot", "mine");
     let output = make(&[], &file);
     assert_eq!((output.status.code(), fs::read_to_string(&file).unwrap().as_str()), (Some(2), "mine"));
-    assert!(stderr(&output).starts_with("error: cannot make a project in `"), "{}", stderr(&output));
+    assert!(stderr(&output).starts_with("error: cannot create a project in `"), "{}", stderr(&output));
 
     fs::create_dir(folder.0.join("full")).unwrap();
     folder.file("full/notes.txt", "mine");
     let output = make(&[], &folder.0.join("full"));
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert!(stderr(&output).ends_with("is not empty: take another name\n"), "{}", stderr(&output));
+    assert!(stderr(&output).ends_with("is not empty: choose another name\n"), "{}", stderr(&output));
     assert_eq!(fs::read_dir(folder.0.join("full")).unwrap().count(), 1);
 
     fs::create_dir(folder.0.join("empty")).unwrap();
@@ -105,10 +105,10 @@ fn names_that_no_package_can_have_are_refused() {
     for (name, message) in [
         ("My Robot", "only the letters `a` to `z`, digits, `-` and `_` are allowed; try `my-robot`"),
         ("7of9", "it must begin with a letter; try `of9`"),
-        ("match", "it is taken by Rust or cargo; try `match-robot`"),
-        ("con", "Windows has no files of that name; try `con-robot`"),
+        ("match", "it is reserved by Rust or cargo; try `match-robot`"),
+        ("con", "Windows does not allow files of this name; try `con-robot`"),
         ("heapless", "it is the name of a crate that Apex needs; try `heapless-robot`"),
-        ("apex-rt", "names that begin with `apex` are those of Apex itself; try `my-apex-rt`"),
+        ("apex-rt", "names that begin with `apex` are reserved for Apex itself; try `my-apex-rt`"),
     ] {
         let output = make(&[], &folder.0.join(name));
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));

@@ -45,7 +45,7 @@ robot::double
 const TALLY: &str = "\
 robot::Tally
   Counts doubles.
-  input  x      [u8; 2] (may stay open)
+  input  x      [u8; 2] (optional)
   slot   clear                           Starts at zero.
   event  full   u64
   param  first  u64 = 3                  Where it begins.
@@ -86,9 +86,9 @@ fn what_is_not_found_is_said_with_what_may_be_meant() {
     let folder = Folder::new("nodes-none");
     package(&folder, NODES);
     for (words, message) in [
-        (&["dubble"][..], "no node has to do with `dubble`; did you mean `double`?"),
-        (&["laser"], "no node has to do with `laser`; `apex nodes` lists them all"),
-        (&["double", "laser"], "no node has to do with all of `double`, `laser`; take fewer words"),
+        (&["dubble"][..], "no node matches `dubble`; did you mean `double`?"),
+        (&["laser"], "no node matches `laser`; `apex nodes` lists them all"),
+        (&["double", "laser"], "no node matches all of `double`, `laser`; give fewer words"),
     ] {
         assert_eq!(nodes(&folder.0, words), (Some(2), String::new(), format!("error: {message}\n")));
     }

@@ -152,15 +152,15 @@ fn a_run_is_recorded_and_repeated() {
     let (code, stdout, _) = replay(&folder, "run.mcap", "Adder");
     assert_eq!(code, Some(1), "{stdout}");
     assert!(stdout.contains("`scaled.out`: 0 of "), "{stdout}");
-    assert!(stdout.contains("the first other one is number 1, at 0.0"), "{stdout}");
-    assert!(stdout.ends_with("reactions, not the same\n"), "{stdout}");
+    assert!(stdout.contains("the first difference is token 1, at 0.0"), "{stdout}");
+    assert!(stdout.ends_with("reactions, with differences\n"), "{stdout}");
 
     // A file that was cut off.
     let bytes = fs::read(folder.0.join("run.mcap")).expect("it was recorded");
     folder.file("robot.afg", text(3));
     folder.file("cut.mcap", &bytes[..bytes.len() / 2]);
     let (code, stdout, _) = replay(&folder, "cut.mcap", "Adder");
-    assert!(code == Some(1) && stdout.contains("the recording is not whole: it was cut off"), "{code:?} {stdout}");
+    assert!(code == Some(1) && stdout.contains("the recording is incomplete: it was cut off"), "{code:?} {stdout}");
 
     // Another program.
     let output = run(&folder, &["replay", "run.mcap", "robot.afg", "--robot", "Other"]);
@@ -191,7 +191,7 @@ fn what_cannot_be_replayed_is_said_before_a_build() {
     folder.file("empty.mcap", "");
     fs::create_dir(folder.0.join("folder.mcap")).expect("a new folder");
     for (file, message) in [
-        ("text.mcap", "cannot read `text.mcap`: it is no MCAP file, or its beginning is damaged"),
+        ("text.mcap", "cannot read `text.mcap`: it is not an MCAP file, or its beginning is damaged"),
         ("empty.mcap", "cannot read `empty.mcap`: it is empty, or was cut off before anything was recorded"),
         ("folder.mcap", "cannot read `folder.mcap`: it is a folder"),
         ("missing.mcap", "cannot read `missing.mcap`: No such file"),
@@ -200,7 +200,7 @@ fn what_cannot_be_replayed_is_said_before_a_build() {
         assert!(code == Some(2) && stderr.starts_with(&format!("error: {message}")), "{code:?} {stderr}");
     }
     for (file, message) in [
-        ("folder.mcap", "cannot record to `folder.mcap`: it is a folder; name a file in it"),
+        ("folder.mcap", "cannot record to `folder.mcap`: it is a folder; choose a file in it"),
         ("none/run.mcap", "cannot record to `none/run.mcap`: there is no folder `none`"),
     ] {
         let output = run(&folder, &["run", "robot.afg", "--robot", "Adder", "--record", file]);

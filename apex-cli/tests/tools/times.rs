@@ -71,8 +71,8 @@ fn what_is_no_profile_of_the_text_is_refused() {
     let other = folder.file("other.json", PROFILE.replace("Talk", "Other"));
     for (profile, message) in [
         (other.as_path(), "the profile is of `Other`"),
-        (text.as_path(), "it is not what `apex run --profile` writes"),
-        (Path::new("/dev/null"), "it is no file"),
+        (text.as_path(), "it was not written by `apex run --profile`"),
+        (Path::new("/dev/null"), "it is not a file"),
         (Path::new("nowhere.json"), "cannot read `nowhere.json`"),
     ] {
         let output = explain(profile, &text, "text");

@@ -56,7 +56,7 @@ fn ended(child: Child) -> (Option<i32>, String, String) {
 
 /// What a command said of its building. That it waited for a test that runs beside it does not count.
 fn of_building((code, said, errors): (Option<i32>, String, String)) -> (Option<i32>, String, String) {
-    let waits = |line: &&str| line.starts_with("waiting until") || line.contains("Blocking waiting");
+    let waits = |line: &&str| line.starts_with("waiting for another") || line.contains("Blocking waiting");
     (code, said, errors.lines().filter(|line| !waits(line)).map(|line| format!("{line}\n")).collect())
 }
 
@@ -184,7 +184,7 @@ fn a_command_that_waits_says_so() {
     let mut errors = BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
     errors.read_line(&mut line).unwrap();
-    assert!(line.starts_with("waiting until another `apex` has built what it needs in `"), "{line}");
+    assert!(line.starts_with("waiting for another `apex` that builds in `"), "{line}");
     drop(lock);
     let mut rest = String::new();
     errors.read_to_string(&mut rest).unwrap();

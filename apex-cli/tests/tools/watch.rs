@@ -101,11 +101,11 @@ fn the_program_follows_its_text_and_keeps_what_it_changed() {
     // Errors leave it running.
     folder.file("robot.afg", text("word = \"three\", pase = 3"));
     watched.until_error("error[unknown-argument]");
-    watched.until_error("the program from before goes on");
+    watched.until_error("the previous program keeps running");
     watched.until("<two 9 2>");
     folder.file("src/lib.rs", "compile_error!();");
     folder.file("robot.afg", text("word = \"three\""));
-    watched.until_error("the program from before goes on");
+    watched.until_error("the previous program keeps running");
     watched.until("<two 9 2>");
 
     // A volume that the text names is no longer the one that was kept.

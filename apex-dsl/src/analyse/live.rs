@@ -115,8 +115,8 @@ pub fn check_live(graph: &Graph, links: &Links, live: &[bool], diagnostics: &mut
             continue;
         }
         let (node, event) = (graph.path(c.to.node), graph.end_name(c.from));
-        let message = format!("`{node}` never fires: `{event}` never comes");
-        let note = format!("only slots of `{}` trigger it, and no token comes to them", graph.path(c.from.node));
+        let message = format!("`{node}` never fires: the event `{event}` is never triggered");
+        let note = format!("only slots of `{}` trigger it, and no token reaches them", graph.path(c.from.node));
         let warning = Diagnostic::warning("never-fires", c.span, message).note(note);
         diagnostics.push(warning.inside(graph.scope_path(graph.nodes[c.to.node].scope)));
     }

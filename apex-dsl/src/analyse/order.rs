@@ -251,19 +251,20 @@ fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnos
         names.pop();
     }
     names.extend(names.first().cloned());
-    let message = format!("nodes wait for each other in a circle: {}", names.join(" → "));
+    let message = format!("nodes wait for each other in a cycle: {}", names.join(" → "));
     let Some(closing) = connections.last() else { return };
-    let mut error = Diagnostic::error("cycle", graph.connections[*closing].span, message).label("closes the circle");
+    let mut error = Diagnostic::error("cycle", graph.connections[*closing].span, message).label("closes the cycle");
     for connection in connections.iter().rev().skip(1).take(8) {
         error = error.also(graph.connections[*connection].span, "");
     }
     if path.iter().any(|v| !matches!(v, Vertex::Node(_))) {
-        error = error
-            .note("a nested graph takes all its inputs together and sends all its outputs together, as one node does");
+        error = error.note(
+            "a nested graph takes all its inputs together and sends all its outputs together, like a single node",
+        );
     }
     let last = graph.end_name(graph.connections[*closing].from);
     let error = error
-        .note(format!("break it where a value of the iteration before is meant: `delay` behind the node that sends `{last}`, for example `node … = …() delay 0;`"))
-        .note("or send the token to a slot, which does not wait");
+        .note(format!("break it where the value of the previous iteration is meant: write `delay` after the node that sends `{last}`, for example `node … = …() delay 0;`"))
+        .note("or send the token to a slot: slots do not wait for other tokens");
     diagnostics.push(error);
 }

@@ -90,7 +90,7 @@ fn too_many(graph: &Graph, connection: usize, diagnostics: &mut Diagnostics) {
     let message = format!("one iteration would need more than {MAX_REPETITIONS} firings of a node");
     diagnostics.push(
         Diagnostic::error("rates", graph.connections[connection].span, message)
-            .note("check the number of tokens per firing along this region"),
+            .note("check the numbers of tokens per firing in this region"),
     );
 }
 
@@ -133,7 +133,7 @@ fn contradiction(
     names.sort();
     names.dedup();
     let message =
-        format!("the rates around {} have no solution: some connection would fill up or run dry", names.join(", "));
+        format!("the rates of {} are inconsistent: tokens would pile up on a connection or run out", names.join(", "));
     let mut error = Diagnostic::error("rates", c.span, message).label(describe(connection));
     for index in path.iter().take(8) {
         error = error.also(graph.connections[*index].span, describe(*index));

@@ -243,7 +243,7 @@ pub enum Literal {
 /// Reads the items of one file.
 pub fn read(text: &str) -> Vec<Item> {
     if let Some(line) = too_deep(text) {
-        let kind = ItemKind::Broken(format!("brackets nest more than {MAX_DEPTH} deep"));
+        let kind = ItemKind::Broken(format!("brackets are nested more than {MAX_DEPTH} levels deep"));
         return vec![Item { name: String::new(), seen: Seen::InModule, line, cfg: vec![], kind }];
     }
     match syn::parse_file(text) {

@@ -286,7 +286,7 @@ impl Catalog {
             }
         }
         for (id, name) in refused {
-            let reason = format!("its `{name}` is another type than that of Apex: one of the two needs another name");
+            let reason = format!("its `{name}` is not the `{name}` of Apex: give the other type a different name");
             self.tree.defs[id].kind = ItemKind::Refused(reason);
         }
         for (def, signature) in found {
@@ -385,7 +385,7 @@ impl Catalog {
             None => {}
         }
         let (need, of) = types.flatten().max_by_key(|(need, _)| *need)?;
-        Some((need, format!("it has to do with `{of}`")))
+        Some((need, format!("it uses `{of}`")))
     }
 
     /// Smallest part of the Rust libraries that the crate of the program does without. `None` if it uses the standard
@@ -491,7 +491,7 @@ impl Catalog {
     pub fn broken(&self) -> impl Iterator<Item = String> {
         self.tree.broken.iter().map(|(file, line, reason)| {
             let file = file.strip_prefix(&self.crates.root).unwrap_or(file).display();
-            format!("the nodes in {file} are not known: its line {line} cannot be read ({reason})")
+            format!("the nodes in {file} are unknown: line {line} cannot be read ({reason})")
         })
     }
 

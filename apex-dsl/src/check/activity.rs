@@ -26,10 +26,10 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     check.report_waiting(diagnostics);
     for (node, first) in check.stuck {
         let name = graph.path(node);
-        let message = format!("activity that enters `{name}` can never leave: all its connections are `->`");
+        let message = format!("activity that enters `{name}` can never leave: all its outgoing connections are `->`");
         let warning = Diagnostic::warning("never-leaves", graph.nodes[node].span, message)
             .also(graph.connections[first].span, "for example this one")
-            .note("write `=>` where activity is to go on");
+            .note("write `=>` where activity should continue");
         diagnostics.push(warning.inside(graph.scope_path(graph.nodes[node].scope)));
     }
 }
@@ -135,16 +135,18 @@ impl<'a> Check<'a> {
         let others: Vec<String> =
             behind.iter().filter(|n| **n != first).map(|n| format!("`{}`", graph.path(*n))).collect();
         let (from, to) = (graph.path(c.from.node), graph.path(first));
-        let message = format!("`{to}` is never activated: this `->` keeps the activity of `{from}` from it");
+        let message = format!("`{to}` is never activated: this `->` does not pass on the activity of `{from}`");
         let arrow = arrow(graph, c);
         let warning = Diagnostic::warning("never-activated", arrow, message);
         let warning = match others.len() {
             0 => warning,
-            1 => warning.note(format!("nor is {}", others[0])),
-            n if n > MAX_NAMED => {
-                warning.note(format!("nor are {} and {} more", others[..MAX_NAMED].join(", "), n - MAX_NAMED))
-            }
-            _ => warning.note(format!("nor are {}", others.join(", "))),
+            1 => warning.note(format!("{} is never activated either", others[0])),
+            n if n > MAX_NAMED => warning.note(format!(
+                "{} and {} more nodes are never activated either",
+                others[..MAX_NAMED].join(", "),
+                n - MAX_NAMED
+            )),
+            _ => warning.note(format!("{} are never activated either", others.join(", "))),
         };
         let warning = warning.guess("let activity pass", arrow, "=>");
         warning.inside(graph.scope_path(graph.nodes[c.from.node].scope))
@@ -193,7 +195,10 @@ impl<'a> Check<'a> {
         let from = graph.connections.iter().find(|c| c.active && c.to.node == node).map(|c| graph.path(c.from.node));
         let warning = Diagnostic::warning("never-activated", c.span, message).note(match from {
             Some(from) => format!("activity would have to come from `{from}`, which is never activated either"),
-            None => format!("activity begins at `start`: write `start => {};`, or `=>` towards it", graph.path(node)),
+            None => format!(
+                "activity begins at `start`: write `start => {};`, or connect an active node to it by `=>`",
+                graph.path(node)
+            ),
         });
         warning.inside(graph.scope_path(graph.nodes[node].scope))
     }

@@ -17,7 +17,7 @@ pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Di
             let message = format!("the body of an `each` runs to completion for each element: it cannot {what}");
             diagnostics.push(
                 Diagnostic::error("each-asynchronous", c.span, message)
-                    .note("connect the `each` itself: its results can go to a slot, and over `=>`"),
+                    .note("connect the node with `each` itself: its outputs can lead to a slot, and with `=>`"),
             );
         }
         if c.from.node == c.to.node && graph.flow(c) == Flow::ToSlot && graph.port(c.from).kind == PortKind::Event {
@@ -27,7 +27,7 @@ pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Di
             );
             diagnostics.push(
                 Diagnostic::error("own-event", c.span, message)
-                    .note("send it through another node that passes it on, or call the method in Rust"),
+                    .note("send the token through another node, or call the method in Rust"),
             );
         }
         if matches!((&from.kind, &to.kind), (NodeKind::Start, NodeKind::Reset)) {
@@ -46,11 +46,12 @@ pub fn check_asynchronous(graph: &Graph, catalog: &Catalog, diagnostics: &mut Di
 fn check_waits(graph: &Graph, diagnostics: &mut Diagnostics) {
     for c in events_on_circles(graph).into_iter().map(|c| &graph.connections[c]) {
         let (node, event) = (graph.path(c.from.node), graph.end_name(c.from));
-        let message = format!("`{node}` would wait for its own event: what `{event}` triggers leads to `{node}` again");
+        let message =
+            format!("`{node}` would wait for its own event: the nodes that `{event}` triggers lead back to `{node}`");
         diagnostics.push(
             Diagnostic::error("own-event", c.span, message)
-                .note("it fires only while its events are free, and this one is free when all behind it has fired, also behind a `delay`")
-                .note("lead the event to a slot instead"),
+                .note("a node fires only while its events are free, and this event is free again only after everything downstream has fired, also after a `delay`")
+                .note("connect the event to a slot instead"),
         );
     }
 }
@@ -63,10 +64,11 @@ fn check_standard_ports(node: &crate::graph::Node, catalog: &Catalog, diagnostic
     ];
     for (port, given, modifier) in needs {
         if node.standard(port).is_some() && !given {
-            let message = format!("`{}.{}` never comes: `{}` has no `{modifier}`", node.name, port.name(), node.name);
+            let message =
+                format!("`{}.{}` is never triggered: `{}` has no `{modifier}`", node.name, port.name(), node.name);
             diagnostics.push(
                 Diagnostic::error("missing-modifier", node.span, message)
-                    .note(format!("write it behind the instance, for example `{modifier} 5s`")),
+                    .note(format!("write it after the instance, for example `{modifier} 5s`")),
             );
         }
     }
@@ -76,7 +78,7 @@ fn check_standard_ports(node: &crate::graph::Node, catalog: &Catalog, diagnostic
         let function = catalog.signatures[library.signature].is_function;
         if library.handed_in || function {
             let why = if function { "has no state" } else { "is made in Rust" };
-            let message = format!("`restart` makes a node anew, but `{}` {why}", node.name);
+            let message = format!("`restart` replaces a failed node by a new one, but `{}` {why}", node.name);
             diagnostics.push(Diagnostic::error("wrong-modifier", node.span, message));
         }
     }

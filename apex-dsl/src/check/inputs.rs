@@ -31,7 +31,7 @@ pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Dia
                 if let NodeKind::Library(library) = &node.kind {
                     let signature = &catalog.signatures[library.signature];
                     error = error.note(format!(
-                        "`{}` is declared at {}:{}; an input that may stay open is written `Option<&T>`",
+                        "`{}` is declared at {}:{}; an optional input is written `Option<&T>`",
                         signature.name,
                         signature.file.display(),
                         signature.line

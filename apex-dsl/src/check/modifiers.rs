@@ -17,24 +17,24 @@ pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagn
         let word = if node.modifiers.every.is_some() { "every" } else { "after" };
         if node.modifiers.has_pace() && driven.contains(&id) {
             let message =
-                format!("`{word}` sets the pace of a source, but `{}` fires when its inputs arrive", node.name);
+                format!("`{word}` sets the timer of a source, but `{}` fires when its inputs arrive", node.name);
             diagnostics.push(
                 Diagnostic::error("every-on-driven", node.span, message)
-                    .note(format!("put `{word}` behind the node that its inputs come from")),
+                    .note(format!("write `{word}` after the source of its inputs")),
             );
         }
         if node.modifiers.has_pace() && graph.is_body {
             let message = format!(
-                "`{}` stands in the body of an `each`, which runs once per element: it cannot have a pace",
+                "`{}` is in the body of an `each`, which runs once per element: it cannot have a timer",
                 node.name
             );
             diagnostics.push(
                 Diagnostic::error("every-on-driven", node.span, message)
-                    .note("leave `every` out, or take the source out of the body"),
+                    .note(format!("remove `{word}`, or move the source out of the body")),
             );
         }
         if node.modifiers.essential && !can_see_missing(graph, catalog, id) {
-            let message = format!("`essential` has no effect on `{}`: it has no way to see ⊥", node.name);
+            let message = format!("`essential` has no effect on `{}`: the node cannot see ⊥", node.name);
             let warning = Diagnostic::warning("essential-without-hook", node.span, message)
                 .note("an essential node takes `Option<&T>`, or has a method marked `#[no_message]`");
             diagnostics.push(warning);

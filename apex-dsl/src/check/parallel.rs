@@ -30,8 +30,9 @@ fn check_body(body: &Graph, around: &Node, catalog: &Catalog, diagnostics: &mut 
         let error = Diagnostic::error("each-stateful", around.span, message);
         let error = if same { error } else { error.also(inner_span(node, around), "this node") };
         let error = declared.into_iter().fold(error, Diagnostic::note);
-        diagnostics
-            .push(error.note("elements in parallel cannot see each other: write `each`, or use a node without state"));
+        diagnostics.push(error.note(
+            "parallel elements cannot depend on each other: write `each` without `par`, or use a node without state",
+        ));
     }
 }
 
@@ -44,19 +45,22 @@ fn remembers(body: &Graph, id: NodeId, catalog: &Catalog) -> Option<(String, Opt
     let (node, name) = (&body.nodes[id], body.path(id));
     let library = match &node.kind {
         NodeKind::Library(library) => library,
-        NodeKind::Delay(_) => return Some((format!("`{name}` holds tokens back from one to the next"), None)),
+        NodeKind::Delay(_) => return Some((format!("`{name}` delays tokens from one element to the next"), None)),
         _ => return None,
     };
     let signature = &catalog.signatures[library.signature];
     let declared = format!("`{}` is declared at {}:{}", signature.name, signature.file.display(), signature.line);
     let why = if library.handed_in {
-        format!("`{name}` is made in Rust, so that there is only one of it")
+        format!("`{name}` is made in Rust and exists only once")
     } else if signature.stateful {
-        format!("`{name}` keeps something from one to the next: `{}` has fields that are no parameters", signature.name)
+        format!(
+            "`{name}` keeps state from one element to the next: `{}` has fields that are not parameters",
+            signature.name
+        )
     } else if let Some(method) = &signature.no_message {
-        format!("`{name}` is told of every ⊥ by `{method}`, in order")
+        format!("`{name}` handles each ⊥ in `{method}`, in order")
     } else if let Some(param) = kept_parameter(body, id, library, catalog) {
-        format!("`{name}` keeps the value that came last at its parameter `{param}`")
+        format!("`{name}` keeps the last value that arrived at its parameter `{param}`")
     } else {
         return None;
     };

@@ -24,7 +24,8 @@ fn check_regions(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnosti
     for (index, cluster) in analysis.clusters.iter().enumerate().filter(|(_, c)| regions.contains(&c.region)) {
         let first = cluster.nodes.iter().min().copied().unwrap_or(0);
         if !cluster.upstream.is_empty() || !cluster.downstream.is_empty() {
-            let message = "a region with several rates can have only one source with a pace of its own";
+            let message =
+                "all nodes of a region with several rates must fire together: only one source can have its own timer";
             diagnostics.push(Diagnostic::error("rates", graph.nodes[first].span, message));
         }
         for &node in &analysis.clusters[index].nodes {
@@ -40,15 +41,17 @@ fn check_regions(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnosti
                     .any(|c| (c.active || !graph.is_synchronous(c)) && (c.from.node == node || c.to.node == node)) =>
                 {
                     format!(
-                        "`{}` fires in a region with several rates: it can have neither events and slots nor active connections",
+                        "`{}` is in a region with several rates, where events, slots and `=>` cannot be connected",
                         n.name
                     )
                 }
-                NodeKind::Each(_) => format!("`each` cannot stand in a region with several rates; `{}` does", n.name),
-                NodeKind::Boundary(_) if graph.is_body => "the body of an `each` has one rate".to_owned(),
+                NodeKind::Each(_) => {
+                    format!("`{}` is in a region with several rates, where `each` is not allowed", n.name)
+                }
+                NodeKind::Boundary(_) if graph.is_body => "the body of an `each` cannot have several rates".to_owned(),
                 NodeKind::Delay(initial) if (initial.len() as u64) < count => {
                     format!(
-                        "a delay in a region with several rates holds at least the tokens of one iteration: {count}, not {}",
+                        "a delay in a region with several rates must hold at least the tokens of one iteration: {count}, not {}",
                         initial.len()
                     )
                 }

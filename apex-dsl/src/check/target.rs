@@ -18,12 +18,12 @@ pub fn check_target(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnost
             Need::Heap => (
                 "a heap",
                 "`#![no_std]` without `extern crate alloc`",
-                "take one of fixed size, as those of `heapless` are",
+                "use a node with collections of fixed size, such as those of `heapless`",
             ),
             Need::Std => (
                 "the standard library",
                 "`#![no_std]`",
-                "take a node whose crate is `#![no_std]`, or feed what it does from outside",
+                "use a node whose crate is `#![no_std]`, or do its work outside of the program and feed in the result",
             ),
         };
         let message = format!("`{}` needs {needs}, but this crate is {without}", node.name);

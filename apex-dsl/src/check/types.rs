@@ -26,7 +26,7 @@ pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnosti
             .also(graph.nodes[connection.to.node].span, format!("takes {takes}"))
             .note(declared(graph, catalog, connection.from))
             .note(declared(graph, catalog, connection.to))
-            .note("nothing is converted silently: put a node that converts between them");
+            .note("types are not converted implicitly: insert a node that converts the token");
         diagnostics.push(error);
     }
 }

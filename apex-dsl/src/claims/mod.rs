@@ -32,7 +32,7 @@ impl Verdict {
         match self {
             Self::Holds => "holds",
             Self::Fails => "fails",
-            Self::Undecided => "undecided, checked while the program runs",
+            Self::Undecided => "undecided, checked at run time",
         }
     }
 }
@@ -89,18 +89,18 @@ fn failure(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Diagnos
     let (message, advice) = match claim.kind {
         ClaimKind::Exclusive => (
             format!("{} can be active at the same time", active_at_end(graph, model, claim, run).join(" and ")),
-            "let activity leave the one on every way on which it comes to the other",
+            "make activity leave one of them on every path on which it reaches the other",
         ),
         ClaimKind::Reaches => (
-            format!("{} can be active where no activity can come to {}", names[0], names[1]),
-            "connect what the run ends at with `=>`, so that activity can go on from there",
+            format!("{} can be active when no activity can reach {}", names[0], names[1]),
+            "connect the node at which the run ends by `=>`, so that activity can continue from there",
         ),
         ClaimKind::Conserved => {
             let (left, given) = (end(model, run).len(), model.given);
             let what = if left < given { "lost" } else { "multiplied" };
             (
-                format!("activity can be {what}: `start` gave {given}, and here it is {left}"),
-                "activity is multiplied where one port has several `=>`, and lost where it comes to a node that is active, leaves the program or is taken away",
+                format!("activity can be {what}: `start` creates {given}, and the run below ends with {left}"),
+                "activity is multiplied where one port has several `=>`, and lost where it reaches a node that is already active, leaves the program or is taken away",
             )
         }
     };
@@ -145,10 +145,10 @@ fn active_at_end(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> V
 
 fn open(graph: &Graph, claim: &Claim, states: usize) -> Diagnostic {
     let message = format!(
-        "whether `{}` holds is not decided: activity can be in more states than the {states} that were looked at",
+        "`{}` is undecided: activity has more than the {states} states that were searched",
         graph.claim_text(claim)
     );
     Diagnostic::warning("claim-undecided", claim.span, message)
-        .note("the program checks it while it runs and reports a violation to `Observer::claim_failed`")
-        .note("fewer states: let less activity be under way at the same time, or claim it of a smaller graph")
+        .note("the program checks it at run time and reports a violation to `Observer::claim_failed`")
+        .note("to reduce the number of states, let fewer nodes be active at the same time, or make the claim in a smaller graph")
 }

@@ -28,7 +28,7 @@ pub fn run(graph: &Graph, model: &Model, moves: &[Move]) -> Vec<String> {
     }
     if notes.len() > MAX_STEPS {
         let left_out = notes.len() - MAX_STEPS;
-        notes.splice(MAX_STEPS / 2..notes.len() - MAX_STEPS / 2, [format!("and {left_out} more steps here")]);
+        notes.splice(MAX_STEPS / 2..notes.len() - MAX_STEPS / 2, [format!("({left_out} more steps)")]);
     }
     // The length of a note is limited.
     notes.extend(short.chunks(STEPS_IN_LINE).map(|steps| format!("run: {}", steps.join("; "))));
@@ -40,7 +40,7 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
         Move::Start => {
             let given: Vec<String> = before.iter().map(|place| given(graph, model, *place)).collect();
             if given.is_empty() {
-                "`start` gives no activity".to_owned()
+                "`start` creates no activity".to_owned()
             } else {
                 format!("`start`: {}", given.join(", "))
             }
@@ -51,14 +51,14 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
                 .iter()
                 .map(|to| format!("`{}`", connection(graph, model, *to)))
                 .collect();
-            format!("`{}` gives its activity away over {}", name(graph, model, place), over.join(" and "))
+            format!("`{}` passes its activity on over {}", name(graph, model, place), over.join(" and "))
         }
         Move::Take(place) => match model.arrivals[place as usize] {
             Some(Arrival::Node(node)) if before.binary_search(&node).is_ok() => {
-                format!("`{}` takes it and is active already: two become one", name(graph, model, node))
+                format!("`{}` takes it, but is already active: two become one", name(graph, model, node))
             }
             Some(Arrival::Node(node)) => format!("`{}` takes it and becomes active", name(graph, model, node)),
-            Some(Arrival::Restarts) => "`reset`: everything is as after `start`".to_owned(),
+            Some(Arrival::Restarts) => "`reset` restores the state after `start`".to_owned(),
             _ => format!("it leaves the program over `{}`", connection(graph, model, place)),
         },
         Move::Away(remover, place) => {

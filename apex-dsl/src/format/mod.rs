@@ -42,7 +42,8 @@ fn settled(text: &Text<'_>, newline: &str) -> Result<String, Box<Diagnostic>> {
     let mut formatted = write(text);
     for _ in 0..MOST_ROUNDS {
         if formatted.len() > MAX_BYTES {
-            let message = format!("formatted, this text has {} bytes; at most {MAX_BYTES} are read", formatted.len());
+            let message =
+                format!("the formatted source file has {} bytes, but at most {MAX_BYTES} are read", formatted.len());
             return Err(Box::new(error(TOO_LARGE, message).note("split it into several files")));
         }
         let after = syntax::read(FileId(0), &formatted, &mut Diagnostics::default());
@@ -53,9 +54,9 @@ fn settled(text: &Text<'_>, newline: &str) -> Result<String, Box<Diagnostic>> {
         }
         formatted = again;
     }
-    let message = "the formatter does not know how to write this text, and has left it alone";
+    let message = "the formatter cannot format this source file and has left it unchanged";
     let error = error(FAILED, message.to_owned());
-    Err(Box::new(error.note("this is a mistake of the formatter: please report it with the text")))
+    Err(Box::new(error.note("this is a bug in the formatter: please report it with the source file")))
 }
 
 /// The same code as for source files that are too large to be read.

@@ -323,7 +323,7 @@ impl Completer<'_> {
         if !fed {
             found.extend(self.names(Some(id), Named::Node, None));
             let active =
-                Completion::new("active", CompletionKind::Keyword, "", "Whether a node or nested graph is active.");
+                Completion::new("active", CompletionKind::Keyword, "", "True if a node or nested graph is active.");
             found.push(Completion { snippet: Some("active($1)".to_owned()), ..active });
         }
         found

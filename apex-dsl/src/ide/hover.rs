@@ -31,7 +31,7 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
         }
         Definition::Port(node, i) => {
             let ports = view.ports(node);
-            let optional = if ports[i].optional { " It may stay open." } else { "" };
+            let optional = if ports[i].optional { " It is optional." } else { "" };
             let kind = kind_in_words(ports[i].kind);
             page(&port(&ports[i]), &format!("{}\n\n{kind} of `{}`.{optional}", ports[i].docs, view.name_of(node)))
         }
@@ -50,7 +50,7 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
         Definition::Text(file) => page("", &view.texts.files[file].1.docs),
         Definition::Generic(id, i) => page(
             &view.texts.graph(id).generics[i].text,
-            "A type that the connections decide, or that is written where the graph is used.",
+            "A type parameter: inferred from the connections, or written where the graph is used.",
         ),
         Definition::Own(name) => {
             page(name, words_at(KeywordPosition::Node).find(|w| w.text == name).map_or("", |w| w.docs))
@@ -68,9 +68,9 @@ pub fn describe_link(view: &View<'_>, link: &Link) -> String {
     };
     let what = match (link.flow(), link.from.kind) {
         (Flow::Synchronous, _) => "one token per iteration, a value or ⊥",
-        (Flow::ToSlot, PortKind::Output) => "one call for each value; ⊥ calls nothing",
+        (Flow::ToSlot, PortKind::Output) => "one call for each value, none for ⊥",
         (Flow::ToSlot, _) => "one call for each token, in the order in which the tokens were sent",
-        (Flow::ToInput, _) => "each token makes what is behind the input run once",
+        (Flow::ToInput, _) => "each token triggers one iteration downstream of the input",
     };
     let activity = if link.active { "; lets activity pass" } else { "" };
     let arrow = if link.active { "=>" } else { "->" };
@@ -167,13 +167,15 @@ fn kind_in_words(kind: PortKind) -> &'static str {
 /// Documentation of a standard port.
 pub fn standard_docs(standard: Standard) -> &'static str {
     match standard {
-        Standard::Enable => "The node takes part again; also a place for activity at a node without slots.",
-        Standard::Disable => "The node takes its tokens and sends ⊥; its slots but `enable` swallow theirs.",
-        Standard::Activated => "Its activity came.",
-        Standard::Deactivated => "Its activity went.",
-        Standard::Processed => "`process` was called; not if it was skipped because of ⊥.",
-        Standard::Failed => "`process` or a slot failed; the token says why.",
-        Standard::Timeout => "It has been active for as long as its modifier `timeout` says.",
-        Standard::Late => "It had finished later after the firing of its source than its `deadline` says.",
+        Standard::Enable => "Enables the node again. Activity can also enter a node without other slots here.",
+        Standard::Disable => {
+            "Disables the node: it takes its tokens and sends ⊥, and its slots except `enable` discard theirs."
+        }
+        Standard::Activated => "The node became active.",
+        Standard::Deactivated => "The node is no longer active.",
+        Standard::Processed => "`process` was called. Not triggered if the call was skipped because of ⊥.",
+        Standard::Failed => "`process` or a slot failed; the token contains the reason.",
+        Standard::Timeout => "The node has been active for the time of its modifier `timeout`.",
+        Standard::Late => "The node finished later after the firing of its source than its `deadline` allows.",
     }
 }

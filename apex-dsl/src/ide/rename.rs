@@ -33,8 +33,8 @@ pub fn rename(
 /// Returns the reason why it cannot be changed.
 pub fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ident, String> {
     view.declared_name(definition).ok_or_else(|| match definition {
-        Definition::Own(name) => format!("every graph knows `{name}`; it cannot have another name"),
-        Definition::Standard(port) => format!("every node has a port `{}`; it cannot have another name", port.name()),
+        Definition::Own(name) => format!("`{name}` is predefined in every graph and cannot be renamed"),
+        Definition::Standard(port) => format!("every node has a port `{}`, which cannot be renamed", port.name()),
         Definition::Text(_) => "this is the name of a file; rename the file".to_owned(),
         _ => "this is declared in Rust; rename it there".to_owned(),
     })
@@ -42,14 +42,14 @@ pub fn may_rename<'a>(view: &View<'a>, definition: Definition) -> Result<&'a Ide
 
 fn check_name(definition: Definition, name: &str) -> Result<(), String> {
     if keywords::RESERVED.contains(&name) {
-        return Err(format!("`{name}` is a word of the language"));
+        return Err(format!("`{name}` is a reserved word"));
     }
     if !keywords::is_name(name) {
-        return Err(format!("`{name}` is no name: a name has letters, digits and `_`, and begins with no digit"));
+        return Err(format!("`{name}` is not a valid name: use letters, digits and `_`, not starting with a digit"));
     }
     let stands_in_graph = matches!(definition, Definition::Instance(..) | Definition::Port(NodeType::Graph(_), _));
     if stands_in_graph && words_at(KeywordPosition::Node).any(|w| w.text == name) {
-        return Err(format!("every graph knows `{name}`, which would be hidden"));
+        return Err(format!("`{name}` is predefined in every graph and would be hidden"));
     }
     Ok(())
 }
@@ -61,33 +61,33 @@ fn check_clash(view: &View<'_>, uses: &[Span], definition: Definition, name: &st
         Definition::Instance(id, _) | Definition::Port(NodeType::Graph(id), _) => {
             let item = texts.graph(id);
             let mut names = item.ports.iter().map(|p| &p.name).chain(item.nodes.iter().map(|n| &n.name));
-            clash(has(&mut names), format!("`{}` has a port or node `{name}` already", item.name.text))
+            clash(has(&mut names), format!("`{}` already has a port or node `{name}`", item.name.text))
         }
         Definition::Param(NodeType::Graph(id), _) => {
             let item = texts.graph(id);
             clash(
                 has(&mut item.params.iter().map(|p| &p.name)),
-                format!("`{}` has a parameter `{name}` already", item.name.text),
+                format!("`{}` already has a parameter `{name}`", item.name.text),
             )
         }
         Definition::Generic(id, _) => {
             let item = texts.graph(id);
-            clash(has(&mut item.generics.iter()), format!("`{}` has a type parameter `{name}` already", item.name.text))
+            clash(has(&mut item.generics.iter()), format!("`{}` already has a type parameter `{name}`", item.name.text))
         }
         Definition::Port(NodeType::Machine(id), _) => {
             let item = view.machine(id);
             clash(
                 has(&mut item.ports.iter().map(|p| &p.name)),
-                format!("`{}` has a port `{name}` already", item.name.text),
+                format!("`{}` already has a port `{name}`", item.name.text),
             )
         }
         Definition::State(id, _) => {
             let mut names = view.states(id).into_iter().map(|s| &s.name);
-            clash(has(&mut names), format!("`{}` has a state `{name}` already", view.machine(id).name.text))
+            clash(has(&mut names), format!("`{}` already has a state `{name}`", view.machine(id).name.text))
         }
         Definition::Test(file, _) => clash(
             has(&mut texts.files[file].1.tests.iter().map(|t| &t.name)),
-            format!("there is a test `{name}` already"),
+            format!("there is already a test `{name}`"),
         ),
         Definition::Node(_) => uses.iter().try_for_each(|at| item_clash(view, *at, name)),
         _ => Ok(()),
@@ -98,10 +98,10 @@ fn check_clash(view: &View<'_>, uses: &[Span], definition: Definition, name: &st
 fn item_clash(view: &View<'_>, at: Span, name: &str) -> Result<(), String> {
     let Some(file) = view.texts.files.iter().position(|(id, _)| *id == at.file) else { return Ok(()) };
     let path = view.sources.get(at.file).path.display().to_string();
-    clash(view.texts.names(file).contains_key(name), format!("`{name}` has a meaning in {path} already"))?;
+    clash(view.texts.names(file).contains_key(name), format!("`{name}` already has a meaning in {path}"))?;
     let word = Ident { text: name.to_owned(), span: at };
     let path = PathExpr { segments: vec![word], span: at };
-    clash(view.node_type(file, &path).is_some(), format!("there is a node `{name}` already, which would be hidden"))
+    clash(view.node_type(file, &path).is_some(), format!("there is already a node `{name}`, which would be hidden"))
 }
 
 fn clash(clashes: bool, reason: String) -> Result<(), String> {

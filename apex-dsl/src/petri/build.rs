@@ -20,7 +20,7 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     for (node, n) in graph.nodes.iter().enumerate() {
         if let Some(port) = n.ports.iter().find(|p| p.rate != 1) {
             let port = format!("{}.{}", graph.path(node), port.name);
-            return Err(NoNet(format!("`{port}` has several tokens per firing, for which there is no net yet")));
+            return Err(NoNet(format!("`{port}` has several tokens per firing, which nets do not support yet")));
         }
     }
     let mut builder = Builder::new(graph);

@@ -141,7 +141,7 @@ impl<'a> Replay<'a> {
         self.step += 1;
         let what = format!("fired {}", self.name(node));
         let Some(take) = self.by_kind.get(&TransitionKind::Take(node)).copied() else {
-            return Err(self.wrong(&what, "it has nothing that could fire".to_owned()));
+            return Err(self.wrong(&what, "it has no transition that could fire".to_owned()));
         };
         self.prepare(take, &what)?;
         if !self.state.preview(node).reported {
@@ -165,7 +165,7 @@ impl<'a> Replay<'a> {
     pub fn handled(&mut self, connection: usize) -> Result<(), Wrong> {
         self.step += 1;
         let Some(handle) = self.by_kind.get(&TransitionKind::Handle(connection)).copied() else {
-            return Err(self.wrong(&format!("handled {connection}"), "no slot is at the end of it".to_owned()));
+            return Err(self.wrong(&format!("handled {connection}"), "it does not end at a slot".to_owned()));
         };
         let what = format!("handled {}", connection_name(self.graph, connection));
         self.check_debts(&what)?;
@@ -198,7 +198,7 @@ impl<'a> Replay<'a> {
             };
             if !same {
                 let there = if token.value { format!("{:?}", token.origin) } else { "⊥".to_owned() };
-                return Err(self.wrong(&what, format!("{there} was there instead of {found:?}")));
+                return Err(self.wrong(&what, format!("the net holds {there} instead of {found:?}")));
             }
         }
         Ok(())
@@ -430,7 +430,7 @@ impl<'a> Replay<'a> {
         match self.state.owes() {
             Some(side) => {
                 let side = side_name(self.graph, side);
-                Err(self.wrong(what, format!("some tokens passed `{side}` before, but not all of them")))
+                Err(self.wrong(what, format!("only some of the tokens have passed the boundary `{side}`")))
             }
             None => Ok(()),
         }

@@ -183,7 +183,7 @@ fn handed_down(mut error: Box<Diagnostic>, expr: &Expr, origins: &Origins) -> Bo
         && error.primary.span == expr.span
     {
         error.primary.span = origin.given;
-        return Box::new(error.also(origin.declared, "this parameter").also(expr.span, "is handed on here"));
+        return Box::new(error.also(origin.declared, "this parameter").also(expr.span, "is passed on here"));
     }
     let names: BTreeSet<&str> = names_in(expr).into_iter().map(|name| name.text.as_str()).collect();
     let given = names.into_iter().filter_map(|name| Some((name, origins.get(name)?)));
@@ -250,7 +250,7 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
                 Value::Number(n) => Ok(Some(n.value)),
                 Value::Duration(d) => Ok(Some(d.as_secs_f64())),
                 Value::RustDefault => Ok(None),
-                _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a range goes from number to number"))),
+                _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "both ends of a range must be numbers"))),
             };
             Some((bound(&range.low)?, bound(&range.high)?, range.inclusive))
         }
@@ -340,16 +340,12 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagno
             other => Err(Box::new(Diagnostic::error(
                 "wrong-value",
                 expr.span,
-                format!("a time is wanted here, but this is {}", super::value::describe(&other)),
+                format!("expected a time, but this is {}", super::value::describe(&other)),
             ))),
         });
         match value {
             Ok(duration) if duration.is_zero() => {
-                diagnostics.push(Diagnostic::error(
-                    "out-of-range",
-                    expr.span,
-                    "a time of zero would never let anything else happen",
-                ));
+                diagnostics.push(Diagnostic::error("out-of-range", expr.span, "the time must be greater than zero"));
                 Some(ANY_TIME)
             }
             Ok(duration) => Some(duration),

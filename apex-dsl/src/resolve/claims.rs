@@ -33,7 +33,7 @@ impl Builder<'_> {
                 let message = format!("this program has more than {MAX_CLAIMS} claims");
                 self.diagnostics.push(
                     Diagnostic::error("too-large", claim.span, message)
-                        .note("a claim of a nested graph counts as often as the graph is used"),
+                        .note("a claim in a nested graph counts once for each use of the graph"),
                 );
                 return;
             }
@@ -62,11 +62,12 @@ impl Builder<'_> {
         let mut seen = BTreeMap::new();
         for (subject, name) in of.iter().zip(&claim.of) {
             if let Some(first) = seen.insert(*subject, name.span) {
-                let message = format!("`{}` is named twice: a claim is about different nodes", name.parts[0].text);
+                let message =
+                    format!("`{}` is named twice: the nodes of a claim must be different", name.parts[0].text);
                 self.diagnostics.push(
                     Diagnostic::error("wrong-claim", name.span, message)
                         .also(first, "first named here")
-                        .note("leave one of the two out"),
+                        .note("remove one of the two"),
                 );
                 return None;
             }
@@ -76,17 +77,17 @@ impl Builder<'_> {
 
     fn check_count(&mut self, kind: ClaimKind, claim: &tree::Claim) -> Option<()> {
         let (fits, wanted, form) = match (kind, claim.of.len()) {
-            (ClaimKind::Exclusive, n) => (n >= 2, "two names or more", "exclusive(a, b)"),
+            (ClaimKind::Exclusive, n) => (n >= 2, "at least two names", "exclusive(a, b)"),
             (ClaimKind::Reaches, n) => (n == 2, "two names", "reaches(a, b)"),
-            (ClaimKind::Conserved, n) => (n == 0, "no names: it is about the whole program", "conserved"),
+            (ClaimKind::Conserved, n) => (n == 0, "no names", "conserved"),
         };
         if fits {
             return Some(());
         }
         let message = match claim.of.len() {
-            0 => format!("`{}` takes {wanted}; here is none", kind.word()),
-            1 => format!("`{}` takes {wanted}; here is one", kind.word()),
-            n => format!("`{}` takes {wanted}; here are {n}", kind.word()),
+            0 => format!("`{}` takes {wanted}, but none is given", kind.word()),
+            1 => format!("`{}` takes {wanted}, but one is given", kind.word()),
+            n => format!("`{}` takes {wanted}, but {n} are given", kind.word()),
         };
         self.diagnostics
             .push(Diagnostic::error("wrong-claim", claim.span, message).note(format!("write it as `claim {form};`")));
@@ -109,19 +110,20 @@ impl Builder<'_> {
                 None => return None,
             },
             (Some((Symbol::Ports(..), _)), [rest, ..]) => {
-                let message = format!("a claim names nodes of its own graph, not what is in them: `{}`", rest.text);
+                let message =
+                    format!("a claim can only name nodes of its own graph, not `{}` inside one of them", rest.text);
                 Diagnostic::error("wrong-claim", name.span, message).note(format!(
-                    "name `{text}`, which is active while anything in it is, or write the claim in its graph"
+                    "name `{text}`, which is active while any node in it is, or write the claim in its graph"
                 ))
             }
             (Some((Symbol::Own(_), declared)), _) => {
-                let message = format!("`{text}` is a port, which is never active: a claim names nodes");
+                let message = format!("`{text}` is a port, which is never active: a claim can only name nodes");
                 Diagnostic::error("wrong-claim", name.span, message).also(declared, "declared here")
             }
             (None, _) if own_node(text).is_some() => {
-                let message = format!("`{text}` is a moment, not a node that can be active: a claim names nodes");
+                let message = format!("`{text}` is never active: a claim can only name nodes that can be active");
                 Diagnostic::error("wrong-claim", name.span, message)
-                    .note("name the node that activity comes from, or goes to")
+                    .note("name the node that activity comes from or goes to")
             }
             (None, _) => {
                 self.unknown_name(body, table, first);

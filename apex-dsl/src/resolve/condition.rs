@@ -39,9 +39,9 @@ impl Conditions<'_> {
             (Kind::Other, Condition::Token) if !self.ty.may_be_another() => format!("a `{}`", self.ty),
             _ => return Ok(condition),
         };
-        let message = format!("a condition is true or false, but this is {what}");
+        let message = format!("a condition must be true or false, but this is {what}");
         let error = Diagnostic::error("wrong-value", expr.span, message);
-        Err(Box::new(error.note("compare it: `== != < <= > >=`")))
+        Err(Box::new(error.note("compare it by `==`, `!=`, `<`, `<=`, `>` or `>=`")))
     }
 
     /// Comparison of the token with a constant.
@@ -59,9 +59,10 @@ impl Conditions<'_> {
         let Some(name) = unknown.filter(|_| error.code == "unknown-name" && !self.token.is_empty()) else {
             return error;
         };
-        let message = format!("there is no `{}` here: the token is called as its slot, `{}`", name.text, self.token);
+        let message = format!("there is no `{}` here: the token has the name of its slot, `{}`", name.text, self.token);
         let error = Diagnostic::error("unknown-name", name.span, message);
-        let error = error.note("a guard compares the token with literals and with constants of Rust, by their path");
+        let error =
+            error.note("a guard compares the token with literals and with Rust constants, written with their path");
         Box::new(error.guess(format!("did you mean `{}`?", self.token), name.span, self.token))
     }
 
@@ -98,7 +99,7 @@ impl Conditions<'_> {
                 self.binary(operator, (left, a), (right, b), expr.span)
             }
             _ => {
-                let message = "a condition compares the token with constants";
+                let message = "a condition can only compare the token with constants";
                 Err(Box::new(Diagnostic::error("wrong-value", expr.span, message)))
             }
         }
@@ -154,7 +155,7 @@ impl Conditions<'_> {
         if matches!(self.ty, Type::Def(..)) && !matches!(value, Value::Path(..) | Value::RustDefault) {
             let message = format!("the token is a `{}`, but this is {}", self.ty, describe(&value));
             let error = Diagnostic::error("wrong-value", expr.span, message);
-            return Err(Box::new(error.note("compare it with a constant of Rust of this type, by its path")));
+            return Err(Box::new(error.note("compare it with a Rust constant of this type, written with its path")));
         }
         let declared = format!("a token of `{}` is a `{}`", self.name, self.ty);
         let wanted = Wanted { name: self.name, ty: self.ty, unit: None, range: None, declared };
@@ -163,14 +164,14 @@ impl Conditions<'_> {
 
     fn number(&self, n: Number, expr: &Expr) -> Evaluated<Value> {
         if !n.dimension.is_none() {
-            let message = "a token that is computed with has no unit, but this has one";
+            let message = "tokens have no unit in calculations, but this value has one";
             return Err(Box::new(Diagnostic::error("wrong-unit", expr.span, message)));
         }
         match (limits(self.ty.name()), n.integer) {
             (None, _) => Ok(Value::Number(Number { integer: None, ..n })),
             (Some(_), Some(integer)) if i64::try_from(integer).is_ok() => Ok(Value::Number(n)),
             (Some(_), Some(_)) => {
-                Err(Box::new(Diagnostic::error("bad-number", expr.span, "this number is too large to compute with")))
+                Err(Box::new(Diagnostic::error("bad-number", expr.span, "this number is too large for calculations")))
             }
             (Some(_), None) => {
                 let message = format!("the token is a whole number (`{}`), but this is not", self.ty);

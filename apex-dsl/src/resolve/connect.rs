@@ -253,9 +253,9 @@ impl Builder<'_> {
             }
             (_, rest) => {
                 let message = if matches!(symbol, Symbol::Own(_)) {
-                    format!("`{}` is a port of this graph and has none of its own", first.text)
+                    format!("`{}` is a port of this graph and has no ports of its own", first.text)
                 } else {
-                    "a nested graph is reached only through its ports".to_owned()
+                    "a nested graph can only be connected through its ports".to_owned()
                 };
                 self.diagnostics.push(Diagnostic::error("unknown-port", rest[rest.len() - 1].span, message));
                 None
@@ -435,10 +435,11 @@ impl Builder<'_> {
         let name = &meant.name;
         let error = match (meant.candidates.len(), fitting.len()) {
             (0, _) if meant.explicit => {
-                let message = format!("`{name}` {one} no tokens, it {opposite} them");
+                let message = format!("`{name}` {one} no tokens: it {opposite} them");
                 let error = Diagnostic::error("wrong-direction", meant.span, message);
                 // Seen from inside, the ports of the graph itself have the opposite direction.
-                let own = "inside a graph its `in` and `slot` ports send, and its `out` and `event` ports take";
+                let own =
+                    "inside a graph, its `in` and `slot` ports send tokens, and its `out` and `event` ports take them";
                 if name.contains('.') { error } else { error.note(own) }
             }
             (0, _) => {
@@ -450,7 +451,7 @@ impl Builder<'_> {
             }
             (_, 0) => {
                 let all: Vec<&Candidate> = meant.candidates.iter().collect();
-                let message = format!("no port of `{name}` goes with `{}`", other.name);
+                let message = format!("no port of `{name}` has a type that fits `{}`", other.name);
                 let others: Vec<&Candidate> = other.candidates.iter().collect();
                 let error = Diagnostic::error("type-mismatch", meant.span, message)
                     .also(other.span, format!("has {}", list(&others)))
@@ -467,7 +468,9 @@ impl Builder<'_> {
                 let fitting = if open { fitting } else { &[] };
                 let error = match open {
                     true => error,
-                    false => error.note("declare it with `node name = …;`, end the chain at `name.port`, and begin another one behind it"),
+                    false => error.note(
+                        "declare it with `node name = …;` and split the chain there, so that each part can name its port: `name.port`",
+                    ),
                 };
                 fitting.iter().take(4).fold(error, |error, c| {
                     error.guess(format!("use `{}`", c.name), meant.span.after(), format!(".{}", c.name))
@@ -492,7 +495,7 @@ impl Builder<'_> {
             .also(to.2, format!("takes `{}`", target.ty))
             .note(self.declared(source, &a))
             .note(self.declared(target, &b))
-            .note("nothing is converted silently: put a node that converts between them");
+            .note("types are not converted implicitly: insert a node that converts the token");
         // All connections of a list of ends have the same arrow.
         self.diagnostics.push_once(error);
     }
@@ -515,7 +518,7 @@ impl Builder<'_> {
                     )
                 }
                 NodeKind::Start => format!("{name} is where activity begins; every graph has it"),
-                NodeKind::Watchdog => format!("{name} is the event that a node hangs; every graph has it"),
+                NodeKind::Watchdog => format!("{name} is the event that reports a hanging node; every graph has it"),
                 _ => format!("{name} is a port of this graph"),
             },
             WireEnd::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),

@@ -199,7 +199,7 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
                 let message = format!("{} is connected twice: an input takes one connection", name(builder, wire.to));
                 let error = Diagnostic::error("connected-twice", wire.span, message)
                     .also(wires[before].span, "first connected here")
-                    .note("join both streams in a node with two inputs, or send them to a slot, which takes many connections");
+                    .note("merge both streams in a node with two inputs, or send them to a slot, which accepts several connections");
                 builder.diagnostics.push(error);
                 excuse_inputs(builder, wire.to);
             }

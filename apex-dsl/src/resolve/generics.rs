@@ -28,7 +28,7 @@ pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
         };
         let mut open = signature.generics.iter().zip(&library.types).filter(|(_, arg)| matches!(arg, TypeArg::Open));
         if let Some((name, _)) = open.find(|(name, _)| !is_seen(name)) {
-            let message = format!("`{name}` of `{}` cannot be known from the connections", signature.name);
+            let message = format!("the type `{name}` of `{}` cannot be inferred from the connections", signature.name);
             let arguments = vec!["…"; signature.generics.len()].join(", ");
             diagnostics.push(
                 Diagnostic::error("unknown-type", node.span, message)

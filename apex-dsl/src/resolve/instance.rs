@@ -141,7 +141,7 @@ impl<'a> Builder<'a> {
         if item.robot {
             for param in item.params.iter().filter(|p| p.default.is_none()) {
                 let message = format!(
-                    "`{}` needs a value for `{}`: nobody else can give it one",
+                    "`{}` needs a value for `{}`: every parameter of a `robot` needs a default",
                     item.name.text, param.name.text
                 );
                 let error = Diagnostic::error("missing-argument", param.name.span, message);
@@ -175,10 +175,10 @@ impl<'a> Builder<'a> {
         self.body(&Body::new(id, 0, (values.clone(), origins), item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
-            let message = "a `robot` has no ports: nothing stands around it";
+            let message = "a `robot` cannot have ports: there is nothing outside that they could be connected to";
             self.diagnostics.push(
                 Diagnostic::error("robot-port", port.name.span, message)
-                    .note("make it a node of a driver, or write `graph` instead of `robot`"),
+                    .note("replace it by a node that is a driver, or write `graph` instead of `robot`"),
             );
         }
         let threads = self.threads(id, &values, item);
@@ -262,9 +262,8 @@ impl<'a> Builder<'a> {
     fn too_large(&mut self, span: Span, message: String) {
         self.budget.exceeded = true;
         let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
-        self.diagnostics.push(
-            Diagnostic::error("too-large", outermost, message).note("nested graphs count as often as they are used"),
-        );
+        self.diagnostics
+            .push(Diagnostic::error("too-large", outermost, message).note("a nested graph counts once for each use"));
     }
 
     /// Returns `true` if there is no point in continuing.
@@ -391,7 +390,7 @@ impl<'a> Builder<'a> {
         if signature.process.is_none() && !signature.is_function && signature.ports.is_empty() {
             let message = format!("`{}` has neither `process` nor a slot", signature.name);
             let error = Diagnostic::error("no-process", instance.path.span, message).note(format!(
-                "declared at {}:{}; mark its `impl` with `#[node]` too; if it is marked, `cargo check` says what is wrong with its signature",
+                "declared at {}:{}; mark its `impl` with `#[node]` too; if it is marked, run `cargo check` to find the error in its signature",
                 signature.file.display(),
                 signature.line
             ));
@@ -453,7 +452,7 @@ impl<'a> Builder<'a> {
             self.diagnostics.push(Diagnostic::error(
                 "unknown-node",
                 ty.span,
-                "a node that is handed in has the type of a struct node",
+                "a node that is handed in from Rust must have the type of a struct node",
             ));
             return None;
         };
@@ -475,7 +474,7 @@ impl<'a> Builder<'a> {
                 Some(Symbol::of_node(node, &self.nodes[node]))
             }
             Ok(_) => {
-                let message = "only a struct node can be handed in";
+                let message = "only a struct node can be handed in from Rust";
                 self.diagnostics.push(
                     Diagnostic::error("unknown-node", ty.span, message)
                         .note("an instance is written `node name = Type();`"),
@@ -510,10 +509,11 @@ impl<'a> Builder<'a> {
                 ModifierKind::Restart => "restart",
                 ModifierKind::Each { .. } | ModifierKind::Delay(_) | ModifierKind::On(_) => continue,
             };
-            let message = format!("`{word}` is for a single node, but `{}` is a graph", instance.path.text());
+            let message = format!("`{word}` applies to a single node, but `{}` is a graph", instance.path.text());
             self.diagnostics.push(
-                Diagnostic::error("wrong-modifier", modifier.span, message)
-                    .note("a nested graph takes `each`, `delay` and `on`; put the others behind a node inside"),
+                Diagnostic::error("wrong-modifier", modifier.span, message).note(
+                    "a nested graph accepts `each`, `delay` and `on`; write other modifiers after a node inside it",
+                ),
             );
         }
         let values = self.graph_args(body, id, instance);
@@ -561,12 +561,12 @@ impl<'a> Builder<'a> {
             let message = format!("`{}` contains itself: {}", name.text, path.join(" → "));
             let error = Diagnostic::error("recursion", span, message)
                 .also(name.span, "this graph")
-                .note("a graph is opened in place, so it can have no end; send a token back through a slot instead");
+                .note("nested graphs are expanded in place, which would never end here; send a token back through a slot instead");
             self.diagnostics.push(error);
             return None;
         }
         if self.open.len() >= MAX_NESTING {
-            let message = format!("graphs nest more than {MAX_NESTING} deep");
+            let message = format!("graphs are nested more than {MAX_NESTING} levels deep");
             self.diagnostics.push(Diagnostic::error("too-deep", span, message));
             return None;
         }

@@ -28,10 +28,10 @@ pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
             continue;
         }
         let node = &graph.nodes[id];
-        let message = format!("which input of `{}` is the list to iterate over?", node.name);
+        let message = format!("`{}` has several inputs, and `each` needs the one to iterate over", node.name);
         let names: Vec<String> = inputs.iter().map(|p| format!("`each({})`", node.ports[*p].name)).collect();
         diagnostics
-            .push(Diagnostic::error("each-port", node.span, message).note(format!("name it: {}", names.join(" or "))));
+            .push(Diagnostic::error("each-port", node.span, message).note(format!("write {}", names.join(" or "))));
         if let NodeKind::Each(each) = &mut graph.nodes[id].kind {
             each.list = inputs.first().copied();
         }

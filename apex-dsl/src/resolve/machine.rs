@@ -33,7 +33,7 @@ pub fn resolve(
     }
     if opener.states.is_empty() {
         let error = Diagnostic::error("no-state", item.name.span, format!("`{}` has no state", item.name.text));
-        opener.diagnostics.push(error.note("a smallest one is `state name { }`"));
+        opener.diagnostics.push(error.note("the smallest state is `state name { }`"));
         return None;
     }
     if opener.states.len() > MAX_STATES {
@@ -64,15 +64,14 @@ impl<'a> Opener<'a> {
         for port in &self.item.ports {
             if port.kind.is_synchronous() {
                 let message = format!(
-                    "a state machine has slots and events, but `{}` is {} {}",
+                    "a state machine can only have slots and events, but `{}` is {} {}",
                     port.name.text,
                     port.kind.article(),
                     port.kind.word()
                 );
-                self.diagnostics.push(
-                    Diagnostic::error("fsm-port", port.name.span, message)
-                        .note("outputs go to its slots, and its events go to inputs, without a node between them"),
-                );
+                self.diagnostics.push(Diagnostic::error("fsm-port", port.name.span, message).note(
+                    "outputs can be connected to its slots, and its events to inputs, without a node in between",
+                ));
             }
             if let Some((first, _)) = self.ports.get(port.name.text.as_str()) {
                 let message = format!("`{}` is already defined here", port.name.text);
@@ -180,7 +179,7 @@ impl<'a> Opener<'a> {
                     errors.push(self.unknown_state(target));
                 }
                 if let Some(first) = taken.get(slot.text.as_str()) {
-                    let message = format!("this is never taken: another transition takes every `{}` before", slot.text);
+                    let message = format!("unreachable transition: an earlier one already takes every `{}`", slot.text);
                     errors.push(Diagnostic::warning("never-taken", slot.span, message).also(*first, "this one"));
                 } else if transition.guard.is_none() {
                     taken.insert(&slot.text, slot.span);
@@ -213,7 +212,7 @@ impl<'a> Opener<'a> {
         let message = format!("`{}` has no {} `{}`", self.item.name.text, kind.word(), name.text);
         let error = Diagnostic::error("unknown-port", name.span, message);
         if kind == PortKind::Event && self.states.iter().any(|state| state.item.name.text == name.text) {
-            return error.note(format!("`{0}` is a state: what leads to it is `=> {0}`", name.text));
+            return error.note(format!("`{0}` is a state: write `=> {0}` to enter it", name.text));
         }
         suggest(error, name, known.iter().copied())
     }
@@ -277,9 +276,9 @@ impl<'a> Opener<'a> {
                 continue;
             };
             if let Some((_, first)) = sends.iter().find(|(s, _)| s.event == event) {
-                let message = format!("one transition would trigger `{}` twice", action.event.text);
-                let error = Diagnostic::error("twice", action.event.span, message).also(*first, "the first time");
-                self.diagnostics.push_once(error.note("an event can be triggered once at a time"));
+                let message = format!("one transition would trigger the event `{}` twice", action.event.text);
+                let error = Diagnostic::error("twice", action.event.span, message).also(*first, "first triggered here");
+                self.diagnostics.push_once(error.note("a transition can trigger each event only once"));
                 continue;
             }
             match self.token(action, &events[event].1, cause) {
@@ -307,7 +306,7 @@ impl<'a> Opener<'a> {
                     }
                     _ => {
                         let name = &action.event.text;
-                        let message = format!("`{name}` carries `{ty}`, and there is no such token here");
+                        let message = format!("`{name}` carries `{ty}`, but there is no token of this type here");
                         Err(Box::new(
                             Diagnostic::error("missing-argument", action.event.span, message)
                                 .note(format!("give it a value: `{name}(…)`")),

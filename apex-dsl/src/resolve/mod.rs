@@ -112,8 +112,8 @@ pub fn resolve(
     if !broken && texts.files[0].1.is_empty() && !diagnostics.has_errors() {
         let span = crate::source::Span::new(root, 0, 0);
         diagnostics.push(
-            Diagnostic::error("no-graph", span, "this text has no `graph`")
-                .note("a smallest graph is `graph Name { }`"),
+            Diagnostic::error("no-graph", span, "this source file has no `graph`")
+                .note("the smallest graph is `graph Name { }`"),
         );
     }
     Resolved { texts, graphs, nested, links, tests }
@@ -151,11 +151,11 @@ fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagno
     let made = || graphs().map(|g| &g.name).chain(file.machines.iter().map(|m| &m.name));
     for name in made().filter(|name| OF_RUST.contains(&name.text.as_str()) || PRIMITIVES.contains(&name.text.as_str()))
     {
-        let message = format!("`{}` is a name that Rust itself uses everywhere", name.text);
+        let message = format!("`{}` is a name that the generated Rust code uses", name.text);
         diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("choose another name"));
     }
     for name in made().filter(|name| catalog.is_extern(&name.text)) {
-        let message = format!("`{}` is the name of a crate, which Rust would find no more", name.text);
+        let message = format!("`{}` is the name of a crate, which would be hidden in Rust", name.text);
         diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("choose another name"));
     }
     let has_parts = |graph: &&GraphItem| graph.nodes.iter().any(|node| matches!(node.body, NodeBody::HandedIn(..)));
@@ -171,7 +171,7 @@ fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagno
                 .map(|owner| (owner.text.clone(), owner.span))
         };
         if let Some((owner, span)) = of(&parts, "Parts").or_else(|| of(&states, "State")) {
-            let message = format!("`{}` is the name of a type that belongs to `{owner}` in Rust", name.text);
+            let message = format!("`{}` is the name of a Rust type that is generated for `{owner}`", name.text);
             let error = Diagnostic::error("duplicate-name", name.span, message).also(span, "this one");
             diagnostics.push(error.note("give one of the two another name"));
         }

@@ -163,7 +163,7 @@ impl SourceSet {
                 diagnostics.push(Diagnostic::error(
                     "too-large",
                     module.span,
-                    format!("a program has at most {MAX_FILES} texts"),
+                    format!("a program has at most {MAX_FILES} source files"),
                 ));
                 return;
             }
@@ -370,7 +370,7 @@ impl SourceSet {
             return Diagnostic::error("unknown-node", path.span, "a node or graph is missing here");
         };
         if let Some((reason, file, line)) = catalog.refused(&last.text) {
-            let message = format!("`{}` is marked `#[node]`, but is not one", path.text());
+            let message = format!("`{}` is marked `#[node]`, but is not a node", path.text());
             let error = Diagnostic::error("unknown-node", path.span, message);
             return error.note(format!("declared at {}:{line}: {reason}", file.display()));
         }
@@ -392,8 +392,9 @@ impl SourceSet {
             return elsewhere.iter().take(4).fold(error, |error, signature| {
                 if signature.path.is_empty() {
                     let place = format!("{}:{}", signature.file.display(), signature.line);
-                    return error
-                        .note(format!("the one at {place} cannot be named here: it needs `pub` and a `pub use`"));
+                    return error.note(format!(
+                        "the node at {place} is not accessible from here: it needs `pub` and a `pub use`"
+                    ));
                 }
                 let import = catalog.written(&signature.path).join("::");
                 let import = import.trim_start_matches("::");
@@ -417,7 +418,7 @@ impl SourceSet {
         error = catalog.broken().fold(error, Diagnostic::note);
         for hidden in catalog.hidden() {
             error = error.note(format!(
-                "a macro in {} makes nodes that the compiler cannot see; write `#[node]` outside of macros",
+                "a macro in {} generates nodes that the compiler cannot see; write `#[node]` outside of macros",
                 hidden.display()
             ));
         }
@@ -475,7 +476,7 @@ impl SourceSet {
 
 /// Error about a node that generated code cannot name.
 fn hidden_node(path: &PathExpr, signature: &Signature) -> Diagnostic {
-    let message = format!("the program cannot name the node `{}`", path.text());
+    let message = format!("the node `{}` is not accessible from the program", path.text());
     let (file, line) = (signature.file.display(), signature.line);
     Diagnostic::error("unknown-node", path.span, message)
         .note(format!("declared at {file}:{line}; it needs `pub`, and so do the modules around it, or a `pub use`"))
@@ -491,9 +492,9 @@ pub fn suggest<'a>(error: Diagnostic, word: &Ident, candidates: impl Iterator<It
 
 /// Error about an import whose first segment is neither a crate nor a source file.
 fn unknown_crate(first: &Ident, catalog: &Catalog) -> Diagnostic {
-    let message = format!("there is no crate and no text `{}`", first.text);
+    let message = format!("there is no crate or source file `{}`", first.text);
     let note = format!(
-        "an import names a crate that depends on `apex-rt`, `crate` for this package, or a text beside this one (`{}.afg`)",
+        "an import names a crate that depends on `apex-rt`, `crate` for this package, or a source file in the same folder (`{}.afg`)",
         first.text
     );
     suggest(

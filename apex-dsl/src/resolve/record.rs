@@ -11,9 +11,11 @@ use crate::{
 pub fn record(graph: &Graph, item: &GraphItem, diagnostics: &mut Diagnostics) -> Option<Record> {
     let [first, others @ ..] = item.records.as_slice() else { return None };
     for other in others {
-        let error = Diagnostic::error("wrong-record", other.span, "a program is recorded in one file");
+        let error = Diagnostic::error("wrong-record", other.span, "a program can be recorded to only one file");
         diagnostics.push(
-            error.also(first.span, "it has one already").note("write the ports of both into one `record` statement"),
+            error
+                .also(first.span, "the first `record` statement")
+                .note("write the ports of both into one `record` statement"),
         );
     }
     if first.file.is_empty() {
@@ -31,7 +33,7 @@ fn report_twice(record: &RecordItem, diagnostics: &mut Diagnostics) {
         if let Some(before) = record.ports[..i].iter().find(|before| before.text() == port.text()) {
             let message = format!("`{}` is named twice", port.text());
             let error = Diagnostic::error("wrong-record", port.span, message);
-            diagnostics.push(error.also(before.span, "first named here").note("leave one of the two out"));
+            diagnostics.push(error.also(before.span, "first named here").note("remove one of the two"));
         }
     }
 }
@@ -49,9 +51,9 @@ fn port_of(graph: &Graph, port: &PortRef, diagnostics: &mut Diagnostics) -> Opti
     }
     let is_connected = |end: &&PortId| graph.connections.iter().any(|c| c.from == **end);
     if ends.iter().any(|end| !is_connected(&end)) {
-        let message = format!("nothing is connected to `{path}`, so that its tokens go nowhere");
+        let message = format!("`{path}` cannot be recorded: nothing is connected to it");
         let error = Diagnostic::error("wrong-record", port.span, message);
-        diagnostics.push(error.note("connect it to a node that takes its tokens, or leave it out"));
+        diagnostics.push(error.note("connect it to a node that takes its tokens, or remove it here"));
         return None;
     }
     Some(ends)
@@ -63,7 +65,8 @@ fn unknown(graph: &Graph, port: &PortRef) -> Diagnostic {
     let pins = (0..graph.pins.len()).filter(|pin| graph.pins[*pin].kind.sends()).map(|pin| pin_name(graph, pin));
     let known: Vec<String> = ends.chain(pins).collect();
     let word = Ident { text: path.clone(), span: port.span };
-    let error = Diagnostic::error("unknown-port", port.span, format!("the program has no port `{path}` that sends"));
+    let error =
+        Diagnostic::error("unknown-port", port.span, format!("the program has no port `{path}` that sends tokens"));
     suggest(error, &word, known.iter().map(String::as_str))
 }
 

@@ -30,7 +30,7 @@ pub fn test(
     let id = match texts.made(0, &item.graph, catalog) {
         Ok(Constructor::Graph(id)) => id,
         Ok(Constructor::Node(_)) => {
-            let message = format!("`{}` is a node: a test runs a graph", item.graph.text());
+            let message = format!("`{}` is a node, but a test runs a graph", item.graph.text());
             let note = "write a graph around it, with ports for what the test feeds and expects";
             diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
             return None;
@@ -42,7 +42,7 @@ pub fn test(
     };
     if let Some(generic) = texts.graph(id).generics.first() {
         let message = format!(
-            "`{}` leaves the type `{}` open: a test needs a graph whose types are known",
+            "`{}` has the type parameter `{}`, but a test needs a graph whose types are known",
             item.graph.text(),
             generic.text
         );
@@ -103,7 +103,8 @@ impl Writer<'_> {
             if matches!(&node.kind, NodeKind::Library(library) if library.handed_in) {
                 let message = format!("`{}` is made in Rust, which a test cannot do", node.name);
                 let error = Diagnostic::error("not-replaced", item.name.span, message).also(node.span, "this node");
-                self.diagnostics.push(error.note(format!("put another in its place: `replace {} = …();`", node.name)));
+                self.diagnostics
+                    .push(error.note(format!("replace it by another node: `replace {} = …();`", node.name)));
             }
         }
     }
@@ -200,9 +201,7 @@ impl Writer<'_> {
         let time = match self.value(expr)? {
             Value::Duration(time) => Ok(time),
             Value::Number(n) => duration(n, expr),
-            _ => {
-                Err(Box::new(Diagnostic::error("wrong-value", expr.span, "a time is wanted here, for example `50ms`")))
-            }
+            _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "expected a time, for example `50ms`"))),
         };
         time.map_err(|error| self.diagnostics.push(*error)).ok()
     }

@@ -22,7 +22,7 @@ impl Builder<'_> {
         let mut found: Vec<ThreadSettings> = vec![];
         for thread in &item.threads {
             if !item.robot {
-                let message = "threads belong to a machine: only a `robot` says what they are like";
+                let message = "threads can only be configured in a `robot`";
                 let error = Diagnostic::error("threads", thread.name.span, message);
                 self.diagnostics.push(error.note(format!("write `robot {}` instead of `graph`", item.name.text)));
             }
@@ -53,7 +53,7 @@ impl Builder<'_> {
             let letters = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
             let near = nearest(name, described()).filter(|near| letters(near) != letters(name));
             if let Some(near) = near.filter(|near| groups.iter().any(|other| other.text == *near)) {
-                let message = format!("there is no description of a thread `{name}`, but one of `{near}`");
+                let message = format!("thread `{name}` has no settings, but there are settings for `{near}`");
                 let warning = Diagnostic::warning("threads", group.span, message);
                 self.diagnostics.push(suggest(warning, group, [near].into_iter()));
             }
@@ -64,15 +64,15 @@ impl Builder<'_> {
     fn check_group(&mut self, thread: &ThreadItem, item: &GraphItem, again: bool) {
         let name = &thread.name;
         if again {
-            let message = format!("thread `{}` is described twice", name.text);
-            self.diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("put both into one"));
+            let message = format!("thread `{}` is configured twice", name.text);
+            self.diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("merge both into one"));
         }
         let of_nodes = self.nodes.iter().filter_map(|n| n.modifiers.group.as_deref());
         let of_scopes = self.scopes.iter().filter_map(|s: &Scope| s.group.as_deref());
         let groups: Vec<&str> = [MAIN_GROUP].into_iter().chain(of_nodes).chain(of_scopes).collect();
         if !groups.contains(&name.text.as_str()) {
             let error = Diagnostic::error("threads", name.span, format!("no node runs on thread `{}`", name.text));
-            let error = error.note("a node is put there by `on` behind it; all others run on `main`");
+            let error = error.note("`on` after an instance selects its thread; all other nodes run on `main`");
             let error = misspelt_group(name, item).unwrap_or_else(|| suggest(error, name, groups.into_iter()));
             self.diagnostics.push(error);
         }
@@ -93,13 +93,14 @@ impl Builder<'_> {
             "cores" => match evaluate(value, &scope)? {
                 Value::List(cores) if !cores.is_empty() => {
                     let cores: Option<Vec<usize>> = cores.iter().map(|core| whole(core, 0..=1023)).collect();
-                    settings.cores = cores.ok_or_else(|| wrong(value.span, "a core is a number from 0 on"))?;
+                    settings.cores =
+                        cores.ok_or_else(|| wrong(value.span, "a core must be a whole number from 0 to 1023"))?;
                 }
-                _ => return Err(wrong(value.span, "`cores` are a list of numbers: `cores = [0, 1]`")),
+                _ => return Err(wrong(value.span, "`cores` must be a list of numbers: `cores = [0, 1]`")),
             },
             "priority" => {
                 let priority = whole(&evaluate(value, &scope)?, 1..=99).and_then(|p| u8::try_from(p).ok());
-                let message = "`priority` is a number from 1 (lowest) to 99";
+                let message = "`priority` must be a whole number from 1 (lowest) to 99";
                 settings.priority = Some(priority.ok_or_else(|| wrong(value.span, message))?);
             }
             "policy" => settings.round_robin = word(value, ["fifo", "rr"])? == 1,
@@ -112,14 +113,14 @@ impl Builder<'_> {
                 _ => {
                     return Err(wrong(
                         value.span,
-                        "`hang` is a time, after which a node is said to hang: `hang = 500ms`",
+                        "`hang` must be a time, after which a node counts as hanging: `hang = 500ms`",
                     ));
                 }
             },
             _ => {
                 let message = format!("a thread has no setting `{}`", name.text);
-                let error =
-                    Diagnostic::error("threads", name.span, message).note(format!("there are {}", SETTINGS.join(", ")));
+                let error = Diagnostic::error("threads", name.span, message)
+                    .note(format!("the settings are {}", SETTINGS.join(", ")));
                 return Err(Box::new(suggest(error, name, SETTINGS.into_iter())));
             }
         }
@@ -135,8 +136,8 @@ fn misspelt_group(described: &Ident, item: &GraphItem) -> Option<Diagnostic> {
     let near = nearest(&described.text, groups.iter().map(|group| group.text.as_str()))?;
     let mut uses = groups.into_iter().filter(|group| group.text == near);
     let (only, None) = (uses.next()?, uses.next()) else { return None };
-    let message = format!("there is no thread `{near}`: what is described is `{}`", described.text);
-    let error = Diagnostic::error("threads", only.span, message).also(described.span, "no node runs on this one");
+    let message = format!("thread `{near}` has no settings, but there are settings for `{}`", described.text);
+    let error = Diagnostic::error("threads", only.span, message).also(described.span, "no node runs on this thread");
     Some(suggest(error, only, [described.text.as_str()].into_iter()))
 }
 
@@ -155,6 +156,6 @@ fn word(value: &Expr, words: [&str; 2]) -> Evaluated<usize> {
         ExprKind::Path(path) => path.text(),
         _ => String::new(),
     };
-    let message = format!("here stands `{}` or `{}`", words[0], words[1]);
+    let message = format!("expected `{}` or `{}`", words[0], words[1]);
     words.iter().position(|word| *word == text).ok_or_else(|| wrong(value.span, &message))
 }

@@ -95,7 +95,7 @@ impl Checker<'_> {
             TypeKind::Array(element, _) => self.ty(element),
             TypeKind::Tuple(parts) => parts.iter().for_each(|part| self.ty(part)),
             TypeKind::Const(number) => {
-                let message = format!("`{number}` is a number, but a type is wanted here");
+                let message = format!("expected a type, but `{number}` is a number");
                 self.diagnostics.push(Diagnostic::error("unknown-type", ty.span, message));
             }
             TypeKind::Path(path, args) => {
@@ -156,10 +156,10 @@ impl Checker<'_> {
         }
         if self.catalog.path(def).is_none() {
             let (file, line) = self.catalog.place(def);
-            let message = format!("the program cannot name the type `{}`", path.text());
+            let message = format!("the type `{}` is not accessible from the program", path.text());
             let error = Diagnostic::error("unknown-type", path.span, message);
             let note = format!(
-                "declared at {}:{line}; it needs `pub` and a `pub use`, or a place beside the call of `graph!`",
+                "declared at {}:{line}; it needs `pub` and a `pub use`, or a place next to the call of `graph!`",
                 file.display()
             );
             self.diagnostics.push(error.note(note));
@@ -181,7 +181,7 @@ impl Checker<'_> {
     /// Reports a type of the standard library or the runtime that is not known here.
     fn unlisted(&mut self, path: &PathExpr) {
         let Some(last) = path.segments.last() else { return };
-        let message = format!("`{}` is no type that texts can name by its path", path.text());
+        let message = format!("the type `{}` cannot be written with its path in a source file", path.text());
         let note = format!("give it a name in Rust, `pub type {} = …;`, and use that", last.text);
         self.diagnostics.push(Diagnostic::error("unknown-type", path.span, message).note(note));
     }
@@ -211,7 +211,7 @@ impl Checker<'_> {
         if !is_misspelt && !self.missing.insert(path.text()) {
             return;
         }
-        let note = "a type is one of Rust's own, imported (`use crate::Name;`), or named by its path";
+        let note = "a type is built into Rust, imported (`use crate::Name;`), or written with its path";
         self.diagnostics.push(self.catalog.broken().fold(error.note(note), Diagnostic::note));
     }
 

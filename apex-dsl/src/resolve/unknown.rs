@@ -62,7 +62,7 @@ pub fn unknown(
     Some(match near.declared.filter(|_| !near.used) {
         Some(declared) if uses.len() > 1 => misspelt(code, declared, near.name, &word.text, uses[0]),
         Some(declared) => Diagnostic::error(code, word.span, message)
-            .also(declared, format!("nothing uses `{}`", near.name))
+            .also(declared, format!("`{}` is not used", near.name))
             .guess(title(near.name), word.span, near.name),
         None => Diagnostic::error(code, word.span, message).guess(title(near.name), word.span, near.name),
     })
@@ -70,7 +70,7 @@ pub fn unknown(
 
 /// An error about a declaration: a name similar to the declared one is used instead.
 fn misspelt(code: &'static str, declared: Span, name: &str, word: &str, used: Span) -> Diagnostic {
-    let message = format!("`{name}` is declared here, but what is used is `{word}`");
+    let message = format!("`{name}` is declared here, but `{word}` is used");
     Diagnostic::error(code, declared, message).also(used, "for example here").guess(
         format!("did you mean `{word}`?"),
         declared,
@@ -105,7 +105,7 @@ impl Builder<'_> {
         let all = if is_port { self.uses_of_port(body.id.file, word, body.item.extent) } else { uses.clone() };
         let error = unknown(code, message.clone(), word, &all, &known).unwrap_or_else(|| {
             let declare = format!(
-                "declare it with `node {} = …;`, or write the node in place with `()` behind its name",
+                "declare it with `node {} = …;`, or write the node in place with `()` after its name",
                 word.text
             );
             everywhere("unknown-node", message, word.span, &uses).note(declare)

@@ -53,7 +53,7 @@ fn constant(path: &PathExpr, scope: &Scope<'_>) -> Evaluated<Value> {
         Some(Constant::Known(path, ty)) => Ok(Value::Path(path, ty)),
         Some(Constant::Unknown(path)) => Ok(Value::Path(path, Type::Unknown(String::new()))),
         Some(Constant::Hidden(place)) => {
-            let message = format!("the program cannot name the constant `{}`", path.text());
+            let message = format!("the constant `{}` is not accessible from the program", path.text());
             let error = Diagnostic::error("unknown-name", path.span, message);
             Err(Box::new(error.note(format!("declared at {place}; it needs `pub` and a `pub use`"))))
         }
@@ -71,7 +71,7 @@ fn constant(path: &PathExpr, scope: &Scope<'_>) -> Evaluated<Value> {
 
 fn unknown_name(path: &PathExpr, scope: &Scope<'_>) -> Diagnostic {
     let error = Diagnostic::error("unknown-name", path.span, format!("there is no parameter `{}` here", path.text()))
-        .note("a value is a literal, a parameter of the graph around it, or the full path of a constant in Rust");
+        .note("a value is a literal, a parameter of this graph, or the full path of a Rust constant");
     match path.segments.first() {
         Some(word) => suggest(error, word, scope.params.keys().map(String::as_str)),
         None => error,
@@ -154,7 +154,7 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
         "/" => x.dimension.combine(y.dimension, -1),
         _ if x.dimension == y.dimension => Some(x.dimension),
         _ => {
-            let message = format!("`{operator}` needs two values of one kind");
+            let message = format!("`{operator}` needs two values of the same kind");
             let diagnostic = Diagnostic::error("wrong-unit", span, message)
                 .also(at_x, format!("this is {}", kind(x)))
                 .also(at_y, format!("this is {}", kind(y)));
@@ -162,7 +162,7 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
         }
     };
     let Some(dimension) = dimension else {
-        return error("wrong-unit", span, "the unit of this value leaves all bounds");
+        return error("wrong-unit", span, "the exponents in the unit of this value are too large");
     };
     // As in Rust, the result for integers is an integer, also in a division.
     let result = |value: f64, exact: fn(i128, i128) -> Option<i128>| {
@@ -313,8 +313,12 @@ impl Wanted<'_> {
         let dimension = self.unit.and_then(|u| units::parse(u).ok()).map_or(Dimension::NONE, |u| u.dimension);
         let unit = if dimension.is_none() { String::new() } else { format!(" {dimension}") };
         let dots = if inclusive { "..=" } else { ".." };
-        let message =
-            format!("{value}{unit} is out of range: `{}` lies in {}{dots}{}{unit}", self.name, bound(low), bound(high));
+        let message = format!(
+            "{value}{unit} is out of range: `{}` must be in {}{dots}{}{unit}",
+            self.name,
+            bound(low),
+            bound(high)
+        );
         error("out-of-range", span, message)
     }
 
@@ -339,7 +343,7 @@ impl Wanted<'_> {
                 self.check_unit(n, expr)?;
                 self.check_range(n.value, expr.span)?;
                 let Some(integer) = n.integer else {
-                    return error("wrong-value", expr.span, format!("`{}` is a whole number (`{ty}`)", self.name));
+                    return error("wrong-value", expr.span, format!("`{}` must be a whole number (`{ty}`)", self.name));
                 };
                 match limits(ty.name()) {
                     Some((low, high)) if integer < low || integer > high => {
@@ -394,14 +398,14 @@ fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: 
 }
 
 const NO_PART_HAS_A_UNIT: &str =
-    "nothing in it has a unit: write one behind a number, or declare a parameter in it with one";
+    "no part of this expression has a unit: write one after a number, or declare a parameter in it with one";
 
 /// Adds a note to an error about metres in place of a time: `5m` may mean minutes.
 fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
     match &expr.kind {
         ExprKind::Number(_, Some(unit)) if unit == "m" => {
             let unit = Span { start: expr.span.end - 1, ..expr.span };
-            error.note("`m` is a metre, and a minute is `min`").guess("write it in minutes", unit, "min")
+            error.note("`m` is the unit metre; for minutes, write `min`").guess("write it in minutes", unit, "min")
         }
         _ => error,
     }
@@ -410,12 +414,12 @@ fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
 /// A time as a duration. Reports values with another dimension.
 pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
     if n.dimension.is_none() {
-        let message = "a time is wanted here: the unit is missing";
+        let message = "expected a time: the unit is missing";
         let units = [("milliseconds", "ms"), ("seconds", "s")];
         return Err(Box::new(missing_unit(message, expr, "Duration", &units)));
     }
     if n.dimension != Dimension::TIME {
-        let message = format!("a time is wanted here, but this is {}", kind(n));
+        let message = format!("expected a time, but this is {}", kind(n));
         return Err(Box::new(minutes(Diagnostic::error("wrong-unit", expr.span, message), expr)));
     }
     seconds(n.value, expr.span)

@@ -161,7 +161,7 @@ impl Builder<'_> {
             None => vec![None],
             Some(Ok(Value::List(values))) if !values.is_empty() => values.into_iter().map(Some).collect(),
             Some(Ok(Value::List(_))) => {
-                self.diagnostics.push(Diagnostic::error("out-of-range", span, "a delay holds one token at least"));
+                self.diagnostics.push(Diagnostic::error("out-of-range", span, "a delay must hold at least one token"));
                 return None;
             }
             Some(Ok(value)) => vec![Some(value)],

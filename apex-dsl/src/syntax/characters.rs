@@ -19,7 +19,7 @@ pub fn unknown(char: char, span: Span) -> Diagnostic {
         _ if char.is_control() => char.escape_debug().to_string(),
         _ => char.to_string(),
     };
-    explained(char, Diagnostic::error("unknown-character", span, format!("`{shown}` means nothing here")))
+    explained(char, Diagnostic::error("unknown-character", span, format!("unexpected character `{shown}`")))
 }
 
 /// Returns `true` for byte order marks, characters without width and marks of the writing direction, which other
@@ -39,16 +39,16 @@ fn explained(char: char, error: Diagnostic) -> Diagnostic {
         '°' => "deg",
         'µ' | 'μ' => "u",
         '\u{a0}' => " ",
-        '\'' => return error.note("a string stands in double quotes"),
+        '\'' => return error.note("a string is written in double quotes"),
         '#' => return error.note("a comment begins with `//`"),
-        c if is_invisible(c) => return error.fix("leave out this character, which cannot be seen", span, ""),
+        c if is_invisible(c) => return error.fix("remove this invisible character", span, ""),
         c if c.is_alphabetic() => return error.note(NAMES),
         _ => return error,
     };
     error.fix(format!("write `{meant}`"), span, meant)
 }
 
-const NAMES: &str = "a name is made of the letters a to z, digits and `_`";
+const NAMES: &str = "a name consists of the letters a to z, digits and `_`";
 
 /// The word around the letter at `at`, if it would be a name with other letters.
 pub fn foreign_word(text: &str, at: usize) -> Option<Range<usize>> {
@@ -99,7 +99,7 @@ fn foreign(word: &str, places: &[Span]) -> Diagnostic {
         [first @ .., last] if !first.is_empty() => format!("letters {} and {last}", first.join(", ")),
         letters => format!("letter {}", letters.concat()),
     };
-    let message = format!("no name has the {letters}{whole}{also}");
+    let message = format!("a name cannot contain the {letters}{whole}{also}");
     let error = Diagnostic::error("unknown-character", places[0], message).note(NAMES);
     let plain = plain(word);
     if !is_name(&plain) || !plain.contains(|c: char| c.is_ascii_alphanumeric()) {

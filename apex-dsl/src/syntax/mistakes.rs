@@ -71,15 +71,15 @@ impl CommonMistake<'_> {
         let behind = self.rest().strip_prefix('.')?;
         let digits = behind.find(|c: char| !digit(c)).unwrap_or(behind.len());
         if self.expects("a value") && digits > 0 {
-            let error = Diagnostic::error("syntax", self.here(1 + digits), "a number begins with a digit");
-            return Some(error.fix("write the zero", self.here(0), "0"));
+            let error = Diagnostic::error("syntax", self.here(1 + digits), "a number must begin with a digit");
+            return Some(error.fix("add a zero", self.here(0), "0"));
         }
         let number = self.text[..self.at].rsplit(|c: char| !digit(c) && c != '_').next().unwrap_or_default();
         let whole =
             self.text[..self.at - number.len()].trim_end().ends_with(['=', '(', '[', ',', '+', '*', '<', '>', '-']);
         if number.starts_with(digit) && whole && digits == 0 && !behind.starts_with('.') {
-            let error = Diagnostic::error("syntax", self.here(1), "a number ends with a digit");
-            return Some(error.fix("write the zero", self.here(1).after(), "0"));
+            let error = Diagnostic::error("syntax", self.here(1), "a number must end with a digit");
+            return Some(error.fix("add a zero", self.here(1).after(), "0"));
         }
         None
     }
@@ -95,8 +95,8 @@ impl CommonMistake<'_> {
         if word.is_empty() || !is_number || names_argument || before.len() == self.at || units::parse(word).is_err() {
             return None;
         }
-        let error = Diagnostic::error("syntax", self.here(word.len()), "a unit stands right behind its number");
-        Some(error.fix("leave the blank out", self.span(before.len(), self.at), ""))
+        let error = Diagnostic::error("syntax", self.here(word.len()), "a unit must directly follow its number");
+        Some(error.fix("remove the space", self.span(before.len(), self.at), ""))
     }
 
     /// Explains `node in = …`.
@@ -105,7 +105,7 @@ impl CommonMistake<'_> {
         if !self.expects("a name") || !keywords::RESERVED.contains(&word) {
             return None;
         }
-        let message = format!("`{word}` is a word of the language: it cannot be a name");
+        let message = format!("`{word}` is a reserved word and cannot be a name");
         Some(Diagnostic::error("syntax", self.here(word.len()), message))
     }
 
@@ -120,9 +120,9 @@ impl CommonMistake<'_> {
         let error = Diagnostic::error(
             "syntax",
             self.here(length),
-            format!("a type of a text has no `{}`", self.rest()[..length].trim_end()),
+            format!("a type in a source file has no `{}`", self.rest()[..length].trim_end()),
         );
-        Some(error.note("leave it out: tokens are values, and that a node borrows them is written in Rust alone"))
+        Some(error.note("remove it: tokens are values; only the Rust code of a node borrows them"))
     }
 
     /// Explains `in pose: geometry_msgs/Pose`.
@@ -136,9 +136,9 @@ impl CommonMistake<'_> {
         let end = self.rest().find(|c| !is_path(c)).map_or(self.text.len(), |end| self.at + end);
         let (written, path) = (&self.text[start..end], self.span(start, end));
         let name = written.rsplit('/').next().filter(|name| !name.is_empty())?;
-        let message = format!("`{written}` is not a path of Rust, as a type is");
+        let message = format!("a type is a Rust path, but `{written}` is not");
         let error = Diagnostic::error("syntax", path, message);
-        let note = format!("import a type of Rust and call it by its name: `use package::{name};`");
+        let note = format!("import the Rust type and write its name: `use package::{name};`");
         Some(error.note(note).guess(format!("write `{name}`"), path, name))
     }
 
@@ -150,7 +150,7 @@ impl CommonMistake<'_> {
         if first == "node" && self.expects("`=`") && named {
             let error = Diagnostic::error("syntax", self.here(word(self.rest()).len()), "expected `=`");
             return Some(error.note("an instance is written `node name = Type();`").fix(
-                "write it",
+                "insert `=`",
                 self.here(0),
                 "= ",
             ));
@@ -160,7 +160,7 @@ impl CommonMistake<'_> {
         }
         const HOW: &str = "a port is written `in name: Type;`";
         if self.rest().starts_with('=') {
-            let error = Diagnostic::error("syntax", self.here(1), "the type of a port stands behind `:`").note(HOW);
+            let error = Diagnostic::error("syntax", self.here(1), "the type of a port is written after `:`").note(HOW);
             let blanks = self.span(self.before().len(), self.at + 1);
             return Some(error.fix("write `:`", blanks, ":"));
         }
@@ -194,10 +194,11 @@ impl CommonMistake<'_> {
         if sign == "=" && !self.before().contains(['.', '>', '(', '[']) && makes_a_node(target) {
             let error = Diagnostic::error("syntax", self.span(0, self.before().len()), "`node` is missing");
             let error = error.note("an instance is written `node name = Type();`");
-            return Some(error.guess("write it", self.span(0, 0), "node "));
+            return Some(error.guess("insert `node`", self.span(0, 0), "node "));
         }
         if self.rest().starts_with(',') && self.before().contains('>') {
-            let error = Diagnostic::error("syntax", self.here(1), "several ends of a connection stand in brackets");
+            let error =
+                Diagnostic::error("syntax", self.here(1), "several ends of a connection are written in brackets");
             return Some(error.note("write `a -> [b, c];`"));
         }
         let means = match sign {
@@ -205,7 +206,7 @@ impl CommonMistake<'_> {
             _ if sign.contains("=>") => "=>",
             _ => "->",
         };
-        let error = Diagnostic::error("syntax", self.here(length), format!("`{sign}` is no arrow"))
+        let error = Diagnostic::error("syntax", self.here(length), format!("`{sign}` is not an arrow"))
             .note("`->` connects; `=>` connects and lets activity pass");
         // A sign with a head can only be an arrow, whereas the direction of `a = b` is unknown.
         let title = format!("write `{means}`");
@@ -250,8 +251,8 @@ impl CommonMistake<'_> {
         }
         let behind = self.span(self.before().len(), self.before().len());
         let error = Diagnostic::error("syntax", behind, "expected `(`");
-        Some(error.note("parameters stand in the parentheses; without any they are empty").fix(
-            "write them",
+        Some(error.note("the arguments are written in parentheses, which may be empty").fix(
+            "insert `()`",
             behind,
             "()",
         ))
@@ -300,7 +301,7 @@ impl CommonMistake<'_> {
         Some(match meant {
             Some(meant) => error.guess(format!("did you mean `{meant}`?"), self.here(name.len()), meant),
             None => error.note(format!(
-                "behind an instance stand {}",
+                "the modifiers of an instance are {}",
                 modifiers().map(|m| format!("`{m}`")).collect::<Vec<_>>().join(", ")
             )),
         })

@@ -27,7 +27,7 @@ pub struct Lexical {
 /// Scans `text`; `None` if it cannot be parsed at all.
 pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<Lexical> {
     if text.len() > MAX_BYTES {
-        let message = format!("this text has {} bytes; at most {MAX_BYTES} are read", text.len());
+        let message = format!("this source file has {} bytes, but at most {MAX_BYTES} are read", text.len());
         diagnostics
             .push(Diagnostic::error("too-large", Span::new(file, 0, 0), message).note("split it into several files"));
         return None;
@@ -187,7 +187,7 @@ impl Scanner<'_> {
     }
 
     fn too_deep(&mut self, at: usize, diagnostics: &mut Diagnostics) {
-        let message = format!("brackets nest more than {MAX_DEPTH} deep");
+        let message = format!("brackets are nested more than {MAX_DEPTH} levels deep");
         self.give_up(diagnostics, Diagnostic::error("too-deep", Span::new(self.file, at, at + 1), message));
     }
 
@@ -269,7 +269,7 @@ impl Scanner<'_> {
                 self.give_up(
                     diagnostics,
                     Diagnostic::error("unclosed", span, format!("`{}` closes nothing", byte as char)).guess(
-                        "leave it out",
+                        "remove it",
                         span,
                         "",
                     ),
@@ -290,7 +290,7 @@ impl Scanner<'_> {
         self.unknown += 1;
         let diagnostic = characters::unknown(char, span);
         if self.unknown >= MAX_UNKNOWN {
-            self.give_up(diagnostics, diagnostic.note("more follow; is this an `.afg` text"));
+            self.give_up(diagnostics, diagnostic.note("more follow: is this an `.afg` file?"));
         } else {
             self.fail(diagnostics, diagnostic);
         }

@@ -37,7 +37,7 @@ pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
         "entry" | "exit" => Rule::entry_exit,
         _ => Rule::transition,
     };
-    let otherwise = "an `fsm` holds `slot`, `event` and `state`, a state `on slot if guard => state -> event;`, `entry -> event;`, `exit -> event;` and states";
+    let otherwise = "an `fsm` contains `slot`, `event` and `state`; a state contains `on slot if guard => state -> event;`, `entry -> event;`, `exit -> event;` and states";
     again(rule, file, start, text, otherwise)
 }
 
@@ -51,11 +51,11 @@ pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
         "never" => Rule::never_stmt,
         _ => Rule::expect_stmt,
     };
-    let otherwise = "a test holds `replace node = Node();`, `feed port = value;`, `wait 1s;`, `expect port == value within 1s;` and `never port;`";
+    let otherwise = "a test contains `replace node = Node();`, `feed port = value;`, `wait 1s;`, `expect port == value within 1s;` and `never port;`";
     again(rule, file, start, text, otherwise)
 }
 
-const OUTSIDE: &str = "a text holds `use`, `graph`, `robot`, `fsm` and `test` items";
+const OUTSIDE: &str = "a source file contains `use`, `graph`, `robot`, `fsm` and `test` items";
 
 /// Explains an item that could not be parsed.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
@@ -70,7 +70,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
         "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ if text.trim_start().starts_with("///") => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ => {
-            let message = format!("`{first}` begins nothing that can stand here");
+            let message = format!("no item begins with `{first}`");
             let error = Diagnostic::error("syntax", span, message).note(OUTSIDE);
             let known = keywords::words_at(KeywordPosition::Item).map(|word| word.text);
             match if first == "import" { Some("use") } else { nearest(first, known) } {
@@ -86,7 +86,7 @@ fn again(rule: Rule, file: FileId, start: usize, text: &str, otherwise: &str) ->
         Err(error) => diagnose(file, start, text, &error),
         Ok(_) => {
             let span = Span::new(file, start, start + text.trim_end().len());
-            Diagnostic::error("syntax", span, "this cannot stand here").note(otherwise)
+            Diagnostic::error("syntax", span, "this is not allowed here").note(otherwise)
         }
     }
 }
@@ -153,7 +153,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::args => "`(`",
         Rule::ty | Rule::type_arg => "a type",
         Rule::expr | Rule::primary | Rule::number => "a value",
-        Rule::string => "a text",
+        Rule::string => "a string",
         Rule::binary => "an operator",
         Rule::use_group => "`{`",
         Rule::type_args | Rule::generics => "`<`",

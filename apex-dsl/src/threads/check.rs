@@ -36,10 +36,9 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
 /// Reports thread groups in the body of an `each`, which runs on the thread of the `each`.
 fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
     for node in body.nodes.iter().filter(|n| n.modifiers.group.is_some()) {
-        let message =
-            format!("`{}` stands in the body of an `each`, which runs on the thread of the `each`", node.name);
+        let message = format!("`{}` is in the body of an `each`, which runs on the thread of the `each`", node.name);
         let error = Diagnostic::error("threads", node.span, message);
-        diagnostics.push(error.note("put `on` behind the instance with `each`"));
+        diagnostics.push(error.note("write `on` after the instance with `each`"));
     }
 }
 
@@ -49,17 +48,17 @@ fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
     let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Watchdog)) else { return };
     if graph.threads.iter().all(|t| t.hang.is_none()) {
         let error =
-            Diagnostic::error("threads", graph.nodes[hung].span, "no thread is watched, so that `hung` never comes");
-        let note = "say in a `robot` how long a node may run: `thread main { hang = 500ms }`";
+            Diagnostic::error("threads", graph.nodes[hung].span, "no thread is watched, so `hung` is never triggered");
+        let note = "set in a `robot` how long a node may run: `thread main { hang = 500ms }`";
         diagnostics.push(error.note(note));
     }
     // An exit needs no thread: the watchdog itself ends the program.
     let is_called = |c: &&Connection| c.from.node == hung && !matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
     for c in graph.connections.iter().filter(is_called).filter(|_| is_alone) {
         let node = graph.path(c.to.node);
-        let message = format!("`{node}` runs on the thread that hangs: nobody can call it then");
+        let message = format!("`{node}` runs on the thread that hangs, where it cannot be called");
         let error = Diagnostic::error("threads", c.span, message);
-        diagnostics.push(error.note(format!("put `{node}` on a thread of its own by `on`, or lead `hung` to `abort`")));
+        diagnostics.push(error.note(format!("run `{node}` on its own thread with `on`, or connect `hung` to `abort`")));
     }
 }
 
@@ -79,9 +78,9 @@ fn groups(graph: &Graph, from: NodeId, to: NodeId) -> String {
 fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
     let circle = circles(graph);
     for c in synchronous(graph).filter(|c| circle[c.from.node] == circle[c.to.node]) {
-        let message = "a loop of synchronous connections cannot lead through two threads";
+        let message = "a cycle of synchronous connections cannot cross threads";
         let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
-        diagnostics.push(error.note("put the nodes of the loop on one thread, or lead it through a slot"));
+        diagnostics.push(error.note("run all nodes of the cycle on one thread, or break the cycle with a slot"));
     }
 }
 
@@ -93,9 +92,11 @@ fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
     let parts: BTreeSet<_> = (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(part).collect();
     let is_within = |node: NodeId| parts.contains(&part(node));
     for c in synchronous(graph).filter(|c| is_within(c.from.node) || is_within(c.to.node)) {
-        let message = "a region with several rates runs on one thread with all that it is connected to";
+        let message =
+            "a region with several rates must run on one thread, together with all nodes that it is connected to";
         let error = Diagnostic::error("threads", c.span, message).note(groups(graph, c.from.node, c.to.node));
-        diagnostics.push(error.note("lead the token through a slot, as a `Hold` has one, if it is to change threads"));
+        diagnostics
+            .push(error.note("to pass the token to another thread, send it to a slot, for example that of a `Hold`"));
     }
 }
 
@@ -105,12 +106,12 @@ fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
     let own = graph.group(reset);
     for &node in analysis.active.iter().filter(|n| graph.group(**n) != own) {
         let message = format!(
-            "`reset` takes all activity away in one moment, but `{}` runs on thread `{}`, and `reset` on `{own}`",
+            "`reset` takes all activity away at once, but `{}` runs on thread `{}`, and `reset` on `{own}`",
             graph.path(node),
             graph.group(node)
         );
         let error = Diagnostic::error("threads", graph.nodes[node].span, message);
-        diagnostics.push(error.note("put all nodes that activity can come to on one thread"));
+        diagnostics.push(error.note("run all nodes that activity can reach on one thread"));
     }
 }
 
@@ -128,9 +129,9 @@ fn check_sides(graph: &Graph, diagnostics: &mut Diagnostics) {
                 continue;
             }
             let what = if enters { "takes all its inputs" } else { "sends all its outputs" };
-            let message = format!("`{}` {what} together, which two threads cannot", graph.scope_path(scope));
+            let message = format!("`{}` {what} together, which is impossible on two threads", graph.scope_path(scope));
             let error = Diagnostic::error("threads", c.span, message).note(groups(graph, before, node));
-            diagnostics.push(error.note("put the nodes at its ports on one thread"));
+            diagnostics.push(error.note("run the nodes at its ports on one thread"));
         }
     }
 }

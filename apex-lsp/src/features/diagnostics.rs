@@ -8,8 +8,7 @@ use lsp_types::{Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Nu
 /// The messages about a text. One about a text that it imports stands at the import.
 pub fn diagnostics(ready: &Ready<'_>) -> Vec<Diagnostic> {
     let failed = ready.project.failure.as_ref();
-    let package =
-        failed.into_iter().map(|reason| failure(&format!("the nodes of the package are not known: {reason}")));
+    let package = failed.into_iter().map(|reason| failure(&format!("cannot read the nodes of the package: {reason}")));
     package.chain(ready.analysis.report.diagnostics.sorted().into_iter().map(|d| diagnostic(ready, d))).collect()
 }
 

@@ -14,7 +14,9 @@ pub fn prepare(ready: &Ready<'_>, position: Position) -> Result<PrepareRenameRes
     let view = ready.view();
     let name = ide::may_rename(&view, found.definition)?.text.clone();
     if view.sources.text(found.span) != name {
-        return Err(format!("this is what the text calls `{name}`; rename that, or change the import"));
+        return Err(format!(
+            "this is another name for `{name}` from an import; rename `{name}` itself, or change the import"
+        ));
     }
     Ok(PrepareRenameResponse::RangeWithPlaceholder {
         range: ready.analysis.names.places.range(found.span),

@@ -82,14 +82,14 @@ fn refusals_say_why() {
     let mut client = Client::start();
     let path = unsaved("renaming.afg");
     for ((word, n), name, reason) in [
-        (("jump", 0), "segments", "`Find` has a port or node `segments` already"),
-        (("jump", 0), "node", "`node` is a word of the language"),
-        (("jump", 0), "1st", "`1st` is no name: a name has letters, digits and `_`, and begins with no digit"),
-        (("jump", 0), "größe", "`größe` is no name: a name has letters, digits and `_`, and begins with no digit"),
-        (("jump", 0), "", "`` is no name: a name has letters, digits and `_`, and begins with no digit"),
-        (("jump", 0), "start", "every graph knows `start`, which would be hidden"),
-        (("Find", 0), "ScanLog", "there is a node `ScanLog` already, which would be hidden"),
-        (("shut", 0), "open", "`Door` has a state `open` already"),
+        (("jump", 0), "segments", "`Find` already has a port or node `segments`"),
+        (("jump", 0), "node", "`node` is a reserved word"),
+        (("jump", 0), "1st", "`1st` is not a valid name: use letters, digits and `_`, not starting with a digit"),
+        (("jump", 0), "größe", "`größe` is not a valid name: use letters, digits and `_`, not starting with a digit"),
+        (("jump", 0), "", "`` is not a valid name: use letters, digits and `_`, not starting with a digit"),
+        (("jump", 0), "start", "`start` is predefined in every graph and would be hidden"),
+        (("Find", 0), "ScanLog", "there is already a node `ScanLog`, which would be hidden"),
+        (("shut", 0), "open", "`Door` already has a state `open`"),
         (("JumpDistance", 1), "Jump", "this is declared in Rust; rename it there"),
         (("f32", 0), "f64", "there is no name here"),
     ] {
@@ -97,7 +97,7 @@ fn refusals_say_why() {
         assert_eq!(found, Err(reason.to_owned()), "{word} → {name}");
     }
     let found = rename(&mut client, &path, TEXT, ("Find", 0), "Twice").unwrap_err();
-    assert!(found.starts_with("`Twice` has a meaning in ") && found.ends_with("renaming.afg already"), "{found}");
+    assert!(found.starts_with("`Twice` already has a meaning in ") && found.ends_with("renaming.afg"), "{found}");
     assert!(client.stop());
 }
 
@@ -125,9 +125,9 @@ fn a_graph_and_the_texts_that_import_it() {
     assert_eq!(applied(texts[1].1, &outer, &edit), texts[1].1.replace("i.x", "i.value"));
     // A name that has a meaning in one of the texts is refused.
     let found = rename(&mut client, &inner, texts[0].1, ("Inner", 0), "Outer").unwrap_err();
-    assert!(found.ends_with("re_outer.afg already"), "{found}");
+    assert!(found.ends_with("re_outer.afg"), "{found}");
     let found = rename(&mut client, &other, texts[2].1, ("Mine", 1), "Yours").unwrap_err();
-    assert_eq!(found, "this is what the text calls `Inner`; rename that, or change the import");
+    assert_eq!(found, "this is another name for `Inner` from an import; rename `Inner` itself, or change the import");
     assert!(client.stop());
 }
 

@@ -174,7 +174,7 @@ fn a_package_that_cargo_cannot_read() {
     client.open(&path, "graph A { }\n");
     let found = client.diagnostics(&path);
     assert!(
-        found[0]["message"].as_str().unwrap().starts_with("the nodes of the package are not known: cargo"),
+        found[0]["message"].as_str().unwrap().starts_with("cannot read the nodes of the package: cargo"),
         "{found:?}"
     );
     assert!(client.stop());

@@ -63,7 +63,7 @@ impl Rejection {
             Self::Kind { expected, found } => write!(f, "`{name}` ({}) takes {expected}, not {found}", param.ty),
             Self::Fit(ty) => write!(f, "the value of `{name}` does not fit into `{ty}`"),
             Self::Length { expected, found } => {
-                write!(f, "`{name}` ({}) takes {expected} elements; here are {found}", param.ty)
+                write!(f, "`{name}` ({}) takes {expected} elements, not {found}", param.ty)
             }
             Self::Long { most } => write!(f, "the value of `{name}` is too long: there is room for {most}"),
             Self::Range => {
@@ -74,7 +74,7 @@ impl Rejection {
                 match (param.range.is_known(), param.unit) {
                     (true, Some(unit)) => write!(f, ": its range is {} ({unit})", param.range),
                     (true, None) => write!(f, ": its range is {}", param.range),
-                    (false, _) => f.write_str(": its node type declares a range that it is out of"),
+                    (false, _) => f.write_str(": it is outside the range that its node type declares"),
                 }
             }
             Self::Opaque => {

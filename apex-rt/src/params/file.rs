@@ -34,7 +34,7 @@ pub fn save_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> io::
     // A link stays; its target is replaced.
     let path = fs::canonicalize(path.as_ref()).unwrap_or_else(|_| path.as_ref().to_owned());
     if fs::metadata(&path).is_ok_and(|old| !old.is_file()) {
-        return Err(io::Error::other("it is no file that could be replaced"));
+        return Err(io::Error::other("it is not a file that can be replaced"));
     }
     let beside = beside(&path)?;
     let result = write(&path, &beside, &text);
@@ -51,7 +51,7 @@ fn read(path: &Path) -> Result<String, String> {
         return Err("it is a folder".to_owned());
     }
     if !metadata.is_file() {
-        return Err("it is no file".to_owned());
+        return Err("it is not a file".to_owned());
     }
     if metadata.len() > MAX_BYTES {
         return Err(format!("it has {} bytes; at most {MAX_BYTES} are read", metadata.len()));
@@ -70,8 +70,9 @@ fn reason(error: &io::Error) -> String {
 
 /// Returns the name of a temporary file in the same folder, so that renaming is atomic.
 fn beside(path: &Path) -> io::Result<PathBuf> {
-    let name =
-        path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "this is no name of a file"))?;
+    let name = path
+        .file_name()
+        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "this is not the name of a file"))?;
     let mut hidden = OsString::from(".");
     hidden.push(name);
     hidden.push(format!(".{}.new", std::process::id()));

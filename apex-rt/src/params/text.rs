@@ -89,7 +89,7 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
     let mut problems = Problems { text, found: vec![] };
     let (document, errors) = DeTable::parse_recoverable(text);
     for error in errors {
-        problems.add(error.span().map_or(0, |span| span.start), format!("this is no TOML: {}", error.message()));
+        problems.add(error.span().map_or(0, |span| span.start), format!("this is not TOML: {}", error.message()));
     }
     if !problems.found.is_empty() {
         return problems.result();
@@ -111,7 +111,7 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
 pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
     match DeValue::parse(value) {
         Ok(value) => program.set_param(name, given(value.get_ref())),
-        Err(_) => program.set_param(name, ParamRef::Other("something that is no value of TOML")),
+        Err(_) => program.set_param(name, ParamRef::Other("something that is not a TOML value")),
     }
 }
 
@@ -189,7 +189,7 @@ impl<'a> File<'a> {
         match (value.get_ref(), first) {
             (DeValue::Table(table), Some(_)) => self.table(&inner, table),
             (_, Some(param)) => {
-                let message = format!("`{name}` is a node: its parameters stand in a table, such as `{}`", param.name);
+                let message = format!("`{name}` is a node: its parameters are in a table, such as `{}`", param.name);
                 self.problems.add(at, message);
             }
             (DeValue::Table(_), None) => {
@@ -207,7 +207,7 @@ impl<'a> File<'a> {
         match near {
             Some(near) => format!("did you mean `{near}`?"),
             None if self.params.is_empty() => "the program has none: remove it".to_owned(),
-            None => "remove it, or save the parameters to see what there are".to_owned(),
+            None => "remove it, or save the parameters to see all names".to_owned(),
         }
     }
 }

@@ -52,7 +52,7 @@ impl ParamRef<'_> {
         match self {
             Self::Bool(_) => "`true` or `false`",
             Self::Integer(_) => "an integer",
-            Self::Float(_) | Self::Single(_) => "a number with a point",
+            Self::Float(_) | Self::Single(_) => "a number with a decimal point",
             Self::Text(_) => "a string",
             Self::List(_) => "a list",
             Self::Other(what) => what,

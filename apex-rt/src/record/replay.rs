@@ -57,20 +57,20 @@ impl fmt::Display for ReplayError {
         match self {
             Self::File(path, error) => write!(f, "cannot read `{}`: {error}", path.display()),
             Self::NoRecording(path) => {
-                write!(f, "`{}` is an MCAP file, but no recording of a program: it has no reactions", path.display())
+                write!(f, "`{}` is an MCAP file, but not a recording of a program: it has no reactions", path.display())
             }
             Self::OtherProgram { path, recorded, wanted } => {
                 write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
             }
             Self::Nothing { path, why } => {
-                write!(f, "nothing of `{}` can be replayed: it has no reaction that is whole", path.display())?;
+                write!(f, "nothing in `{}` can be replayed: it has no complete reaction", path.display())?;
                 why.as_ref().map_or(Ok(()), |why| write!(f, "; {why}"))
             }
             Self::OtherThreads { path, recorded, wanted } => {
                 write!(f, "`{}` was recorded on the threads `{recorded}`", path.display())?;
                 match wanted.as_str() {
-                    "" => write!(f, ", but the program has a single one"),
-                    _ => write!(f, ", but the program has `{wanted}`: replay it with the `on` that it had"),
+                    "" => write!(f, ", but the program has a single thread"),
+                    _ => write!(f, ", but the program has `{wanted}`: replay it with the same `on` as recorded"),
                 }
             }
         }
@@ -281,7 +281,7 @@ impl Replay {
         // Older recordings do not number reactions.
         let ahead = if number == 0 { 1 } else { number.wrapping_sub(last) };
         if time < before || !(1..=u32::MAX / 2).contains(&ahead) {
-            self.source.damaged(&format!("the reaction at {time} comes after the one at {before}"));
+            self.source.damaged(&format!("the reaction at {time} is out of order after the one at {before}"));
             return;
         }
         self.report.skipped += u64::from(ahead - 1);
@@ -405,7 +405,7 @@ impl Replay {
             match now(program, &name) {
                 Some(now) if now == value => {}
                 Some(now) => self.report.params.push(format!("`{name}` was {value} and is {now}")),
-                None => self.report.params.push(format!("`{name}` was {value} and is no more")),
+                None => self.report.params.push(format!("`{name}` was {value} and no longer exists")),
             }
         }
     }

@@ -106,32 +106,29 @@ impl Report {
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if let Some(cut) = &self.cut {
-            write!(f, "the recording is not whole: {cut}; compared as far as it goes")?;
+            write!(f, "the recording is incomplete: {cut}; only the part before that is compared")?;
             match self.last {
                 Some(last) => writeln!(f, ", up to the reaction at {last}")?,
                 None => writeln!(f)?,
             }
         }
         if self.skipped > 0 && self.dropped.is_empty() {
-            writeln!(f, "{} reactions between others are missing: what follows from them differs", self.skipped)?;
+            writeln!(f, "{} reactions are missing in between: later tokens may differ", self.skipped)?;
         }
         for (channel, count) in &self.dropped {
-            writeln!(
-                f,
-                "{count} messages of `{channel}` were lost when this was recorded: what follows from them differs"
-            )?;
+            writeln!(f, "{count} messages of `{channel}` were lost during the recording: later tokens may differ")?;
         }
         if self.unreadable > 0 {
-            writeln!(f, "{} recorded tokens are no values of their types any more", self.unreadable)?;
+            writeln!(f, "{} recorded tokens are no longer values of their types", self.unreadable)?;
         }
         if self.missed > 0 {
-            writeln!(f, "{} times a thread waited in vain for another one, as it had not when recorded", self.missed)?;
+            writeln!(f, "{} times a thread waited in vain for another one, unlike during the recording", self.missed)?;
         }
         if self.repeated > 0 {
             let count = self.repeated;
             writeln!(
                 f,
-                "{count} times a source was due, as it had not been when recorded, and sent its last token again"
+                "{count} times a source was due that was not due during the recording, and sent its last token again"
             )?;
         }
         for line in &self.params {
@@ -139,14 +136,14 @@ impl Display for Report {
         }
         for (name, role) in &self.missing {
             let why = match role {
-                Role::Source => "is not in the recording: its node runs as ever",
-                Role::Mailbox | Role::Event => "is not in the recording: nothing comes there",
+                Role::Source => "is not in the recording: its node runs as usual",
+                Role::Mailbox | Role::Event => "is not in the recording: it receives no tokens",
                 Role::Chosen => "is not in the recording: nothing to compare it with",
             };
             writeln!(f, "`{name}` {why}")?;
         }
         for name in &self.gone {
-            writeln!(f, "`{name}` is in the recording, but no port of the program that is recorded")?;
+            writeln!(f, "`{name}` is in the recording, but is not a recorded port of the program")?;
         }
         for compared in &self.compared {
             write!(f, "{compared}")?;
@@ -157,7 +154,7 @@ impl Display for Report {
                 writeln!(f, "{reactions} reactions; nothing to compare: name connections in a `record` statement")
             }
             (false, true) => writeln!(f, "{reactions} reactions, all the same"),
-            (false, false) => writeln!(f, "{reactions} reactions, not the same"),
+            (false, false) => writeln!(f, "{reactions} reactions, with differences"),
         }
     }
 }
@@ -168,7 +165,7 @@ impl Display for Compared {
         writeln!(f, "`{}`: {} of {total} tokens the same", self.name, self.equal)?;
         let Some(first) = &self.first else { return Ok(()) };
         let (was, is) = around(first.was.as_deref().unwrap_or("nothing"), first.is.as_deref().unwrap_or("nothing"));
-        writeln!(f, "  the first other one is number {}, at {}", first.index + 1, first.time)?;
+        writeln!(f, "  the first difference is token {}, at {}", first.index + 1, first.time)?;
         writeln!(f, "    recorded: {was}")?;
         writeln!(f, "    replayed: {is}")
     }

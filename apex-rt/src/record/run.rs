@@ -64,7 +64,7 @@ fn record<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, path:
     };
     eprintln!("recorded to `{}`", finished.path.display());
     for (channel, count) in finished.dropped {
-        eprintln!("warning: {count} messages of `{channel}` were lost: the file could not be written as fast");
+        eprintln!("warning: {count} messages of `{channel}` were lost: the file could not be written fast enough");
     }
     Ok(code)
 }

@@ -120,7 +120,7 @@ impl Source {
         let mut magic = vec![];
         (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
         if !MAGIC.starts_with(&magic) {
-            let what = "it is no MCAP file, or its beginning is damaged";
+            let what = "it is not an MCAP file, or its beginning is damaged";
             return Err(io::Error::new(io::ErrorKind::InvalidData, what));
         }
         Ok(Self {
@@ -202,7 +202,7 @@ impl Source {
                 statistics = Some(found);
             }
         }
-        self.compare(&statistics.ok_or_else(|| Stop::Damage("it does not say how much is in it".to_owned()))?)
+        self.compare(&statistics.ok_or_else(|| Stop::Damage("it has no statistics".to_owned()))?)
     }
 
     /// Reads the last record, whose last field is the checksum of everything after the data, and the end of the file.
@@ -231,8 +231,9 @@ impl Source {
             false => {
                 let (chunks, messages) = (said.chunk_count, said.message_count);
                 let found = self.chunks;
-                let what =
-                    format!("it says that it has {messages} messages in {chunks} chunks, and has {count} in {found}");
+                let what = format!(
+                    "its statistics count {messages} messages in {chunks} chunks, but it has {count} in {found}"
+                );
                 Err(Stop::Damage(what))
             }
         }
@@ -247,16 +248,16 @@ impl Source {
         let (sum, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
         let (name, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
         if u32::from_le_bytes(*name) != 0 {
-            return Err(Stop::Damage("or it was compressed, which recordings are not".to_owned()));
+            return Err(Stop::Damage("or it is compressed, which is not supported".to_owned()));
         }
         let (size, records) = rest.split_first_chunk::<8>().ok_or(Stop::Cut)?;
         let (is_whole, size_here) = (body.len() as u64 == length, u64::from_le_bytes(*size));
         if head[16..] != *size || size_here.checked_add(CHUNK_HEAD) != Some(length) {
-            return Err(Stop::Damage("a chunk has two lengths".to_owned()));
+            return Err(Stop::Damage("a chunk has two different lengths".to_owned()));
         }
         let sum = u32::from_le_bytes(*sum);
         if is_whole && sum != 0 && crc32fast::hash(records) != sum {
-            return Err(Stop::Damage("a chunk is not what was written".to_owned()));
+            return Err(Stop::Damage("the checksum of a chunk is wrong".to_owned()));
         }
         self.chunks += 1;
         self.chunk = io::Cursor::new(records.to_vec());
@@ -282,7 +283,7 @@ impl Source {
                 self.dropped = counts.filter_map(|(name, count)| Some((name, count.parse().ok()?))).collect();
             }
             Record::Message { header, .. } if !self.channels.contains_key(&header.channel_id) => {
-                return Err(Stop::Damage("a message is of a channel that it has not named".to_owned()));
+                return Err(Stop::Damage("a message belongs to an unknown channel".to_owned()));
             }
             Record::Message { header, data } => {
                 *self.counts.entry(header.channel_id).or_default() += 1;
@@ -307,7 +308,7 @@ impl Source {
 fn belongs(kind: u8, kinds: &[u8]) -> Result<(), Stop> {
     match kinds.contains(&kind) {
         true => Ok(()),
-        false => Err(Stop::Damage(format!("a record of kind {kind} stands where none belongs"))),
+        false => Err(Stop::Damage(format!("unexpected record of kind {kind}"))),
     }
 }
 
@@ -315,7 +316,7 @@ fn belongs(kind: u8, kinds: &[u8]) -> Result<(), Stop> {
 fn is_sum(sum: Hasher, written: u32, of: &str) -> Result<(), Stop> {
     match written == 0 || sum.finalize() == written {
         true => Ok(()),
-        false => Err(Stop::Damage(format!("the checksum of {of} is another one"))),
+        false => Err(Stop::Damage(format!("the checksum of {of} is wrong"))),
     }
 }
 
@@ -326,7 +327,7 @@ fn read_head(from: &mut impl Read) -> Result<(u8, u64), Stop> {
     let [kind, length @ ..] = head;
     let length = u64::from_le_bytes(length);
     if length > LARGEST {
-        return Err(Stop::Damage(format!("a record says that it is {length} bytes long")));
+        return Err(Stop::Damage(format!("a record claims a length of {length} bytes")));
     }
     Ok((kind, length))
 }

@@ -33,7 +33,7 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         tokens.push((Duration::from_nanos(message.time), token));
     }
     if let Some(cut) = source.cut {
-        return Err(format!("`{}` is not whole: {cut}", path.display()));
+        return Err(format!("`{}` is incomplete: {cut}", path.display()));
     }
     if tokens.is_empty() {
         let names: Vec<String> = source.channels.values().map(|c| format!("`{}`", c.name)).collect();

@@ -159,7 +159,7 @@ impl<'env, F, W> Spawner<'_, 'env, F, W> {
         match thread::Builder::new().name(name.to_owned()).spawn_scoped(self.scope, body) {
             Ok(thread) => self.threads.push(thread),
             Err(error) => {
-                eprintln!("{}: no thread for `{name}` could be made: {error}", self.run.info.name);
+                eprintln!("{}: cannot create a thread for `{name}`: {error}", self.run.info.name);
                 self.run.end(1);
             }
         }

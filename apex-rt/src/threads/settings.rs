@@ -10,9 +10,9 @@ pub fn apply(info: &Info, group: &GroupInfo) -> Result<(), String> {
     let Err(reason) = set(group) else { return Ok(()) };
     let message = format!("{}: thread `{}` {reason}", info.name, group.name);
     if group.strict {
-        return Err(format!("{message}; the program ends because its text says `rights = strict`"));
+        return Err(format!("{message}; the program ends because of `rights = strict`"));
     }
-    eprintln!("{message}; it runs without");
+    eprintln!("{message}; it runs without these settings");
     Ok(())
 }
 

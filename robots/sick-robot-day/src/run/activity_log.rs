@@ -95,7 +95,7 @@ impl Observer for ActivityLog {
 
     fn endless(&mut self, nodes: &[usize], _counts: &[u32]) {
         let names: Vec<&str> = nodes.iter().map(|node| self.info.nodes[*node].name).collect();
-        self.fail(format!("tokens go round while the time stands still: `{}`", names.join("`, `")));
+        self.fail(format!("endless cycle of tokens at one point in time: `{}`", names.join("`, `")));
     }
 
     fn claim_failed(&mut self, claim: usize) {
