@@ -1,4 +1,4 @@
-//! The `apex` command: thin shells around the compiler.
+//! The `apex` command, a thin layer over the compiler.
 
 mod build;
 mod calls;
@@ -41,25 +41,25 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Check texts and say what is wrong with them.
+    /// Check source files and report errors.
     #[command(
         after_help = "--fix makes the changes of which there is no doubt, and says which; those that are guesses are shown as ever.\nExit code 0: no error is left.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
     )]
     Check {
-        /// The texts; of a folder all `.afg` below it.
+        /// Source files; a folder stands for all `.afg` files below it.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
-        /// How to say it.
+        /// Format of the output.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
-        /// Mend what can be mended without doubt.
+        /// Apply unambiguous fixes.
         #[arg(long)]
         fix: bool,
     },
-    /// Print what a shell needs to complete this command.
+    /// Print the completion script of a shell.
     #[command(after_help = "Example:\n  apex completions bash > ~/.local/share/bash-completion/completions/apex")]
     Completions {
-        /// The shell.
+        /// Shell.
         shell: clap_complete::Shell,
     },
     /// Write pages about graphs and nodes, with diagrams.
@@ -67,51 +67,53 @@ enum Command {
         after_help = "Texts that are imported get pages too, and so do the nodes that are used. The pages are HTML and need nothing else.\nA folder with other things in it is refused. If a text has errors, nothing is written.\n\nExample:\n  apex doc robot.afg\n  apex doc robots --output pages"
     )]
     Doc {
-        /// The texts; of a folder all `.afg` below it.
+        /// Source files; a folder stands for all `.afg` files below it.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
-        /// The folder to write to; without it, `apex/doc` below the target folder of the package.
+        /// Folder for the pages [default: `apex/doc` in the target folder of the package].
         #[arg(short, long, value_name = "FOLDER")]
         output: Option<PathBuf>,
     },
-    /// Bring texts into the one style of the language.
+    /// Format source files in the style of the language.
     #[command(
         after_help = "Texts with errors are left alone. Exit code 1: one has errors, or would be changed by what --check leaves undone.\n\nExample:\n  apex fmt robots\n  apex fmt --check robots/patsy/patsy.afg\n  apex fmt - < robot.afg"
     )]
     Fmt {
-        /// The texts; of a folder all `.afg` below it; `-` for standard input, formatted to standard output.
+        /// Source files; a folder stands for all `.afg` files below it, `-` for standard input, which is formatted to
+        /// standard output.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
-        /// Change nothing; say which texts would be changed.
+        /// Change no file; show the first difference of each file.
         #[arg(long)]
         check: bool,
     },
-    /// Print the Rust that a text is compiled to.
+    /// Print the Rust code to which a source file is compiled.
     Expand {
-        /// The text.
+        /// Source file.
         file: PathBuf,
     },
-    /// Print what the compiler has decided about a text, or what the code of a message means.
+    /// Print the decisions of the compiler about a source file, or the explanation of an error code.
     #[command(
         after_help = "Of a text: regions, guards, clusters, schedule, rates, pruning, memory, claims. Of a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain --memory robots/firmware/firmware.afg\n  apex explain missing-unit\n  apex explain --list"
     )]
     Explain {
-        /// The text, or a code such as `missing-unit`.
+        /// Source file, or a code such as `missing-unit`.
         #[arg(required_unless_present = "list", value_name = "FILE | CODE")]
         what: Option<PathBuf>,
         /// Print all codes.
         #[arg(long, exclusive = true)]
         list: bool,
-        /// How to say it.
+        /// Format of the output.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
         /// Print the Petri net of each program instead, as PNML.
         #[arg(long, conflicts_with = "format")]
         pnml: bool,
-        /// Print how many bytes each program has in memory instead, by node and by buffer. Builds it.
+        /// Print the memory of each program in bytes instead, by node and by buffer. Builds the program.
         #[arg(long, conflicts_with = "pnml")]
         memory: bool,
-        /// Print how long clusters take at worst and how busy each thread is instead, from a profile that `apex run --profile` made.
+        /// Print the longest times of clusters and the load of each thread instead, from a profile of `apex run
+        /// --profile`.
         #[arg(long, value_name = "FILE", conflicts_with_all = ["pnml", "memory"])]
         profile: Option<PathBuf>,
     },
@@ -120,55 +122,56 @@ enum Command {
         after_help = "Single lines are `->`, double ones `=>`. Data goes from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted ones lead from the one to the other. Coloured: where activity can be.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
     )]
     Graph {
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Which graph, robot or state machine. Without it: the only robot, else the only graph that is not part of another one, else
-        /// the only state machine.
+        /// Name of the graph, robot or state machine. Without it: the only robot, else the only graph that is not part
+        /// of another one, else the only other graph, else the only state machine.
         #[arg(long, alias = "robot", value_name = "NAME")]
         graph: Option<String>,
-        /// Only where activity can be, and where it goes, as a state diagram.
+        /// Draw only the nodes that can be active and the paths of activity, as a state diagram.
         #[arg(long)]
         activity: bool,
-        /// Opens nested graphs only so deep: 0 draws them as boxes with their ports, `all` opens everything. Without it, large
-        /// pictures have nested graphs closed, and chains of nodes as one box, until they can be read.
+        /// Open nested graphs to this depth: 0 draws them as boxes with their ports, `all` opens everything. Without
+        /// it, nested graphs are closed and chains of nodes are drawn as one box in large pictures, until they are
+        /// readable.
         #[arg(long, value_name = "N | all")]
         depth: Option<graph::Depth>,
-        /// The file to write; without it, standard output.
+        /// File to write [default: standard output].
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
-        /// What to write; without it, what the name of the file says.
+        /// Format of the picture [default: according to the name of the file].
         #[arg(long, value_enum)]
         format: Option<graph::Picture>,
     },
-    /// Turn a graph file of CS::APEX into a text.
+    /// Convert a graph file of CS::APEX to a source file.
     #[command(
         after_help = "What the library does not have stands in the text with a comment; --nodes writes Rust for it, to be filled in.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
     )]
     Import {
-        /// The graph file: .apex, or a snippet .apexs.
+        /// Graph file: .apex, or a snippet .apexs.
         file: PathBuf,
-        /// Where the text is written, if not to standard output.
+        /// Source file to write [default: standard output].
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
-        /// Writes skeletons of the node types that the library does not have into this Rust file.
+        /// Write skeletons of the node types that the library lacks to this Rust file.
         #[arg(long, value_name = "FILE")]
         nodes: Option<PathBuf>,
     },
-    /// Serve an editor: the language server, on standard input and output.
+    /// Start the language server for an editor, on standard input and output.
     #[command(after_help = "Editors start it themselves; docs/editors.md says how to set them up.")]
     Lsp,
-    /// Make a project that works at once.
+    /// Create a project that works at once.
     #[command(
         after_help = "Example:\n  apex new my-robot\n  cd my-robot\n  apex check robot.afg\n  apex test robot.afg\n  cargo run"
     )]
     New {
-        /// The folder of the project; its name is that of the package.
+        /// Folder of the project; its name becomes that of the package.
         #[arg(value_name = "NAME")]
         folder: PathBuf,
-        /// The kind of project.
+        /// Kind of project.
         #[arg(long, value_enum, default_value_t)]
         template: new::Template,
-        /// The checkout that the crates of Apex are taken from, if not the one that this command was built from.
+        /// Checkout that contains the crates of Apex [default: the checkout from which this command was built].
         #[arg(long, value_name = "FOLDER")]
         path: Option<PathBuf>,
     },
@@ -177,41 +180,41 @@ enum Command {
         after_help = "A node has to do with a word that stands in its path, its documentation, or a port or parameter of it. If one is named\nexactly so, or only one is left, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
     )]
     Nodes {
-        /// Only nodes that have to do with all of these words.
+        /// Words that a node must match.
         words: Vec<String>,
-        /// The folder of the package, if not the current one.
+        /// Folder of the package [default: the current folder].
         #[arg(long, value_name = "FOLDER", default_value = ".", hide_default_value = true)]
         package: PathBuf,
-        /// Print all about them as a page in Markdown.
+        /// Print the full descriptions as a page in Markdown.
         #[arg(long)]
         markdown: bool,
     },
-    /// Repeat a recorded run, and say what comes out differently.
+    /// Repeat a recorded run and report the differences.
     #[command(
         after_help = "The robot is built, and takes what its sources sent, at the times at which they did. What it makes of that is compared with\nthe recording, token by token, for the ports that its `record` statement names.\nExit code 0: all the same, 1: something was different or is missing (or the text has errors).\n\nExample:\n  apex run robot.afg --record run.mcap\n  apex replay run.mcap robot.afg"
     )]
     Replay {
-        /// The recording (MCAP), by `apex run --record` or a `record` statement.
+        /// Recording (MCAP) from `apex run --record` or a `record` statement.
         recording: PathBuf,
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Which robot or graph, if the text has several.
+        /// Name of the robot or graph, if the source file has several.
         #[arg(long)]
         robot: Option<String>,
-        /// Sets parameters from this file (TOML) before the run, as `apex run` does.
+        /// Set parameters from this file (TOML) before the run, as `apex run` does.
         #[arg(long, value_name = "FILE")]
         params: Option<PathBuf>,
         #[command(flatten)]
         how: Building,
     },
-    /// Run the tests of a text on simulated time.
+    /// Run the tests of a source file in simulated time.
     #[command(
         after_help = "If the package of the text compiles it with `graph!(\"…\")`, those are the tests, and `cargo test` runs them too. Otherwise\na package is made for them, below the target folder. Either way what `cargo build` has built is not built again.\nExit code 0: all passed, 1: one failed (or the text has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
     )]
     Test {
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Only the tests whose names contain this.
+        /// Text that the names of the tests must contain.
         filter: Option<String>,
         #[command(flatten)]
         how: Building,
@@ -221,25 +224,27 @@ enum Command {
         after_help = "If the package of the text has a program of its own, that is run, with ARGS. Otherwise a program is made\nthat drives the robot by the machine's clock. Only that one takes --params and --save-params: a program of your\nown calls `apex_rt::params::load_file` and `save_file`.\nIt is built as `cargo build` does it, in the same folder, and what is there already is not built again.\nExit code: that of the program (0, or 1 after `abort`); 1 if the text has errors, 2 if it could not be built or started.\n\nExample:\n  apex run robot.afg\n  apex run --release --robot Rover robot.afg -- --fast\n  apex run --record run.mcap robot.afg"
     )]
     Run {
-        /// The text.
+        /// Source file.
         file: PathBuf,
-        /// Which robot or graph, if the text has several.
+        /// Name of the robot or graph, if the source file has several.
         #[arg(long)]
         robot: Option<String>,
-        /// Sets parameters from this file (TOML) before the robot runs; others keep what the text says.
+        /// Set parameters from this file (TOML) before the robot runs; all others keep their values from the source
+        /// file.
         #[arg(long, value_name = "FILE")]
         params: Option<PathBuf>,
-        /// Writes all parameters into this file when the run ends, also by Ctrl-C.
+        /// Write all parameters to this file when the run ends, also by Ctrl-C.
         #[arg(long, value_name = "FILE")]
         save_params: Option<PathBuf>,
-        /// Builds and starts it anew whenever its text or the Rust beside it changes; Ctrl-C ends both.
+        /// Build and start the robot again whenever its source file or Rust code changes, until Ctrl-C.
         #[arg(long)]
         watch: bool,
-        /// Measures every node: writes a trace for Perfetto or Chrome into this file, and a table when the run ends, also by Ctrl-C.
+        /// Measure every node: write a trace for Perfetto or Chrome to this file, and print a table when the run ends,
+        /// also by Ctrl-C.
         #[arg(long, value_name = "FILE")]
         profile: Option<PathBuf>,
-        /// Records everything that enters the robot, and what its `record` statement names, in this file (MCAP); a file that is
-        /// there is kept, and the next one has a number.
+        /// Record everything that enters the robot, and the ports of its `record` statement, to this file (MCAP). An
+        /// existing file is kept; the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
         #[command(flatten)]
@@ -250,13 +255,13 @@ enum Command {
     },
 }
 
-/// How a program is built.
+/// Options of a build.
 #[derive(clap::Args)]
 struct Building {
-    /// Build it optimised, as `cargo build --release` does.
+    /// Build with optimisations, as `cargo build --release` does.
     #[arg(long)]
     release: bool,
-    /// Say nothing about building but what is wrong; without it there is cargo's progress, or a line for each crate.
+    /// Print only the errors of the build, instead of cargo's progress or a line for each crate.
     #[arg(short, long)]
     quiet: bool,
 }
@@ -267,7 +272,7 @@ impl Building {
     }
 }
 
-/// How results are printed.
+/// Format of results.
 #[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// For people.
