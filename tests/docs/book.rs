@@ -81,7 +81,7 @@ fn the_licences_of_the_manifest_are_there() {
     assert_eq!(names.len(), 2);
 }
 
-/// What a page describes is there: no page for those who come from elsewhere says that it is missing.
+/// Features that a page describes exist: no page for newcomers from other systems calls them missing.
 #[test]
 fn what_is_there_is_not_denied() {
     let topics = [

@@ -90,7 +90,7 @@ struct Package {
     file: &'static str,
 }
 
-/// What the compiler says of a text.
+/// Result of the compiler for a source file.
 struct Checked {
     messages: Vec<String>,
     programs: Vec<Program>,
@@ -160,7 +160,7 @@ fn with_messages(page: &str, package: &mut Package, count: &mut usize) -> String
     text
 }
 
-/// With `APEX_UPDATE_EXPECTATIONS=1` the pages are written anew.
+/// With `APEX_UPDATE_EXPECTATIONS=1` the pages are written again.
 #[test]
 fn what_the_documentation_shows_of_the_compiler_is_real() {
     let (mut rover, mut tests) = (Package::of(TOUR), Package::of("README.md"));
@@ -176,7 +176,7 @@ fn what_the_documentation_shows_of_the_compiler_is_real() {
         if update {
             fs::write(root().join(&name), &real).unwrap();
         } else {
-            assert_eq!(page, real, "{name}: APEX_UPDATE_EXPECTATIONS=1 writes it anew");
+            assert_eq!(page, real, "{name}: APEX_UPDATE_EXPECTATIONS=1 writes it again");
         }
     }
     assert!(count > 5, "only {count} errors were found");

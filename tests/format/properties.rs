@@ -1,4 +1,4 @@
-//! What is true of the formatter for every text.
+//! Properties that the formatter has for every source file.
 
 use apex_dsl::{
     format,

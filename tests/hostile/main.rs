@@ -1,5 +1,5 @@
-//! Texts that somebody wrote to hurt: each ends in diagnostics or in a program, soon, on a thread with the stack that
-//! threads have by default. Small ones stand in `corpus/`, large ones are made here.
+//! Hostile source files: each ends in diagnostics or in a program, soon, on a thread with the default stack size.
+//! Small ones are in `corpus/`, large ones are made here.
 
 #[path = "../errors/compile.rs"]
 mod compile;

@@ -1,5 +1,5 @@
-//! What threads share, with every order in which they can reach it (loom): the sources of the runtime are compiled here with
-//! the atomics of the model checker.
+//! Data shared by threads, in every order of accesses (loom): the sources of the runtime are compiled here with the
+//! atomics of the model checker.
 #![allow(dead_code, unsafe_code, missing_docs, reason = "the runtime uses and documents it")]
 
 mod sync {
@@ -34,7 +34,7 @@ use loom::{
     thread,
 };
 
-/// A cell whose ends may go to threads of the model: they need it for ever.
+/// A cell whose ends may go to threads of the model, which need it forever.
 fn ends() -> (CellSender<'static, u32>, CellReceiver<'static, u32>) {
     Box::leak(Box::new(TokenCell::new(0))).ends()
 }
@@ -97,8 +97,8 @@ fn shared(groups: usize) -> Arc<Shared<Bell>> {
     Arc::new(Shared::new((0..groups).map(|_| Bell(Notify::new()))))
 }
 
-/// What the thread of a group does: it `works` until it has nothing to do, and sleeps then. `work` says whether it wants to be
-/// called again at once.
+/// Body of a group's thread: calls `work` until nothing is left to do, and then sleeps. `work` returns `true` if it
+/// must be called again at once.
 fn group(shared: &Shared<Bell>, number: usize, mut work: impl FnMut(&Shared<Bell>)) {
     while !shared.is_stopped() {
         shared.begin(number);

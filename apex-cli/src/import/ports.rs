@@ -32,7 +32,7 @@ pub enum PortId {
 }
 
 impl PortId {
-    /// Whether its tokens are of type `()`, whatever they are there.
+    /// Returns `true` if the tokens of the port are of type `()` in Apex, independently of their type in CS::APEX.
     pub fn sends_signals(&self) -> bool {
         match self {
             Self::Node(_, port) => port.common().is_some(),

@@ -45,7 +45,7 @@ use parts::{Inner, Lamp};
 ///     total
 /// ```
 robot Robot(
-    /// How far.
+    /// Length of a step.
     step: f64[m] = 3m in 1..=5,
 ) {
     node inner = Inner();
@@ -66,7 +66,7 @@ test adds: Inner {
 const PARTS: &str = "\
 /// A part that stands in a robot.
 graph Inner {
-    /// What is added.
+    /// Value to add.
     in   x: u64;
     slot go;
     slot clear;

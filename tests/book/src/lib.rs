@@ -1,4 +1,4 @@
-//! The documentation as a book of HTML pages, made with mdBook as a library: nobody has to install it.
+//! The documentation as a book of HTML pages, made with mdBook as a library, so that it need not be installed.
 
 use mdbook_driver::MDBook;
 use std::path::{Path, PathBuf};

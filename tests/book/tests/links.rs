@@ -44,7 +44,7 @@ fn resolved(page: &Path, target: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// What is wrong with a link.
+/// Fault of a link, if it has one.
 fn fault(folder: &Path, pages: &BTreeMap<PathBuf, String>, page: &Path, link: &str) -> Option<String> {
     let (target, anchor) = link.split_once('#').map_or((link, None), |(target, anchor)| (target, Some(anchor)));
     let path = if target.is_empty() { Some(page.to_owned()) } else { resolved(page, target) };

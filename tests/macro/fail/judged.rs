@@ -1,4 +1,4 @@
-//! What only rustc can judge, of nodes and tokens: its message names the node, the port and the line of the text.
+//! Bounds of nodes and tokens that only rustc can check: its message names the node, the port and the line.
 use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::{ops::Add, rc::Rc};
