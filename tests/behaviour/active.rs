@@ -1,4 +1,4 @@
-//! More of activity: what keeps it and what loses it, nested graphs, resets, delays, `timeout`.
+//! More tests of activity: keeping and losing it, nested graphs, resets, delays, `timeout`.
 
 use apex_rt::prelude::*;
 use apex_tests::{Log, active, active_after_each, react, simulate};

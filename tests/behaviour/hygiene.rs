@@ -1,11 +1,11 @@
-//! Names that collide with nothing, whatever they are.
+//! Generated names do not collide with any others.
 
 use apex_rt::prelude::*;
 use apex_tests::react;
 
 graph!("hygiene.afg");
 
-/// As the generated code calls its own things, and as it would call those of `Arm`.
+/// Items with the names that generated code uses, in general and for `Arm`.
 #[allow(non_camel_case_types, non_upper_case_globals, dead_code)]
 mod beside {
     pub const nodes: u8 = 0;

@@ -1,4 +1,4 @@
-//! The second line of the message is the place in the text.
+//! The second line of the message is the place in the source file.
 use apex_rt::prelude::*;
 
 #[node]

@@ -1,4 +1,4 @@
-//! rustc underlines the very token.
+//! rustc underlines the exact token.
 use apex_rt::prelude::*;
 
 #[node]

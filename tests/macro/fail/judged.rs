@@ -1,10 +1,10 @@
-//! What only rustc can judge, of nodes and tokens: its message names the node, the port and the line of the text.
+//! Errors that only rustc can detect, for nodes and tokens: its message names the node, the port and the line.
 use apex_rt::prelude::*;
 use std::{ops::Add, rc::Rc};
 
 pub struct Image;
 
-/// Neither `Default` nor `Send`.
+/// A type without `Default` and `Send`.
 pub struct Lens(Rc<u8>);
 
 #[node]
@@ -12,7 +12,7 @@ pub fn camera() -> Image {
     Image
 }
 
-/// Sums up its tokens.
+/// Sums its tokens.
 #[node]
 #[derive(Default)]
 pub struct Total<T> {

@@ -1,4 +1,4 @@
-//! What only rustc can judge, of thread groups: whether nodes and tokens can be moved to another thread.
+//! Errors that only rustc can detect, for thread groups: nodes or tokens that cannot be moved to another thread.
 use apex_rt::prelude::*;
 use std::rc::Rc;
 

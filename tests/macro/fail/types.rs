@@ -1,4 +1,4 @@
-//! What only rustc can see: the type behind a trait.
+//! Errors that only rustc can detect: the type behind a trait.
 use apex_rt::prelude::*;
 
 pub struct Image;
