@@ -83,7 +83,7 @@ fn there_is_no_room_before_the_receiver_is_done() {
     });
 }
 
-/// A thread that sleeps until it is rung.
+/// A wake-up call for a thread of the model.
 #[derive(Default)]
 struct Bell(Notify);
 
@@ -114,7 +114,7 @@ fn group(shared: &Shared<Bell>, number: usize, mut work: impl FnMut(&Shared<Bell
 #[test]
 fn all_groups_stop_when_nothing_can_happen_and_not_before() {
     let mut builder = loom::model::Builder::new();
-    // All orders would take hours; errors of this kind need few changes of the thread that runs.
+    // All orders would take hours; errors of this kind need only a few preemptions.
     builder.preemption_bound = Some(2);
     builder.check(|| {
         let (mut sender, mut receiver) = ends();
@@ -163,14 +163,14 @@ fn who_may_wait_was_not_woken_before() {
         shared.begin(0);
         let wakes = thread::spawn(move || other.wake(0));
         if shared.may_wait(0) {
-            // It was not told yet: it will be rung.
+            // This thread was not notified yet, so its alarm will ring.
             shared.alarm(0).0.wait();
         }
         wakes.join().expect("it does not panic");
     });
 }
 
-/// A thread that can be rung as soon as it has begun, as one of the machine can.
+/// An alarm that can ring as soon as its thread has begun, as for an operating-system thread.
 struct Late {
     began: AtomicBool,
     bell: Notify,
@@ -222,7 +222,7 @@ fn who_watches_sees_a_group_that_hangs() {
             if other.wakes_watch() {
                 stirs.notify();
             }
-            // It hangs until somebody sees it.
+            // It hangs until the watchdog detects it.
             hangs.wait();
         });
         while shared.may_watch_sleep() {

@@ -5,7 +5,7 @@ use std::{ops::Add, rc::Rc};
 
 pub struct Image;
 
-/// Neither `Default` nor `Send`.
+/// A type without `Default` and `Send`.
 pub struct Lens(Rc<u8>);
 
 #[node]
@@ -13,7 +13,7 @@ pub fn camera() -> Image {
     Image
 }
 
-/// Sums up its tokens.
+/// Sums its tokens.
 #[node]
 #[derive(Default)]
 pub struct Total<T> {
