@@ -1,9 +1,9 @@
-//! Programs that wait for other threads: they sleep, they are woken, and they end when nobody can wake them any more.
+//! Programs that wait for other threads: they sleep, are woken, and end when no thread can wake them any more.
 
 use apex_rt::{PortReceiver, PortSender, Ports, Switch, UntilStopped, drive, drive_from, prelude::*};
 use std::{cell::Cell, thread};
 
-/// Gives what comes to the event.
+/// Passes tokens on by an event.
 #[node]
 #[derive(Default)]
 pub struct Echo;
@@ -16,7 +16,7 @@ impl Echo {
     }
 }
 
-/// Plays for ever, and turns the switch after a while.
+/// Plays forever, and turns the switch after a while.
 #[node]
 #[derive(Default)]
 pub struct Tired {
@@ -41,7 +41,7 @@ impl Tired {
 graph! {
     use crate::{real::{Once, Player}, waits::{Echo, Tired}};
 
-    /// What comes in goes out again.
+    /// Returns every token.
     graph Answers {
         slot  question: i64;
         slot  end;
@@ -52,7 +52,7 @@ graph! {
         end       -> exit;
     }
 
-    /// The same by way of another thread.
+    /// The same through another thread.
     graph Far {
         slot  question: i64;
         slot  end;
@@ -65,7 +65,7 @@ graph! {
         end       -> exit;
     }
 
-    /// A match without end between two threads, none of which is ever idle.
+    /// An endless match between two threads that are never idle.
     graph Endless {
         node home  = Tired();
         node away  = Player(limit = 9223372036854775807) on other;
@@ -77,7 +77,7 @@ graph! {
     }
 }
 
-/// Asks three times, each time when the answer has come; then drops the ends.
+/// Asks three times, each time after the previous answer, then drops the ends.
 fn ask(questions: PortSender<i64>, answers: PortReceiver<i64>) -> Vec<i64> {
     let ask = |question| {
         questions.send(question).expect("the program waits as long as it can be asked");
@@ -86,7 +86,7 @@ fn ask(questions: PortSender<i64>, answers: PortReceiver<i64>) -> Vec<i64> {
     [1, 2, 3].map(ask).to_vec()
 }
 
-/// The machine's clock, which counts how often it is to wait for ever.
+/// The machine's clock, which counts the waits without a time limit.
 #[derive(Clone, Copy)]
 struct Counted<'a> {
     clock: WallClock,
@@ -115,7 +115,7 @@ fn a_program_waits_for_input_as_long_as_somebody_can_give_it() {
     let asks = thread::spawn(|| ask(questions, answers));
     assert_eq!(drive_from(Answers::new(), Counted { clock: WallClock::new(), waits: &waits }, ports), 0);
     assert_eq!(asks.join().expect("it does not panic"), [10, 20, 30]);
-    // Each question wakes it, each answer that is taken may, and the end of both does.
+    // Each question wakes it, each taken answer may, and so does the end of both.
     assert!((1..=9).contains(&waits.get()), "it waited {} times", waits.get());
 }
 
@@ -140,7 +140,7 @@ fn a_token_that_is_not_taken_is_given_back() {
     assert_eq!((questions.put(1), questions.put(2)), (Ok(()), Err(2)), "nobody drives it yet");
     let other = questions.clone();
     let asks = thread::spawn(move || {
-        // Nobody takes the answers: one waits at this end, one in the program, and then questions are held back.
+        // The answers are not taken: one is in this end, one in the program, and then questions are held back.
         let given: Vec<i64> = (2..).take_while(|question| other.send(*question).is_ok() && *question < 4).collect();
         assert_eq!(end.put(()), Ok(()));
         given
