@@ -145,7 +145,7 @@ pub fn write(top: &Graph) -> Result<String, String> {
     let mut rust = format!(
         "//! Nodes of a graph of CS::APEX, to be filled in. Ports carry `{MESSAGE}` until they get types of their own.\n\
          use apex_rt::prelude::*;\n\n\
-         /// What ports carry whose types are not known yet.\n\
+         /// Token of ports whose types are not known yet.\n\
          #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]\npub struct {MESSAGE};\n"
     );
     for (ty, shown) in types(top) {
