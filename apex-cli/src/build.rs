@@ -1,4 +1,5 @@
-//! Cargo builds programs here: in the target folder of the workspace, so that what is there already is not built again.
+//! Builds of programs with cargo. They use the target folder of the workspace, so that finished crates are not built
+//! again.
 
 use crate::project::print_error;
 use apex_host::{Workspace, cargo, no_cargo};
@@ -17,25 +18,25 @@ use std::{
 pub struct Wanted {
     /// Arguments of cargo that select the crate.
     pub select: Vec<OsString>,
-    /// The folder of its package.
+    /// Folder of its package.
     pub package: PathBuf,
-    /// The root of the workspace that is worked in, with what its user has set up for cargo.
+    /// Root of the workspace in which the command works; its cargo configuration applies.
     pub root: PathBuf,
-    /// The target folder.
+    /// Target folder.
     pub target: PathBuf,
 }
 
-/// The settings of a build.
+/// Settings of a build.
 #[derive(Clone, Copy, Default)]
 pub struct How {
-    /// As `cargo build --release` does.
+    /// `true` for an optimised build, as with `cargo build --release`.
     pub release: bool,
-    /// Prints errors only.
+    /// `true` to print errors only.
     pub quiet: bool,
 }
 
 impl How {
-    /// As these say, or the user's settings for cargo.
+    /// Settings with these values; the build is also quiet if the user's `CARGO_TERM_QUIET` says so.
     pub fn new(release: bool, quiet: bool) -> Self {
         Self { release, quiet: quiet || env::var_os("CARGO_TERM_QUIET").is_some_and(|value| value == "true") }
     }
@@ -45,17 +46,17 @@ impl How {
 pub struct Built {
     executable: PathBuf,
     package: PathBuf,
-    /// The folders with libraries that it may load.
+    /// Folders with shared libraries that the program may load.
     libraries: Vec<PathBuf>,
 }
 
 impl Built {
-    /// Starts it, with what cargo would tell it.
+    /// Command that starts the program, with the environment variables that cargo would set.
     pub fn command(&self) -> Command {
         let mut command = Command::new(&self.executable);
         let before = env::var_os(LIBRARY_PATH).unwrap_or_default();
         let all = self.libraries.iter().cloned().chain(env::split_paths(&before).filter(|p| !p.as_os_str().is_empty()));
-        // A folder whose name cannot be in the list is left to the system.
+        // A folder whose name contains the separator cannot be in the list.
         if let Ok(all) = env::join_paths(all) {
             command.env(LIBRARY_PATH, all);
         }
@@ -63,13 +64,13 @@ impl Built {
         command
     }
 
-    /// Says why it does not start.
+    /// Error message for a program that does not start.
     pub fn not_started(&self, reason: &io::Error) -> String {
         format!("cannot run `{}`: {reason}", self.executable.display())
     }
 }
 
-/// The variable with the folders in which the system looks for shared libraries.
+/// Environment variable with the folders in which the system looks for shared libraries.
 const LIBRARY_PATH: &str = if cfg!(windows) {
     "PATH"
 } else if cfg!(target_os = "macos") {
@@ -78,15 +79,15 @@ const LIBRARY_PATH: &str = if cfg!(windows) {
     "LD_LIBRARY_PATH"
 };
 
-/// A lock on making packages, building them and starting the program. It is released when it is dropped, or when the
+/// Lock on making packages, building them and starting the program. It is released when it is dropped, or when the
 /// process becomes the program, so that no other command replaces the program in between.
 pub struct Turn(#[expect(dead_code, reason = "it is locked as long as it is open")] Option<File>);
 
-/// The mark of a cache folder, which backups and searches leave out: <https://bford.info/cachedir/>.
+/// Tag of a cache folder, which backups and searches leave out: <https://bford.info/cachedir/>.
 const MARK: &str = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by `apex`.\n";
 
 impl Turn {
-    /// Waits for the lock, and says so.
+    /// Waits for the lock, with a message if another process holds it.
     pub fn wait(workspace: &Workspace, how: How) -> Result<Self, String> {
         let folder = workspace.cache_folder();
         let failed = |e: io::Error| format!("cannot write in `{}`: {e}", folder.display());
@@ -103,13 +104,14 @@ impl Turn {
                 lock.lock().map_err(failed)?;
                 Ok(Self(Some(lock)))
             }
-            // Where files cannot be locked, cargo has no lock either.
+            // On file systems without locks, cargo has none either.
             Err(TryLockError::Error(_)) => Ok(Self(None)),
         }
     }
 }
 
-/// Writes a file, unless it has this text already: cargo compares times of files. Returns whether it wrote.
+/// Writes a file unless it has this content already, because cargo compares modification times. Returns `true` if it
+/// wrote.
 pub fn write_if_other(path: &Path, text: &str) -> Result<bool, String> {
     if fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
         return Ok(false);
@@ -120,7 +122,7 @@ pub fn write_if_other(path: &Path, text: &str) -> Result<bool, String> {
     Ok(true)
 }
 
-/// Cargo, as it is called for a crate.
+/// Cargo command for a crate.
 fn cargo_for(wanted: &Wanted, verb: &[&str], how: How) -> Command {
     let mut command = cargo();
     command.args(verb).args(&wanted.select).current_dir(&wanted.root).env("CARGO_TARGET_DIR", &wanted.target);
@@ -129,22 +131,25 @@ fn cargo_for(wanted: &Wanted, verb: &[&str], how: How) -> Command {
     command
 }
 
-/// Arguments with which cargo builds a program, or tests.
+/// Arguments of cargo that build a program.
 pub const PROGRAM: &[&str] = &["build"];
 pub const TESTS: &[&str] = &["test", "--no-run"];
 
-/// The result of a build.
+/// Result of a build.
 pub enum Outcome {
     /// A program.
     Built(Built),
-    /// No program: the crate has none, or no tests.
+    /// No program: the crate has no binary, or no tests.
     Nothing,
-    /// Errors, which cargo has printed.
+    /// Compile errors, which cargo has printed.
     Broken,
 }
 
 impl Outcome {
-    /// The program, where there has to be one; nothing if it has errors.
+    /// The program, or `None` after compile errors.
+    ///
+    /// # Errors
+    /// Fails if the crate has no program.
     pub fn program(self) -> Result<Option<Built>, String> {
         match self {
             Self::Built(built) => Ok(Some(built)),
@@ -156,7 +161,7 @@ impl Outcome {
 
 /// Builds a program, or its tests.
 ///
-/// A terminal shows cargo's progress. Otherwise there is a line for each crate that is compiled.
+/// A terminal shows cargo's progress. Otherwise one line is printed for each crate that is compiled.
 pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String> {
     let mut command = cargo_for(wanted, verb, how);
     let sees_progress = io::stderr().is_terminal();
@@ -166,14 +171,14 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
     let progress = child.stderr.take().map(|lines| thread::spawn(move || pass_on(lines)));
     let messages = Messages::read(&mut child, verb == TESTS)?;
     if let Some(progress) = progress {
-        // It only prints.
+        // The thread only prints; a panic in it does not matter.
         let _ = progress.join();
     }
     if !child.wait().map_err(|e| no_cargo(&e))?.success() {
         return Ok(Outcome::Broken);
     }
     if sees_progress && !how.quiet && !messages.is_new {
-        // The line by which cargo says that it had nothing to do.
+        // Erases the line that reports that nothing had to be done.
         eprint!("\x1b[1A\x1b[2K");
     }
     let Some(executable) = messages.executable else { return Ok(Outcome::Nothing) };
@@ -184,7 +189,7 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
     Ok(Outcome::Built(Built { executable, package: wanted.package.clone(), libraries }))
 }
 
-/// Prints what cargo says as it goes on, but not that it is done.
+/// Prints cargo's progress messages, without the final ones that report the end of the build.
 fn pass_on(lines: impl Read) {
     for line in BufReader::new(lines).split(b'\n').map_while(Result::ok) {
         let line = String::from_utf8_lossy(&line);
@@ -195,19 +200,19 @@ fn pass_on(lines: impl Read) {
     }
 }
 
-/// Cargo's messages for programs.
+/// Cargo's messages about the built programs.
 #[derive(Default)]
 struct Messages {
-    /// Whether anything was compiled.
+    /// `true` if any crate was compiled.
     is_new: bool,
-    /// The last program.
+    /// Executable of the last program.
     executable: Option<PathBuf>,
     /// Folders into which build scripts have put libraries.
     linked: Vec<PathBuf>,
 }
 
 impl Messages {
-    /// Reads all of them; what is built is a program, or `tests`.
+    /// Reads all messages of a build of a program, or of `tests`.
     fn read(child: &mut Child, tests: bool) -> Result<Self, String> {
         let mut messages = Self::default();
         let Some(output) = child.stdout.take() else { return Ok(messages) };

@@ -1,4 +1,4 @@
-//! Where the Rust of a package compiles a text with `graph!("…")`.
+//! Calls of `graph!("…")` in the Rust code of a package.
 
 use apex_dsl::syntax::MAX_BYTES;
 use apex_host::read_text;
@@ -9,13 +9,13 @@ use std::{
 };
 use syn::{Attribute, Expr, ExprLit, Item, Lit, LitStr, Meta};
 
-/// A call that compiles the text.
+/// A call that compiles the source file.
 pub struct Call {
-    /// The modules around it, from the root of its crate on.
+    /// Modules around the call, from the root of its crate.
     pub module: Vec<String>,
 }
 
-/// The calls that compile `text` in the crate with this root file, in the package in `folder`.
+/// Finds the calls that compile `text` in the crate with this root file, in the package in `folder`.
 pub fn find(root: &Path, folder: &Path, text: &Path) -> Vec<Call> {
     let mut search = Search { folder, text, files: BTreeSet::new(), calls: vec![] };
     search.file(root, root.parent().unwrap_or(Path::new(".")), &mut vec![]);
@@ -25,13 +25,14 @@ pub fn find(root: &Path, folder: &Path, text: &Path) -> Vec<Call> {
 struct Search<'a> {
     folder: &'a Path,
     text: &'a Path,
-    /// The files that have been read: one that contains itself has no end.
+    /// Files that have been read: a file may contain itself as a module.
     files: BTreeSet<PathBuf>,
     calls: Vec<Call>,
 }
 
 impl Search<'_> {
-    /// Looks through a file whose modules lie in `below`. What cannot be read has no calls: the compiler says why.
+    /// Searches a file whose modules are in the folder `below`. A file that cannot be read has no calls; rustc reports
+    /// it.
     fn file(&mut self, file: &Path, below: &Path, module: &mut Vec<String>) {
         let Ok(text) = read_text(file, MAX_BYTES) else { return };
         if fs::canonicalize(file).is_ok_and(|file| self.files.insert(file))
@@ -41,7 +42,7 @@ impl Search<'_> {
         }
     }
 
-    /// Whether it is `graph!` with the text.
+    /// `true` for a `graph!` with the source file.
     fn is_call(&self, item: &syn::ItemMacro, file: &Path) -> bool {
         item.mac.path.segments.last().is_some_and(|last| last.ident == "graph")
             && item.mac.parse_body::<LitStr>().is_ok_and(|name| self.is_meant(&name.value(), file))
@@ -76,8 +77,8 @@ impl Search<'_> {
         }
     }
 
-    /// Whether a call in `file` means the text: it is looked for beside the file first, then in the folder of the
-    /// package.
+    /// `true` if `name` in a call in `file` refers to the source file. A path is relative to the folder of `file`, or
+    /// else to the folder of the package.
     fn is_meant(&self, name: &str, file: &Path) -> bool {
         let beside = file.with_file_name(name);
         let path = if beside.is_file() { beside } else { self.folder.join(name) };
@@ -85,7 +86,7 @@ impl Search<'_> {
     }
 }
 
-/// The value of `#[path = "…"]`.
+/// Value of the attribute `#[path = "…"]`.
 fn path(attributes: &[Attribute]) -> Option<String> {
     attributes.iter().find_map(|attribute| match &attribute.meta {
         Meta::NameValue(value) if value.path.is_ident("path") => match &value.value {

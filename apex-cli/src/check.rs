@@ -4,7 +4,8 @@ use crate::{Format, fix, project, texts};
 use apex_dsl::report::json;
 use std::{path::PathBuf, process::ExitCode};
 
-/// Checks texts and all texts in folders, with `mend` after what can be mended; 1 if one has errors.
+/// Checks source files and all source files in folders. With `mend` it first applies unambiguous fixes. The exit code
+/// is 1 if an error is left.
 pub fn run(paths: &[PathBuf], format: Format, mend: bool) -> Result<ExitCode, String> {
     let mut failed = false;
     let mut messages = vec![];

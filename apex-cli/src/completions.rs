@@ -1,4 +1,4 @@
-//! `apex completions`: what a shell needs to complete the command.
+//! `apex completions`: scripts by which a shell completes the command.
 
 use crate::{Arguments, project};
 use clap::CommandFactory as _;

@@ -12,21 +12,21 @@ use std::{
     process::ExitCode,
 };
 
-/// What is shown of a text.
+/// Part of an explanation of a source file.
 pub enum Shown {
-    /// What the compiler has decided.
+    /// Decisions of the compiler.
     Decisions,
     /// The program that Rust is generated from.
     Program,
     /// The Petri net.
     Net,
-    /// How many bytes there are of what.
+    /// Memory of each part, in bytes.
     Memory,
-    /// How long what takes, as this profile says.
+    /// Execution times, from this profile.
     Times(PathBuf),
 }
 
-/// Explains a text or a code; without either, lists the codes.
+/// Explains a source file or a code; without either, lists the codes.
 pub fn run(what: Option<&Path>, format: Format, shown: Shown) -> Result<ExitCode, String> {
     let Some(what) = what else {
         let lines: Vec<_> = PAGES.iter().map(|(code, page)| format!("{code:<24}{}", first_sentence(page))).collect();
@@ -56,7 +56,7 @@ fn code(code: &str) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What a page says at first.
+/// First sentence of a page.
 fn first_sentence(page: &str) -> &str {
     let text = page.split("\n\n").nth(1).unwrap_or_default().trim_end();
     text.split_once(". ").map_or(text.trim_end_matches('.'), |(first, _)| first)
@@ -94,7 +94,7 @@ fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints the Petri net of each program of a text.
+/// Prints the Petri net of each program of a source file.
 fn net(file: &Path) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
     checked.print_diagnostics();

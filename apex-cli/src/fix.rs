@@ -1,4 +1,4 @@
-//! `apex check --fix`: makes the changes of which there is no doubt.
+//! `apex check --fix`: applies unambiguous fixes.
 
 use crate::{project::Checker, replace::replace};
 use apex_dsl::{
@@ -8,17 +8,16 @@ use apex_dsl::{
 };
 use std::{path::Path, sync::Arc};
 
-/// A text in which so many changes were made is one that makes new errors out of changes.
+/// Maximum number of changes: beyond it, fixes cause new errors without end.
 const MAX_CHANGES: usize = 1000;
 
-/// Mends `file` and says what was changed. A change that mends nothing, or after which there are more
-/// errors, is taken back.
+/// Fixes `file` and returns the changes. A fix that does not remove its error, or adds errors, is undone.
 pub fn file(file: &Path) -> Result<Vec<String>, String> {
     let mut checker = Checker::new(file)?;
     let before = checker.read(file)?;
     let mut text = before.clone();
     let mut changes = vec![];
-    // Those that made nothing better.
+    // Fixes that were undone.
     let mut useless: Vec<(String, Fix)> = vec![];
     while changes.len() < MAX_CHANGES {
         let (sources, diagnostics, _) = checker.check(file, text.clone());
@@ -29,7 +28,7 @@ pub fn file(file: &Path) -> Result<Vec<String>, String> {
         if mends(&diagnostics, &after, &message) {
             changes.push(said(&sources, &message, &fix));
             text = mended;
-            // The places have moved.
+            // The positions of the other errors have changed.
             useless.clear();
         } else {
             useless.push((message, fix));
@@ -41,7 +40,7 @@ pub fn file(file: &Path) -> Result<Vec<String>, String> {
     Ok(changes)
 }
 
-/// What was wrong where, and what was done.
+/// Message about a fix: place, error and change.
 fn said(sources: &Sources, message: &str, fix: &Fix) -> String {
     let (line, column) = sources.line_column(fix.span.file, fix.span.start);
     format!("fixed {}:{line}:{column}: {message}: {}", sources.get(fix.span.file).path.display(), fix.title)

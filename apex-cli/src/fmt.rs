@@ -13,17 +13,17 @@ use std::{
     process::ExitCode,
 };
 
-/// What became of a text.
+/// Result of formatting a source file.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
     Fine,
-    /// It has errors, or is not in the style and was only looked at.
+    /// The source file has errors, or differs from the style and was only checked.
     Wrong,
-    /// It could not be read or written.
+    /// The file could not be read or written.
     Failed,
 }
 
-/// Formats texts and all texts in folders; only looks at them if `check`. `-` is standard input.
+/// Formats source files and all source files in folders; with `check` it only compares. `-` is standard input.
 pub fn run(paths: &[PathBuf], check: bool) -> Result<ExitCode, String> {
     let mut worst = Outcome::Fine;
     for path in paths {
@@ -39,7 +39,7 @@ pub fn run(paths: &[PathBuf], check: bool) -> Result<ExitCode, String> {
     Ok(ExitCode::from(worst as u8))
 }
 
-/// What became of it; what could not be done is said, and the next one is tried.
+/// Prints the error of a failed file, so that the next one can be formatted.
 fn told(outcome: Result<Outcome, String>) -> Outcome {
     outcome.unwrap_or_else(|message| {
         project::print_error(&format!("error: {message}"));
@@ -76,7 +76,7 @@ fn standard_input(check: bool) -> Result<Outcome, String> {
     Ok(Outcome::Fine)
 }
 
-/// The text in the style of the language; nothing if it has errors, which are printed.
+/// The source file in the style of the language, or `None` if it has errors, which are printed.
 fn formatted(path: &Path, text: &str) -> Option<String> {
     let print = |diagnostics: Diagnostics| {
         let mut sources = Sources::default();
@@ -86,7 +86,7 @@ fn formatted(path: &Path, text: &str) -> Option<String> {
     apex_dsl::format(text).map_err(print).ok()
 }
 
-/// Where a text first differs from the formatted one, and how.
+/// First difference between a source file and its formatted version.
 fn hint(path: &Path, text: &str, formatted: &str) -> String {
     let (mut old, mut new) = (text.split_inclusive('\n'), formatted.split_inclusive('\n'));
     let mut number = 1;
@@ -103,7 +103,7 @@ fn hint(path: &Path, text: &str, formatted: &str) -> String {
     }
 }
 
-/// A line whose blanks at the end can be seen.
+/// A line with visible trailing blanks.
 fn visible(line: &str) -> String {
     let (line, end) = match line.strip_suffix('\n') {
         Some(line) => (line, ""),

@@ -13,7 +13,7 @@ use std::{
     str::FromStr,
 };
 
-/// What a picture is written as.
+/// Format of a picture.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Picture {
     /// For browsers and documents.
@@ -22,12 +22,12 @@ pub enum Picture {
     Dot,
 }
 
-/// How deep nested graphs are opened.
+/// Depth to which nested graphs are opened.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// All of them.
+    /// All levels.
     All,
-    /// So many levels.
+    /// This number of levels.
     Levels(usize),
 }
 
@@ -42,17 +42,17 @@ impl FromStr for Depth {
     }
 }
 
-/// What is drawn, and where to.
+/// Subject, format and target of a picture.
 pub struct Wanted {
-    /// The graph or state machine, if there are several.
+    /// Name of the graph or state machine.
     pub graph: Option<String>,
-    /// The activity alone.
+    /// `true` to draw the activity only.
     pub activity: bool,
-    /// How deep nested graphs are opened; without it, as deep as the picture can be read.
+    /// Depth to which nested graphs are opened. Without it, as deep as the picture stays readable.
     pub depth: Option<Depth>,
-    /// The file; standard output if there is none.
+    /// Output file, or `None` for standard output.
     pub output: Option<PathBuf>,
-    /// What it is written as, if the name of the file does not say so.
+    /// Format. Without it, the extension of the file decides.
     pub format: Option<Picture>,
 }
 
@@ -92,13 +92,13 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What is drawn of a graph: all of it or its activity, with nested graphs as open as they are wanted.
+/// Diagram of a graph, or of its activity, with nested graphs opened to the given depth.
 fn picture(item: Item, wanted: &Wanted) -> Result<Item, String> {
     let name = item.name.clone();
     let whole = |item: Item| if wanted.activity { states(&item) } else { Some(item) };
     let drawn = match wanted.depth {
         Some(Depth::All) => whole(item),
-        // The graph itself is always open.
+        // Depth 0 closes the nested graphs; the graph itself is always open.
         Some(Depth::Levels(depth)) => whole(item.closed(depth.saturating_add(1))),
         None => {
             let folded = if wanted.activity { folded_states(&item) } else { Some(folded(item)) };
@@ -123,7 +123,7 @@ fn say_what_is_folded(name: &str, folding: &Folding) {
     }
 }
 
-/// What the command line says, or else the name of the file.
+/// Format from the command line, or else from the name of the file.
 fn format(wanted: &Wanted) -> Result<Picture, String> {
     let path = match (wanted.format, &wanted.output) {
         (Some(format), _) => return Ok(format),
@@ -137,7 +137,7 @@ fn format(wanted: &Wanted) -> Result<Picture, String> {
     }
 }
 
-/// What can be drawn.
+/// A graph or state machine that can be drawn.
 #[derive(Clone, Copy)]
 enum Drawn<'a> {
     Graph(&'a Graph),
@@ -161,8 +161,8 @@ impl Drawn<'_> {
     }
 }
 
-/// The named graph or state machine; without a name the only robot, else the only graph that is not part of another
-/// one, else the only state machine.
+/// The named graph or state machine. Without a name: the only robot, else the only graph that is not part of another
+/// one, else the only other graph, else the only state machine.
 fn choose<'a>(checked: &'a Checked, file: &Path, name: Option<&str>) -> Result<Drawn<'a>, String> {
     let programs = checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
     let graphs = || checked.parts.iter().chain(programs.clone());

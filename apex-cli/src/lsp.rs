@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 
-/// Serves an editor on standard input and output until it leaves.
+/// Serves an editor on standard input and output until the editor disconnects.
 pub fn run() -> Result<ExitCode, String> {
     let in_good_order = apex_lsp::stdio()?;
-    // What the protocol asks for where the editor did not say goodbye.
+    // The protocol requires exit code 1 if the editor did not send `shutdown` first.
     Ok(if in_good_order { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

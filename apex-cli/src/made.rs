@@ -1,5 +1,5 @@
-//! Packages that are made for a text whose own package has no program for it. They lie below the target folder of the
-//! workspace, and are built there as the workspace is: of the same crates, with the same profiles.
+//! Packages for source files whose own package has no program for them. They are in the target folder of the workspace
+//! and are built like the workspace: from the same crates, with the same profiles.
 
 use crate::build::{Wanted, write_if_other};
 use apex_host::{Workspace, cargo, name_of};
@@ -13,32 +13,32 @@ use std::{
 };
 use toml::{Table, Value};
 
-/// The library whose types are messages in recordings if the runtime can record.
+/// Library whose types are messages in recordings if the runtime can record.
 const NODES: &str = "apex-nodes";
-/// The runtime.
+/// Runtime.
 const RUNTIME: &str = "apex-rt";
-/// The feature of programs that can be recorded.
+/// Feature of programs that can be recorded.
 pub const RECORD: &str = "record";
 
-/// A package that is to be made.
+/// A package to be made.
 pub struct Made<'a> {
     pub workspace: &'a Workspace,
-    /// What it does: `run`, `test`, …
+    /// Purpose: `run`, `test`, …
     pub what: &'a str,
-    /// The text, by its whole path.
+    /// Source file, as an absolute path.
     pub text: &'a Path,
-    /// The program in it, if it is made for one.
+    /// Program in the source file, or an empty string.
     pub program: &'a str,
-    /// The features of the runtime.
+    /// Features of the runtime.
     pub features: &'a [&'a str],
-    /// Its only file.
+    /// Path of its only code file in the package.
     pub file: &'a str,
     pub code: &'a str,
 }
 
 impl Made<'_> {
-    /// A name that no other package has: cargo, and the folder where it builds, tell programs apart by their names,
-    /// and do not always tell small letters from capital ones.
+    /// A unique name. Cargo and the target folder identify programs by name, and some file systems do not distinguish
+    /// upper and lower case.
     fn name(&self) -> String {
         let stem = self.text.file_stem().unwrap_or_default();
         let shown = format!("{} {}", stem.to_string_lossy(), self.program);
@@ -46,12 +46,12 @@ impl Made<'_> {
         name_of(&format!("apex-{} {}", self.what, shown.trim_end()), &[what.as_ref(), self.text.as_os_str()])
     }
 
-    /// Where it lies.
+    /// Folder of the package.
     pub fn folder(&self) -> PathBuf {
         self.workspace.cache_folder().join("made").join(self.name())
     }
 
-    /// Makes it.
+    /// Writes the files of the package.
     pub fn make(&self) -> Result<Wanted, String> {
         let folder = self.folder();
         let manifest = folder.join("Cargo.toml");
@@ -66,8 +66,8 @@ impl Made<'_> {
         })
     }
 
-    /// It depends on all that a text can name, and is a workspace of its own like the one it is made for. `crates`
-    /// are those that it needs, if that is known.
+    /// Manifest of the package. It depends on all crates that a source file can name, and is a workspace of its own
+    /// with the settings of the original one. `crates` are the crates that it needs, if they are known.
     fn manifest(&self, crates: Option<&BTreeSet<String>>) -> Result<String, String> {
         let mut package = Table::new();
         for (key, value) in [("name", self.name().as_str()), ("version", "0.0.0"), ("edition", "2024")] {
@@ -75,7 +75,7 @@ impl Made<'_> {
         }
         let (own, _) = self.workspace.binary();
         let libraries = self.workspace.libraries();
-        // The package of the text says which features it wants of the others; without a library it is not among them.
+        // The package of the source file selects the features of the others; without a library it is not among them.
         let has_own = libraries.iter().any(|(name, _)| *name == own);
         let mut dependencies = Table::new();
         for (name, path) in libraries {
@@ -101,7 +101,8 @@ impl Made<'_> {
         toml::to_string(&manifest).map_err(|e| format!("the manifest of `{}` cannot be written: {e}", self.name()))
     }
 
-    /// Takes from the workspace what decides how its crates are built: with other profiles they would be others.
+    /// Copies from the workspace all settings that affect the builds of its crates. With other profiles, cargo would
+    /// build the crates again.
     fn inherit(&self, manifest: &mut Table, crates: Option<&BTreeSet<String>>) -> Result<(), String> {
         let root = self.workspace.root.join("Cargo.toml");
         let mut theirs = read_table(&root)?;
@@ -112,7 +113,7 @@ impl Made<'_> {
         if let (Some(mut profiles), Some(crates)) = (theirs.remove("profile"), crates) {
             for (_, profile) in profiles.as_table_mut().into_iter().flatten() {
                 let packages = profile.get_mut("package").and_then(Value::as_table_mut);
-                // Cargo warns of those that it does not find.
+                // Cargo warns of profiles for unknown packages.
                 packages.into_iter().for_each(|packages| packages.retain(|spec, _| is_of(spec, crates)));
             }
             manifest.insert("profile".to_owned(), profiles);
@@ -124,8 +125,8 @@ impl Made<'_> {
         Ok(())
     }
 
-    /// Takes the versions of all crates from the workspace, and says which crates are needed. Cargo adds the package
-    /// itself to the list; that it does so here is not worth a word.
+    /// Copies the versions of all crates from the workspace, and returns the names of the needed crates. Cargo adds the
+    /// package itself to the list quietly.
     fn lock(&self, folder: &Path) -> Result<Option<BTreeSet<String>>, String> {
         let lock = folder.join("Cargo.lock");
         let Ok(theirs) = fs::read_to_string(self.workspace.root.join("Cargo.lock")) else { return Ok(None) };
@@ -136,7 +137,7 @@ impl Made<'_> {
             write_if_other(&manifest, &self.manifest(None)?)?;
             let mut command = cargo();
             command.args(["update", "--workspace", "--quiet", "--offline", "--manifest-path"]).arg(manifest);
-            // What goes wrong here, goes wrong and is said when it is built.
+            // An error here occurs again in the build, which reports it.
             let _ = command.current_dir(&self.workspace.root).stdout(Stdio::null()).stderr(Stdio::null()).status();
         }
         let lock = read_table(&lock)?;
@@ -151,12 +152,12 @@ fn read_table(path: &Path) -> Result<Table, String> {
     text.parse().map_err(|e: toml::de::Error| wrong(&e.message()))
 }
 
-/// Whether what a profile says of `spec` (`*`, `name` or `name@version`) is of one of these crates.
+/// `true` if the entry `spec` of a profile (`*`, `name` or `name@version`) applies to one of these crates.
 fn is_of(spec: &str, crates: &BTreeSet<String>) -> bool {
     spec == "*" || spec.split(['@', ':']).next().is_some_and(|name| crates.contains(name))
 }
 
-/// What says to cargo that a package of the workspace is built with these features of the runtime.
+/// Cargo arguments that build a package of the workspace with these features of the runtime.
 pub fn select_features(workspace: &Workspace, features: &[&str]) -> Vec<OsString> {
     let mut select: Vec<OsString> = vec![];
     for feature in features {
@@ -168,13 +169,13 @@ pub fn select_features(workspace: &Workspace, features: &[&str]) -> Vec<OsString
     select
 }
 
-/// A path as a text of TOML and Rust.
+/// A path as text for TOML and Rust.
 pub fn utf8(path: &Path) -> Result<&str, String> {
     path.to_str()
         .ok_or_else(|| format!("the path `{}` is not UTF-8: cargo cannot build packages there", path.display()))
 }
 
-/// Paths in a table are meant from `root` on.
+/// Makes the relative paths in a table absolute; they are relative to `root`.
 fn make_absolute(value: &mut Value, root: &Path) {
     let Value::Table(table) = value else { return };
     for (key, value) in table {

@@ -1,4 +1,4 @@
-//! The `apex` command: thin shells around the compiler.
+//! The `apex` command, a thin layer over the compiler.
 
 mod build;
 mod calls;
@@ -59,7 +59,7 @@ enum Command {
     /// Print the script with which a shell completes this command.
     #[command(after_help = "Example:\n  apex completions bash > ~/.local/share/bash-completion/completions/apex")]
     Completions {
-        /// The shell.
+        /// Shell.
         shell: clap_complete::Shell,
     },
     /// Write pages about graphs and nodes, with diagrams.

@@ -1,5 +1,5 @@
-//! `apex explain --memory`: how many bytes the pieces of a program have. Only rustc knows how large a type is, so that a
-//! program is made that says it.
+//! `apex explain --memory`: sizes of the parts of a program in bytes. Only rustc knows the sizes of types, so a program
+//! that prints them is built and run.
 
 use crate::{
     Format,
@@ -16,15 +16,15 @@ use std::{
     process::{ExitCode, Stdio},
 };
 
-/// A program with the sizes of its pieces.
+/// A program with the sizes of its parts.
 struct Measured<'a> {
     program: &'a Program,
     bytes: usize,
-    /// What for, of what, and how many bytes.
+    /// Purpose, owner and size in bytes of each part.
     pieces: Vec<(&'static str, String, usize)>,
 }
 
-/// Prints how many bytes each program of a text has, piece by piece.
+/// Prints the size of each program of a source file, part by part.
 pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
     let mut checked = project::check(file)?;
     let programs: Vec<&Program> = checked.programs.iter().filter(|p| p.script.is_none()).collect();
@@ -47,7 +47,7 @@ pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Asks rustc, by way of a program that prints one size a line: for each graph its own, then those of its pieces.
+/// Builds and runs a program that prints one size per line: for each graph its own size, then those of its parts.
 fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -> Result<Vec<Measured<'a>>, String> {
     let workspace = Workspace::load(&run::package(file)?)?;
     let text = run::absolute(file)?;
@@ -79,7 +79,7 @@ fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -
     measured.ok_or_else(|| format!("the program of `{}` did not report all sizes", file.display()))
 }
 
-/// The program: it stands where the graphs do, and sees what is private in them.
+/// Code of the program. It contains the graphs, so that it can access their private parts.
 fn main_file(file: &str, programs: &[&Program], of_all: &[Vec<Piece>]) -> String {
     let mut lines = String::new();
     for (program, pieces) in programs.iter().zip(of_all) {
@@ -104,7 +104,7 @@ fn main() {{
 }
 
 impl Measured<'_> {
-    /// What belongs to one thing is one piece.
+    /// Adds a part; parts with equal purpose and owner become one.
     fn add(&mut self, what: &'static str, of: String, bytes: usize) {
         match self.pieces.iter_mut().find(|piece| (piece.0, &piece.1) == (what, &of)) {
             Some(piece) => piece.2 += bytes,
@@ -112,7 +112,7 @@ impl Measured<'_> {
         }
     }
 
-    /// Bytes between pieces, which are there so that each lies where the machine wants it.
+    /// Number of bytes between the parts, which the compiler inserts for alignment.
     fn padding(&self) -> usize {
         self.bytes.saturating_sub(self.pieces.iter().map(|piece| piece.2).sum())
     }

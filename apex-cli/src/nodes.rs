@@ -1,4 +1,4 @@
-//! `apex nodes`: which nodes a package can use, and what each takes and sends.
+//! `apex nodes`: the nodes that a package can use, with their ports and parameters.
 
 use crate::project::{self, Checker};
 use apex_dsl::{
@@ -9,10 +9,10 @@ use apex_dsl::{
 };
 use std::{collections::BTreeMap, fmt::Write as _, path::Path, process::ExitCode};
 
-/// The order in which ports are listed.
+/// Order of the ports in a list.
 const KINDS: [PortKind; 4] = [PortKind::Input, PortKind::Output, PortKind::Slot, PortKind::Event];
 
-/// Lists the nodes of the package in `folder` that have to do with all `words`; describes the one that is named so.
+/// Lists the nodes of the package in `folder` that match all `words`; describes a node with this exact name.
 pub fn run(folder: &Path, words: &[String], markdown: bool) -> Result<ExitCode, String> {
     let text = folder.join("nodes.afg");
     if project::package_of(&text).is_none() {
@@ -36,13 +36,13 @@ pub fn run(folder: &Path, words: &[String], markdown: bool) -> Result<ExitCode, 
 /// A node of the index.
 struct Entry<'a> {
     signature: &'a Signature,
-    /// Its crate and modules.
+    /// Crate and modules of the node.
     module: String,
     ports: Vec<PortFacts>,
     params: Vec<ParamFacts>,
 }
 
-/// The nodes of a package, sorted by module and name.
+/// Nodes of a package, sorted by module and name.
 struct Index<'a> {
     entries: Vec<Entry<'a>>,
 }
@@ -67,7 +67,7 @@ impl<'a> Index<'a> {
         Self { entries }
     }
 
-    /// What is asked for; an error if there is nothing of the kind.
+    /// Answer to a search. Fails if no node matches.
     fn answer(&self, words: &[String], markdown: bool) -> Result<String, String> {
         let found: Vec<&Entry<'a>> = self.entries.iter().filter(|entry| entry.matches(words)).collect();
         if found.is_empty() {
@@ -101,7 +101,7 @@ impl<'a> Index<'a> {
 }
 
 impl Entry<'_> {
-    /// Whether each word stands in its path, its documentation, a port, a parameter or a type.
+    /// `true` if each word is part of the path, the documentation, a port, a parameter or a type.
     fn matches(&self, words: &[String]) -> bool {
         let mut all = format!("{}::{} {}", self.module, self.signature.name, self.signature.docs);
         for port in &self.ports {
@@ -114,13 +114,13 @@ impl Entry<'_> {
         words.iter().all(|word| all.contains(&word.to_lowercase()))
     }
 
-    /// Whether it is called so, with or without the modules before its name.
+    /// `true` if this is the name of the node, with or without the modules before it.
     fn is_named(&self, word: &str) -> bool {
         let path = format!("::{}::{}", self.module, self.signature.name).to_lowercase();
         path.ends_with(&format!("::{}", word.to_lowercase()))
     }
 
-    /// All about it, for a terminal.
+    /// Full description for a terminal.
     fn text(&self) -> String {
         let mut text = format!("{}::{}\n", self.module, self.signature.name);
         for line in self.signature.docs.trim().lines() {
@@ -138,7 +138,7 @@ impl Entry<'_> {
         text
     }
 
-    /// Its ports and parameters: kind, name, type with unit, default and range, documentation.
+    /// Rows with the ports and parameters: kind, name, type with unit, default and range, documentation.
     fn rows(&self) -> Vec<[String; 4]> {
         let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
         let port = |port: &PortFacts| {
@@ -180,7 +180,7 @@ fn list(found: &[&Entry<'_>]) -> String {
     text
 }
 
-/// All about all of them, as Markdown: a table of each module, then a section for each node.
+/// Full descriptions in Markdown: a table for each module, then a section for each node.
 fn page(found: &[&Entry<'_>]) -> String {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     let mut text = String::new();
@@ -211,7 +211,7 @@ fn section(entry: &Entry<'_>) -> String {
     text + "\n"
 }
 
-/// The anchor of a heading; the second of one name has a number.
+/// Anchor of a heading; the second one with the same name gets a number.
 fn anchor(name: &str, counts: &mut BTreeMap<String, usize>) -> String {
     let name = name.to_lowercase();
     let count = counts.entry(name.clone()).or_default();
@@ -219,8 +219,8 @@ fn anchor(name: &str, counts: &mut BTreeMap<String, usize>) -> String {
     if *count == 1 { name } else { format!("{name}-{}", *count - 1) }
 }
 
-/// The first sentence of a documentation, in one line. What goes on with a small letter or a number (`fig. 4.10`) has
-/// not ended.
+/// First sentence of documentation, in one line. A period before a small letter or a number (`fig. 4.10`) does not end
+/// it.
 fn sentence(docs: &str) -> String {
     let paragraph: Vec<&str> = docs.trim().lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let paragraph = paragraph.join(" ");
@@ -229,7 +229,7 @@ fn sentence(docs: &str) -> String {
     paragraph[..end.unwrap_or(paragraph.len())].to_owned()
 }
 
-/// Without links to Rust's documentation: [`Scan`](path) is `Scan`.
+/// Removes links to Rust's documentation: [`Scan`](path) becomes `Scan`.
 fn linkless(text: &str) -> String {
     let mut rest = text;
     let mut out = String::new();
@@ -247,12 +247,12 @@ fn linkless(text: &str) -> String {
     out + rest
 }
 
-/// Without links and back quotes, for a terminal.
+/// Removes links and back quotes, for a terminal.
 fn plain(text: &str) -> String {
     linkless(text).replace('`', "")
 }
 
-/// For a table of Markdown.
+/// Text for a cell of a Markdown table.
 fn cell(text: &str) -> String {
     linkless(text).replace('|', "\\|")
 }

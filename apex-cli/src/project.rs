@@ -1,4 +1,4 @@
-//! A text with its package, checked.
+//! A source file with its package, checked.
 
 use apex_dsl::{
     catalog::{Catalog, Crates},
@@ -19,15 +19,15 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-/// A checked text.
+/// A checked source file.
 pub struct Checked {
-    /// What was read.
+    /// All files that were read.
     pub sources: Sources,
-    /// What was found.
+    /// Errors and warnings.
     pub diagnostics: Diagnostics,
-    /// The programs in it.
+    /// Programs in the source file.
     pub programs: Vec<Program>,
-    /// The graphs in it that are no programs.
+    /// Graphs in the source file that are not programs.
     pub parts: Vec<Graph>,
     /// It and the texts that it imports.
     pub texts: SourceSet,
@@ -35,13 +35,13 @@ pub struct Checked {
     pub catalog: Catalog,
 }
 
-/// The folder of the package that a file belongs to.
+/// Folder of the package that a file belongs to.
 pub fn package_of(file: &Path) -> Option<PathBuf> {
     let absolute = env::current_dir().ok()?.join(file);
     absolute.ancestors().skip(1).find(|folder| folder.join("Cargo.toml").is_file()).map(Path::to_owned)
 }
 
-/// Reads and checks `file`. A text outside of any package sees no nodes.
+/// Reads and checks `file`. A source file outside of any package has no Rust nodes.
 pub fn check(file: &Path) -> Result<Checked, String> {
     let mut checker = Checker::new(file)?;
     let text = checker.read(file)?;
@@ -51,17 +51,17 @@ pub fn check(file: &Path) -> Result<Checked, String> {
     Ok(Checked { sources, diagnostics, programs, parts, texts, catalog: checker.catalog })
 }
 
-/// Checks texts of one package, also those that are not what stands on the disk.
+/// Checker for the source files of one package, also with contents that differ from the disk.
 pub struct Checker {
-    /// The node types they can use.
+    /// Node types that the source files can use.
     pub catalog: Catalog,
-    /// The workspace of the package; none outside of any package.
+    /// Workspace of the package, or `None` outside of any package.
     pub workspace: Option<Workspace>,
     disk: Disk,
 }
 
 impl Checker {
-    /// For texts in the package that `file` belongs to.
+    /// Checker for source files in the package that `file` belongs to.
     pub fn new(file: &Path) -> Result<Self, String> {
         let folder = package_of(file);
         let workspace = folder.as_deref().map(Workspace::load).transpose()?;
@@ -71,17 +71,17 @@ impl Checker {
         Ok(Self { catalog, workspace, disk })
     }
 
-    /// What stands in `file`.
+    /// Content of `file`.
     pub fn read(&mut self, file: &Path) -> Result<Arc<str>, String> {
         self.disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))
     }
 
-    /// Remembers what was found in Rust files.
+    /// Saves the signatures that were found in Rust files to the cache.
     pub fn save(&mut self) {
         self.disk.save();
     }
 
-    /// Checks `text` as if it stood in `file`.
+    /// Checks `text` as the content of `file`.
     pub fn check(&mut self, file: &Path, text: Arc<str>) -> (Sources, Diagnostics, passes::Checked) {
         let mut sources = Sources::default();
         let root = sources.add(file, text);
@@ -93,7 +93,7 @@ impl Checker {
 }
 
 impl Checked {
-    /// The state machines of the first text, in its order.
+    /// State machines of the first source file, in its order.
     pub fn machines(&self) -> Vec<&Machine> {
         let Some((_, tree)) = self.texts.files.first() else { return vec![] };
         tree.machines.iter().filter_map(|item| self.texts.machine_named(0, &item.name.text)).collect()
@@ -119,10 +119,10 @@ pub fn print_diagnostics(diagnostics: &Diagnostics, sources: &Sources) {
     }
 }
 
-/// The code of the first error that was printed.
+/// Code of the first error that was printed.
 static FIRST_ERROR: OnceLock<&str> = OnceLock::new();
 
-/// Says once, behind all errors, where more can be read about them.
+/// Prints once, after all errors, how to read more about them.
 pub fn print_where_to_read_on() {
     if let Some(code) = FIRST_ERROR.get() {
         print_error(&format!("for more about an error, try `apex explain {code}`"));
@@ -134,7 +134,7 @@ pub fn print(text: &str) -> Result<(), String> {
     write(&format!("{text}\n"))
 }
 
-/// Writes to standard output. A reader that has gone away is no error.
+/// Writes to standard output. A closed pipe is not an error.
 pub fn write(text: &str) -> Result<(), String> {
     let mut output = io::stdout().lock();
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {

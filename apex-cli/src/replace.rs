@@ -7,7 +7,7 @@ use std::{
     process,
 };
 
-/// Writes a file that is new or can be made again.
+/// Writes a file that is new or can be generated again.
 pub fn write(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|e| {
         let shown = path.display();
@@ -18,14 +18,14 @@ pub fn write(path: &Path, text: &str) -> Result<(), String> {
     })
 }
 
-/// Whether both are there, and the same.
+/// `true` if both paths exist and lead to the same file.
 pub fn is_same(a: &Path, b: &Path) -> bool {
     fs::canonicalize(a).is_ok_and(|a| fs::canonicalize(b).is_ok_and(|b| a == b))
 }
 
-/// Changes the file `path`, so that there is always a whole one.
+/// Replaces the content of the file `path`. The file is complete at all times.
 pub fn replace(path: &Path, text: &str) -> io::Result<()> {
-    // What a link leads to is changed, not the link.
+    // Follows links, so that the target is replaced and not the link.
     let path = fs::canonicalize(path)?;
     let metadata = fs::metadata(&path)?;
     if !metadata.is_file() {
@@ -38,7 +38,7 @@ pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     put(&path, text, Some(permissions))
 }
 
-/// Writes a file beside `path` and puts it in its place, whether or not there is something.
+/// Writes a temporary file beside `path` and renames it to `path`, whether or not `path` exists.
 pub fn put(path: &Path, text: &str, permissions: Option<Permissions>) -> io::Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".{name}.{}", process::id()));

@@ -1,4 +1,4 @@
-//! `apex run`: the package's own program, or one that is made for the text.
+//! `apex run`: runs the package's own program, or one that is made for the source file.
 
 use crate::{
     build::{self, Built, How, Turn},
@@ -22,7 +22,7 @@ use std::{
     process::{Command, ExitCode, ExitStatus},
 };
 
-/// Files with the parameters of the program that is run.
+/// Files with the parameters of the program.
 pub struct Params {
     /// Read before the run.
     pub load: Option<PathBuf>,
@@ -35,7 +35,7 @@ impl Params {
         self.load.is_some() || self.save.is_some()
     }
 
-    /// Says before a build what would be wrong after it.
+    /// Checks the paths, so that an error is reported before the build.
     fn look(&self, text: &Path) -> Result<(), String> {
         let shown = |path: &Path| path.display().to_string();
         if let Some(load) = &self.load {
@@ -55,7 +55,7 @@ impl Params {
     }
 }
 
-/// Whether a file could be made: the folder is there.
+/// Fails if the folder of the file does not exist.
 fn has_folder(file: &Path) -> Result<(), String> {
     match file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         Some(folder) => Err(format!("there is no folder `{}`", folder.display())),
@@ -63,34 +63,34 @@ fn has_folder(file: &Path) -> Result<(), String> {
     }
 }
 
-/// The variables by which the made program, whose arguments belong to the nodes, learns the files.
+/// Environment variables with the files for the made program, whose arguments belong to the nodes.
 const LOAD: &str = "APEX_PARAMS";
 const SAVE: &str = "APEX_SAVE_PARAMS";
 const KEPT: &str = "APEX_KEPT_PARAMS";
-/// The variable by which every program learns where its profile is written (`apex_rt::drive`).
+/// Environment variable with the file of the profile, for every program (`apex_rt::drive`).
 const PROFILE: &str = "APEX_PROFILE";
 
-/// The variables by which every program learns which recording it makes or repeats (`apex_rt::drive`).
+/// Environment variables with the recording that is made or repeated, for every program (`apex_rt::drive`).
 const RECORD: &str = "APEX_RECORD";
 const REPLAY: &str = "APEX_REPLAY";
 
-/// What is to be done with a recording.
+/// Use of a recording.
 #[derive(Clone, Copy, Default)]
 pub enum Recording<'a> {
-    /// What the text says.
+    /// As the source file states.
     #[default]
     Stated,
-    /// The run is recorded in this file.
+    /// Records the run to this file.
     Made(&'a Path),
-    /// The run in this file is repeated.
+    /// Repeats the run in this file.
     Repeated(&'a Path),
 }
 
-/// How an MCAP file begins.
+/// First bytes of an MCAP file.
 const MAGIC: &[u8; 8] = b"\x89MCAP0\r\n";
 
 impl Recording<'_> {
-    /// Says before a build what would be wrong after it.
+    /// Checks the path, so that an error is reported before the build.
     fn look(self) -> Result<(), String> {
         match self {
             Self::Stated => Ok(()),
@@ -117,43 +117,43 @@ impl Recording<'_> {
     }
 }
 
-/// What is to be run.
+/// A program to run, with its options.
 pub struct Wanted<'a> {
-    /// The text.
+    /// Source file.
     pub file: &'a Path,
-    /// Which robot or graph, if the text has several.
+    /// Name of the robot or graph, if the source file has several.
     pub robot: Option<&'a str>,
-    /// Its parameters.
+    /// Files with parameters.
     pub params: &'a Params,
-    /// Where its profile is written.
+    /// File for the profile.
     pub profile: Option<&'a Path>,
-    /// What is recorded or repeated.
+    /// Recording or replay.
     pub recording: Recording<'a>,
     /// Arguments for the program.
     pub args: &'a [String],
-    /// Whether it is built again and again, and what it changed in its parameters is kept.
+    /// `true` to build again after every change and keep changed parameters.
     pub watch: bool,
-    /// How it is built.
+    /// Settings of the build.
     pub how: How,
 }
 
-/// A program that has been built, and may be started as long as it is our turn.
+/// A built program. It may be started while the lock is held.
 pub struct Found {
     built: Built,
-    /// The folder of the package, if it was made for the text.
+    /// Folder of the package, if it was made for the source file.
     pub made: Option<PathBuf>,
     _turn: Turn,
 }
 
 impl Found {
-    /// Says why it does not start.
+    /// Error message for a program that does not start.
     pub fn not_started(&self, reason: &io::Error) -> String {
         self.built.not_started(reason)
     }
 }
 
 impl Wanted<'_> {
-    /// The program with all that it is told.
+    /// Command that starts the program, with arguments and environment variables.
     pub fn command(&self, program: &Found) -> Command {
         let mut command = program.built.command();
         command.args(self.args);
@@ -179,14 +179,14 @@ impl Wanted<'_> {
         command
     }
 
-    /// Checks the text.
+    /// Checks the source file. Returns `None` if it has errors, which are printed.
     pub fn check(&self) -> Result<Option<Vec<Program>>, String> {
         let checked = project::check(self.file)?;
         checked.print_diagnostics();
         Ok((!checked.diagnostics.has_errors()).then_some(checked.programs))
     }
 
-    /// Builds the program of a text that has been checked; nothing if that fails, of which cargo has said why.
+    /// Builds the program of a checked source file. Returns `None` after compile errors, which cargo has printed.
     pub fn build(&self, programs: &[Program]) -> Result<Option<Found>, String> {
         self.params.look(self.file)?;
         self.recording.look()?;
@@ -199,7 +199,7 @@ impl Wanted<'_> {
         let workspace = Workspace::load(&folder)?;
         has_apex(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
-        // A program of one's own may have a loop of its own, which repeats nothing.
+        // The package's own program may not use `apex_rt::drive`, which repeats recordings.
         let repeats = matches!(self.recording, Recording::Repeated(_));
         let Some(binary) = binary.filter(|_| self.robot.is_none() && !repeats) else {
             return self.make(choose(programs, self.robot)?, &workspace);
@@ -219,7 +219,7 @@ impl Wanted<'_> {
         Ok(built.map(|built| Found { built, made: None, _turn: turn }))
     }
 
-    /// The features of the runtime that a program of one of `graphs` needs.
+    /// Features of the runtime that a program with one of `graphs` needs.
     fn features(&self, params: bool, graphs: &[&Graph]) -> Vec<&'static str> {
         let stated = graphs.iter().any(|graph| graph.record.is_some());
         let records = stated || !matches!(self.recording, Recording::Stated);
@@ -235,7 +235,7 @@ impl Wanted<'_> {
         wanted.into_iter().filter(|(_, wanted)| *wanted).map(|(feature, _)| feature).collect()
     }
 
-    /// Makes and builds a package whose only job is to drive the program.
+    /// Makes and builds a package that only drives the program.
     fn make(&self, program: &Program, workspace: &Workspace) -> Result<Option<Found>, String> {
         let graph = &program.graph;
         if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
@@ -279,27 +279,27 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     Ok(exit_code(status))
 }
 
-/// Ends this process and starts the program in it, so that signals and exit codes are those of the program.
+/// Replaces this process by the program, so that signals and exit codes are those of the program.
 #[cfg(unix)]
 fn become_program(mut command: Command, program: Found) -> Result<ExitCode, String> {
     use std::os::unix::process::CommandExt as _;
     Err(program.not_started(&command.exec()))
 }
 
-/// Runs the program: elsewhere a process cannot become another.
+/// Runs the program, because a process can be replaced only on Unix.
 #[cfg(not(unix))]
 fn become_program(command: Command, program: Found) -> Result<ExitCode, String> {
     Ok(exit_code(wait_for(command, program)?))
 }
 
-/// Runs the program; others may build as soon as it has started.
+/// Runs the program; releases the lock as soon as it has started.
 fn wait_for(mut command: Command, program: Found) -> Result<ExitStatus, String> {
     let mut child = command.spawn().map_err(|e| program.not_started(&e))?;
     drop(program);
     child.wait().map_err(|e| format!("cannot wait for the program: {e}"))
 }
 
-/// The exit code of a program, or what a shell says of one that was ended by a signal.
+/// Exit code of a program; after a signal, the code that shells use.
 fn exit_code(status: ExitStatus) -> ExitCode {
     #[cfg(unix)]
     let signal = std::os::unix::process::ExitStatusExt::signal(&status).map(|signal| 128 + signal);
@@ -308,14 +308,14 @@ fn exit_code(status: ExitStatus) -> ExitCode {
     status.code().or(signal).and_then(|c| u8::try_from(c).ok()).map_or(ExitCode::from(2), ExitCode::from)
 }
 
-/// The package that a text belongs to.
+/// Package that a source file belongs to.
 pub fn package(file: &Path) -> Result<PathBuf, String> {
     project::package_of(file).ok_or_else(|| {
         format!("`{}` is not in a cargo package, so its nodes cannot be found; move it to a package that depends on `apex-rt`", file.display())
     })
 }
 
-/// The program that is meant: the named one, the only robot, or the only graph.
+/// The named program, or else the only robot, or else the only graph.
 fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program, String> {
     let programs: Vec<&Program> = programs.iter().filter(|p| p.script.is_none()).collect();
     let names = || programs.iter().map(|p| format!("`{}`", p.graph.name)).collect::<Vec<_>>().join(", ");
@@ -348,12 +348,12 @@ pub fn has_apex(folder: &Path, workspace: &Workspace) -> Result<(), String> {
     }
 }
 
-/// The whole path of a text, as a made package names it.
+/// Absolute path of a source file, for made packages.
 pub fn absolute(file: &Path) -> Result<PathBuf, String> {
     fs::canonicalize(file).map_err(|e| format!("cannot find `{}`: {e}", file.display()))
 }
 
-/// The code of the made program: it drives the graph `name` of `file`, with parameters from files if they are wanted.
+/// Code of the made program. It drives the graph `name` of `file`, with parameters from files if `params` is set.
 fn main_file(file: &str, name: &str, params: bool) -> String {
     if !params {
         return format!(
@@ -370,7 +370,7 @@ graph!({file:?});
 fn drive() -> Result<u8, String> {{
     let file = |name| env::var_os(name).map(PathBuf::from);
     let (load, save, kept) = (file("{LOAD}"), file("{SAVE}"), file("{KEPT}"));
-    // Without it the program would end at once, and nothing would be saved.
+    // Without this clock, Ctrl-C would end the program at once, and nothing would be saved.
     let clock = UntilStopped::ctrl_c(WallClock::new())?;
     run_with_files({name}::new(), clock, load.as_deref(), save.as_deref(), kept.as_deref())
 }}

@@ -1,4 +1,4 @@
-//! `apex test`: the tests of a text, as Rust tests.
+//! `apex test`: the tests of a source file, as Rust tests.
 
 use crate::{
     build::{self, Built, How, Outcome, Turn},
@@ -54,7 +54,7 @@ pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, Stri
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-/// The names of the tests that are to run.
+/// Names of the tests to run.
 fn chosen<'a>(scripts: &[&'a Script], filter: Option<&str>) -> Result<Vec<&'a str>, String> {
     let all = scripts.iter().map(|script| script.name.as_str());
     let filter = filter.unwrap_or_default();
@@ -69,7 +69,7 @@ fn chosen<'a>(scripts: &[&'a Script], filter: Option<&str>) -> Result<Vec<&'a st
     Ok(names)
 }
 
-/// The tests of a text, and where they are.
+/// Tests of a source file, and their location.
 struct Tests<'a> {
     text: &'a Path,
     folder: &'a Path,
@@ -78,25 +78,24 @@ struct Tests<'a> {
     how: How,
 }
 
-/// What the package itself has of the tests.
+/// Tests in the package itself.
 enum Own {
-    /// A program with tests, and the names that they have in it.
+    /// Program with tests, and their names in it.
     Found(Built, Vec<String>),
-    /// It should have them, but does not compile.
+    /// The package should have the tests, but does not compile.
     Broken,
-    /// Nothing.
+    /// No tests.
     None,
 }
 
 impl Tests<'_> {
-    /// The tests where the package itself compiles the text: what it is made of has been built by `cargo build`
-    /// already.
+    /// Tests in the package itself, if it compiles the source file: `cargo build` has already built its dependencies.
     fn own(&self, names: &[&str]) -> Result<Own, String> {
         for (kind, name, root) in self.workspace.targets() {
             let select = match kind {
                 "bin" => vec!["--bin".to_owned(), name.to_owned()],
                 "lib" | "rlib" | "dylib" => vec!["--lib".to_owned()],
-                // Tests of a package may have a harness of their own, which lists nothing.
+                // Test targets of a package may have a harness of their own, which does not list its tests.
                 _ => continue,
             };
             for Call { module } in calls::find(root, self.folder, self.text) {
@@ -110,7 +109,7 @@ impl Tests<'_> {
                     Outcome::Nothing => continue,
                     Outcome::Broken => return Ok(Own::Broken),
                 };
-                // Conditional compilation may have left them out.
+                // Conditional compilation may have excluded the tests.
                 if let Some(tests) = named(&listed(&built)?, &module, self.text, names) {
                     return Ok(Own::Found(built, tests));
                 }
@@ -119,7 +118,7 @@ impl Tests<'_> {
         Ok(Own::None)
     }
 
-    /// The tests in a package that is made for them; nothing if it does not compile.
+    /// Tests in a package that is made for them, or `None` if it does not compile.
     fn made(&self, names: &[&str]) -> Result<Option<(Built, Vec<String>)>, String> {
         let made = Made {
             workspace: self.workspace,
@@ -139,14 +138,14 @@ impl Tests<'_> {
     }
 }
 
-/// All tests in a program.
+/// Names of all tests in a program.
 fn listed(built: &Built) -> Result<Vec<String>, String> {
     let output = built.command().args(["--list", "--format=terse"]).output().map_err(|e| built.not_started(&e))?;
     let list = String::from_utf8_lossy(&output.stdout);
     Ok(list.lines().filter_map(|line| Some(line.strip_suffix(": test")?.to_owned())).collect())
 }
 
-/// Those of `listed` that are in `module` and have one of these names; nothing if one is missing.
+/// Names in `listed` that are in `module` and are one of `names`, or `None` if one is missing.
 fn named(listed: &[String], module: &[String], text: &Path, names: &[&str]) -> Option<Vec<String>> {
     let (mut found, of_text) = (vec![], module_name(text, 0));
     for name in names {

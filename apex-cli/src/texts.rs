@@ -1,11 +1,11 @@
-//! The texts that a command line names.
+//! Source files that a command line names.
 
 use std::{
     fs, io,
     path::{Path, PathBuf},
 };
 
-/// The file itself, or the texts below a folder.
+/// The file itself, or the source files below a folder.
 pub fn named(path: &Path) -> Result<Vec<PathBuf>, String> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
@@ -18,7 +18,7 @@ pub fn named(path: &Path) -> Result<Vec<PathBuf>, String> {
     Ok(found)
 }
 
-/// Adds the texts below `folder` in order. Hidden folders and those that tools mark as their caches are left out.
+/// Adds the source files below `folder` in order, without hidden folders and folders that are marked as caches.
 fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::Error)> {
     let at = |e| (folder.to_owned(), e);
     let entries: io::Result<Vec<_>> = fs::read_dir(folder).and_then(Iterator::collect);

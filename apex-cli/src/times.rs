@@ -1,4 +1,4 @@
-//! `apex explain --profile`: how long clusters and slots take at worst, and how busy each thread is, as it was measured.
+//! `apex explain --profile`: longest measured times of clusters and slots, and the load of each thread.
 
 use crate::{Format, project};
 use apex_dsl::{
@@ -9,25 +9,25 @@ use apex_dsl::{
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path, process::ExitCode};
 
-/// The largest profile that is read.
+/// Maximum size of a profile in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// What was measured of a node, in µs.
+/// Measured times of a node, in µs.
 #[derive(Default)]
 struct Measured {
     longest: f64,
     all: f64,
 }
 
-/// What was measured of a program.
+/// Measured times of a program.
 struct Profile {
     program: String,
     nodes: BTreeMap<String, Measured>,
-    /// From the first call to the end of the last one, in µs.
+    /// Time from the first call to the end of the last one, in µs.
     span: f64,
 }
 
-/// Prints the times of the program in `file` that `profile` was made of.
+/// Prints the times in `profile` of the program in `file`.
 pub fn run(file: &Path, profile: &Path, format: Format) -> Result<ExitCode, String> {
     let profile = read(profile).map_err(|reason| format!("cannot read `{}`: {reason}", profile.display()))?;
     let checked = project::check(file)?;
@@ -71,14 +71,14 @@ fn read(path: &Path) -> Result<Profile, String> {
     Ok(Profile { program, nodes, span: (last - first).max(0.0) })
 }
 
-/// What one thread does.
+/// Load of one thread.
 struct Thread<'a> {
     name: &'a str,
-    /// How much of the time it was at work, in percent.
+    /// Share of the time in which the thread worked, in percent.
     busy: f64,
     /// For each cluster that fires: its number, its nodes, and the sum of their longest calls in µs.
     clusters: Vec<(usize, Vec<String>, f64)>,
-    /// The nodes of which only slots are called, with the longest call in µs.
+    /// Nodes of which only slots are called, with the longest call in µs.
     slots: Vec<(String, f64)>,
 }
 

@@ -1,4 +1,4 @@
-//! The built command: what it prints where, and its exit codes.
+//! The built command: its output and its exit codes.
 
 mod common;
 
@@ -92,7 +92,7 @@ fn wrong_use_is_two() {
     assert_eq!(apex().arg("--help").output().unwrap().status.code(), Some(0));
 }
 
-/// The nodes of a package are seen from a text in it; the cache of them says the same as the first reading.
+/// A source file sees the nodes of its package; the cache contains the same signatures as the first reading.
 #[test]
 fn nodes_of_the_package() {
     let folder = Folder::new("package");
@@ -111,7 +111,7 @@ fn nodes_of_the_package() {
 
 const SPEAKER: &str = "\
 use apex_rt::prelude::*;
-/// Says its volume.
+/// Prints its volume.
 #[node]
 pub struct Speaker {
     #[param(default = 3, range = 0..=10)]
@@ -158,7 +158,7 @@ fn parameters_from_a_file() {
         )
     );
 
-    // A program of the package's own gets no flags that it does not know.
+    // The package's own program gets no flags that it does not support.
     folder.file("src/main.rs", "fn main() {}\n");
     let output = run(&file, &[&load]);
     assert_eq!(output.status.code(), Some(2));
@@ -190,7 +190,7 @@ fn the_language_server_ends_with_its_editor() {
     let serve = |input: &str| {
         let mut server =
             apex().arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        // A server that has gone already cannot take all of it.
+        // A server that has already ended does not read all of it.
         let _ = server.stdin.take().unwrap().write_all(input.as_bytes());
         server.wait_with_output().unwrap()
     };
@@ -199,7 +199,7 @@ fn the_language_server_ends_with_its_editor() {
     let bye = message(r#"{"jsonrpc":"2.0","id":2,"method":"shutdown"}"#);
     let exit = message(r#"{"jsonrpc":"2.0","method":"exit"}"#);
 
-    // Nobody is there, or somebody goes without a word.
+    // No editor at all, and an editor that disconnects without a shutdown.
     for input in ["", hello.as_str()] {
         let output = serve(input);
         assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
@@ -210,7 +210,7 @@ fn the_language_server_ends_with_its_editor() {
     assert!(text.contains(r#""positionEncoding":"utf-16""#) && text.contains(r#""id":2"#), "{text}");
     assert_eq!(serve(&format!("{hello}{exit}")).status.code(), Some(1));
 
-    // What is not a message is answered, not taken for the end.
+    // An invalid message is answered and does not end the server.
     let output = serve("Content-Length: 5\r\n\r\n{nope");
     assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
     assert!(String::from_utf8(output.stdout).unwrap().contains("a message that is not JSON"));
@@ -233,7 +233,7 @@ fn a_code_is_explained() {
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     assert!(stderr(&output).ends_with("did you mean `missing-unit`?\n"), "{}", stderr(&output));
 
-    // A file comes first, and what looks like one is one.
+    // An existing file has precedence, and a name with an extension is always a file.
     let folder = Folder::new("explain");
     folder.file("missing-unit", "graph A { }\n");
     let output = apex().args(["explain", "missing-unit"]).current_dir(&folder.0).output().unwrap();
@@ -268,14 +268,14 @@ fn what_is_certain_is_mended() {
     assert_eq!(told.lines().count(), 4, "{told}");
     assert_eq!(stderr(&check(&["--fix"], &file)), "");
 
-    // A guess is shown, not made; the file is not touched.
+    // A suggestion is shown, but not applied; the file is not changed.
     let text = "graph A {\n    in x: u64;\n    out y: u64;\n    x -> z;\n}\n";
     let file = folder.file("b.afg", text);
     let output = check(&["--fix"], &file);
     assert_eq!((output.status.code(), fs::read_to_string(&file).unwrap().as_str()), (Some(1), text));
     assert!(stderr(&output).starts_with("error["), "{}", stderr(&output));
 
-    // What makes it worse is taken back: the bracket is closed, and then there is one more error than before.
+    // A fix that makes things worse is undone: the bracket is closed, after which there is one more error than before.
     let text = "graph A {\n    in x: u64;\n    x -> B(;\n}\ngraph C { in x: u64; x -> D(); }\n";
     let file = folder.file("c.afg", text);
     let before = stderr(&check(&[], &file)).matches("error[").count();
@@ -288,7 +288,7 @@ fn fmt(arguments: &[&Path]) -> Output {
     apex().arg("fmt").args(arguments).output().unwrap()
 }
 
-/// `apex fmt` with something on standard input.
+/// `apex fmt` with standard input.
 fn fmt_input(arguments: &[&str], input: &[u8]) -> Output {
     let mut command = apex();
     command.arg("fmt").args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -388,7 +388,7 @@ fn what_cannot_be_formatted_is_two_and_the_rest_is_done() {
     }
 }
 
-/// The file keeps its permissions, and what a link leads to is formatted in its place.
+/// The file keeps its permissions, and the target of a link is formatted in place.
 #[cfg(unix)]
 #[test]
 fn formatting_keeps_permissions_and_links() {
@@ -443,7 +443,7 @@ fn graphs_are_drawn() {
     let named = folder.0.join("bell.dot");
     assert_eq!(graph(&["-o", named.to_str().unwrap()], &file).status.code(), Some(0));
     assert!(fs::read_to_string(&named).unwrap().starts_with("digraph {"));
-    // Also those that are no programs: used in others, or with a parameter without a value.
+    // Also graphs that are not programs: used in others, or with a parameter without a value.
     let file = folder.file(
         "parts.afg",
         "graph Open(n: u8) {\n    in  x: u8;\n    out y: u8;\n    x -> y;\n}\ngraph All {\n    slot push;\n    node house = House();\n    push -> house.push;\n}\n".to_owned() + BELL,
@@ -518,7 +518,7 @@ fn graphs_that_cannot_be_drawn() {
     assert!(stderr(&output).contains("unknown-node") && !picture.exists(), "{}", stderr(&output));
 }
 
-/// What is no file is not replaced by one.
+/// Something that is not a file is not replaced by a file.
 #[cfg(unix)]
 #[test]
 fn a_pipe_stays_a_pipe() {
@@ -537,7 +537,7 @@ fn a_pipe_stays_a_pipe() {
     assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
 }
 
-/// A file without an end, and one that cannot be written to.
+/// A file without an end, and one that cannot be written.
 #[cfg(target_os = "linux")]
 #[test]
 fn devices() {
@@ -604,7 +604,7 @@ fn cannot_run(name: &str, dependencies: &str, missing: &str) {
     }
 }
 
-/// Nodes are missing because the Rust around them is broken: that is what has to be mended.
+/// Nodes are missing because their Rust file has an error: the message names the error.
 #[test]
 fn nodes_in_broken_rust() {
     let folder = Folder::new("broken_rust");
@@ -617,7 +617,7 @@ fn nodes_in_broken_rust() {
     }
 }
 
-/// What is wrong with the files of a run is said before anything is built.
+/// Errors in the file arguments of a run are reported before the build.
 #[test]
 fn files_of_a_run() {
     let folder = Folder::new("files");

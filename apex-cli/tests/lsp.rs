@@ -1,4 +1,4 @@
-//! The language server as an editor starts it: what comes over its pipes may be anything.
+//! The language server as an editor starts it, with arbitrary input.
 
 #[allow(dead_code, reason = "other tests use the rest")]
 mod common;
@@ -10,13 +10,13 @@ use std::{
     process::{Child, ChildStdin, ChildStdout, Stdio},
 };
 
-/// A server with an open text.
+/// A server with an open source file.
 struct Server {
     child: Child,
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
     next: i64,
-    /// The messages that came since the last request was sent, but for its answer.
+    /// Messages since the last request, without its answer.
     came: Vec<Value>,
     text: String,
 }
@@ -78,14 +78,14 @@ impl Server {
         serde_json::from_slice(&body).unwrap()
     }
 
-    /// The names in the outline of the open text.
+    /// Names in the outline of the open source file.
     fn outline(&mut self) -> Vec<String> {
         let params = json!({ "textDocument": { "uri": self.text } });
         let answer = self.ask("textDocument/documentSymbol", params);
         answer["result"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap().to_owned()).collect()
     }
 
-    /// Says goodbye; the exit code.
+    /// Shuts the server down. Returns the exit code.
     fn stop(mut self) -> Option<i32> {
         assert_eq!(self.ask("shutdown", Value::Null)["result"], Value::Null);
         self.tell("exit", &Value::Null);
@@ -100,7 +100,7 @@ fn no_message_ends_the_server() {
     let mut server = Server::start(&folder);
     assert_eq!(server.outline(), ["A"]);
     let body = |body: &str| format!("Content-Length: {}\r\n\r\n{body}", body.len());
-    // Each is answered with an error, and what follows is understood.
+    // Each is answered with an error, and the next message is understood.
     for (damage, code) in [
         (body("{nope"), -32700),
         (body(""), -32700),
@@ -124,7 +124,7 @@ fn no_message_ends_the_server() {
         assert_eq!(errors.len(), 1, "{shown}: {errors:?}");
         assert_eq!(errors[0]["error"]["code"], code, "{shown}: {errors:?}");
     }
-    // Parameters that make no sense.
+    // Parameters of the wrong type.
     for params in [json!(null), json!([1]), json!({ "textDocument": 3 })] {
         assert_eq!(server.ask("textDocument/hover", params.clone())["error"]["code"], -32602, "{params}");
         server.tell("textDocument/didChange", &params);
@@ -134,7 +134,7 @@ fn no_message_ends_the_server() {
     assert_eq!(server.stop(), Some(0));
 }
 
-/// Characters that are none are replaced: the text stays the one that the editor has.
+/// Invalid characters are replaced, so that the text stays the same as in the editor.
 #[test]
 fn characters_that_are_none() {
     let folder = Folder::new("lsp-characters");
@@ -154,7 +154,7 @@ fn characters_that_are_none() {
     assert_eq!(server.stop(), Some(0));
 }
 
-/// How often threads of the server have begun to wait: each time one wakes up, it does so again.
+/// Number of times that threads of the server have begun to wait. It grows whenever a thread wakes up.
 #[cfg(target_os = "linux")]
 fn waits(server: &Server) -> u64 {
     let tasks = std::fs::read_dir(format!("/proc/{}/task", server.child.id())).unwrap();
@@ -166,7 +166,7 @@ fn waits(server: &Server) -> u64 {
     tasks.map(count).sum()
 }
 
-/// A server that looks for something now and then never stands still.
+/// An idle server sleeps, without polling.
 #[cfg(target_os = "linux")]
 #[test]
 fn nothing_happens_while_nothing_happens() {
@@ -179,7 +179,7 @@ fn nothing_happens_while_nothing_happens() {
         sleep(Duration::from_secs(1));
         waits(server) == before
     };
-    // What was asked before may still be at work.
+    // An earlier request may still be in progress.
     assert!((0..30).any(|_| is_still(&server)));
     assert_eq!(server.stop(), Some(0));
 }

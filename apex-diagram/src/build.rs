@@ -1,4 +1,4 @@
-//! Graph → model. Nested graphs come from the connections as they are written, not from the flattened ones.
+//! Builds the model of a graph. Nested graphs follow the connections as written, not the flattened ones.
 
 use crate::{
     model::{Anchor, Flow, Frame, Item, Line, Port, Shape, Side},
@@ -13,7 +13,7 @@ use apex_dsl::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The picture of a graph.
+/// Diagram of a graph.
 pub fn diagram(graph: &Graph, machines: &Machines, catalog: &Catalog) -> Item {
     let mut item = Item::new(Shape::Node, &graph.name);
     item.docs.clone_from(&graph.docs);
@@ -23,7 +23,7 @@ pub fn diagram(graph: &Graph, machines: &Machines, catalog: &Catalog) -> Item {
     item
 }
 
-/// What stands in a scope.
+/// A node or a nested graph in a scope.
 #[derive(Clone, Copy)]
 enum Member {
     Node(NodeId),
@@ -34,7 +34,7 @@ struct Builder<'a> {
     graph: &'a Graph,
     machines: &'a Machines,
     catalog: &'a Catalog,
-    /// The nodes that activity can reach.
+    /// Nodes that activity can reach.
     active: BTreeSet<NodeId>,
     /// All ends of connections.
     connected: BTreeSet<WireEnd>,
@@ -46,7 +46,7 @@ impl<'a> Builder<'a> {
         Self { graph, machines, catalog, active: analyse::active_nodes(graph), connected }
     }
 
-    /// The ports of the graph itself.
+    /// Boundary nodes, which are the ports of the graph itself.
     fn boundaries(&self) -> impl Iterator<Item = NodeId> {
         (0..self.graph.nodes.len()).filter(|n| matches!(self.graph.nodes[*n].kind, NodeKind::Boundary(_)))
     }
@@ -63,7 +63,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Everything in a scope, in the order of the text.
+    /// All members of a scope, in the order of the source file.
     fn frame(&self, scope: ScopeId) -> Frame {
         let mut frame = Frame::default();
         let mut places: BTreeMap<WireEnd, Anchor> = self.own_places(scope);
@@ -179,7 +179,7 @@ impl<'a> Builder<'a> {
         let is_delay = node.is_delay();
         let port = |index: &usize| {
             let port = &node.ports[*index];
-            // `out` is what a node without a name for its result is given.
+            // `out` is the default name of the result of a node.
             let hidden = is_delay || item.shape != Shape::Node || port.name == "out" && is_alone(index);
             let name = if hidden { String::new() } else { port.name.clone() };
             let connected = self.connected.contains(&places[*index]);
@@ -204,7 +204,7 @@ impl<'a> Builder<'a> {
         item
     }
 
-    /// The body of an `each`, open; that of a single node is the node itself.
+    /// The body of an `each`, opened. A body with a single node becomes that node.
     fn each(&self, node: &Node, each: &Each) -> Item {
         let body = &*each.body;
         let inner = Builder::new(body, self.machines, self.catalog);
@@ -225,7 +225,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Leads activity to the items at which it begins without a token.
+/// Adds lines of activity from a start dot to the items that are active from the start.
 fn start(frame: &mut Frame, waiting: &[usize]) {
     if waiting.is_empty() {
         return;
@@ -258,7 +258,7 @@ fn side(kind: PortKind) -> Side {
     }
 }
 
-/// Dots have lines at their left and right only.
+/// Side of a port. Lines meet dots only from the left and the right.
 fn shape_side(shape: Shape, kind: PortKind) -> Side {
     match shape {
         Shape::Node | Shape::State => side(kind),

@@ -1,9 +1,9 @@
-//! A model for Graphviz.
+//! Output for Graphviz.
 
 use crate::model::{Anchor, Flow, Frame, Item, Line, Shape, Side};
 use std::fmt::Write as _;
 
-/// The picture of an item in the DOT language.
+/// Diagram of an item in the DOT language.
 pub fn dot(item: &Item) -> String {
     let mut text = String::from(
         "digraph {\n  rankdir=LR; compound=true; fontname=\"Helvetica\";\n  node [shape=box fontname=\"Helvetica\" fontsize=11];\n  edge [fontname=\"Helvetica\" fontsize=9];\n",
@@ -13,7 +13,7 @@ pub fn dot(item: &Item) -> String {
     text
 }
 
-/// An item, whose parts have names that begin with `id`.
+/// Writes an item. The names of its parts begin with `id`.
 fn draw(out: &mut String, item: &Item, id: &str, depth: usize) {
     let pad = "  ".repeat(depth);
     let label = [item.name.clone()].into_iter().chain(item.words.clone()).collect::<Vec<_>>().join("\n");
@@ -65,7 +65,7 @@ fn edge(out: &mut String, frame: &Frame, line: &Line, id: &str, pad: &str) {
     let _ = writeln!(out, "{pad}  {from} -> {to} [{labels} style={style}{double}];");
 }
 
-/// A string in quotes; backslashes have no meaning in it but for the ends of lines.
+/// A quoted string. Backslashes are escaped, except in the ends of lines.
 fn quoted(text: &str) -> String {
     let text = text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
     format!("\"{}\"", text.replace(|c: char| c.is_control(), " "))

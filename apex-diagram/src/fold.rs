@@ -1,4 +1,4 @@
-//! Large pictures made small enough to be read: nested graphs are closed, and chains become one box.
+//! Reduction of large diagrams to a readable size: closes nested graphs and draws chains as one box.
 
 use crate::{
     layout::place,
@@ -7,24 +7,24 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most boxes of a picture that can be read without zooming.
+/// Maximum number of boxes of a diagram that is readable without zooming.
 pub const READABLE: usize = 24;
-/// Widest picture that can be read without zooming, in pixels.
+/// Maximum width of a diagram that is readable without zooming, in pixels.
 const WIDEST: i64 = 2000;
-/// Fewest nodes of a chain that becomes one box.
+/// Minimum number of nodes of a chain that becomes one box.
 const CHAIN: usize = 3;
 
-/// What was done to a picture.
+/// Changes by which a diagram was reduced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Folding {
-    /// How deep nested graphs are still open; nothing if all of them are.
+    /// Depth to which nested graphs are still open, or `None` if all are open.
     pub depth: Option<usize>,
-    /// How many boxes stand for a chain of nodes.
+    /// Number of boxes that represent a chain of nodes.
     pub chains: usize,
 }
 
-/// The picture with as much closed as it takes to be read, if that is possible, with [`READABLE`] boxes at most: first
-/// the innermost graphs, then chains of synchronous nodes.
+/// Reduces a diagram until it is readable, with at most [`READABLE`] boxes, if that is possible. Closes the innermost
+/// graphs first, then draws chains of synchronous nodes as one box.
 pub fn folded(item: Item) -> (Item, Folding) {
     let mut folding = Folding::default();
     if is_readable(&item) {
@@ -41,8 +41,8 @@ pub fn folded(item: Item) -> (Item, Folding) {
     (item, folding)
 }
 
-/// The activity of a picture (see [`states`]), with nested graphs closed until it can be read; nothing if there is no
-/// activity in it.
+/// Activity of a diagram (see [`states`]), with nested graphs closed until it is readable. Returns `None` if the
+/// diagram has no activity.
 pub fn folded_states(item: &Item) -> Option<(Item, Folding)> {
     let whole = states(item)?;
     if is_readable(&whole) {
@@ -57,18 +57,18 @@ fn is_readable(item: &Item) -> bool {
     item.count() <= READABLE && place(item).size.0 <= WIDEST
 }
 
-/// The largest depth at which the closed picture can be read, or else 0; nothing if there are no nested graphs.
+/// Largest depth at which the closed diagram is readable, or else 0. Returns `None` without nested graphs.
 fn readable_depth(item: &Item, is_readable: impl Fn(Item) -> bool) -> Option<usize> {
     let mut depths = (1..depth(item)).rev().map(|levels| levels - 1);
     depths.clone().find(|depth| is_readable(item.clone().closed(depth + 1))).or(depths.next_back())
 }
 
-/// How many graphs are nested in each other, the outermost one included.
+/// Number of nesting levels of graphs, including the outermost graph.
 fn depth(item: &Item) -> usize {
     item.inside.as_ref().map_or(0, |frame| 1 + frame.items.iter().map(depth).max().unwrap_or(0))
 }
 
-/// Makes one box of each long chain, at all depths; gives their number.
+/// Replaces each long chain by one box, at all depths. Returns their number.
 fn fold_chains(item: &mut Item) -> usize {
     let Some(frame) = &mut item.inside else { return 0 };
     let chains: Vec<Vec<usize>> = chains(frame).into_iter().filter(|chain| chain.len() >= CHAIN).collect();
@@ -78,7 +78,7 @@ fn fold_chains(item: &mut Item) -> usize {
     chains.len() + frame.items.iter_mut().map(fold_chains).sum::<usize>()
 }
 
-/// Chains of nodes: from each to the next leads the only line of the one, which is the only one to the other.
+/// Chains of nodes. Each node in a chain has a single line to the next one, which has no other incoming line.
 fn chains(frame: &Frame) -> Vec<Vec<usize>> {
     let mut next: BTreeMap<usize, usize> = BTreeMap::new();
     for line in frame.lines.iter().filter(|line| !line.active) {
@@ -102,10 +102,10 @@ fn is_alike(a: &Item, b: &Item) -> bool {
     is_plain(a) && is_plain(b) && a.active == b.active
 }
 
-/// The frame with a box for each chain, where its first node was.
+/// Replaces each chain by a box in the position of its first node.
 fn with_boxes(frame: &Frame, chains: &[Vec<usize>]) -> Frame {
     let mut result = Frame::default();
-    // From each port to that of the new frame.
+    // Port in the new frame for each old one.
     let mut places: BTreeMap<Anchor, Anchor> = BTreeMap::new();
     let inner: BTreeSet<usize> = chains.iter().flat_map(|chain| chain[1..].iter().copied()).collect();
     for (index, item) in frame.items.iter().enumerate().filter(|(index, _)| !inner.contains(index)) {
@@ -128,7 +128,7 @@ fn with_boxes(frame: &Frame, chains: &[Vec<usize>]) -> Frame {
     result
 }
 
-/// A box for a chain, with the item and port that each of its ports was.
+/// Box for a chain, and the item and port from which each of its ports comes.
 fn one_box(frame: &Frame, chain: &[usize]) -> (Item, Vec<(usize, usize)>) {
     let (first, last) = (chain[0], chain[chain.len() - 1]);
     let items = || chain.iter().map(|index| &frame.items[*index]);

@@ -1,6 +1,7 @@
-//! Pictures of graphs: a graph becomes a model of boxes, ports and lines, the model gets coordinates, and these become SVG.
+//! Diagrams of graphs: a graph becomes a model of boxes, ports and lines; a layout adds coordinates; the result is
+//! drawn as SVG.
 //!
-//! All of it is pure and the same for the same graph: no files, no clock, no unordered iteration.
+//! All functions are pure and deterministic: no files, no clock, no unordered iteration.
 
 mod build;
 mod dot;

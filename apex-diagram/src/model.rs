@@ -1,39 +1,39 @@
-//! What a picture shows.
+//! Contents of a diagram.
 
-/// Most boxes of one picture; nobody can read more.
+/// Maximum number of boxes in a diagram, beyond which it is not readable.
 pub const MAX_ITEMS: usize = 500;
 
-/// A thing with ports: a node, a nested graph, or the whole graph.
+/// A box with ports: a node, a nested graph, or the whole graph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Item {
-    /// How it is drawn.
+    /// Shape.
     pub shape: Shape,
     /// Instance name.
     pub name: String,
-    /// Its type, parameters and modifiers, a line each.
+    /// Type, parameters and modifiers, one per line.
     pub words: Vec<String>,
     /// Documentation.
     pub docs: String,
-    /// Activity can come to it.
+    /// `true` if activity can reach it.
     pub active: bool,
-    /// It runs once per element of a list.
+    /// `true` if it runs once per element of a list.
     pub each: bool,
-    /// Its ports.
+    /// Ports.
     pub ports: Vec<Port>,
-    /// What is drawn inside.
+    /// Contents of a nested graph.
     pub inside: Option<Frame>,
-    /// The states of a state machine.
+    /// States of a state machine.
     pub states: Option<Frame>,
 }
 
-/// How an item is drawn.
+/// Shape of an item.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// A box.
     Node,
-    /// A rounded box: a place where activity can be.
+    /// A rounded box: a node that can be active.
     State,
-    /// A filled dot: where activity begins.
+    /// A filled dot: the start of activity.
     Start,
     /// A dot in a ring: the program ends.
     PortId,
@@ -43,12 +43,12 @@ pub enum Shape {
     Event,
 }
 
-/// The inside of an item.
+/// The contents of an item.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frame {
-    /// What stands in it.
+    /// Items.
     pub items: Vec<Item>,
-    /// Connections between them, and with the ports of the frame.
+    /// Connections between the items and with the ports of the frame.
     pub lines: Vec<Line>,
 }
 
@@ -68,26 +68,26 @@ pub enum Side {
 /// A port.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Port {
-    /// Its name; empty where it says nothing.
+    /// Name; empty if it would not be informative.
     pub name: String,
-    /// Where it stands.
+    /// Side of the box.
     pub side: Side,
     /// Type and documentation.
     pub docs: String,
-    /// Whether a line begins or ends at it.
+    /// `true` if a line begins or ends at it.
     pub connected: bool,
 }
 
 /// An end of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Anchor {
-    /// A port of the frame itself, from inside.
+    /// Port of the frame itself, seen from inside.
     Own(usize),
     /// Port of an item: the item, then its port.
     Of(usize, usize),
 }
 
-/// How tokens travel on a line.
+/// Kind of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Flow {
     /// Output to input.
@@ -101,15 +101,15 @@ pub enum Flow {
 /// A connection.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line {
-    /// Where tokens come from.
+    /// End that sends tokens.
     pub from: Anchor,
-    /// Where they go.
+    /// End that takes tokens.
     pub to: Anchor,
-    /// `=>`: drawn double.
+    /// `true` for `=>`, which is drawn double.
     pub active: bool,
-    /// How tokens travel.
+    /// Kind of the connection.
     pub flow: Flow,
-    /// What stands at it.
+    /// Label.
     pub label: String,
 }
 
@@ -120,12 +120,12 @@ impl Item {
         Self { shape, name, words, docs, active: false, each: false, ports: vec![], inside: None, states: None }
     }
 
-    /// How many items there are in it, itself included.
+    /// Number of items in it, including itself.
     pub fn count(&self) -> usize {
         1 + self.inside.iter().flat_map(|frame| &frame.items).map(Self::count).sum::<usize>()
     }
 
-    /// The same with what is nested deeper than `depth` closed: a box with its ports.
+    /// Closes everything that is nested deeper than `depth`, so that boxes with ports remain.
     #[must_use]
     pub fn closed(self, depth: usize) -> Self {
         let inside = self.inside.zip(depth.checked_sub(1)).map(|(frame, depth)| Frame {
@@ -135,7 +135,7 @@ impl Item {
         Self { inside, ..self }
     }
 
-    /// Its ports at one side, by number.
+    /// Indices of its ports on one side.
     pub fn at(&self, side: Side) -> Vec<usize> {
         (0..self.ports.len()).filter(|p| self.ports[*p].side == side).collect()
     }
@@ -149,14 +149,14 @@ impl Port {
 }
 
 impl Anchor {
-    /// The item that it belongs to.
+    /// Item that the port belongs to.
     pub fn item(self) -> Option<usize> {
         if let Self::Of(item, _) = self { Some(item) } else { None }
     }
 }
 
 impl Flow {
-    /// The word for it.
+    /// Name of the kind.
     pub fn word(self) -> &'static str {
         match self {
             Self::Synchronous => "synchronous",

@@ -1,23 +1,24 @@
-//! The activity sub-graph alone, as a state diagram: who can be active, and where activity goes with which token.
+//! Reduces a diagram to activity, as a state diagram: the nodes that can be active, and the tokens that pass activity
+//! on.
 
 use crate::model::{Anchor, Flow, Frame, Item, Line, Port, Shape, Side};
 use apex_dsl::machine::{Arm, Machine, Sending, Slot};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What activity sees of a picture; nothing if there is no activity in it.
+/// State diagram of the activity in a diagram, or `None` if there is no activity.
 pub fn states(diagram: &Item) -> Option<Item> {
     let seen = seen(diagram, BTreeSet::new())?;
     Some(Item { shape: Shape::Node, ..seen.item })
 }
 
-/// An item as activity sees it.
+/// An item in the state diagram.
 struct Seen {
     item: Item,
-    /// From the numbers of its ports to those that they have now. Nothing if each line gets a port of its own.
+    /// New index of each port that is kept, or `None` if each line gets a port of its own.
     ports: Option<BTreeMap<usize, usize>>,
 }
 
-/// An item whose ports `used` activity comes through; nothing if activity does not come to it.
+/// State of an item, of which activity uses the ports `used`, or `None` if activity does not reach it.
 fn seen(item: &Item, used: BTreeSet<usize>) -> Option<Seen> {
     let shape = if item.shape == Shape::Node { Shape::State } else { item.shape };
     let words = item.words.iter().take(1).cloned().collect();
@@ -46,13 +47,13 @@ fn own_port(end: Anchor) -> Option<usize> {
     if let Anchor::Own(port) = end { Some(port) } else { None }
 }
 
-/// In a state diagram everything goes from left to right.
+/// Moves a port to the left or the right: state diagrams have no ports at the top or the bottom.
 fn turned(port: &Port) -> Port {
     let side = if matches!(port.side, Side::Left | Side::Top) { Side::Left } else { Side::Right };
     Port { side, ..port.clone() }
 }
 
-/// The active lines of a frame and the items at their ends.
+/// Active lines of a frame, and the items at their ends.
 fn active(frame: &Frame) -> Frame {
     let lines: Vec<&Line> = frame.lines.iter().filter(|l| l.active).collect();
     let mut used = vec![BTreeSet::new(); frame.items.len()];
@@ -72,13 +73,13 @@ fn active(frame: &Frame) -> Frame {
     view.result
 }
 
-/// A frame as activity sees it, while it is being made.
+/// Construction of the state diagram of a frame.
 struct View<'a> {
     frame: &'a Frame,
     result: Frame,
-    /// From the number of an item in the whole picture: its number here, and those of its ports.
+    /// For the index of an item in the whole diagram: its new index, and those of its ports.
     items: BTreeMap<usize, (usize, Option<BTreeMap<usize, usize>>)>,
-    /// The lines by what they connect: those between the same states are drawn as one.
+    /// Lines by their ends: lines between the same states are drawn as one.
     lines: BTreeMap<(Anchor, Anchor), usize>,
 }
 
@@ -100,11 +101,11 @@ impl View<'_> {
         }
         self.lines.insert(ends, self.result.lines.len());
         let (from, to) = (self.end(line.from, Side::Right), self.end(line.to, Side::Left));
-        // All lines are alike here: there is nothing to tell apart.
+        // All lines look alike, because all of them carry activity.
         self.result.lines.push(Line { from, to, active: false, flow: Flow::Synchronous, label });
     }
 
-    /// What tells ends of lines apart: a state is the same at all of its ports.
+    /// Identity of an end: all ports of a state are one end.
     fn place(&self, end: Anchor) -> Anchor {
         match end {
             Anchor::Of(item, _) if self.items[&item].1.is_none() => Anchor::Of(item, 0),
@@ -112,7 +113,7 @@ impl View<'_> {
         }
     }
 
-    /// An end here; a state gets a port for it.
+    /// End in the state diagram; a state gets a new port for it.
     fn end(&mut self, end: Anchor, side: Side) -> Anchor {
         let Anchor::Of(item, port) = end else { return end };
         let (item, ports) = &self.items[&item];
@@ -130,7 +131,7 @@ impl View<'_> {
     }
 }
 
-/// The picture of a state machine by itself.
+/// Diagram of a state machine.
 pub fn chart(of: &Machine) -> Item {
     let mut item = Item::new(Shape::Node, &of.name);
     item.words.push("fsm".to_owned());
@@ -139,7 +140,7 @@ pub fn chart(of: &Machine) -> Item {
     item
 }
 
-/// The inside of a state machine as a state diagram.
+/// Contents of a state machine as a state diagram.
 pub fn machine(machine: &Machine) -> Frame {
     let mut frame = Frame::default();
     for state in &machine.states {
@@ -169,7 +170,7 @@ fn transition(frame: &mut Frame, from: usize, to: usize, label: String) {
     frame.lines.push(Line { from, to, active: false, flow: Flow::Synchronous, label });
 }
 
-/// `slot [guard] / events`
+/// Label of a transition: `slot [guard] / events`.
 fn label(machine: &Machine, slot: &Slot, arm: &Arm) -> String {
     let mut text = slot.name.clone();
     if let Some(guard) = &arm.guard {
@@ -178,7 +179,7 @@ fn label(machine: &Machine, slot: &Slot, arm: &Arm) -> String {
     text + &sends(machine, &arm.sends)
 }
 
-/// ` / events`, or nothing.
+/// Events of a transition: ` / events`, or an empty string.
 fn sends(machine: &Machine, sent: &[Sending]) -> String {
     let events: Vec<&str> = sent.iter().map(|s| machine.events[s.event].0.as_str()).collect();
     if events.is_empty() { String::new() } else { format!(" / {}", events.join(", ")) }

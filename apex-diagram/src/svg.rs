@@ -1,4 +1,4 @@
-//! A placed model as SVG that needs nothing else: no scripts, no fonts, no images.
+//! Output as a self-contained SVG document, without scripts, fonts and images.
 
 use crate::{
     layout::{Align, Placed, Point, Stroke, Text, place, strokes},
@@ -6,9 +6,9 @@ use crate::{
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
-/// Room around the picture.
+/// Distance around the diagram.
 const MARGIN: i64 = 10;
-/// Radius of corners of lines.
+/// Radius of the corners of lines.
 const CORNER: i64 = 4;
 
 const STYLE: &str = "\
@@ -27,7 +27,7 @@ text { font-family: Helvetica, Arial, 'DejaVu Sans', sans-serif; fill: #222 }
 .ring { fill: #fff; stroke: #222 }
 ";
 
-/// The picture of an item as an SVG document.
+/// Diagram of an item as an SVG document.
 pub fn svg(item: &Item) -> String {
     let placed = place(item);
     let (width, height) = (placed.size.0 + 2 * MARGIN, placed.size.1 + 2 * MARGIN);
@@ -41,7 +41,8 @@ pub fn svg(item: &Item) -> String {
     text
 }
 
-/// An item with its upper left corner at `at`. `taking` are the ports where a line from outside ends: they have an arrow head.
+/// Draws an item with its upper left corner at `at`. `taking` is `true` for ports at which a line from outside ends:
+/// they have an arrow head.
 fn draw(out: &mut String, item: &Item, placed: &Placed, at: Point, taking: &[bool]) {
     let classes = [("item", true), ("active", item.active), ("frame", item.inside.is_some())];
     let classes: Vec<&str> = classes.into_iter().filter(|(_, on)| *on).map(|(class, _)| class).collect();
@@ -95,7 +96,7 @@ fn shape(out: &mut String, item: &Item, placed: &Placed) {
     let _ = match item.shape {
         Shape::Node | Shape::State => {
             if item.each {
-                // As many as there are elements.
+                // A stack of boxes stands for the elements of the list.
                 for shift in [6, 3] {
                     let _ = writeln!(
                         out,
@@ -141,8 +142,7 @@ fn inside(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
     }
 }
 
-/// All lines, thin ones first, each with a white core if it is double; over them dots where lines part and join, and
-/// arrow heads.
+/// Draws all lines: thin ones first, then double ones with a white core. Dots at branches and arrow heads are on top.
 fn lines(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
     let strokes = strokes(frame, placed);
     for active in [false, true] {
@@ -162,7 +162,7 @@ fn lines(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
     }
 }
 
-/// How far before its last point a line ends: before its arrow head, if it has one.
+/// Distance between the end of a line and its last point, which leaves space for an arrow head.
 fn back(line: &Line, stroke: &Stroke) -> i64 {
     match (stroke.joins, line.active) {
         (true, _) => 0,
@@ -171,7 +171,7 @@ fn back(line: &Line, stroke: &Stroke) -> i64 {
     }
 }
 
-/// Dots where lines part and where they join; larger ones on double lines.
+/// Draws dots where lines branch and merge; larger ones on double lines.
 fn forks(out: &mut String, frame: &Frame, strokes: &[Stroke]) {
     let mut dots: BTreeMap<Point, bool> = BTreeMap::new();
     for stroke in strokes {
@@ -203,7 +203,7 @@ fn line_title(item: &Item, frame: &Frame, line: &Line) -> String {
     format!("{} {arrow} {} ({})", name(line.from), name(line.to), line.flow.word())
 }
 
-/// A line with rounded corners that ends `back` before its last point.
+/// SVG path of a line with rounded corners, which ends `back` pixels before its last point.
 fn path(route: &[Point], back: i64) -> String {
     let mut points = route.to_vec();
     if let [.., before, last] = &mut points[..] {
@@ -229,7 +229,7 @@ fn path(route: &[Point], back: i64) -> String {
     text
 }
 
-/// The arrow head at the end of a line.
+/// Draws the arrow head at the end of a line.
 fn head(out: &mut String, route: &[Point], active: bool) {
     let [.., before, (x, y)] = route[..] else { return };
     let (dx, dy) = ((x - before.0).signum(), (y - before.1).signum());
@@ -259,7 +259,7 @@ fn words(out: &mut String, text: &Text) {
     let _ = writeln!(out, "{}</text>", escaped(&text.plain));
 }
 
-/// Text for XML.
+/// Escapes text for XML.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
@@ -269,7 +269,7 @@ fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\n' | '\t' => out.push(c),
-            // XML has no way to write these.
+            // XML cannot represent these characters.
             c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
             c => out.push(c),
         }

@@ -1,4 +1,4 @@
-//! How much room text takes. The fonts of the reader are not known, so that this is on the wide side.
+//! Estimates of the width of text. The fonts of the reader are not known, so the estimates are generous.
 
 /// Width of `text` in a sans-serif font of this size.
 pub fn width(text: &str, size: f64) -> f64 {
@@ -23,7 +23,7 @@ fn em(c: char) -> f64 {
     }
 }
 
-/// `text`, cut where it has more than `most` characters.
+/// `text`, shortened to at most `most` characters.
 pub fn shortened(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();

@@ -1,4 +1,4 @@
-//! Types, parameters and modifiers, as short as they stand in a box.
+//! Types, parameters and modifiers in the short form for boxes.
 
 use crate::text::shortened;
 use apex_dsl::{
@@ -8,17 +8,17 @@ use apex_dsl::{
 };
 use std::time::Duration;
 
-/// Longest line in a box, in characters.
+/// Maximum length of a line in a box, in characters.
 const LONGEST: usize = 34;
-/// Most parameters that a box shows.
+/// Maximum number of parameters in a box.
 const MOST: usize = 4;
 
-/// The name of a type with its type arguments, as far as they are written.
+/// Name of a type.
 pub fn type_name(library: &Library, catalog: &Catalog) -> String {
     shortened(&catalog.signatures[library.signature].name, LONGEST)
 }
 
-/// The parameters that are not what they are by default.
+/// Parameters with values other than the default.
 pub fn parameters(library: &Library, catalog: &Catalog) -> Vec<String> {
     let params = &catalog.signatures[library.signature].params;
     let differs = |(param, value): &(&ParamSig, &Value)| !is_default(param, value);
@@ -61,7 +61,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs()
 }
 
-/// A value as a text has it, in this unit if it is a number.
+/// A value in the notation of the language; a number is in this unit.
 pub fn value(given: &Value, unit: Option<&str>) -> String {
     match given {
         Value::Number(n) => {
@@ -88,12 +88,12 @@ pub fn value(given: &Value, unit: Option<&str>) -> String {
     }
 }
 
-/// What a division leaves in the last digits says nothing.
+/// Removes the rounding error of a division.
 fn rounded(number: f64) -> String {
     format!("{number:.9e}").parse().unwrap_or(number).to_string()
 }
 
-/// A duration in the unit in which it is short.
+/// A duration in the largest unit without a fraction.
 pub fn duration(d: Duration) -> String {
     let seconds = d.as_secs();
     if d.subsec_nanos() == 0 && seconds > 0 {
@@ -110,7 +110,7 @@ pub fn duration(d: Duration) -> String {
     }
 }
 
-/// The modifiers of an instance, in one line; nothing if it has none.
+/// Modifiers of an instance in one line, or `None` if it has none.
 pub fn modifiers(modifiers: &Modifiers) -> Option<String> {
     let timed = [
         ("every", modifiers.every),

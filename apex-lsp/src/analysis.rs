@@ -1,4 +1,4 @@
-//! Results of the checks of one text.
+//! Results of the checks of one source file.
 
 use crate::{
     features::actions::Certain,
@@ -19,45 +19,45 @@ use apex_dsl::{
 use lsp_types::Position;
 use std::{path::Path, sync::Arc};
 
-/// States that are looked at to decide claims while somebody types.
+/// Maximum number of states to visit for claims while the user types.
 const QUICK_STATES: usize = 1000;
 
-/// What is known about one text.
+/// Analysis of one source file.
 pub struct Analysis {
-    /// The text.
+    /// Text of the source file.
     pub text: Arc<str>,
-    /// Its messages.
+    /// Diagnostics of the source file.
     pub report: Report,
-    /// Its names and connections; if it is half-written, those of the text that was checked in its place.
+    /// Names and connections. For a half-written source file, those of the repaired text that was checked instead.
     pub names: Names,
     lines: Lines,
     encoding: Encoding,
 }
 
-/// The messages of a check, with the places that they name.
+/// Diagnostics of a check, with the places that they refer to.
 pub struct Report {
-    /// The messages.
+    /// Diagnostics.
     pub diagnostics: Diagnostics,
-    /// The places.
+    /// Places.
     pub places: Places,
-    /// States that were looked at to decide claims.
+    /// Maximum number of states that were visited for claims.
     states: usize,
-    /// Changes that were tried, and whether they mend something.
+    /// Fixes that were tried, each with `true` if it removes an error.
     tried: Vec<(Certain, bool)>,
 }
 
-/// The names and connections of a check, with the places that they name.
+/// Names and connections of a check, with the places that they refer to.
 pub struct Names {
-    /// The names in the text and in those that it imports.
+    /// Names in the source file and in its imports.
     pub occurrences: Vec<Occurrence>,
-    /// The places.
+    /// Places.
     pub places: Places,
     texts: SourceSet,
     links: Vec<Link>,
 }
 
 impl Analysis {
-    /// Checks `text`. Only if it is `thorough`, claims with very many states are decided.
+    /// Checks `text`. Claims that need very many states are checked only if `thorough` is set.
     pub fn new(
         path: &Path,
         text: &Arc<str>,
@@ -85,7 +85,7 @@ impl Analysis {
         Self { text: text.clone(), report, names, lines: Lines::new(text, encoding), encoding }
     }
 
-    /// Whether a change of the text mends something: checks the changed text, once for each change.
+    /// Checks the source file with a fix applied, once for each fix. Returns `true` if the fix removes an error.
     pub fn mends(&mut self, path: &Path, certain: &Certain, project: (&mut Catalog, &mut dyn World)) -> bool {
         if let Some((_, mends)) = self.report.tried.iter().find(|(tried, _)| tried == certain) {
             return *mends;
@@ -99,22 +99,22 @@ impl Analysis {
         mends
     }
 
-    /// Whether the text at `path` is part of it.
+    /// `true` if the check read the source file at `path`.
     pub fn reads(&self, path: &Path) -> bool {
         self.report.places.reads(path) || self.names.places.reads(path)
     }
 
-    /// The byte at a position.
+    /// Byte offset of a position.
     pub fn offset(&self, position: Position) -> usize {
         self.lines.offset(&self.text, self.encoding, position)
     }
 
-    /// The lines of another text, in the encoding of the client.
+    /// Lines of another text, in the encoding of the client.
     pub fn lines_of(&self, text: &str) -> Lines {
         Lines::new(text, self.encoding)
     }
 
-    /// The lines of the text.
+    /// Lines of the source file.
     pub fn lines(&self) -> &Lines {
         &self.lines
     }
@@ -128,7 +128,7 @@ impl Names {
         Self { occurrences, places, texts, links }
     }
 
-    /// The text as the questions of `apex_dsl::ide` want it.
+    /// View for queries to `apex_dsl::ide`.
     pub fn view<'a>(&'a self, project: &'a Project) -> View<'a> {
         let sources = self.places.sources();
         View { texts: &self.texts, links: &self.links, sources, catalog: &project.catalog }

@@ -1,4 +1,4 @@
-//! What the server can do, and what it has to know of the client.
+//! Capabilities of the server and of the client.
 
 use crate::position::Encoding;
 use lsp_types::{
@@ -7,21 +7,21 @@ use lsp_types::{
     TextDocumentSyncKind, TextDocumentSyncOptions, TextDocumentSyncSaveOptions,
 };
 
-/// What the client can do.
+/// Capabilities of the client.
 #[derive(Debug, Clone, Copy)]
 pub struct Client {
-    /// In what it counts columns.
+    /// Unit of columns.
     pub encoding: Encoding,
-    /// Completions may have placeholders.
+    /// `true` if completions may have placeholders.
     pub snippets: bool,
-    /// It watches files if it is asked to.
+    /// `true` if it watches files on request.
     pub watches: bool,
-    /// It asks for inlay hints again if it is told to.
+    /// `true` if it updates inlay hints on request.
     pub refreshes_hints: bool,
 }
 
 impl Client {
-    /// Reads what the client says of itself.
+    /// Reads the capabilities that the client announces.
     pub fn new(said: &ClientCapabilities) -> Self {
         let general = said.general.as_ref();
         let item = || said.text_document.as_ref()?.completion.as_ref()?.completion_item.as_ref();
@@ -37,7 +37,7 @@ impl Client {
     }
 }
 
-/// What the server can do.
+/// Capabilities of the server.
 pub fn capabilities(encoding: Encoding) -> ServerCapabilities {
     let sync = TextDocumentSyncOptions {
         open_close: Some(true),
@@ -45,7 +45,7 @@ pub fn capabilities(encoding: Encoding) -> ServerCapabilities {
         save: Some(TextDocumentSyncSaveOptions::SaveOptions(SaveOptions { include_text: Some(false) })),
         ..TextDocumentSyncOptions::default()
     };
-    // A completion is wanted where one of these was written, besides words.
+    // Besides words, these characters trigger a completion.
     let triggers = [".", ":", "(", ">", "=", " "].map(str::to_owned).to_vec();
     let actions =
         CodeActionOptions { code_action_kinds: Some(vec![CodeActionKind::QUICKFIX]), ..CodeActionOptions::default() };

@@ -1,21 +1,21 @@
-//! The texts that are open in the editor.
+//! Source files that are open in the editor.
 
 use crate::position::{Encoding, Lines};
 use lsp_types::{TextDocumentContentChangeEvent, Uri};
 use std::sync::Arc;
 
-/// An open text.
+/// An open source file.
 pub struct Document {
-    /// Its address as the editor writes it.
+    /// Address as the editor writes it.
     pub uri: Uri,
-    /// Its number, which grows with every change.
+    /// Version, which increases with every change.
     pub version: i32,
-    /// What it says now.
+    /// Current text.
     pub text: Arc<str>,
 }
 
 impl Document {
-    /// Does what the editor did.
+    /// Applies changes from the editor.
     pub fn change(&mut self, version: i32, changes: &[TextDocumentContentChangeEvent], encoding: Encoding) {
         let mut text = self.text.to_string();
         for change in changes {

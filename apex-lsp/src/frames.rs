@@ -1,14 +1,14 @@
-//! Messages in a stream of bytes: a header with `Content-Length: 17`, an empty line, and as many bytes of JSON. A
-//! stream that is not what it should be is read again from the next header on: raw ends of line cannot stand in a
-//! string of JSON, so that no message contains one.
+//! Messages in a stream of bytes. A message is a header with `Content-Length: 17`, an empty line, and as many bytes of
+//! JSON. After an error, reading continues at the next header. This is safe because strings in JSON contain no raw line
+//! ends, so that no message contains a header.
 
 use std::io::{self, Read};
 
-/// Longest message, in bytes: a text of the largest size, every character of it escaped.
+/// Maximum length of a message in bytes: that of a source file of the largest size with every character escaped.
 pub const MAX_MESSAGE: usize = 6 * apex_dsl::syntax::MAX_BYTES + (1 << 20);
-/// Longest header, in bytes.
+/// Maximum length of a header in bytes.
 const MAX_HEADER: usize = 4 << 10;
-/// Bytes that are read at once.
+/// Number of bytes to read at once.
 const CHUNK: usize = 64 << 10;
 
 const LENGTH: &str = "Content-Length:";
@@ -19,7 +19,7 @@ const HEADER_END: &[u8] = b"\r\n\r\n";
 pub enum Frame {
     /// The content of a message.
     Body(Vec<u8>),
-    /// Bytes that are not a message, and why.
+    /// Bytes that are not a message, with the reason.
     Broken(String),
 }
 
@@ -27,18 +27,18 @@ pub enum Frame {
 pub struct Frames<R> {
     input: R,
     buffer: Vec<u8>,
-    /// Whether everything before the next header is to be skipped.
+    /// `true` after an error: everything before the next header is skipped.
     lost: bool,
 }
 
 impl<R: Read> Frames<R> {
-    /// The messages in `input`.
+    /// Messages in `input`.
     pub fn new(input: R) -> Self {
         Self { input, buffer: vec![], lost: false }
     }
 
-    /// The next piece; `None` at the end. A message that is broken or too long is reported before it is skipped: it may
-    /// be long until the next one comes.
+    /// Returns the next piece, or `None` at the end. A broken or too long message is reported before it is skipped,
+    /// because the next one may arrive much later.
     pub fn next(&mut self) -> io::Result<Option<Frame>> {
         if self.lost && !self.skip_to_header()? {
             return Ok(None);
@@ -71,7 +71,7 @@ impl<R: Read> Frames<R> {
         Ok(Some(Frame::Body(std::mem::replace(&mut self.buffer, rest))))
     }
 
-    /// Gives back a body that is not a message: where its length was wrong, the next message begins inside of it.
+    /// Returns a body that is not a message to the stream. If its length was wrong, the next message begins in it.
     pub fn give_back(&mut self, body: Vec<u8>) {
         let (Ok(at) | Err(at)) = next_header(&body);
         self.buffer.splice(..0, body[at..].iter().copied());
@@ -82,7 +82,7 @@ impl<R: Read> Frames<R> {
         Frame::Broken(reason)
     }
 
-    /// Skips to the next header, but not to the one that the stream begins with; `false` if there is none.
+    /// Skips to the next header, but not to one at the start of the stream. Returns `false` if there is none.
     fn skip_to_header(&mut self) -> io::Result<bool> {
         self.buffer.drain(..1);
         loop {
@@ -102,7 +102,7 @@ impl<R: Read> Frames<R> {
         }
     }
 
-    /// Reads more; `false` at the end.
+    /// Reads more bytes. Returns `false` at the end.
     fn fill(&mut self) -> io::Result<bool> {
         loop {
             let start = self.buffer.len();
@@ -121,7 +121,7 @@ fn position(bytes: &[u8], pattern: &[u8]) -> Option<usize> {
     bytes.windows(pattern.len()).position(|window| window == pattern)
 }
 
-/// The length that a header states.
+/// Length in a header.
 fn content_length(header: &[u8]) -> Result<usize, String> {
     let header = std::str::from_utf8(header).map_err(|_| "a header that is not ASCII".to_owned())?;
     let mut length = None;
@@ -136,7 +136,7 @@ fn content_length(header: &[u8]) -> Result<usize, String> {
     length.ok_or("a header without `Content-Length`".to_owned())
 }
 
-/// Where a header begins; else where one may begin that is not there as a whole, which may be the end.
+/// Start of the next header, or else the start of bytes that may be the beginning of one, or else the end.
 fn next_header(bytes: &[u8]) -> Result<usize, usize> {
     let mut from = 0;
     while let Some(found) = position(&bytes[from..], LENGTH.as_bytes()) {
@@ -162,7 +162,7 @@ fn next_header(bytes: &[u8]) -> Result<usize, usize> {
 mod tests {
     use super::*;
 
-    /// All pieces of a stream that comes one byte at a time.
+    /// All pieces of a stream that arrives one byte at a time.
     fn frames(stream: &str) -> Vec<Result<String, String>> {
         struct Slow<'a>(&'a [u8]);
         impl Read for Slow<'_> {

@@ -1,6 +1,7 @@
-//! The language server: what editors ask about `.afg` texts, over the Language Server Protocol.
+//! Language server for `.afg` source files, which uses the Language Server Protocol.
 //!
-//! Everything that knows the language is in `apex_dsl::ide`; here is the protocol, one module per feature.
+//! All knowledge of the language is in `apex_dsl::ide`. This crate implements the protocol, with one module per
+//! feature.
 
 mod analysis;
 mod capabilities;

@@ -1,4 +1,4 @@
-//! Places in texts, as the protocol wants them.
+//! Places in source files, in the form of the protocol.
 
 use crate::{
     position::{Encoding, Lines},
@@ -8,8 +8,8 @@ use apex_dsl::source::{FileId, Sources, Span};
 use lsp_types::{Location, Range};
 use std::{cell::OnceCell, path::Path};
 
-/// The texts of one check with their lines. A span has a meaning only in the texts in which it was found: whatever
-/// comes out of a check stands beside its places.
+/// Source files of one check with their lines. A span is valid only in the source files in which it was found.
+/// Therefore all results of a check are stored together with its places.
 pub struct Places {
     sources: Sources,
     lines: Vec<OnceCell<Lines>>,
@@ -25,27 +25,27 @@ impl Places {
         Self { sources, lines, encoding }
     }
 
-    /// The texts.
+    /// Source files.
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
 
-    /// Whether the text at `path` is one of them.
+    /// `true` if the source file at `path` is one of them.
     pub fn reads(&self, path: &Path) -> bool {
         self.sources.find(path).is_some()
     }
 
-    /// The file that a span lies in.
+    /// Path of the file that contains a span.
     pub fn path(&self, span: Span) -> &Path {
         &self.sources.get(span.file).path
     }
 
-    /// The lines and columns of a span.
+    /// Range of a span in lines and columns.
     pub fn range(&self, span: Span) -> Range {
         self.lines(span.file).range(span.start as usize, span.end as usize)
     }
 
-    /// A span as the protocol wants it.
+    /// Location of a span in the form of the protocol.
     pub fn location(&self, span: Span) -> Option<Location> {
         Some(Location::new(uri::from_path(self.path(span))?, self.range(span)))
     }
@@ -55,7 +55,7 @@ impl Places {
     }
 }
 
-/// Whether a span lies in the text itself, not in one that it imports.
+/// `true` if a span is in the source file itself, not in an import.
 pub fn is_own(span: Span) -> bool {
     span.file == FileId(0)
 }

@@ -1,24 +1,24 @@
-//! Bytes of a text, and the lines and columns of the protocol.
+//! Conversion between byte offsets and the lines and columns of the protocol.
 
 use lsp_types::{Position, PositionEncodingKind, Range};
 
-/// In what columns are counted.
+/// Unit of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
     /// Bytes.
     Utf8,
-    /// Units of UTF-16: what every client knows.
+    /// UTF-16 code units, which every client supports.
     Utf16,
 }
 
 impl Encoding {
-    /// Bytes if the client offers them.
+    /// Bytes if the client offers them, otherwise UTF-16.
     pub fn choose(offered: Option<&[PositionEncodingKind]>) -> Self {
         let bytes = offered.is_some_and(|kinds| kinds.contains(&PositionEncodingKind::UTF8));
         if bytes { Self::Utf8 } else { Self::Utf16 }
     }
 
-    /// Its name in the protocol.
+    /// Name in the protocol.
     pub fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
@@ -34,14 +34,15 @@ impl Encoding {
     }
 }
 
-/// Line starts and wide characters of a text: positions are found without reading the text again, however long a line.
+/// Line starts and wide characters of a text. With them, a position is found without reading the text again, however
+/// long its line is.
 #[derive(Debug, Clone)]
 pub struct Lines {
-    /// Where the lines begin.
+    /// Byte offsets of the line starts.
     starts: Vec<usize>,
-    /// The characters of several bytes.
+    /// Characters of several bytes.
     wide: Vec<Wide>,
-    /// Length of the text.
+    /// Length of the text in bytes.
     length: usize,
 }
 
@@ -50,12 +51,14 @@ pub struct Lines {
 struct Wide {
     start: usize,
     end: usize,
-    /// By how much the bytes up to its end outnumber the columns.
+    /// Difference between the numbers of bytes and columns up to its end.
     surplus: usize,
 }
 
 impl Lines {
-    /// The lines of `text`; they end with `\n`, `\r\n` or `\r`.
+    /// Lines of `text`. A line ends with `
+    /// `, `\r
+    /// ` or `\r`.
     pub fn new(text: &str, encoding: Encoding) -> Self {
         let bytes = text.as_bytes();
         let ends = |i: usize| bytes[i] == b'\n' || bytes[i] == b'\r' && bytes.get(i + 1) != Some(&b'\n');
@@ -68,7 +71,7 @@ impl Lines {
         Self { starts, wide: wide.collect(), length: text.len() }
     }
 
-    /// The position of a byte; the end of the text for one that lies further.
+    /// Position of a byte offset. An offset after the end of the text is treated as the end.
     pub fn position(&self, offset: usize) -> Position {
         let offset = offset.min(self.length);
         let line = self.starts.partition_point(|start| *start <= offset) - 1;
@@ -76,19 +79,19 @@ impl Lines {
         Position::new(line as u32, column as u32)
     }
 
-    /// How many columns there would be before a byte if the text were one line; a character counts as a whole.
+    /// Number of columns before a byte offset if the text were one line. A character counts as a whole.
     fn columns(&self, offset: usize) -> usize {
         let passed = self.wide.partition_point(|c| c.start < offset);
         passed.checked_sub(1).map_or(offset, |last| offset.max(self.wide[last].end) - self.wide[last].surplus)
     }
 
-    /// The range of `start..end`.
+    /// Range of `start..end`.
     pub fn range(&self, start: usize, end: usize) -> Range {
         Range::new(self.position(start), self.position(end))
     }
 
-    /// The byte at a position of `text`, which these are the lines of: the end of the line for one behind it, the end
-    /// of the text for a line that there is not.
+    /// Byte offset of a position in `text`, to which these lines belong. A column after the end of a line is treated as
+    /// the end of the line, a line after the end of the text as the end of the text.
     pub fn offset(&self, text: &str, encoding: Encoding, position: Position) -> usize {
         let Some(&start) = self.starts.get(position.line as usize) else { return text.len() };
         let end = self.starts.get(position.line as usize + 1).copied().unwrap_or(text.len());
@@ -129,7 +132,7 @@ mod tests {
         }
     }
 
-    /// A column inside of a character is the one behind it.
+    /// A column inside a character is treated as the column after it.
     #[test]
     fn no_position_splits_a_character() {
         let text = "😀b";

@@ -1,4 +1,4 @@
-//! The package that a text belongs to, with the nodes it can use.
+//! Package of a source file, with the nodes that it can use.
 
 use crate::documents::Document;
 use apex_dsl::{
@@ -14,18 +14,18 @@ use std::{
 
 /// A package.
 pub struct Project {
-    /// Files of nodes are named by their path in this folder.
+    /// Folder to which the paths of Rust files are relative.
     pub root: PathBuf,
-    /// The nodes.
+    /// Signatures of the nodes.
     pub catalog: Catalog,
-    /// The file system, as far as it was read.
+    /// File system with a cache of the files that were read.
     pub disk: Disk,
-    /// Why its nodes are not known.
+    /// Reason why the nodes are not known.
     pub failure: Option<String>,
 }
 
 impl Project {
-    /// Reads the package in `folder`; without one there are no nodes.
+    /// Reads the package in `folder`. Without a folder there are no nodes.
     pub fn load(folder: Option<&Path>) -> Self {
         let (workspace, failure) = match folder.map(Workspace::load).transpose() {
             Ok(workspace) => (workspace, None),
@@ -40,16 +40,16 @@ impl Project {
     }
 }
 
-/// The folder of the package that a file belongs to.
+/// Folder of the package that a file belongs to.
 pub fn package_of(file: &Path) -> Option<PathBuf> {
     file.ancestors().skip(1).find(|folder| folder.join("Cargo.toml").is_file()).map(Path::to_owned)
 }
 
-/// The file system with the open texts in front of it.
+/// File system in which open source files have the text from the editor.
 pub struct Overlay<'a> {
-    /// The file system.
+    /// File system.
     pub disk: &'a mut Disk,
-    /// The open texts.
+    /// Open source files.
     pub open: &'a BTreeMap<PathBuf, Document>,
 }
 

@@ -1,5 +1,5 @@
-//! Messages that wait for the worker. Every request in it is about the texts as they are: what a change makes stale,
-//! what the editor takes back and what waits for too long is answered at once.
+//! Queue of messages for the worker. All requests in it refer to the current texts. A request is answered at once if a
+//! change makes it stale, if the editor cancels it, or if it waits too long.
 
 use crate::uri;
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response};
@@ -15,21 +15,21 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Most requests that wait.
+/// Maximum number of requests in the queue.
 const MAX_REQUESTS: usize = 1000;
-/// Most messages that wait: beyond, no more are taken until there is room.
+/// Maximum number of messages in the queue. When it is full, the receiving thread waits.
 const MAX_MESSAGES: usize = 10_000;
 
-/// What the worker does next.
+/// Next task of the worker.
 #[derive(Debug)]
 pub enum Task {
-    /// A message of the editor.
+    /// A message from the editor.
     Message(Message),
-    /// Nothing came for a while.
+    /// No message arrived for some time.
     Quiet,
 }
 
-/// The messages that wait, for the thread that receives them and the worker.
+/// Messages between the receiving thread and the worker.
 #[derive(Default)]
 pub struct Queue {
     state: Mutex<State>,
@@ -39,13 +39,13 @@ pub struct Queue {
 #[derive(Default)]
 struct State {
     waiting: VecDeque<Message>,
-    /// The requests without an answer, and when each is answered at the latest.
+    /// Requests without an answer, each with the deadline for its answer.
     due: BTreeMap<RequestId, Instant>,
     closed: bool,
 }
 
 impl Queue {
-    /// Adds a message; a request is to be answered before `due`. Gives the answers to the requests that need no others.
+    /// Adds a message; a request must be answered before `due`. Returns the answers to all requests that are rejected.
     pub fn put(&self, message: Message, due: Instant) -> Vec<Response> {
         let mut state = self.state();
         while state.waiting.len() >= MAX_MESSAGES && !state.closed {
@@ -69,12 +69,12 @@ impl Queue {
         answers
     }
 
-    /// When the next request is due.
+    /// Earliest deadline of a request.
     pub fn next_due(&self) -> Option<Instant> {
         self.state().due.values().min().copied()
     }
 
-    /// The answers to the requests that are due.
+    /// Answers to the requests whose deadline has passed.
     pub fn overdue(&self, now: Instant) -> Vec<Response> {
         let mut state = self.state();
         let late: Vec<RequestId> = state.due.iter().filter(|(_, due)| **due <= now).map(|(id, _)| id.clone()).collect();
@@ -82,7 +82,8 @@ impl Queue {
         late.into_iter().map(|id| state.refuse(id, ErrorCode::ServerCancelled, reason)).collect()
     }
 
-    /// Waits for what comes next; at most for `quiet`, if there is something else to do. `None` at the end.
+    /// Waits for the next task. With `quiet`, returns `Task::Quiet` after this time without a message. Returns `None`
+    /// at the end.
     pub fn take(&self, quiet: Option<Duration>) -> Option<Task> {
         let mut state = self.state();
         loop {
@@ -107,36 +108,36 @@ impl Queue {
         }
     }
 
-    /// Whether no message waits.
+    /// `true` if the queue contains no message.
     pub fn is_empty(&self) -> bool {
         self.state().waiting.is_empty()
     }
 
-    /// Whether a request still has no answer; from now on it has one.
+    /// Marks a request as answered. Returns `true` if it had no answer before.
     pub fn wants(&self, id: &RequestId) -> bool {
         self.state().due.remove(id).is_some()
     }
 
-    /// Nothing more comes. Requests that wait are still answered.
+    /// Closes the queue: no more messages arrive. Requests in it are still answered.
     pub fn close(&self) {
         self.state().closed = true;
         self.changed.notify_all();
     }
 
-    /// Nothing more comes, and nothing is wanted.
+    /// Closes the queue and removes all messages.
     pub fn abandon(&self) {
         self.state().waiting.clear();
         self.close();
     }
 
-    /// Nothing that could fail happens while the state is locked.
+    /// A poisoned lock is harmless: no code that holds it can leave the state inconsistent.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl State {
-    /// The editor takes a request back.
+    /// Cancels a request of the editor.
     fn cancel(&mut self, params: &Value) -> Vec<Response> {
         let id = params.get("id").and_then(|id| serde_json::from_value::<RequestId>(id.clone()).ok());
         let Some(id) = id.filter(|id| self.due.contains_key(id)) else { return vec![] };
@@ -144,7 +145,7 @@ impl State {
         vec![self.refuse(id, ErrorCode::RequestCanceled, "cancelled")]
     }
 
-    /// Requests about a text that changes before they were looked at: their positions are those of the old text.
+    /// Answers to the requests about a changed text that are still in the queue: their positions refer to the old text.
     fn stale(&mut self, notification: &Notification) -> Vec<Response> {
         if !matches!(notification.method.as_str(), DidChangeTextDocument::METHOD | DidCloseTextDocument::METHOD) {
             return vec![];
@@ -171,7 +172,7 @@ fn refused(id: RequestId, code: ErrorCode, reason: String) -> Response {
     Response::new_err(id, code as i32, reason)
 }
 
-/// The text that a message is about.
+/// Path of the source file that a message refers to.
 fn text(params: &Value) -> Option<std::path::PathBuf> {
     Uri::from_str(params["textDocument"]["uri"].as_str()?).ok().map(|uri| uri::to_path(&uri))
 }
@@ -198,7 +199,7 @@ mod tests {
         answers.into_iter().map(|a| (a.id, a.response_result.err().map_or(0, |e| e.code))).collect()
     }
 
-    /// The numbers of the requests that the worker takes, until nothing waits.
+    /// Numbers of the requests that the worker takes until the queue is empty.
     fn taken(queue: &Queue) -> Vec<RequestId> {
         let mut ids = vec![];
         while !queue.is_empty() {
@@ -231,7 +232,7 @@ mod tests {
         assert_eq!(codes(cancel(json!(1))), [(1.into(), -32800)]);
         assert!(cancel(json!(1)).is_empty() && cancel(json!([])).is_empty() && cancel(json!("2")).is_empty());
         assert_eq!(taken(&queue), [2.into()]);
-        // One that the worker is busy with.
+        // A request that the worker is processing.
         assert_eq!(codes(cancel(json!(2))), [(2.into(), -32800)]);
         assert!(!queue.wants(&2.into()));
     }

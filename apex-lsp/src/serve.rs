@@ -1,5 +1,5 @@
-//! Two threads: one receives what the editor says and sees to it that every request is answered soon, the worker checks
-//! texts and answers.
+//! The two threads of the server. One receives messages and ensures that every request is answered in time. The worker
+//! checks source files and answers.
 
 use crate::{
     capabilities::{Client, capabilities},
@@ -18,13 +18,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long a request waits for an answer, usually: while a long check runs, the editor is told so.
+/// Usual time limit for an answer. If a check takes longer, the request is answered with an error.
 pub const PATIENCE: Duration = Duration::from_secs(5);
-/// The stack of the worker, in bytes: sources of Rust nest deeper than texts.
+/// Stack size of the worker in bytes: Rust code may be nested more deeply than source files.
 const STACK: usize = 64 << 20;
 
-/// Serves an editor until it leaves, and answers every request within `patience`. `false` if it says `exit` without
-/// `shutdown` before.
+/// Serves an editor until it disconnects, and answers every request within `patience`. Returns `false` if the editor
+/// sends `exit` without `shutdown`.
 pub fn serve(connection: &Connection, patience: Duration) -> bool {
     let Some(client) = initialize(connection) else { return true };
     let queue = Arc::new(Queue::default());
@@ -33,7 +33,7 @@ pub fn serve(connection: &Connection, patience: Duration) -> bool {
     let Ok(worker) = worker.spawn(move || server.run()) else { return false };
     let mut is_shut_down = false;
     loop {
-        // Without a request there is nothing to wake up for.
+        // Without a request there is no deadline to wake up for.
         let message = match queue.next_due() {
             None => connection.receiver.recv().map_err(|_| true),
             Some(due) => connection.receiver.recv_deadline(due).map_err(|e| e.is_disconnected()),
@@ -58,13 +58,13 @@ pub fn serve(connection: &Connection, patience: Duration) -> bool {
             }
         };
         for answer in answers {
-            // A client that has gone away is noticed where messages are received.
+            // A closed connection is detected by the receiver.
             let _ = connection.sender.send(answer.into());
         }
     }
 }
 
-/// Greets the client; `None` if it leaves.
+/// Initializes the connection. Returns `None` if the client disconnects.
 fn initialize(connection: &Connection) -> Option<Client> {
     while let Ok(message) = connection.receiver.recv() {
         let answer = match message {
@@ -88,7 +88,7 @@ fn initialize(connection: &Connection) -> Option<Client> {
     None
 }
 
-/// The answer to `shutdown`, and to every request behind it.
+/// Answer to `shutdown`, and to every later request.
 fn shut_down(request: Request, is_shut_down: &mut bool) -> Response {
     if std::mem::replace(is_shut_down, true) {
         let message = "the server is shut down".to_owned();

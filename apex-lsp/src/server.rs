@@ -1,4 +1,4 @@
-//! The worker: keeps the open texts and what is known of them, answers.
+//! The worker: stores the open source files and their analyses, and answers requests.
 
 use crate::{
     analysis::Analysis,
@@ -35,40 +35,40 @@ use std::{
     time::Duration,
 };
 
-/// How long nothing has to be written before what is wrong is said.
+/// Time without messages before diagnostics are published.
 const QUIET: Duration = Duration::from_millis(5);
-/// Most changes that are tried for one request: each one is a check of the text.
+/// Maximum number of fixes that are tried for one request; each trial checks the source file.
 const MAX_TRIALS: usize = 32;
-/// Said where the server itself is wrong.
+/// Message about an error in the server itself.
 const FAILED: &str = "the server failed; please report this";
 
-/// The worker: knows the open texts and what was found in them.
+/// The worker, with the open source files and their analyses.
 pub struct Server {
     sender: Sender<Message>,
     queue: Arc<Queue>,
     client: Client,
     open: BTreeMap<PathBuf, Document>,
-    /// The packages by folder, and what texts outside of all of them see.
+    /// Packages by folder; `None` is the key for source files outside of any package.
     projects: BTreeMap<Option<PathBuf>, Project>,
     analyses: BTreeMap<PathBuf, Analysis>,
-    /// The texts of which the client does not know what is wrong, and whether to look thoroughly.
+    /// Source files whose diagnostics are not yet published, each with `true` for a thorough check.
     unsaid: BTreeMap<PathBuf, bool>,
 }
 
 type Answer<T> = Result<T, String>;
 
 impl Server {
-    /// A server for a client, to which it sends; its messages are in `queue`.
+    /// A server that sends to a client through `sender` and takes its messages from `queue`.
     pub fn new(sender: Sender<Message>, queue: Arc<Queue>, client: Client) -> Self {
         let (open, projects, analyses, unsaid) = Default::default();
         Self { sender, queue, client, open, projects, analyses, unsaid }
     }
 
-    /// Works until the client leaves.
+    /// Works until the client disconnects.
     pub fn run(&mut self) {
         self.watch_files();
         loop {
-            // What is wrong is said when nothing else is to be done.
+            // Diagnostics are published when there is nothing else to do.
             let quiet = (!self.unsaid.is_empty()).then_some(QUIET);
             match self.queue.take(quiet) {
                 Some(Task::Message(Message::Request(request))) => self.answer(request),
@@ -82,7 +82,8 @@ impl Server {
         }
     }
 
-    /// An error in the server must not take the editor's session with it: what was known is found again.
+    /// Runs a step and catches its panics, which must not end the session. After a panic all results are computed
+    /// again.
     fn guarded<T>(&mut self, step: impl FnOnce(&mut Self) -> T) -> Option<T> {
         let done = catch_unwind(AssertUnwindSafe(|| step(self))).ok();
         if done.is_none() {
@@ -102,7 +103,7 @@ impl Server {
         }
     }
 
-    /// A client that has gone away is noticed where messages are received.
+    /// A closed connection is detected by the receiver.
     fn send(&self, message: Message) {
         let _ = self.sender.send(message);
     }
@@ -158,7 +159,7 @@ impl Server {
         }
     }
 
-    // What the editor tells
+    // Notifications from the editor
 
     fn opened(&mut self, params: DidOpenTextDocumentParams) {
         let item = params.text_document;
@@ -174,7 +175,7 @@ impl Server {
         self.text_changed(&path, false);
     }
 
-    /// Nodes may have been saved too, and not every client watches files.
+    /// Nodes may have been saved too, and some clients do not watch files.
     fn saved(&mut self, path: &Path) {
         if self.client.watches {
             self.text_changed(path, true);
@@ -198,20 +199,20 @@ impl Server {
         if paths.iter().any(|p| !is_text(p)) {
             self.nodes_changed();
         } else if paths.iter().any(|p| !self.open.contains_key(p)) {
-            // A new text may be one that another wants to import.
+            // Other source files may import the new one.
             self.analyses.clear();
             self.unsaid.extend(self.open.keys().map(|p| (p.clone(), true)));
         }
     }
 
-    /// What was known of the nodes holds no longer.
+    /// Discards all results that depend on nodes.
     fn nodes_changed(&mut self) {
         self.projects.clear();
         self.analyses.clear();
         self.unsaid.extend(self.open.keys().map(|p| (p.clone(), true)));
     }
 
-    /// What was known of a text, and of those that import it, holds no longer.
+    /// Discards the results of a source file and of those that import it.
     fn text_changed(&mut self, path: &Path, thorough: bool) {
         self.analyses.retain(|_, analysis| !analysis.reads(path));
         let gone = self.open.keys().filter(|p| !self.analyses.contains_key(*p));
@@ -220,7 +221,7 @@ impl Server {
         }
     }
 
-    // What the server tells
+    // Messages to the editor
 
     fn watch_files(&self) {
         if !self.client.watches {
@@ -237,13 +238,13 @@ impl Server {
         self.ask::<request::RegisterCapability>(RegistrationParams { registrations: vec![registration] });
     }
 
-    /// Asks the client for something; what it answers makes no difference.
+    /// Sends a request to the client. The answer is ignored.
     fn ask<R: request::Request>(&self, params: R::Params) {
         let id = RequestId::from(R::METHOD.to_owned());
         self.send(Request::new(id, R::METHOD.to_owned(), params).into());
     }
 
-    /// Checks the texts that have changed, one after the other, as long as no message waits.
+    /// Publishes diagnostics of the changed source files, one by one, while the queue is empty.
     fn say_what_is_wrong(&mut self) {
         while self.queue.is_empty()
             && let Some((path, thorough)) = self.unsaid.pop_first()
@@ -267,15 +268,15 @@ impl Server {
         self.send(Notification::new(notification::PublishDiagnostics::METHOD.to_owned(), params).into());
     }
 
-    // What is known
+    // Analyses
 
-    /// What is known of an open text.
+    /// Analysis of an open source file.
     fn ready(&mut self, uri: &Uri) -> Option<Ready<'_>> {
         let path = uri::to_path(uri);
         self.open.contains_key(&path).then(|| self.analysed(&path, false)).flatten()
     }
 
-    /// What is known of a text, open or not.
+    /// Analysis of a source file, open or not.
     fn analysed(&mut self, path: &Path, thorough: bool) -> Option<Ready<'_>> {
         let folder = package_of(path);
         if !self.projects.contains_key(&folder) {
@@ -292,9 +293,9 @@ impl Server {
         Some(Ready { analysis: &self.analyses[path], project: &self.projects[&folder] })
     }
 
-    // Questions about more than one text
+    // Requests about several source files
 
-    /// The changes that are offered. One that is said to be certain is tried, and preferred only if it mends something.
+    /// Code actions. A fix that is marked as unambiguous is tried, and preferred only if it removes an error.
     fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<CodeActionOrCommand>> {
         let mut offered = actions::actions(&self.ready(&params.text_document.uri)?, params.range);
         let path = uri::to_path(&params.text_document.uri);
@@ -305,7 +306,7 @@ impl Server {
         Some(offered.into_iter().map(|o| CodeActionOrCommand::CodeAction(o.action)).collect())
     }
 
-    /// Whether a change of an open text leaves less errors.
+    /// `true` if a fix of an open source file reduces the errors.
     fn mends(&mut self, path: &Path, fix: &Certain) -> bool {
         let folder = package_of(path);
         let (Some(project), Some(analysis)) = (self.projects.get_mut(&folder), self.analyses.get_mut(path)) else {
@@ -334,7 +335,7 @@ impl Server {
         Ok(Some(CompletionResponse::Array(completion::completion(&ready, at.position, snippets, &siblings))))
     }
 
-    /// The texts in the folder of a text, itself left out: only they can import it.
+    /// Other source files in the folder of a source file: only they can import it.
     fn beside(&self, path: &Path) -> BTreeSet<PathBuf> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
@@ -342,7 +343,7 @@ impl Server {
         entries.chain(open).filter(|p| p != path && p.extension().is_some_and(|e| e == "afg")).collect()
     }
 
-    /// The texts that may use the target: the one at `path`, the one that declares it and those beside that.
+    /// Source files that may use the target: the one at `path`, the one that declares it, and those in the same folder.
     fn concerned(&self, path: &Path, wanted: &Target) -> BTreeSet<PathBuf> {
         let declaring = match wanted {
             Target::Text(declaring, _) => declaring.clone(),
@@ -381,7 +382,7 @@ impl Server {
     }
 }
 
-/// Answers a request whose parameters can be read; a reason is said to the user.
+/// Handles a request and returns its answer. A reason for a failure is shown to the user.
 fn answer<P: serde::de::DeserializeOwned, T: serde::Serialize>(
     id: RequestId,
     params: serde_json::Value,
@@ -396,7 +397,7 @@ fn answer<P: serde::de::DeserializeOwned, T: serde::Serialize>(
     }
 }
 
-/// Takes the parameters of a notification; those that cannot be read are nobody's business.
+/// Handles a notification; invalid parameters are ignored.
 fn with<P: serde::de::DeserializeOwned>(params: serde_json::Value, take: impl FnOnce(P)) {
     if let Ok(params) = serde_json::from_value(params) {
         take(params);

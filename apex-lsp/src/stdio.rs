@@ -1,4 +1,4 @@
-//! The editor on standard input and output. No message of it ends the server.
+//! Connection to an editor by standard input and output. An invalid message does not end the server.
 
 use crate::{
     frames::{Frame, Frames},
@@ -13,15 +13,16 @@ use std::{
     time::Duration,
 };
 
-/// Messages between the streams and the server that wait for each other.
+/// Capacity of the channels between the streams and the server.
 const MESSAGES: usize = 64;
-/// How long the last messages to an editor that leaves may take.
+/// Time limit for the last messages to an editor that disconnects.
 const FAREWELL: Duration = Duration::from_secs(1);
 
-/// Serves an editor on standard input and output until it leaves; whether it did so in good order.
+/// Serves an editor on standard input and output until it disconnects. Returns `true` if the shutdown followed the
+/// protocol.
 ///
 /// # Errors
-/// Says why standard input cannot be read.
+/// Fails if standard input cannot be read, or if a thread cannot be started.
 pub fn stdio() -> Result<bool, String> {
     let (incoming, receiver) = bounded(MESSAGES);
     let (sender, outgoing) = bounded::<Message>(MESSAGES);
@@ -29,7 +30,7 @@ pub fn stdio() -> Result<bool, String> {
     let connection = Connection { sender, receiver };
     let no_thread = |e: io::Error| format!("cannot start a thread: {e}");
     let writer = move || {
-        // An editor that has gone away is noticed where messages are read.
+        // A closed connection is detected by the reader.
         let _ = outgoing.into_iter().try_for_each(|message| message.write(&mut io::stdout().lock()));
         drop(finished);
     };
@@ -38,16 +39,16 @@ pub fn stdio() -> Result<bool, String> {
     let reader = thread::Builder::new().name("apex-read".to_owned()).spawn(reader).map_err(no_thread)?;
     let orderly = serve(&connection, PATIENCE);
     drop(connection);
-    // A check that is still at work keeps the channel open.
+    // A running check keeps the channel open.
     let _ = end.recv_timeout(FAREWELL);
-    // It ends with the input, with `exit`, or when there is no server to pass messages to.
+    // The reader ends with the input, after `exit`, or when the server has ended.
     match reader.join() {
         Ok(Err(error)) => Err(format!("the messages of the editor cannot be read: {error}")),
         _ => Ok(orderly),
     }
 }
 
-/// Passes messages on until the editor leaves; to what is not a message it answers itself.
+/// Passes messages on until the editor disconnects. Answers invalid messages itself.
 fn read(input: impl Read, incoming: &Sender<Message>) -> io::Result<()> {
     let mut frames = Frames::new(input);
     while let Some(frame) = frames.next()? {
@@ -77,15 +78,15 @@ fn read(input: impl Read, incoming: &Sender<Message>) -> io::Result<()> {
     Ok(())
 }
 
-/// A message that cannot be understood.
+/// An invalid message.
 struct Refused {
-    /// Its number, if it has one.
+    /// Id, if it could be read.
     id: Value,
     code: ErrorCode,
     reason: String,
 }
 
-/// Answers with an error. The number of what it answers may be unknown, which `lsp_server` does not provide for.
+/// Answers with an error. The id may be unknown, which `lsp_server` does not support.
 fn refuse(refused: &Refused) {
     let error = json!({ "code": refused.code as i32, "message": refused.reason });
     let body = json!({ "jsonrpc": "2.0", "id": refused.id, "error": error }).to_string();
@@ -93,8 +94,8 @@ fn refuse(refused: &Refused) {
     let _ = write!(output, "Content-Length: {}\r\n\r\n{body}", body.len()).and_then(|()| output.flush());
 }
 
-/// The message in a body. Characters that are none (bytes that are not UTF-8, halves of a surrogate pair) are replaced:
-/// without the change that they stand in, the text would no longer be the one in the editor.
+/// Parses the message in a body. Invalid characters (bytes that are not UTF-8, halves of surrogate pairs) are replaced.
+/// If such a message were dropped, the text would differ from that in the editor.
 fn message(body: &[u8]) -> Result<Message, Refused> {
     let text = String::from_utf8_lossy(body);
     if let Ok(message) = serde_json::from_str(&text) {
@@ -115,7 +116,7 @@ fn message(body: &[u8]) -> Result<Message, Refused> {
     })
 }
 
-/// JSON in which halves of surrogate pairs are replaced by the character for such cases.
+/// Replaces halves of surrogate pairs in JSON by the replacement character.
 fn with_whole_pairs(json: &str) -> String {
     let mut whole = String::with_capacity(json.len());
     let mut rest = json;
@@ -130,7 +131,7 @@ fn with_whole_pairs(json: &str) -> String {
                 continue;
             }
             (Some(_), _) => 6,
-            // What is escaped may be another backslash.
+            // The escaped character may be another backslash.
             (None, _) => 1 + rest[1..].chars().next().map_or(0, char::len_utf8),
         };
         whole.push_str(&rest[..length]);
@@ -140,7 +141,7 @@ fn with_whole_pairs(json: &str) -> String {
     whole
 }
 
-/// The unit of UTF-16 that a text begins with as `\u12ab`.
+/// UTF-16 code unit at the start of a text, written as `\u12ab`.
 fn unit(text: &str) -> Option<u16> {
     let digits = text.strip_prefix("\\u")?.get(..4)?;
     digits.bytes().all(|b| b.is_ascii_hexdigit()).then(|| u16::from_str_radix(digits, 16).ok())?

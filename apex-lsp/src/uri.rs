@@ -6,11 +6,11 @@ use std::{
     str::FromStr as _,
 };
 
-/// The file at an address; an address of something else stands for itself.
+/// Path for an address. An address that is not a file is used as a path itself.
 pub fn to_path(uri: &Uri) -> PathBuf {
     let text = uri.as_str();
     let Some(rest) = text.strip_prefix("file://") else { return PathBuf::from(text) };
-    // Behind the two slashes stands a host, which is empty or this one.
+    // The two slashes are followed by a host, which is empty or this machine.
     let path = rest.find('/').map_or("/", |slash| &rest[slash..]);
     let path = decoded(path);
     // `/c:/folder` on Windows.
@@ -18,7 +18,7 @@ pub fn to_path(uri: &Uri) -> PathBuf {
     PathBuf::from(if is_drive { &path[1..] } else { &path })
 }
 
-/// The address of a file.
+/// Address of a file.
 pub fn from_path(path: &Path) -> Option<Uri> {
     let text = path.to_str()?;
     if !path.is_absolute() {
@@ -39,7 +39,7 @@ pub fn from_path(path: &Path) -> Option<Uri> {
     Uri::from_str(&uri).ok()
 }
 
-/// A text with `%20` and the like as what they stand for.
+/// Decodes `%20` and other escapes.
 fn decoded(text: &str) -> String {
     let bytes = text.as_bytes();
     let digit = |at: usize| bytes.get(at).and_then(|b| (*b as char).to_digit(16));

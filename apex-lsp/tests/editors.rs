@@ -1,4 +1,4 @@
-//! What `editors/` knows of the language is what the compiler knows: words, snippets.
+//! Comparison of the keywords and snippets in `editors/` with those of the compiler.
 
 use apex_dsl::{
     report::Diagnostics,
@@ -35,7 +35,7 @@ fn words_of_the_textmate_grammar() {
         ("claim", KeywordPosition::Claim),
     ] {
         let pattern = grammar["repository"][format!("words-{name}")]["match"].as_str().unwrap();
-        // The words are the only plain group.
+        // The keywords are the only capturing group.
         let groups = pattern.split('(').skip(1).filter(|group| !group.starts_with('?'));
         let found: BTreeSet<&str> = groups.flat_map(|group| group.split(')').next().unwrap().split('|')).collect();
         assert_eq!(found, words(place), "words-{name}");
@@ -62,7 +62,7 @@ fn words_of_the_tree_sitter_grammar() {
     }
 }
 
-/// All words that stand for themselves in a grammar: strings of letters in its rules that are not the names of fields.
+/// Keywords of a grammar: all strings of letters in its rules that are not the names of fields.
 fn words_in(grammar: &str) -> BTreeSet<String> {
     let rules = grammar.split_once("rules: {").expect("a grammar has rules").1;
     let rules: String = rules.lines().filter(|line| !line.trim().starts_with("//")).collect();
@@ -78,7 +78,7 @@ fn words_in(grammar: &str) -> BTreeSet<String> {
     found
 }
 
-/// A unit is any word there, so that each of the compiler's is one.
+/// The grammar accepts any word as a unit; therefore every unit of the compiler must be a word.
 #[test]
 fn units_are_words() {
     for unit in units::names() {
@@ -86,7 +86,7 @@ fn units_are_words() {
     }
 }
 
-/// Every snippet is a text without errors of syntax, as it stands or in what it belongs to.
+/// Every snippet is free of syntax errors, alone or in the construct that it belongs to.
 #[test]
 fn snippets() {
     let snippets: Value = serde_json::from_str(&read("vscode/snippets.json")).unwrap();
@@ -115,7 +115,7 @@ fn is_syntax(text: &str) -> bool {
     !diagnostics.has_errors()
 }
 
-/// A snippet as it is when nothing is changed: `${1:name}` is `name`, and so is every other `$1`.
+/// A snippet with its default values: `${1:name}` becomes `name`, as does every other `$1`.
 fn filled(body: &str) -> String {
     let mut text = body.to_owned();
     for number in 0..10 {

@@ -98,8 +98,8 @@ impl Profile {
         // Three significant digits for all durations: the histogram grows with the longest call.
         let calls = self.calls[node].get_or_insert_with(|| Histogram::new(3).expect("three digits are allowed"));
         calls.saturating_record(took);
-        if self.traced < MAX_TRACED && self.error.is_none() {
-            self.traced += 1;
+        self.traced += 1;
+        if self.traced <= MAX_TRACED && self.error.is_none() {
             self.error = self.write(group, node, start, took).err();
         }
     }
@@ -127,9 +127,9 @@ impl Profile {
         self.trace.flush()
     }
 
-    /// Returns `true` if the trace has [`MAX_TRACED`] calls, so that later ones may be missing.
+    /// Returns `true` if there were more calls than the [`MAX_TRACED`] of the trace.
     pub fn is_cut(&self) -> bool {
-        self.traced == MAX_TRACED
+        self.traced > MAX_TRACED
     }
 
     /// Returns a table with a line for each node that ran, sorted by its share of the time: number of calls, mean,

@@ -1,4 +1,4 @@
-//! A program of nothing but `chain100`, compiled: how large is it?
+//! A program that contains only `chain100`, compiled, to measure its size.
 
 fn main() {
     apex_bench::print_memory(apex_bench::graphs::chain100);

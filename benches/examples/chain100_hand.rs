@@ -1,4 +1,4 @@
-//! A program of nothing but `chain100`, by hand: how large is it?
+//! A program that contains only `chain100`, written by hand, to measure its size.
 
 fn main() {
     apex_bench::print_memory(apex_bench::hand::chain100);

@@ -1,4 +1,4 @@
-//! A graph of as many nodes as `apex-bench compile` writes into its text.
+//! A graph whose number of nodes `apex-bench compile` chooses.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

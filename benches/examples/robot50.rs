@@ -1,4 +1,4 @@
-//! A robot of 50 nodes: what `apex-bench compile` edits and builds again.
+//! A robot of 50 nodes that `apex-bench compile` edits and builds again.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

@@ -1,4 +1,4 @@
-//! Writes the graphs of copper-rs: for each a configuration in RON, and the application that is made of it.
+//! Writes the graphs of copper-rs: for each a configuration in RON, and the application for it.
 
 use std::{env, fmt::Write as _, fs, io, path::Path};
 
@@ -23,7 +23,7 @@ fn main() -> io::Result<()> {
     fs::write(Path::new(&folder).join("copper.rs"), code)
 }
 
-/// Tasks by name and type, and which one sends to which.
+/// Tasks by name and type, and the connections between them.
 #[derive(Default)]
 struct Config {
     tasks: Vec<(String, String)>,
@@ -39,13 +39,13 @@ impl Config {
         self.connections.push((from.to_owned(), to.to_owned()));
     }
 
-    /// The task `name` behind `from`.
+    /// Adds the task `name` after `from`.
     fn behind(&mut self, from: &str, name: &str, kind: &str) {
         self.task(name, kind);
         self.connect(from, name);
     }
 
-    /// Operations in a row behind `from`; gives the name of the last one.
+    /// Adds a chain of operations after `from`. Returns the name of the last one.
     fn ops(&mut self, from: &str, numbers: impl Iterator<Item = u64>) -> String {
         numbers.fold(from.to_owned(), |from, k| {
             let name = format!("op{k}");

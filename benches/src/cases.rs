@@ -1,26 +1,26 @@
-//! What is measured, and what it may cost.
+//! The benchmarks and their goals.
 
 use crate::{graphs, hand};
 
-/// Runs a number of ticks from the beginning and gives the checksum.
+/// Runs a number of ticks from the beginning and returns the checksum.
 pub type Run = fn(u64) -> u64;
 
 /// One graph, compiled and by hand.
 pub struct Case {
     /// Name of the graph.
     pub name: &'static str,
-    /// The program that the text is compiled to.
+    /// The compiled program.
     pub apex: Run,
-    /// The same written by hand.
+    /// The same program written by hand.
     pub hand: Run,
-    /// The longest time of the compiled program, in times of the hand-written one; nothing where it is for information.
+    /// Maximum ratio of the time of the compiled program to that of the hand-written one. `None` for information only.
     pub goal: Option<f64>,
 }
 
 /// The goal for synchronous graphs.
 pub const SYNCHRONOUS: f64 = 1.1;
 
-/// The goal where something is decided at run time.
+/// The goal for graphs with decisions at run time.
 const DISPATCHED: f64 = 2.0;
 
 const fn case(name: &'static str, apex: Run, hand: Run, goal: f64) -> Case {
@@ -61,11 +61,11 @@ pub const CASES: [Case; 25] = [
     case("silent1000", graphs::silent1000, hand::silent1000, SYNCHRONOUS),
 ];
 
-/// Chains whose source sends only ⊥: a tick of the longest costs what one of the shortest costs.
+/// Chains whose source sends only ⊥. A tick of the longest should cost as much as one of the shortest.
 pub const SKIPPED: [(&str, Run); 3] =
     [("silent10", graphs::silent10), ("silent100", graphs::silent100), ("silent1000", graphs::silent1000)];
 
-/// How often `ticks` ticks from the beginning allocate memory.
+/// Number of memory allocations in `ticks` ticks from the beginning.
 pub fn allocations(run: Run, ticks: u64) -> u64 {
     allocation_counter::measure(|| {
         std::hint::black_box(run(ticks));

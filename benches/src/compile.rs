@@ -1,4 +1,4 @@
-//! What it costs to compile: checks, a rebuild after an edit, large graphs of one kind.
+//! Costs of compilation: checks, a rebuild after an edit, large graphs of one kind.
 
 mod growth;
 
@@ -9,12 +9,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Wanted: a check of 1000 nodes with what is remembered from the check before.
+/// Goal: time of a check of 1000 nodes with the cache of the previous check.
 const CHECK: Duration = Duration::from_millis(100);
-/// Wanted: CPU time of the rebuild of 50 nodes in a debug build.
+/// Goal: CPU time in s of a rebuild of 50 nodes in a debug build.
 const REBUILD: f64 = 2.0;
 
-/// Measures and prints all of it.
+/// Measures and prints all costs.
 pub fn run() -> Result<ExitCode, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the package has no workspace")?;
     cargo(root, &["build", "--quiet", "--release", "-p", "apex-cli"])?;
@@ -31,7 +31,7 @@ fn check(apex: &Path, root: &Path) -> Result<(), String> {
         let start = Instant::now();
         output(Command::new(apex).arg("check").arg(&graph)).map(|_| start.elapsed())
     };
-    // Only a cache: whoever needs it makes it again.
+    // The folder is only a cache, which is created again when needed.
     let _ = fs::remove_dir_all(root.join("target/apex"));
     let cold = timed()?;
     let mut warm = (0..11).map(|_| timed()).collect::<Result<Vec<_>, _>>()?;
@@ -47,7 +47,7 @@ fn check(apex: &Path, root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Builds the robot, changes one number in its text, builds again, and puts the text back.
+/// Builds the robot, changes one number in its source file, builds it again, and restores the source file.
 fn rebuild(root: &Path) -> Result<(), String> {
     const BUILD: [&str; 6] = ["build", "--quiet", "-p", "apex-bench", "--example", "robot50"];
     cargo(root, &BUILD)?;
@@ -66,7 +66,7 @@ fn rebuild(root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// A file with a change in it, which goes away with the value.
+/// A file with a change, which is undone when the value is dropped.
 struct Edited {
     path: PathBuf,
     original: String,
@@ -89,7 +89,7 @@ impl Drop for Edited {
     }
 }
 
-/// User and system time of all children that have ended (Linux).
+/// User and system time in s of all children that have ended (Linux).
 fn cpu_seconds() -> Result<f64, String> {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").map_err(|e| format!("CPU time needs Linux: {e}"))?;

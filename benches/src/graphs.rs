@@ -28,7 +28,7 @@ graph!("graphs/fsm16.afg");
 graph!("graphs/fsm16nodes.afg");
 graph!("graphs/mixed1000.afg");
 
-/// The times of `ticks` ticks.
+/// Times of `ticks` ticks.
 pub(crate) fn milliseconds(ticks: u64) -> impl Iterator<Item = Time> {
     (0..ticks).map(|t| Time::from_millis(t as i64))
 }
@@ -60,8 +60,8 @@ runs! { sink =>
 
 runs! { a => pingpong1: PingPong1 }
 
-/// Round trips of `PingPong`: it would go on for ever in one reaction, so that the budget of the reaction ends it.
-/// A round trip is two steps; one more is the start.
+/// Round trips of `PingPong`. The ball would go back and forth forever in one reaction, so the budget of the reaction
+/// ends it. A round trip is two steps, and the start is one more.
 #[inline(never)]
 pub fn pingpong(ticks: u64) -> u64 {
     let mut graph = PingPong::new();
@@ -70,7 +70,7 @@ pub fn pingpong(ticks: u64) -> u64 {
     graph.nodes().a.checksum()
 }
 
-/// Ticks of `Mixed1000`. Its sums are what a tick gives.
+/// Ticks of `Mixed1000`. The result is the sum of a tick.
 #[inline(never)]
 pub fn mixed1000(ticks: u64) -> u64 {
     let mut graph = Mixed1000::new();
@@ -97,7 +97,7 @@ impl Observer for Stamps {
 
 macro_rules! stamped {
     ($($name:ident: $graph:ident),*) => {
-        /// The same with a time stamp per cluster.
+        /// The same graphs with a time stamp per cluster.
         pub mod stamped {
             use super::*;
             $(

@@ -1,5 +1,5 @@
-//! The same work as straight-line Rust, as somebody who knows the whole graph would write it: values in
-//! locals, ⊥ as control flow.
+//! The same work as straight-line Rust, written with knowledge of the whole graph: values in local variables, ⊥ as
+//! control flow.
 
 #[rustfmt::skip]
 #[allow(clippy::all, clippy::pedantic, unused_assignments, unused_variables)]
@@ -66,7 +66,7 @@ silent! {
     silent1000: 1000;
 }
 
-/// 8 operations side by side.
+/// 8 parallel operations.
 #[inline(never)]
 pub fn diamond8(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Count::default(), Sink::default());
@@ -77,7 +77,7 @@ pub fn diamond8(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// 64 operations side by side.
+/// 64 parallel operations.
 #[inline(never)]
 pub fn diamond64(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Count::default(), Sink::default());
@@ -88,7 +88,7 @@ pub fn diamond64(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// A filter that passes 1 % in front of 98 operations.
+/// A filter that passes 1 % of the values to 98 operations.
 #[inline(never)]
 pub fn bot100(ticks: u64) -> u64 {
     let (mut source, mut filter, mut sink) = (Count::default(), OneOf::new(100), Sink::default());
@@ -117,7 +117,7 @@ pub fn throttle(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// Two tokens a firing meet three tokens a firing.
+/// Two tokens per firing meet three tokens per firing.
 #[inline(never)]
 pub fn rate23(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Pairs::default(), Sink::default());
@@ -160,7 +160,7 @@ pub fn image(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// A chain whose source has a pace of its own.
+/// A chain whose source has a period.
 #[inline(never)]
 pub fn timer10(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Count::default(), Sink::default());
@@ -176,7 +176,7 @@ pub fn timer10(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// Two sources with paces of their own, and a join that waits for both.
+/// Two sources with periods, and a join that waits for both.
 #[inline(never)]
 pub fn timers2(ticks: u64) -> u64 {
     let (mut left, mut right, mut sink) = (Count::default(), Count::default(), Sink::default());
@@ -200,8 +200,7 @@ pub fn timers2(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// Three sources with paces of their own, and two joins, one behind the other. A source fires again only
-/// when its token has come all the way.
+/// Three sources with periods, and two joins in sequence. A source fires again only when its token has reached the end.
 #[inline(never)]
 pub fn timers3(ticks: u64) -> u64 {
     let mut sources: [Count; 3] = Default::default();
@@ -224,7 +223,7 @@ pub fn timers3(ticks: u64) -> u64 {
     sink.checksum()
 }
 
-/// A token that goes to and fro.
+/// A token that goes back and forth.
 #[inline(never)]
 pub fn pingpong(ticks: u64) -> u64 {
     let (mut a, mut x) = (Ping::default(), 0);
@@ -234,7 +233,7 @@ pub fn pingpong(ticks: u64) -> u64 {
     a.checksum()
 }
 
-/// Eight values a tick.
+/// Eight values per tick.
 #[inline(never)]
 pub fn mpse8(ticks: u64) -> u64 {
     let (mut source, mut acc) = (Count::default(), 0u64);
@@ -247,7 +246,7 @@ pub fn mpse8(ticks: u64) -> u64 {
     acc
 }
 
-/// A ring of 16 states, as arithmetic.
+/// A ring of 16 states, by arithmetic.
 #[inline(never)]
 pub fn fsm16(ticks: u64) -> u64 {
     let (mut symbols, mut sink, mut state) = (Symbols::default(), Entered::default(), 0);
@@ -264,7 +263,7 @@ seq!(N in 0..16 {
     enum Ring { #(S~N,)* }
 });
 
-/// A ring of 16 states, as a state machine.
+/// A ring of 16 states, by a `match` over states.
 #[inline(never)]
 pub fn fsm16_match(ticks: u64) -> u64 {
     let (mut symbols, mut sink, mut state) = (Symbols::default(), Entered::default(), Ring::S0);

@@ -1,4 +1,4 @@
-//! The image graph: kernels, which both sides call, and the nodes around them.
+//! The image graph: nodes and their kernels, which the hand-written program also calls.
 
 use apex_rt::prelude::*;
 use std::{
@@ -6,17 +6,17 @@ use std::{
     sync::{Arc, LazyLock},
 };
 
-/// Pixels in a row.
+/// Pixels per row.
 pub const WIDTH: usize = 640;
-/// Rows.
+/// Number of rows.
 pub const HEIGHT: usize = 480;
 const PIXELS: usize = WIDTH * HEIGHT;
 
-/// A colour image, three bytes a pixel. Copies share the pixels.
+/// A colour image with three bytes per pixel. Copies share the pixels.
 #[derive(Clone)]
 pub struct Rgb(Arc<[u8]>);
 
-/// One byte a pixel.
+/// An image with one byte per pixel.
 #[derive(Clone, Default)]
 pub struct Gray(Vec<u8>);
 
@@ -29,7 +29,7 @@ impl Gray {
 
 static FRAMES: LazyLock<[Rgb; 8]> = LazyLock::new(|| std::array::from_fn(|i| gen_frame(i as u64)));
 
-/// splitmix64.
+/// Random numbers (splitmix64).
 struct Random(u64);
 
 impl Random {
@@ -72,7 +72,7 @@ pub fn gray(rgb: &Rgb, gray: &mut Gray) {
     }
 }
 
-/// Binomial 3×3 filter; the border is copied.
+/// Binomial 3×3 filter; pixels at the edges are copied.
 #[inline(never)]
 pub fn blur(from: &Gray, to: &mut Gray) {
     let (from, to) = (&from.0[..], to.sized());
@@ -95,7 +95,7 @@ pub fn threshold(from: &Gray, to: &mut Gray) {
     }
 }
 
-/// What labelling needs room for.
+/// Buffers for labelling.
 #[derive(Default)]
 pub struct Labels {
     of: Vec<u32>,
@@ -149,7 +149,7 @@ fn union(parents: &mut [u32], a: u32, b: u32) -> u32 {
     low
 }
 
-/// Eight frames in a circle.
+/// Repeats eight frames.
 #[node]
 #[derive(Default)]
 pub struct Camera {
@@ -158,7 +158,7 @@ pub struct Camera {
 
 #[node]
 impl Camera {
-    /// One frame.
+    /// Sends one frame.
     pub fn process(&mut self) -> Rgb {
         let frame = FRAMES[black_box(self.next)].clone();
         self.next = (self.next + 1) % FRAMES.len();
@@ -178,7 +178,7 @@ pub fn to_blurred(image: &Gray, out: &mut Out<Gray>) {
     blur(image, out.get_mut());
 }
 
-/// Bright places.
+/// Mask of bright pixels.
 #[node]
 pub fn to_mask(image: &Gray, out: &mut Out<Gray>) {
     threshold(image, out.get_mut());

@@ -1,4 +1,4 @@
-//! Instructions per tick, counted by valgrind: the difference of two runs of different length.
+//! Instructions per tick, counted by valgrind as the difference of two runs of different length.
 
 use apex_bench::CASES;
 use std::{
@@ -6,20 +6,20 @@ use std::{
     process::{Command, ExitCode},
 };
 
-/// Which program of a graph.
+/// Program of a graph.
 #[derive(Clone, Copy, clap::ValueEnum)]
 pub enum Side {
-    /// The compiled text.
+    /// Compiled from the source file.
     Apex,
     /// Written by hand.
     Hand,
 }
 
-/// Both run lengths are multiples of all periods in the graphs.
+/// Lengths of the two runs; both are multiples of all periods in the graphs.
 const SHORT: u64 = 1000;
 const LONG: u64 = 2000;
 
-/// Whether there is a valgrind.
+/// `true` if valgrind is available.
 pub fn can_count() -> bool {
     Command::new("valgrind").arg("--version").output().is_ok()
 }
@@ -38,7 +38,7 @@ pub fn run() -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Runs ticks of one side.
+/// Runs ticks of one program of a graph.
 pub fn ticks(graph: &str, side: Side, ticks: u64) -> Result<ExitCode, String> {
     let case = CASES.iter().find(|c| c.name == graph).ok_or_else(|| format!("there is no graph `{graph}`"))?;
     let run = match side {
@@ -49,9 +49,9 @@ pub fn ticks(graph: &str, side: Side, ticks: u64) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Instructions per tick of one side of a graph.
+/// Instructions per tick of one program of a graph.
 pub fn per_tick(graph: &str, side: Side) -> Result<f64, String> {
-    // A frame takes millions of instructions: a few are enough.
+    // A frame takes millions of instructions, so a few frames are enough.
     let scale = if graph == "image" { 125 } else { 1 };
     let (short, long) = (SHORT / scale, LONG / scale);
     let difference = count(graph, side, long)?.saturating_sub(count(graph, side, short)?);

@@ -1,4 +1,4 @@
-//! Compiled graphs against the same work written by hand: same node functions, same guards, same checksums.
+//! Compiled graphs and the same work written by hand: same node functions, same optimisation barriers, same checksums.
 
 mod cases;
 pub mod graphs;

@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
 use report::Report;
 use std::{fs, path::PathBuf, process::ExitCode, time::Duration};
 
-/// Compiled graphs against the same work written by hand.
+/// Compare compiled graphs with the same work written by hand.
 #[derive(Parser)]
 #[command(
     name = "apex-bench",
@@ -20,9 +20,9 @@ use std::{fs, path::PathBuf, process::ExitCode, time::Duration};
                   A missed goal is no failure: times depend on what else the machine does."
 )]
 struct Arguments {
-    /// Only the graphs whose names begin with one of these.
+    /// Run only the graphs whose names begin with one of these.
     graphs: Vec<String>,
-    /// A fifth of the rounds.
+    /// Run a fifth of the rounds.
     #[arg(long)]
     quick: bool,
     /// Write the results as JSON.
@@ -39,17 +39,17 @@ struct Arguments {
 enum Command {
     /// Count instructions per tick (with valgrind): the same on every run.
     Instructions,
-    /// Measure what it costs to compile: `apex check`, a rebuild after an edit, large graphs of one kind.
+    /// Measure the costs of compilation: `apex check`, a rebuild after an edit, large graphs of one kind.
     Compile,
-    /// Measure other frameworks, too, which are built from `benches/peers`.
+    /// Also measure other frameworks, which are built from `benches/peers`.
     Peers(peers::Arguments),
-    /// Measure programs on two threads: how much faster they are, and how long a token takes to the other.
+    /// Measure programs on two threads: their speedup, and the time that a token takes to the other thread.
     Threads {
-        /// A fifth of the rounds.
+        /// Run a fifth of the rounds.
         #[arg(long)]
         quick: bool,
     },
-    /// Run ticks of one side of a graph (what `instructions` counts).
+    /// Run ticks of one program of a graph (counted by `instructions`).
     #[command(hide = true)]
     Ticks { graph: String, side: instructions::Side, ticks: u64 },
 }

@@ -1,4 +1,4 @@
-//! Times both sides in turn.
+//! Measures both programs of a graph in alternation.
 
 use apex_bench::{Case, Run};
 use serde::Serialize;
@@ -8,22 +8,22 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Differences below this are no finding: how a loop happens to be aligned makes as much.
+/// Differences below this are not significant: the alignment of a loop has effects of this size.
 pub const RESOLUTION_NS: f64 = 0.5;
 
-/// How long to measure.
+/// Duration of a measurement.
 #[derive(Clone, Copy)]
 pub struct Effort {
-    /// Rounds; both sides run in each.
+    /// Number of rounds; both programs run in each.
     pub rounds: usize,
-    /// About how long the slower side runs in a round. Short, so that a disturbance spoils few rounds.
+    /// Approximate time of the slower program in a round. It is short, so that a disturbance affects few rounds.
     pub round: Duration,
 }
 
-/// What a comparison found.
+/// Result of a comparison.
 #[derive(Serialize)]
 pub struct Measurement {
-    /// The graph.
+    /// Name of the graph.
     pub name: &'static str,
     /// Nanoseconds per tick of the compiled program, median.
     pub apex_ns: f64,
@@ -31,23 +31,23 @@ pub struct Measurement {
     pub hand_ns: f64,
     /// Median of the ratios of the rounds.
     pub ratio: f64,
-    /// The largest ratio wanted, if any.
+    /// Goal: maximum ratio, if any.
     pub goal: Option<f64>,
-    /// Whether the checksums agree.
+    /// `true` if the checksums agree.
     pub equal: bool,
     /// Allocations per tick of the compiled program, after warm-up.
     pub allocations: f64,
 }
 
 impl Measurement {
-    /// Whether it is as fast as wanted and allocates nothing.
+    /// `true` if the program is as fast as the goal and allocates nothing.
     pub fn meets_goal(&self) -> bool {
         let fast = self.goal.is_none_or(|goal| self.ratio <= goal) || self.apex_ns - self.hand_ns < RESOLUTION_NS;
         fast && self.allocations == 0.0
     }
 }
 
-/// Compares both sides of `case`, round by round, each side first in turn.
+/// Compares both programs of `case` round by round. They alternate in running first.
 pub fn compare(case: &Case, effort: Effort) -> Measurement {
     let ticks = ticks_of(case.hand, effort.round).min(ticks_of(case.apex, effort.round));
     let mut equal = true;
@@ -70,19 +70,19 @@ pub fn compare(case: &Case, effort: Effort) -> Measurement {
     }
 }
 
-/// Allocations per tick once all storage has been made.
+/// Allocations per tick after all storage has been allocated.
 fn allocations(run: Run) -> f64 {
     const TICKS: u64 = 100;
     let (few, many) = (apex_bench::allocations(run, TICKS), apex_bench::allocations(run, 2 * TICKS));
     (many as f64 - few as f64) / TICKS as f64
 }
 
-/// What a run of a number of ticks gave.
+/// Result of a run.
 #[derive(Clone, Copy)]
 pub struct Round {
     /// Nanoseconds per tick.
     pub ns: f64,
-    /// The result.
+    /// Checksum of the run.
     pub checksum: u64,
 }
 
@@ -103,13 +103,13 @@ pub fn timed(run: Run, ticks: u64) -> Round {
     Round { ns: start.elapsed().as_nanos() as f64 / ticks as f64, checksum }
 }
 
-/// How many ticks of `run` take about `duration`.
+/// Number of ticks of `run` that take about `duration`.
 fn ticks_of(run: Run, duration: Duration) -> u64 {
     let Ok(ticks) = ticks_in(duration, |ticks| Ok::<_, Infallible>(timed(run, ticks)));
     ticks
 }
 
-/// How many ticks take about `duration`.
+/// Number of ticks that take about `duration`.
 pub fn ticks_in<E>(duration: Duration, mut run: impl FnMut(u64) -> Result<Round, E>) -> Result<u64, E> {
     let mut ticks = 4;
     while run(ticks)?.ns * (ticks as f64) < duration.as_nanos() as f64 / 2.0 {
@@ -118,7 +118,7 @@ pub fn ticks_in<E>(duration: Duration, mut run: impl FnMut(u64) -> Result<Round,
     Ok(ticks)
 }
 
-/// The one in the middle.
+/// Median; for an even number of values, the upper one of the two in the middle.
 pub fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

@@ -1,9 +1,9 @@
-//! How much memory a program takes.
+//! Memory use of a program.
 
 use crate::Run;
 use std::{fs, hint::black_box};
 
-/// Runs ticks, and prints the kilobytes of memory that the program had at most; nothing where that is not to be known.
+/// Runs ticks, and prints the peak memory of the program in kB, or an empty line if it is not known.
 pub fn print_memory(run: Run) {
     black_box(run(black_box(1000)));
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,12 +1,12 @@
-//! The texts of `mixed1000`: ten regions of 100 nodes that a pseudo-random generator chose, joined by events; as
-//! a graph, as straight-line Rust, and as Rust whose control flow is where messages are.
+//! Generates `mixed1000`: ten regions of 100 nodes, chosen pseudo-randomly and joined by events. The results are a
+//! graph, straight-line Rust, and Rust in which the control flow follows the presence of messages.
 
 use std::{collections::BTreeSet, fmt::Write as _};
 
 const REGIONS: usize = 10;
 const SIZE: usize = 100;
 
-/// What a node is, and which nodes it gets its messages from.
+/// Kind of a node, with the nodes from which it takes messages.
 #[derive(Clone, Copy)]
 enum Kind {
     Source,
@@ -27,7 +27,7 @@ impl Kind {
     }
 }
 
-/// splitmix64.
+/// Random numbers (splitmix64).
 struct Random(u64);
 
 impl Random {
@@ -43,7 +43,7 @@ impl Random {
     }
 }
 
-/// All nodes; the number of a node is its place here.
+/// All nodes; a node is identified by its index.
 fn nodes() -> Vec<Kind> {
     let mut random = Random(0xAF6);
     (0..REGIONS * SIZE).map(|k| choose(&mut random, k / SIZE, k % SIZE)).collect()
@@ -70,13 +70,13 @@ fn choose(random: &mut Random, region: usize, j: usize) -> Kind {
     }
 }
 
-/// The nodes whose messages nobody takes.
+/// Nodes whose messages no other node takes.
 fn sinks(nodes: &[Kind]) -> Vec<usize> {
     let taken: BTreeSet<usize> = nodes.iter().flat_map(|n| n.inputs()).collect();
     (0..nodes.len()).filter(|k| !taken.contains(k)).collect()
 }
 
-/// The regions that ever run: events go to later regions only.
+/// Regions that ever run: events go to later regions only.
 fn reached(nodes: &[Kind]) -> BTreeSet<usize> {
     let mut reached = BTreeSet::from([0]);
     for (k, kind) in nodes.iter().enumerate() {
@@ -89,8 +89,8 @@ fn reached(nodes: &[Kind]) -> BTreeSet<usize> {
     reached
 }
 
-/// The graph. Several emitters send to one region, but an input takes one connection: their events go to one slot
-/// of a relay, whose event drives the source of the region.
+/// The graph. Several emitters send to one region, but an input takes one connection. Therefore their events go to one
+/// slot of a relay, whose event drives the source of the region.
 pub fn graph() -> String {
     let nodes = nodes();
     let mut text = "/// Ten regions of 100 nodes, joined by events.\ngraph Mixed1000 {\n".to_owned();
@@ -133,7 +133,7 @@ pub fn graph() -> String {
     text + "\n" + &connections + "}\n"
 }
 
-/// Both hand-written sides, and what sums up the sinks of the compiled one.
+/// Both hand-written programs, and the function that sums up the sinks of the compiled one.
 pub fn rust() -> String {
     let nodes = nodes();
     let mut text = "//! Generated: the regions of `mixed1000` by hand. Each function is one tick of a region.\n\n\
@@ -155,7 +155,7 @@ pub fn rust() -> String {
     text + "    ]\n    .into_iter()\n    .fold(0, u64::wrapping_add)\n}\n"
 }
 
-/// One `let` for each node, ⊥ as `None`.
+/// Writes one `let` per node, with ⊥ as `None`.
 fn straight(text: &mut String, nodes: &[Kind], region: usize) {
     let first = SIZE * region;
     let _ = write!(
@@ -183,10 +183,10 @@ fn straight(text: &mut String, nodes: &[Kind], region: usize) {
     text.push_str("    acc\n}\n");
 }
 
-/// The filters that must let a message pass for a node to get one.
+/// Filters that must pass a message for a node to receive one.
 type Clock = BTreeSet<usize>;
 
-/// Nodes inside an `if` for each set of filters.
+/// Writes nodes inside an `if` for each set of filters.
 fn clocked(text: &mut String, nodes: &[Kind], region: usize) {
     let first = SIZE * region;
     let mut clocks: Vec<Clock> = vec![Clock::new()];
@@ -234,7 +234,7 @@ impl Clocked<'_> {
         &self.clocks[k - self.first]
     }
 
-    /// What has to hold for a node to be computed: for a filter that its own input has a message.
+    /// Condition for the computation of a node. A filter itself only needs a message at its input.
     fn needed(&self, k: usize) -> Clock {
         let mut clock = self.clock(k).clone();
         clock.remove(&k);
@@ -247,7 +247,7 @@ impl Clocked<'_> {
         (self.first..self.first + SIZE).filter(is_ready).collect()
     }
 
-    /// All that can be computed where `clock` holds.
+    /// Writes all nodes that can be computed where `clock` holds.
     fn block(&mut self, clock: &Clock, depth: usize) {
         loop {
             let ready = self.ready();
@@ -265,7 +265,7 @@ impl Clocked<'_> {
         }
     }
 
-    /// Whether another filter of `clock` stands behind `filter`.
+    /// `true` if another filter of `clock` comes after `filter`.
     fn implied(&self, filter: usize, clock: &Clock) -> bool {
         clock.iter().any(|other| *other != filter && self.clock(*other).contains(&filter))
     }

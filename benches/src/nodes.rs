@@ -1,5 +1,5 @@
-//! The nodes of the graphs. Hand-written code calls the same functions, so that both sides pass the same
-//! guards: only the source and the sink of a tick hide their values from the optimiser.
+//! The nodes of the graphs. Hand-written code calls the same functions, so that both have the same optimisation
+//! barriers: only the source and the sink of a tick hide their values from the optimiser.
 
 use apex_rt::prelude::*;
 use std::hint::black_box;
@@ -21,20 +21,20 @@ impl Count {
     }
 }
 
-/// A source that never has a message, which the optimiser does not know.
+/// A source that never has a message. The optimiser does not know this.
 #[node]
 #[derive(Default)]
 pub struct Silent {}
 
 #[node]
 impl Silent {
-    /// ⊥.
+    /// Sends ⊥.
     pub fn process(&mut self) -> Option<u64> {
         black_box(None)
     }
 }
 
-/// (3·x) xor k: two instructions that do not fold into those of another `op`.
+/// (3·x) xor k: two instructions that cannot be merged with those of another `op`.
 #[node]
 pub fn op(x: &u64, #[param] k: u64) -> u64 {
     x.wrapping_mul(3) ^ k
@@ -50,7 +50,7 @@ pub fn add(a: &u64, b: &u64) -> u64 {
 #[node]
 #[derive(Default)]
 pub struct OneOf {
-    /// How many messages make a period.
+    /// Number of messages in a period.
     #[param]
     period: u64,
     count: u64,
@@ -58,12 +58,12 @@ pub struct OneOf {
 
 #[node]
 impl OneOf {
-    /// The same node without a graph around it.
+    /// The node, for use without a graph.
     pub fn new(period: u64) -> Self {
         Self { period, count: 0 }
     }
 
-    /// `x` or ⊥.
+    /// Sends `x` or ⊥.
     pub fn process(&mut self, x: &u64) -> Option<u64> {
         let passes = self.count == 0;
         self.count += 1;
@@ -106,7 +106,7 @@ pub fn sum64(
     .fold(0, |sum: u64, x| sum.wrapping_add(*x))
 }
 
-/// Two tokens a firing: `op` with 1 and with 2 of 0, 1, 2, …
+/// Two tokens per firing: `op` with 1 and with 2 of 0, 1, 2, …
 #[node]
 #[derive(Default)]
 pub struct Pairs {
@@ -115,14 +115,14 @@ pub struct Pairs {
 
 #[node]
 impl Pairs {
-    /// Two tokens.
+    /// Sends two tokens.
     pub fn process(&mut self) -> [u64; 2] {
         let n = self.count.process();
         [op(&n, 1), op(&n, 2)]
     }
 }
 
-/// One token of three.
+/// Combines three tokens into one.
 #[node]
 pub fn mix(x: &[u64; 3]) -> u64 {
     x[0].wrapping_add(x[1].rotate_left(1)).wrapping_add(x[2].rotate_left(2))
@@ -137,7 +137,7 @@ pub struct Rows {
 
 #[node]
 impl Rows {
-    /// One list.
+    /// Sends one list.
     pub fn process(&mut self, list: &mut Out<Vec<u64>>) {
         let first = self.count.process().wrapping_mul(1000);
         let list = list.get_mut();
@@ -146,14 +146,14 @@ impl Rows {
     }
 }
 
-/// Sum of a list. Its port takes what `Rows` and `each` send: a `Vec`.
+/// Sum of a list. The type of its port is that of `Rows` and `each`: a `Vec`.
 #[node]
 #[allow(clippy::ptr_arg)]
 pub fn sum(list: &Vec<u64>) -> u64 {
     list.iter().fold(0, |sum, x| sum.wrapping_add(*x))
 }
 
-/// Folds all it gets into a checksum.
+/// Folds all values into a checksum.
 #[node]
 #[derive(Default)]
 pub struct Sink {
@@ -162,7 +162,7 @@ pub struct Sink {
 
 #[node]
 impl Sink {
-    /// The checksum so far.
+    /// Current checksum.
     pub fn checksum(&self) -> u64 {
         self.acc
     }
@@ -173,7 +173,7 @@ impl Sink {
     }
 }
 
-/// The node A of a ping-pong: folds what comes back into a checksum, and sends the next token.
+/// Node A of a ping-pong: folds each returned token into a checksum, and sends the next one.
 #[node]
 #[derive(Default)]
 pub struct Ping {
@@ -182,12 +182,13 @@ pub struct Ping {
 
 #[node]
 impl Ping {
-    /// The checksum so far.
+    /// Current checksum.
     pub fn checksum(&self) -> u64 {
         self.acc
     }
 
-    /// One token came back; gives the next. The guard of a round trip is here: it costs nothing.
+    /// Takes a returned token and computes the next one. The optimisation barrier of a round trip is here; it costs
+    /// nothing.
     #[inline]
     pub fn back(&mut self, y: &u64) -> u64 {
         self.acc = self.acc.rotate_left(5) ^ y;
@@ -195,20 +196,20 @@ impl Ping {
         op(y, 2)
     }
 
-    /// The first token.
+    /// Sends the first token.
     #[slot]
     pub fn begin(&mut self, e: Event<u64>) {
         e.emit(0);
     }
 
-    /// One token after the other.
+    /// Takes a token and sends the next one.
     #[slot]
     pub fn s(&mut self, y: &u64, e: Event<u64>) {
         e.emit(self.back(y));
     }
 }
 
-/// The node A of a ping-pong that sends one token a tick.
+/// Node A of a ping-pong that sends one token per tick.
 #[node]
 #[derive(Default)]
 pub struct Serve {
@@ -218,7 +219,7 @@ pub struct Serve {
 
 #[node]
 impl Serve {
-    /// The checksum so far.
+    /// Current checksum.
     pub fn checksum(&self) -> u64 {
         self.ping.checksum()
     }
@@ -228,42 +229,42 @@ impl Serve {
         e.emit(self.next);
     }
 
-    /// Keeps the token for the next tick.
+    /// Stores the token for the next tick.
     #[slot]
     pub fn s(&mut self, y: &u64) {
         self.next = self.ping.back(y);
     }
 }
 
-/// The node B of a ping-pong.
+/// Node B of a ping-pong.
 #[node]
 #[derive(Default)]
 pub struct Pong;
 
 #[node]
 impl Pong {
-    /// Sends it back.
+    /// Sends the token back.
     #[slot]
     pub fn s(&mut self, x: &u64, e: Event<u64>) {
         e.emit(op(x, 1));
     }
 }
 
-/// Passes a token without a value on.
+/// Passes on tokens without a value.
 #[node]
 #[derive(Default)]
 pub struct Pass;
 
 #[node]
 impl Pass {
-    /// Passes it on.
+    /// Passes the token on.
     #[slot]
     pub fn put(&mut self, _token: &(), passed: Event<()>) {
         passed.emit(());
     }
 }
 
-/// Producer number `p`: an event for each number.
+/// Producer number `p`: sends an event for each number.
 #[node]
 pub fn produce(i: &u64, #[param] p: u64, e: Event<u64>) {
     e.emit(numbered(i, p));
@@ -274,7 +275,7 @@ pub fn numbered(i: &u64, p: u64) -> u64 {
     (p << 32) | i
 }
 
-/// Adds up what comes to its eight slots. The last one is the tick's guard.
+/// Sums the values at its eight slots. The last slot contains the optimisation barrier of a tick.
 #[node]
 #[derive(Default)]
 pub struct Eight {
@@ -289,54 +290,54 @@ macro_rules! add_op {
 
 #[node]
 impl Eight {
-    /// The checksum so far.
+    /// Current checksum.
     pub fn checksum(&self) -> u64 {
         self.acc
     }
 
-    /// From producer 0.
+    /// Value from producer 0.
     #[slot]
     pub fn s0(&mut self, v: &u64) {
         add_op!(self, v, 1);
     }
 
-    /// From producer 1.
+    /// Value from producer 1.
     #[slot]
     pub fn s1(&mut self, v: &u64) {
         add_op!(self, v, 2);
     }
 
-    /// From producer 2.
+    /// Value from producer 2.
     #[slot]
     pub fn s2(&mut self, v: &u64) {
         add_op!(self, v, 3);
     }
 
-    /// From producer 3.
+    /// Value from producer 3.
     #[slot]
     pub fn s3(&mut self, v: &u64) {
         add_op!(self, v, 4);
     }
 
-    /// From producer 4.
+    /// Value from producer 4.
     #[slot]
     pub fn s4(&mut self, v: &u64) {
         add_op!(self, v, 5);
     }
 
-    /// From producer 5.
+    /// Value from producer 5.
     #[slot]
     pub fn s5(&mut self, v: &u64) {
         add_op!(self, v, 6);
     }
 
-    /// From producer 6.
+    /// Value from producer 6.
     #[slot]
     pub fn s6(&mut self, v: &u64) {
         add_op!(self, v, 7);
     }
 
-    /// From producer 7.
+    /// Value from producer 7.
     #[slot]
     pub fn s7(&mut self, v: &u64) {
         add_op!(self, v, 8);
@@ -344,7 +345,8 @@ impl Eight {
     }
 }
 
-/// What a state machine reads: `reset` each thousandth time, else `next`; the optimiser does not know which.
+/// Input of a state machine: every thousandth symbol is `reset`, all others are `next`. The optimiser does not know
+/// which.
 #[node]
 #[derive(Default)]
 pub struct Symbols {
@@ -353,7 +355,7 @@ pub struct Symbols {
 
 #[node]
 impl Symbols {
-    /// Whether the next symbol is `reset`.
+    /// `true` if the next symbol is `reset`.
     #[inline]
     pub fn is_reset(&mut self) -> bool {
         self.count += 1;
@@ -364,7 +366,7 @@ impl Symbols {
         black_box(last)
     }
 
-    /// One symbol.
+    /// Sends one symbol.
     pub fn process(&mut self, next: Event<()>, reset: Event<()>) {
         if self.is_reset() { reset.emit(()) } else { next.emit(()) }
     }
@@ -379,7 +381,7 @@ pub struct Entered {
 
 #[node]
 impl Entered {
-    /// The checksum so far.
+    /// Current checksum.
     pub fn checksum(&self) -> u64 {
         self.acc
     }
@@ -391,24 +393,24 @@ impl Entered {
     }
 }
 
-/// A state of a ring: passes its activity on at `next`, and to the first state at `reset`.
+/// A state of a ring: passes its activity to the next state at `next`, and to the first one at `reset`.
 #[node]
 #[derive(Default)]
 pub struct State {
-    /// What it says when it is entered.
+    /// Number to send when the state is entered.
     #[param]
     number: u64,
 }
 
 #[node]
 impl State {
-    /// It is entered.
+    /// Enters the state.
     #[slot]
     pub fn enter(&mut self, entered: Event<u64>) {
         entered.emit(self.number);
     }
 
-    /// On to the next state.
+    /// Leaves for the next state.
     #[slot]
     pub fn next(&mut self, ctx: &Ctx, left: Event<()>) {
         if ctx.active() {
@@ -416,7 +418,7 @@ impl State {
         }
     }
 
-    /// Back to the first state.
+    /// Leaves for the first state.
     #[slot]
     pub fn reset(&mut self, ctx: &Ctx, back: Event<()>) {
         if ctx.active() {
@@ -425,24 +427,24 @@ impl State {
     }
 }
 
-/// The first state of a ring. At `reset` it is entered again: a node cannot send an event to a slot of its own.
+/// The first state of a ring. At `reset` it is entered again: a node cannot send an event to its own slot.
 #[node]
 #[derive(Default)]
 pub struct First {
-    /// What it says when it is entered.
+    /// Number to send when the state is entered.
     #[param]
     number: u64,
 }
 
 #[node]
 impl First {
-    /// It is entered.
+    /// Enters the state.
     #[slot]
     pub fn enter(&mut self, entered: Event<u64>) {
         entered.emit(self.number);
     }
 
-    /// On to the next state.
+    /// Leaves for the next state.
     #[slot]
     pub fn next(&mut self, ctx: &Ctx, left: Event<()>) {
         if ctx.active() {
@@ -450,7 +452,7 @@ impl First {
         }
     }
 
-    /// Entered again.
+    /// Enters the state again.
     #[slot]
     pub fn reset(&mut self, ctx: &Ctx, entered: Event<u64>) {
         if ctx.active() {
@@ -471,7 +473,7 @@ pub fn gate(x: &u64) -> Option<u64> {
     ((x >> 7) & 3 != 0).then_some(*x)
 }
 
-/// The same.
+/// Passes every message.
 #[node]
 pub fn pass(x: &u64) -> u64 {
     *x
@@ -485,7 +487,7 @@ pub fn tell(x: &u64, #[param] k: u64, e: Event<u64>) -> u64 {
     y
 }
 
-/// Events of several nodes as events of one.
+/// Merges the events of several nodes.
 #[node]
 #[derive(Default)]
 pub struct Relay;
@@ -504,11 +506,11 @@ pub fn weigh(acc: u64, x: u64, k: u64) -> u64 {
     acc.wrapping_add(x.wrapping_mul(2 * k + 1))
 }
 
-/// Adds up what it gets, weighed with its number.
+/// Sum of all values, weighted by its number.
 #[node]
 #[derive(Default)]
 pub struct Weigh {
-    /// Its number.
+    /// Number of the node.
     #[param]
     k: u64,
     acc: u64,
@@ -516,7 +518,7 @@ pub struct Weigh {
 
 #[node]
 impl Weigh {
-    /// The sum so far.
+    /// Current sum.
     pub fn sum(&self) -> u64 {
         self.acc
     }

@@ -1,4 +1,4 @@
-//! `apex-bench threads`: what two threads are good for, and what it costs to send a token from one to the other.
+//! `apex-bench threads`: the speedup of two threads, and the time that a token takes between them.
 
 use crate::measure::median;
 use apex_bench::{threads, tworegion};
@@ -14,7 +14,7 @@ const BALLS: u64 = 2_000;
 /// Ticks of two regions in a round.
 const TICKS: u64 = 20_000;
 
-/// Measures in so many rounds.
+/// Measures in several rounds, fewer with `quick`.
 pub fn run(quick: bool) -> Result<ExitCode, String> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     if cores < 2 {

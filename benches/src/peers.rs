@@ -1,5 +1,5 @@
-//! Frameworks that do the same, side by side with the compiled and the hand-written programs: in every round each of
-//! them runs once.
+//! Comparison of other frameworks with the compiled and the hand-written programs. In every round each of them runs
+//! once.
 
 mod cost;
 mod plot;
@@ -17,26 +17,26 @@ use std::{
     time::Duration,
 };
 
-/// About how long each of them runs in a round.
+/// Approximate time of each participant in a round.
 const ROUND: Duration = Duration::from_millis(2);
 
-/// What to measure, and where to write it.
+/// Subjects and outputs of a comparison.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Only the graphs whose names begin with one of these.
+    /// Run only the graphs whose names begin with one of these.
     graphs: Vec<String>,
-    /// A fifth of the rounds.
+    /// Run a fifth of the rounds.
     #[arg(long)]
     quick: bool,
     /// Write the tables as Markdown.
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
-    /// Draw the ratios.
+    /// Draw the ratios as an SVG file.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
 
-/// A graph, and what this program has of it.
+/// A graph with its programs in this executable.
 struct Graph {
     name: &'static str,
     hand: Run,
@@ -44,25 +44,25 @@ struct Graph {
     stamped: Option<Run>,
 }
 
-/// A graph, and what all of them took.
+/// Results of a graph.
 struct Row {
     graph: &'static str,
     /// Nanoseconds per tick by hand, median.
     hand_ns: f64,
-    /// All others, the fastest first.
+    /// Results of all other participants, the fastest first.
     others: Vec<Other>,
 }
 
-/// What one of them took.
+/// Result of a participant.
 struct Other {
     name: String,
-    /// In times of the hand-written program, median of the rounds.
+    /// Ratio to the time of the hand-written program, median of the rounds.
     ratio: f64,
-    /// Whether its checksum was always that of the hand-written program.
+    /// `true` if its checksum always equals that of the hand-written program.
     equal: bool,
 }
 
-/// Measures all of it.
+/// Measures and prints all comparisons.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, String> {
     let (mut programs, missing) = program::all();
     let chosen = |name: &str| arguments.graphs.is_empty() || arguments.graphs.iter().any(|g| name.starts_with(g));
@@ -90,14 +90,14 @@ fn write(path: &Path, text: String) -> Result<(), String> {
     fs::write(path, text).map_err(|e| format!("cannot write `{}`: {e}", path.display()))
 }
 
-/// Says in one line what is being done, if somebody watches.
+/// Prints the current activity in one line, on terminals only.
 fn progress(what: &str) {
     if io::stderr().is_terminal() {
         eprint!("\r\x1b[K{what}");
     }
 }
 
-/// All graphs that some framework might have.
+/// All graphs that a framework may have.
 fn all_graphs() -> Vec<Graph> {
     const STAMPED: [(&str, Run); 6] = [
         ("chain3", stamped::chain3),
@@ -117,20 +117,20 @@ fn all_graphs() -> Vec<Graph> {
     graphs
 }
 
-/// Where somebody runs.
+/// Executable of a participant.
 enum Place {
-    /// In this program.
+    /// In this executable.
     Here(Run),
-    /// In the program with this index.
+    /// In the executable with this index.
     There(usize),
 }
 
-/// Somebody who takes part in every round.
+/// A participant of every round.
 struct Runner {
     name: String,
     place: Place,
     ticks: u64,
-    /// What the hand-written program computes in as many ticks.
+    /// Checksum of the hand-written program after the same number of ticks.
     expected: u64,
     ratios: Vec<f64>,
     equal: bool,
@@ -168,7 +168,7 @@ fn runners(graph: &Graph, programs: &mut [Program]) -> Result<Vec<Runner>, Strin
     all.into_iter().map(|(name, place)| Runner::new(&name, place, graph, programs)).collect()
 }
 
-/// All rounds of a graph. Another one is the first in every round.
+/// All rounds of a graph. The first participant changes from round to round.
 fn race(graph: &Graph, programs: &mut [Program], rounds: usize) -> Result<Row, String> {
     let mut runners = runners(graph, programs)?;
     let ticks = ticks_in(ROUND, |ticks| Ok::<_, String>(timed(graph.hand, ticks)))?;

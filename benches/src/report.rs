@@ -1,4 +1,4 @@
-//! Tables of what was measured.
+//! Tables of the results.
 
 use crate::measure::{self, Effort, Measurement, RESOLUTION_NS};
 use apex_bench::{Case, SKIPPED, SYNCHRONOUS};
@@ -12,7 +12,8 @@ pub struct Report {
     skipped_ticks: Vec<Measurement>,
 }
 
-/// Compares skipped ticks of all chain lengths with those of the shortest, which stands where code written by hand stands else.
+/// Compares skipped ticks of all chain lengths with those of the shortest chain, which takes the place of the
+/// hand-written program.
 pub fn skipped(effort: Effort) -> Vec<Measurement> {
     let (_, shortest) = SKIPPED[0];
     let case = |(name, run)| Case { name, apex: run, hand: shortest, goal: Some(SYNCHRONOUS) };
@@ -25,12 +26,12 @@ impl Report {
         Self { graphs, skipped_ticks }
     }
 
-    /// Whether both sides computed the same everywhere.
+    /// `true` if both programs have equal checksums for all graphs.
     pub fn all_equal(&self) -> bool {
         self.graphs.iter().all(|m| m.equal)
     }
 
-    /// For a terminal.
+    /// The report for a terminal.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{:<16}{:>14}{:>14}{:>8}{:>7}{:>12}  {:<10}{}\n",
@@ -52,7 +53,7 @@ impl Report {
         text + &self.skipped_lines("")
     }
 
-    /// For a page.
+    /// The report in Markdown.
     pub fn markdown(&self) -> String {
         let mut text =
             "| graph | apex, ns per tick | hand, ns per tick | ratio | goal | allocations per tick | checksum | |\n\
@@ -74,7 +75,7 @@ impl Report {
         text + "\n" + &self.skipped_lines("- ")
     }
 
-    /// For programs.
+    /// The report as JSON.
     pub fn json(&self) -> Result<String, String> {
         serde_json::to_string_pretty(self).map_err(|e| e.to_string())
     }

@@ -1,18 +1,18 @@
-//! The texts that are too long to be written by hand.
+//! Source files that are too long to be written by hand.
 
 #[path = "mixed.rs"]
 mod mixed;
 
 use std::fmt::Write as _;
 
-/// File names, from this package on, and texts of all that is generated.
+/// Paths relative to this package, and contents of all generated files.
 pub fn files() -> Vec<(String, String)> {
     let formatted = |text: String| apex_dsl::format(&text).unwrap_or(text);
     let graphs = all().into_iter().map(|(name, text)| (format!("graphs/{name}"), formatted(text)));
     graphs.chain([("src/hand/mixed1000.rs".to_owned(), mixed::rust())]).collect()
 }
 
-/// File names and texts of all generated graphs.
+/// Names and contents of all generated graphs.
 fn all() -> Vec<(String, String)> {
     let chains = [3, 10, 100, 1000].map(|n| (format!("chain{n}.afg"), chain(n)));
     let silent = [10, 100, 1000].map(|n| (format!("silent{n}.afg"), silent(n)));
@@ -59,7 +59,7 @@ fn diamond(w: u32) -> String {
     text
 }
 
-/// The number of states.
+/// Number of states.
 const STATES: u32 = 16;
 
 fn machine() -> String {
@@ -105,7 +105,7 @@ fn state_nodes() -> String {
     text + "}\n"
 }
 
-/// ` -> op(k = …)` from `first` to `last`, five in a line.
+/// ` -> op(k = …)` from `first` to `last`, five per line.
 fn ops(first: u32, last: u32) -> String {
     let mut text = String::new();
     for k in first..=last {

@@ -11,18 +11,18 @@ use std::{
 
 graph!("graphs/threads.afg");
 
-/// How much the programs that run now have to do: firings, or balls.
+/// Amount of work of the running programs: number of firings or balls.
 static WANTED: AtomicU64 = AtomicU64::new(0);
-/// How long a player holds the ball, in ns.
+/// Time for which a player holds the ball, in ns.
 static PAUSE: AtomicU64 = AtomicU64::new(0);
 
-/// Some microseconds of work.
+/// A few microseconds of work.
 #[inline(never)]
 fn work(seed: u64) -> u64 {
     (0..4_000).fold(seed, |x, i| black_box(x.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(7) ^ i))
 }
 
-/// A source that works, until it has fired as often as wanted.
+/// A source that works until it has fired as often as wanted.
 #[node]
 #[derive(Default)]
 pub struct Worker {
@@ -44,7 +44,7 @@ impl Worker {
     }
 }
 
-/// Waits until two have said that they are done.
+/// Waits until two nodes have reported that they are done.
 #[node]
 #[derive(Default)]
 pub struct Both {
@@ -62,12 +62,12 @@ impl Both {
     }
 }
 
-/// Hits a ball back, and measures how long it was on its way.
+/// Returns a ball, and measures its travel time.
 #[node]
 #[derive(Default)]
 pub struct Ball {
     count: u64,
-    /// How long balls were on their way, in ns.
+    /// Travel times of balls, in ns.
     pub took: Vec<u64>,
 }
 
@@ -92,7 +92,7 @@ impl Ball {
     }
 }
 
-/// One of two regions.
+/// One of the two regions.
 #[node]
 #[derive(Default)]
 pub struct Region {
@@ -123,13 +123,13 @@ fn drive<P: Program>(program: &mut P) -> Duration {
     start.elapsed()
 }
 
-/// How long `firings` of each of two workers take on one thread, and on two.
+/// Times of `firings` firings of each of two workers, on one thread and on two.
 pub fn scaling(firings: u64) -> (Duration, Duration) {
     WANTED.store(firings, Ordering::Relaxed);
     (drive(&mut Together::new()), drive(&mut Apart::new()))
 }
 
-/// How long `balls` were on their way to another thread and back, one by one; between them each player pauses.
+/// Travel times of `balls` balls to another thread and back, one by one. Each player pauses between them.
 pub fn latencies(balls: u64, pause: Duration) -> Vec<u64> {
     WANTED.store(balls, Ordering::Relaxed);
     PAUSE.store(pause.as_nanos() as u64, Ordering::Relaxed);
@@ -140,7 +140,7 @@ pub fn latencies(balls: u64, pause: Duration) -> Vec<u64> {
     took
 }
 
-/// The time of `ticks` of two regions on two threads, and how many values were torn.
+/// Time of `ticks` of two regions on two threads, and number of torn values.
 pub fn two_regions(ticks: u64) -> (Duration, u64) {
     WANTED.store(ticks, Ordering::Relaxed);
     let mut program = TwoRegion::new();

@@ -1,13 +1,13 @@
-//! Two regions on two threads: in each tick a region reads the latest value of the other and publishes one of its own.
+//! Two regions on two threads: in each tick a region reads the latest value of the other and publishes a value.
 
 use crate::nodes::op;
 use seq_macro::seq;
 use std::hint::black_box;
 
-/// What a region publishes: 64 bytes that tell whether they belong together.
+/// Published value: 64 bytes with a checksum that reveals a mixture of two values.
 pub type Value = [u64; 8];
 
-/// One of the two.
+/// One of the two regions.
 #[derive(Default)]
 pub struct Region {
     state: u64,
@@ -15,7 +15,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// One tick: from the latest value of the other region to the next one of this.
+    /// Computes a tick: takes the latest value of the other region and returns its own next value.
     #[inline]
     pub fn tick(&mut self, other: &Value) -> Value {
         self.torn += u64::from(other[7] != other[0] ^ other[1]);
@@ -25,14 +25,14 @@ impl Region {
         [x, self.state, 0, 0, 0, 0, 0, x ^ self.state]
     }
 
-    /// How many values it read that were half old and half new: what this graph is checked by, because it has no other
-    /// result that is the same in every run.
+    /// Number of values that were a mixture of an old and a new one. It serves as the check of this graph, which has no
+    /// other reproducible result.
     pub fn torn(&self) -> u64 {
         self.torn
     }
 }
 
-/// Both regions on one thread, in turn: what two threads are compared with. A tick is one of each.
+/// Both regions on one thread, alternately, as a reference for two threads. A tick is one tick of each region.
 #[inline(never)]
 pub fn hand(ticks: u64) -> u64 {
     let (mut left, mut right) = (Region::default(), Region::default());

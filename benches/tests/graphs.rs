@@ -1,4 +1,4 @@
-//! What is generated is what the generator writes.
+//! The generated files are up to date.
 
 #[path = "../src/text.rs"]
 mod text;

@@ -1,8 +1,8 @@
-//! Both sides of every graph compute the same, and the compiled one allocates nothing once it is warm.
+//! Both programs of every graph have equal checksums, and the compiled one allocates nothing after warm-up.
 
 use apex_bench::{CASES, allocations, graphs, hand};
 
-/// Enough for the slowest filter to pass twice.
+/// Number of ticks in which the slowest filter passes a value twice.
 const TICKS: u64 = 201;
 
 #[test]
@@ -13,7 +13,7 @@ fn checksums_are_equal() {
     }
 }
 
-/// The same that programs in other languages and frameworks compute.
+/// The checksum of programs in other languages and frameworks.
 #[test]
 fn mixed1000_computes_what_everybody_computes() {
     const CHECKSUM: u64 = 16_515_020_817_037_896_410;
@@ -33,9 +33,9 @@ fn checksums_depend_on_every_tick() {
 #[test]
 fn ticks_allocate_nothing_when_warm() {
     for case in &CASES {
-        // The frames of the camera are all seen, and all storage is as large as it gets.
+        // After warm-up, all frames of the camera have been used, and all storage has its final size.
         let warm = if case.name == "image" { 16 } else { TICKS };
-        // What all runs share (the frames) is made by whichever is the first.
+        // The first run creates the data that all runs share (the frames).
         (case.apex)(1);
         assert_eq!(allocations(case.apex, warm), allocations(case.apex, warm + 8), "{}", case.name);
     }

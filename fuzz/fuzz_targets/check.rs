@@ -1,4 +1,4 @@
-//! Any text: diagnostics or a program, never a panic.
+//! Arbitrary source files: diagnostics or a program, never a panic.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

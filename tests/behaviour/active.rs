@@ -1,4 +1,4 @@
-//! More of activity: what keeps it and what loses it, nested graphs, resets, delays, `timeout`.
+//! More tests of activity: keeping and losing it, nested graphs, resets, delays, `timeout`.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

@@ -1,4 +1,4 @@
-//! Activity: which node is active when, and what tokens carry.
+//! Activity: active nodes, and tokens that carry activity.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

@@ -1,4 +1,4 @@
-//! Events and slots where they meet inputs, ⊥, timers, other rates, nested graphs, and each other.
+//! Events and slots in contact with inputs, ⊥, timers, other rates, nested graphs, and each other.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
@@ -33,7 +33,7 @@ fn ev_07_a_node_whose_event_is_undelivered_does_not_fire() {
     let mut program = Undelivered::new();
     let log = simulate(&mut program, Time::ZERO, END);
     assert_eq!(program.nodes().k.seen, [(1, 0), (2, 1), (3, 2), (4, 3), (5, 4)]);
-    // One token lies behind `x`, one before it.
+    // One token is after `x`, one before it.
     assert_eq!((log.count("a"), program.nodes().x.seen.len()), (7, 6));
 }
 

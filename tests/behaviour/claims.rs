@@ -1,4 +1,4 @@
-//! Claims that the compiler could not decide are looked at while the program runs.
+//! Claims that the compiler could not decide are checked while the program runs.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

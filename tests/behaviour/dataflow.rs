@@ -66,7 +66,7 @@ fn df_10_a_delay_breaks_a_loop() {
 
     let mut program = Loop::new();
     react(&mut program, 5);
-    // 1 + 0, the default; nothing; 2 + 100, because nothing came round; 3 + 2·102; nothing.
+    // 1 + 0, the default; nothing; 2 + 100, because no token came back; 3 + 2·102; nothing.
     assert_eq!(program.nodes().k.seen, [1, 102, 207]);
 }
 

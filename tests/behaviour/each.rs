@@ -67,7 +67,7 @@ fn a_source_in_the_body_fires_for_each_element() {
     assert_eq!(program.nodes().k.seen, [vec![42, 44], vec![56]]);
 }
 
-/// Runs `check` on so many threads.
+/// Runs `check` on `count` threads.
 fn on_threads(count: usize, check: impl FnOnce() + Send) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads can be started");
     pool.install(check);

@@ -1,4 +1,4 @@
-//! Failures that are told and contained, nodes that are switched off and on, and how a program ends.
+//! Failures that are reported and contained, nodes that are disabled and enabled, and the end of a program.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
@@ -44,7 +44,7 @@ fn restart_makes_a_node_anew() {
 fn restart_after_the_failure_of_a_slot() {
     let mut program = RestartsBySlot::new();
     react(&mut program, 5);
-    // The slots are called after the firing of the same reaction, or before it, as the text says.
+    // The slots are called after or before the firing of the same reaction, in the order of the source file.
     assert_eq!(program.nodes().k.seen, [1, 2, 1, 12, 13]);
     assert_eq!(program.nodes().notes.seen.len(), 1);
 }
@@ -156,7 +156,7 @@ fn lc_05_nothing_fires_after_exit() {
     assert_eq!(program.nodes().k.seen, [0]);
 }
 
-/// What the process of `lc_05_the_process_ends_with_the_code` does.
+/// Program of the process that `lc_05_the_process_ends_with_the_code` starts.
 #[test]
 #[ignore = "a process of its own"]
 fn lc_05_child() {
@@ -216,7 +216,7 @@ fn a_panic_that_nobody_listens_to_is_one() {
 fn a_nested_graph_is_switched_off_and_fails_as_one() {
     let mut program = Group::new();
     let log = react(&mut program, 9);
-    // Of 0, 1, … every fourth passes, the odd ones fail; 2, 3 and 4 meet a graph that is switched off.
+    // Of 0, 1, … every fourth passes, the odd ones fail; 2, 3 and 4 meet a disabled graph.
     assert_eq!(program.nodes().k.seen, [0, 8]);
     assert_eq!(program.nodes().notes.seen, ["odd"; 3], "1, 5 and 7");
     assert_eq!((log.count("g.f"), log.count("s")), (6, 9));

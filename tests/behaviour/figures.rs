@@ -1,4 +1,4 @@
-//! Figures of the thesis, as texts in `../figures`: each test asserts the point that its figure makes.
+//! Figures of the thesis, as source files in `../figures`: each test asserts the point of its figure.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

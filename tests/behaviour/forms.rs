@@ -1,4 +1,4 @@
-//! The forms of nodes: generic ones, several outputs, outputs written in place.
+//! Forms of nodes: generic ones, several outputs, outputs written in place.
 
 use apex_macros::graph;
 use apex_tests::{nodes::Label, react};

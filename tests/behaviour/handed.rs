@@ -4,10 +4,10 @@ use apex_macros::graph;
 use apex_rt::prelude::*;
 use apex_tests::{nodes::Held, react};
 
-/// Something that has no default.
+/// A type without a default.
 struct File;
 
-/// Sends what it was made with. No graph can make it.
+/// Sends its initial values. It has no default, so graphs cannot make it.
 #[node]
 pub struct Tape {
     left: Vec<i64>,

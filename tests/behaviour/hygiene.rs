@@ -1,4 +1,4 @@
-//! Names that collide with nothing, whatever they are.
+//! Generated names do not collide with any others.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
@@ -6,7 +6,7 @@ use apex_tests::react;
 
 graph!("hygiene.afg");
 
-/// As the generated code calls its own things, and as it would call those of `Arm`.
+/// Items with the names that generated code uses, in general and for `Arm`.
 #[allow(non_camel_case_types, non_upper_case_globals, dead_code)]
 mod beside {
     pub const nodes: u8 = 0;

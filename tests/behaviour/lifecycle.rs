@@ -1,4 +1,4 @@
-//! Failures: a node that fails sends nothing, and all else goes on.
+//! Failures: a node that fails sends nothing, and all others continue.
 
 use apex_macros::graph;
 use apex_tests::react;
@@ -12,7 +12,7 @@ graph! {
         s -> f -> k;
     }
 
-    /// A failure on one way to a join: the join does not fire, the other way does not notice.
+    /// A failure on one path to a join: the join does not fire, the other path is not affected.
     graph FailingDiamond {
         node s = Count(end = 9);
         node f = odd_fails();

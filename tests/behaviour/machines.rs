@@ -1,4 +1,4 @@
-//! `fsm`: states, transitions with guards and actions, states inside states.
+//! `fsm`: states, transitions with guards and actions, nested states.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

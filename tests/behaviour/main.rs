@@ -1,5 +1,5 @@
-//! What graphs do: texts are compiled into this program and run, and their firings and records are compared.
-//! Tests whose names begin with a case (`df_01`) check that case of the conformance list.
+//! Behaviour of graphs: source files are compiled into this program and run, and their firings and records are
+//! compared. Tests whose names begin with a case (`df_01`) check that case of the conformance list.
 
 mod accept;
 mod active;

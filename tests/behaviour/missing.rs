@@ -1,4 +1,4 @@
-//! ⊥: who sees it, who is spared, and what it costs.
+//! ⊥: its recipients, the nodes that it does not reach, and its cost.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

@@ -1,4 +1,4 @@
-//! Nested graphs: one node towards their parent, and nothing changes by grouping.
+//! Nested graphs: one node for their parent, and grouping changes nothing.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;

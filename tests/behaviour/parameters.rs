@@ -1,4 +1,4 @@
-//! Parameters: values in the text, values that arrive, values that are refused.
+//! Parameters: values in the source file, values that arrive, values that are rejected.
 
 use apex_macros::graph;
 use apex_tests::react;

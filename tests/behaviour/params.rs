@@ -11,7 +11,7 @@ use apex_rt::{
 use apex_tests::react;
 use std::{fs, path::PathBuf, time::Duration};
 
-/// A type that is no parameter value.
+/// A type that is not allowed for parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
     Slow,
@@ -47,7 +47,7 @@ impl Kinds {
     fn process(&mut self) {}
 }
 
-/// Times `by`.
+/// Multiplies by `by`.
 #[node]
 pub struct Multiplier {
     #[param(default = 2, range = 0..=100)]
@@ -163,7 +163,7 @@ by = 2 # 0..=100
 gain = 1 # 0..=10
 "#;
 
-/// What is wrong with a text, as line, column and message; and that the program has not changed.
+/// Errors in a parameter file as line, column and message. Also checks that the program has not changed.
 fn problems(text: &str) -> Vec<String> {
     let mut program = tuned();
     let result = load(&mut program, text);
@@ -382,7 +382,7 @@ fn parameters_are_set_and_read_between_reactions() {
     assert_eq!(program.param::<[[u16; 2]; 2]>("kinds.rows").unwrap(), [[5, 6], [7, 8]]);
 }
 
-/// What is spelled is read as the same value.
+/// A saved number is loaded with the same value.
 #[test]
 fn single_precision_survives() {
     let mut bits = 1_u32;

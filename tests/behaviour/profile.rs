@@ -1,4 +1,4 @@
-//! Profiles: what is measured, not how long it takes.
+//! Profiles: their contents, not the times.
 
 use apex_macros::graph;
 use apex_rt::{drive_with, prelude::*, profile::Profile};

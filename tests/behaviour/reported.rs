@@ -1,4 +1,4 @@
-//! What does not compile, and what the compiler says: code, place, and the words that matter.
+//! Errors of the compiler: code, place, and the important words.
 
 use apex_tests::{check, error};
 

@@ -1,4 +1,4 @@
-//! Large programs: deep chains of filters, more conditions than one word has bits.
+//! Large programs: deep chains of filters, more conditions than a machine word has bits.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
@@ -47,7 +47,7 @@ fn more_timers_than_bits_in_a_word() {
 fn more_connections_between_clusters_than_bits_in_a_word() {
     let mut program = Joins::new();
     let log = simulate(&mut program, Time::ZERO, Time::from_millis(100));
-    // The slowest, every 20 ms, sets the pace of all.
+    // The slowest source, every 20 ms, determines the rate of all.
     assert_eq!(program.nodes().k.seen, (0..5).map(|i| 40 * i).collect::<Vec<_>>());
     for i in 0..40 {
         let count = log.count(&format!("s{i}"));

@@ -1,4 +1,4 @@
-//! `test` items: each is a Rust test of its own.
+//! `test` items, each of which becomes a Rust test.
 
 use apex_macros::graph;
 

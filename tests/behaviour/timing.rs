@@ -1,4 +1,4 @@
-//! Time: exact paces, and paces that hold each other back.
+//! Time: exact periods, and sources that hold each other back.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
@@ -98,8 +98,8 @@ fn three_paces_in_a_chain() {
     let mut program = Three::new();
     let log = simulate(&mut program, Time::ZERO, Time::from_millis(200));
     assert_eq!(program.nodes().kabc.seen, [0, 3, 6, 9]);
-    // `ab` may be one ahead of `abc`, `a` and `b` one ahead of `ab`, but only once their last token is taken:
-    // R4 frees a source when the sinks behind it have fired.
+    // `ab` may be one token ahead of `abc`, `a` and `b` one ahead of `ab`, but only after their last token was taken:
+    // R4 enables a source when its sinks have fired.
     assert_eq!(program.nodes().kab.seen, [0, 2, 4, 6, 8]);
     assert_eq!((log.count("a"), log.count("b"), log.count("c")), (5, 5, 4));
 }
@@ -108,7 +108,7 @@ fn three_paces_in_a_chain() {
 fn a_loop_joins_the_paces_in_it() {
     let mut program = Loose::new();
     simulate(&mut program, Time::ZERO, Time::from_millis(50));
-    // sums: 0, then what was sent before plus the other source's value
+    // sums: 0, then the previously sent sum plus the value of the other source
     assert_eq!(program.nodes().k.seen, [0, 1, 4, 9, 16]);
 }
 
@@ -177,7 +177,7 @@ fn a_source_that_falls_silent_times_out_once() {
     assert_eq!(program.nodes().said.late, [Time::from_millis(35)]);
 }
 
-/// What `k` has seen when a new value is put in 5 ms before each 10 ms.
+/// Values at `k` if a new value is put in 5 ms before each multiple of 10 ms.
 macro_rules! latched {
     ($program:ident) => {{
         let mut program = $program::new();
@@ -222,7 +222,7 @@ fn what_has_no_pace_fires_once_in_a_reaction_with_a_taker_without_one() {
     assert_eq!(latched!(Unpaced).nodes().k.seen, [10, 10, 20, 20, 30, 30, 40]);
 }
 
-/// When `said` heard of a timeout, if a node is disabled at `off` and enabled at `on`, in milliseconds.
+/// Times in ms at which `said` takes a timeout, if a node is disabled at `off` and enabled at `on`.
 macro_rules! switched {
     ($program:ident, $off:literal, $on:literal) => {{
         let mut program = $program::new();

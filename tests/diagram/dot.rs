@@ -1,4 +1,4 @@
-//! Graphviz understands what is written for it.
+//! Graphviz accepts the output.
 
 use crate::random;
 use apex_diagram::{dot, states};

@@ -1,4 +1,4 @@
-//! `docs/figures.md` and its pictures are what is drawn today. `APEX_UPDATE_PICTURES=1` writes them anew.
+//! `docs/figures.md` and its pictures are up to date. `APEX_UPDATE_PICTURES=1` writes them again.
 
 use crate::{Drawer, root};
 use apex_diagram::{Item, diagram, states, svg};
@@ -15,13 +15,13 @@ dash-dotted lines lead from one kind to the other. Nodes that can be active are 
 of the activity. A second picture shows the activity alone (`--activity`).
 ";
 
-/// What stands behind `mark` at the beginning of a text.
+/// Header of a text: its first lines without `mark`.
 fn header<'a>(text: &'a str, mark: &str) -> String {
     let lines: Vec<&'a str> = text.lines().map_while(|line| line.strip_prefix(mark)).map(str::trim).collect();
     lines.join("\n")
 }
 
-/// The pages and pictures, by path.
+/// Pages and pictures by path.
 fn written() -> BTreeMap<String, String> {
     let folder = root().join("tests/figures");
     let mut drawer = Drawer::new();
@@ -68,7 +68,7 @@ fn written() -> BTreeMap<String, String> {
     files
 }
 
-/// A graph of a robot.
+/// Diagram of a graph of a robot.
 fn drawn(folder: &str, file: &str, name: &str) -> Item {
     let folder = root().join(folder);
     let text = fs::read_to_string(folder.join(file)).expect("it can be read");

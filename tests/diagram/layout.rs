@@ -1,4 +1,4 @@
-//! Where things are drawn.
+//! Layout.
 
 use crate::{Drawer, random};
 use apex_diagram::{
@@ -23,12 +23,12 @@ fn inside(inner: Rect, outer: Rect) -> bool {
     outer.0 <= inner.0 && outer.1 <= inner.1 && inner.2 <= outer.2 && inner.3 <= outer.3
 }
 
-/// The pieces of a line.
+/// Pieces of a line.
 fn pieces(route: &[Point]) -> impl Iterator<Item = Rect> {
     route.windows(2).map(|p| (p[0].0.min(p[1].0), p[0].1.min(p[1].1), p[0].0.max(p[1].0), p[0].1.max(p[1].1)))
 }
 
-/// What is wrong with a picture.
+/// Faults of a picture.
 fn faults(item: &Item, placed: &Placed) -> Vec<String> {
     let mut faults = vec![];
     let whole = (0, 0, placed.size.0, placed.size.1);
@@ -96,7 +96,7 @@ fn on_each_other((p, q): &(Rect, Rect)) -> bool {
     x == 0 && y > 0 && p.0 == p.2 && q.0 == q.2 || y == 0 && x > 0 && p.1 == p.3 && q.1 == q.3
 }
 
-/// Pieces of lines that have no end in common, but lie on each other.
+/// Overlapping pieces of lines that have no common end.
 fn hidden(frame: &Frame, placed: &Placed) -> Vec<String> {
     let mut found = vec![];
     for (i, a) in frame.lines.iter().enumerate() {
@@ -113,8 +113,7 @@ fn hidden(frame: &Frame, placed: &Placed) -> Vec<String> {
     found
 }
 
-/// Pieces of strokes that lie on each other: what lines have in common is drawn once, or their dashes would fill each
-/// other.
+/// Overlapping pieces of strokes. A common part of lines is drawn once, because otherwise their dashes would overlap.
 fn drawn_twice(frame: &Frame, placed: &Placed) -> Vec<String> {
     let strokes = strokes(frame, placed);
     let mut found = vec![];
@@ -129,7 +128,7 @@ fn drawn_twice(frame: &Frame, placed: &Placed) -> Vec<String> {
     found
 }
 
-/// How many strokes begin or end at another one, at all depths.
+/// Numbers of strokes that begin or end at another one, at all depths.
 fn forks(frame: &Frame, placed: &Placed) -> (usize, usize) {
     let strokes = strokes(frame, placed);
     let count = |is: fn(&Stroke) -> bool| strokes.iter().filter(|stroke| is(stroke)).count();

@@ -1,4 +1,4 @@
-//! Pictures of graphs: what is drawn, where it is drawn, and that the pictures of the documentation are what is drawn today.
+//! Diagrams of graphs: their contents, their layout, and the pictures of the documentation.
 
 mod dot;
 mod figures;
@@ -18,16 +18,16 @@ use apex_dsl::{
 use apex_host::{Disk, Seen, Workspace};
 use std::path::{Path, PathBuf};
 
-/// The nodes that texts can use, and the state machines of the one that was read last.
+/// The nodes that source files can use, and the state machines of the last one.
 struct Drawer(Catalog, Machines);
 
 impl Drawer {
-    /// Sees the nodes of this package.
+    /// Uses the nodes of this package.
     fn new() -> Self {
         Self::of(&root().join("tests"))
     }
 
-    /// Sees the nodes of the package in this folder.
+    /// Uses the nodes of the package in this folder.
     fn of(folder: &Path) -> Self {
         let workspace = Workspace::load(folder).expect("cargo knows the package");
         let mut disk = Disk::new(Some(&workspace.cache_folder()));
@@ -36,7 +36,7 @@ impl Drawer {
         Self(catalog, Machines::new())
     }
 
-    /// The graphs of a text that stands in this folder.
+    /// Graphs of a source file in this folder.
     fn graphs(&mut self, folder: &Path, text: &str) -> Result<Vec<Graph>, String> {
         let mut sources = Sources::default();
         let file = sources.add(folder.join("text.afg"), text);
@@ -49,7 +49,7 @@ impl Drawer {
         Ok(checked.programs.into_iter().filter(|p| p.script.is_none()).map(|p| p.graph).collect())
     }
 
-    /// The picture of the only graph of a text.
+    /// Diagram of the only graph of a source file.
     fn one(&mut self, text: &str) -> Item {
         let graphs = self.graphs(&root().join("tests"), text).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(graphs.len(), 1, "one graph is expected");
@@ -57,12 +57,12 @@ impl Drawer {
     }
 }
 
-/// The folder of the workspace.
+/// Folder of the workspace.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Pictures of random graphs of all kinds, some of them with nested graphs, activity and events.
+/// Diagrams of random graphs of all kinds, some with nested graphs, activity and events.
 fn random(count: usize) -> Vec<(String, Item)> {
     let mut drawer = Drawer::new();
     let mut texts: Vec<String> =
@@ -70,7 +70,7 @@ fn random(count: usize) -> Vec<(String, Item)> {
     texts.push(apex_tests::text(&apex_tests::cases(apex_tests::SEED, count / 4)));
     let mut pictures = vec![];
     for text in &texts {
-        // Not all random graphs are legal.
+        // Some random graphs are not legal.
         for graph in drawer.graphs(&root().join("tests"), text).unwrap_or_default() {
             pictures.push((text.clone(), diagram(&graph, &drawer.1, &drawer.0)));
         }

@@ -1,4 +1,4 @@
-//! Everything is drawn, and drawn once.
+//! Every item is drawn, and drawn once.
 
 use crate::{Drawer, root};
 use apex_diagram::{Anchor, Flow, Frame, Item, READABLE, Shape, Side, diagram, folded, folded_states, states};
@@ -54,7 +54,7 @@ fn named<'a>(frame: &'a Frame, name: &str) -> (usize, &'a Item) {
     item
 }
 
-/// A line by the names at its ends.
+/// Lines by the names at their ends.
 fn lines(item: &Item) -> Vec<String> {
     let frame = item.inside.as_ref().expect("it has an inside");
     let name = |end: Anchor| match end {
@@ -194,7 +194,7 @@ robot Runner {
     assert!(lines(&item).contains(&"hung. -> abort. Asynchronous".to_owned()), "{:?}", lines(&item));
 }
 
-/// A graph of `count` instances of a graph of three nodes, which has one of two nodes in it.
+/// A graph with `count` instances of a graph of three nodes, one of which is a graph of two nodes.
 fn large(count: usize) -> String {
     let parts: String = (0..count).map(|i| format!("    node p{i} = Middle();\n    s -> p{i}.x;\n")).collect();
     format!(
@@ -241,14 +241,14 @@ fn long_chains_become_one_box() {
     assert_eq!(lines(&small), ["s. -> n0 … snk_2.x Synchronous", "s. -> snk_1.x Synchronous"]);
 }
 
-/// Nodes and connections that a picture must have.
+/// Numbers of nodes and connections that a picture must have.
 fn expected(graph: &Graph) -> (usize, usize) {
     let drawn = |n: &&apex_dsl::graph::Node| !matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Relay);
     let nodes = graph.nodes.iter().filter(drawn).count() + graph.scopes.len() - 1;
     (nodes, graph.wires.len() + graph.nodes.iter().filter(|n| n.starts_active).count())
 }
 
-/// Items and lines of a frame, without dots where activity begins and without what is inside an `each`.
+/// Numbers of items and lines of a frame, without start dots and the contents of `each`.
 fn drawn(frame: &Frame) -> (usize, usize) {
     let dots = frame.items.iter().filter(|i| i.shape == Shape::Start).count();
     let mut count = (frame.items.len() - dots, frame.lines.len());

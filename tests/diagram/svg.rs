@@ -1,4 +1,4 @@
-//! The pictures are XML that other programs can read, whatever stands in a text.
+//! The pictures are valid XML for any text in a source file.
 
 use crate::{Drawer, random};
 use apex_diagram::{states, svg};

@@ -1,20 +1,20 @@
-//! The pages as a book: each stands in the summary, and every link leads somewhere.
+//! The pages as a book: each is in the summary, and every link has a target.
 
 use crate::{page, pages, root};
 use std::collections::BTreeSet;
 
-/// The text without its blocks of code.
+/// Text without its blocks of code.
 fn prose(text: &str) -> String {
     text.split("```").step_by(2).collect()
 }
 
-/// The targets of all links of a page; pictures are links, too.
+/// Targets of all links of a page, including pictures.
 fn links(name: &str) -> Vec<String> {
     let text = prose(&page(name));
     text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target.to_owned()).collect()
 }
 
-/// The anchors of a page: its headings in small letters, without signs, with `-` for blanks.
+/// Anchors of a page: its headings in small letters, without punctuation, with `-` for blanks.
 fn anchors(name: &str) -> BTreeSet<String> {
     let anchor = |heading: &str| -> String {
         let letters = heading.trim().chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
@@ -24,7 +24,7 @@ fn anchors(name: &str) -> BTreeSet<String> {
     text.lines().filter(|line| line.starts_with('#')).map(|line| anchor(line.trim_start_matches('#'))).collect()
 }
 
-/// A link of page `name` as a path from the root of the repository.
+/// Link of the page `name` as a path from the root of the repository.
 fn resolved(name: &str, target: &str) -> String {
     let mut parts: Vec<&str> = name.split('/').collect();
     parts.pop();
@@ -57,7 +57,7 @@ fn every_link_leads_somewhere() {
             let path = if path.is_empty() { name.clone() } else { resolved(&name, path) };
             let file = root().join(&path);
             assert!(file.exists(), "{name}: there is no `{path}`");
-            // In the book are the files below `docs`: all other links would work in the repository alone.
+            // The book contains the files below `docs`; all other links would work in the repository only.
             let in_book = path.starts_with("docs/") && file.is_file();
             assert!(in_book || !name.starts_with("docs/"), "{name}: `{target}` leads out of the book");
             if let Some(anchor) = anchor {
@@ -81,7 +81,7 @@ fn the_licences_of_the_manifest_are_there() {
     assert_eq!(names.len(), 2);
 }
 
-/// What a page describes is there: no page for those who come from elsewhere says that it is missing.
+/// Features that a page describes exist: no page for newcomers from other systems calls them missing.
 #[test]
 fn what_is_there_is_not_denied() {
     let topics = [
@@ -96,7 +96,7 @@ fn what_is_there_is_not_denied() {
         let text = page(&name).to_lowercase();
         let (before, missing) = text.split_once("## what is not there").expect("there is such a section");
         let rows = before.lines().filter(|line| ["not there", "not yet", "not run"].iter().any(|no| line.contains(no)));
-        // A list says with its first words what is missing, and then what there is instead.
+        // The first words of a point name the missing feature; the rest describes an alternative.
         let points = missing.lines().filter_map(|line| line.strip_prefix("- "));
         let points = points.map(|point| point.split(['.', ':', ';']).next().unwrap_or(point));
         for said in rows.chain(points) {

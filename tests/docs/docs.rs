@@ -1,4 +1,4 @@
-//! The documentation is true: its graphs are checked, its Rust is compiled and run, its messages are the real ones.
+//! Checks of the documentation: its graphs are checked, its Rust is compiled and run, its messages are real.
 
 use apex_dsl::{
     catalog::Catalog,
@@ -29,18 +29,18 @@ mod recording;
 mod texts;
 mod tour;
 
-/// The page whose texts belong to a package of their own.
+/// Page whose source files belong to a package of their own.
 const TOUR: &str = "docs/tour.md";
 
-/// The page that another test writes from the texts in `tests/figures`, whose tests are run there.
+/// Page that another test writes from the source files in `tests/figures`, whose tests run there.
 const FIGURES: &str = "docs/figures.md";
 
-/// The folder of the repository.
+/// Folder of the repository.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// All pages, by their paths from the root.
+/// All pages, as paths from the root.
 fn pages() -> Vec<String> {
     let mut pages = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(str::to_owned).to_vec();
     collect("docs", &mut pages);
@@ -66,31 +66,31 @@ fn page(name: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// The blocks of a page that are marked with exactly this word.
+/// Blocks of a page that are marked with exactly this word.
 fn blocks(page: &str, word: &str) -> Vec<String> {
     let fence = format!("```{word}\n");
     page.split(&fence).skip(1).filter_map(|rest| rest.split_once("```").map(|(block, _)| block.to_owned())).collect()
 }
 
-/// The pages whose texts are looked at here; those about errors have tests of their own.
+/// Pages whose source files are checked here. Those about errors have tests of their own.
 fn pages_with_texts() -> impl Iterator<Item = String> {
     pages().into_iter().filter(|name| !name.starts_with("docs/errors/"))
 }
 
-/// The graphs of all pages, with the name of their page.
+/// Graphs of all pages, each with the name of its page.
 fn graphs() -> Vec<(String, String)> {
     let of = |name: String| blocks(&page(&name), "afg").into_iter().map(move |block| (name.clone(), block));
     pages_with_texts().flat_map(of).collect()
 }
 
-/// A package that texts belong to.
+/// A package for source files.
 struct Package {
     catalog: Catalog,
     disk: Disk,
     file: &'static str,
 }
 
-/// What the compiler says of a text.
+/// Result of the compiler for a source file.
 struct Checked {
     messages: Vec<String>,
     programs: Vec<Program>,
@@ -99,9 +99,9 @@ struct Checked {
 }
 
 impl Package {
-    /// The one whose nodes the texts of a page use.
+    /// Package whose nodes the source files of a page use.
     fn of(page: &str) -> Self {
-        // The nodes of the other pages stand in the modules of this test.
+        // The nodes of the other pages are in the modules of this test.
         let (folder, file, seen) = match page {
             TOUR => ("robots/rover", "near.afg", Seen::Package),
             _ => ("tests", "robot.afg", Seen::Crate("docs", false)),
@@ -111,7 +111,7 @@ impl Package {
         Self { catalog: Catalog::load(workspace.crates(&seen), &mut disk), disk, file }
     }
 
-    /// Checks a text, as `apex check` does.
+    /// Checks a source file as `apex check` does.
     fn check(&mut self, text: &str) -> Checked {
         let mut sources = Sources::default();
         let file = sources.add(self.file, text);
@@ -127,7 +127,7 @@ impl Package {
 fn every_graph_in_the_documentation_is_right() {
     let (mut rover, mut tests) = (Package::of(TOUR), Package::of("README.md"));
     let mut graphs = graphs();
-    // Its texts stand beside each other, and are checked where it is written.
+    // Its graphs refer to each other, and are checked by the test that writes the page.
     graphs.retain(|(name, _)| name != FIGURES);
     for (name, block) in &graphs {
         let package = if name == TOUR { &mut rover } else { &mut tests };
@@ -144,7 +144,7 @@ fn every_test_in_the_documentation_is_run() {
     }
 }
 
-/// A page with the messages about its wrong texts, each of which stands before its messages.
+/// A page with the messages for its wrong source files, each of which is before its messages.
 fn with_messages(page: &str, package: &mut Package, count: &mut usize) -> String {
     let mut parts = page.split("```afg wrong\n");
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -160,7 +160,7 @@ fn with_messages(page: &str, package: &mut Package, count: &mut usize) -> String
     text
 }
 
-/// With `APEX_UPDATE_EXPECTATIONS=1` the pages are written anew.
+/// With `APEX_UPDATE_EXPECTATIONS=1` the pages are written again.
 #[test]
 fn what_the_documentation_shows_of_the_compiler_is_real() {
     let (mut rover, mut tests) = (Package::of(TOUR), Package::of("README.md"));
@@ -176,7 +176,7 @@ fn what_the_documentation_shows_of_the_compiler_is_real() {
         if update {
             fs::write(root().join(&name), &real).unwrap();
         } else {
-            assert_eq!(page, real, "{name}: APEX_UPDATE_EXPECTATIONS=1 writes it anew");
+            assert_eq!(page, real, "{name}: APEX_UPDATE_EXPECTATIONS=1 writes it again");
         }
     }
     assert!(count > 5, "only {count} errors were found");

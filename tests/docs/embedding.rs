@@ -9,7 +9,7 @@ mod parts;
 mod ports;
 mod watching;
 
-/// Their texts, in the order of the page.
+/// Sources of the programs, in the order of the page.
 pub const BLOCKS: [&str; 7] = [
     include_str!("embedding/first.rs"),
     include_str!("embedding/own_loop.rs"),
@@ -20,7 +20,7 @@ pub const BLOCKS: [&str; 7] = [
     include_str!("embedding/watching.rs"),
 ];
 
-/// Runs them.
+/// Runs all programs.
 pub fn main() {
     first::main();
     own_loop::main();

@@ -1,4 +1,4 @@
-//! The programs of the pages for those who come from elsewhere.
+//! The programs of the pages for users of other frameworks.
 
 pub mod copper;
 pub mod cs_apex;

@@ -37,7 +37,7 @@ mod waiting {
     apex_macros::graph!("texts/waiting.afg");
 }
 
-/// Their texts.
+/// Contents of the examples.
 pub const TEXTS: [&str; 12] = [
     include_str!("texts/answers.afg"),
     include_str!("texts/duty.afg"),

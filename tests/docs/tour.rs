@@ -1,16 +1,15 @@
-//! The tour shows the robot in `robots/rover`, which is the one that `apex new` makes, and what the compiler really
-//! says. That its commands do what it says is tested in `apex-cli/tests/tools/tour.rs`, which follows it from the
-//! beginning.
+//! Checks that the tour shows the robot in `robots/rover`, from which `apex new` makes projects, and the real output of
+//! the compiler. Its commands are tested in `apex-cli/tests/tools/tour.rs`, which follows the tour from the beginning.
 
 use crate::{Package, TOUR, blocks, page};
 use apex_dsl::explain::explain;
 
 const TEXT: &str = include_str!("../../robots/rover/robot.afg");
 
-/// The tour's package is a project of its own, which does not lie in a repository.
+/// Path to remove from messages: the tour's package is a project of its own.
 pub const FOLDER: &str = "robots/rover/";
 
-/// A block is a part of a file, with lines as they stand there.
+/// Checks that a block is part of a file, with the same lines.
 fn assert_part(block: &str, file: &str) {
     assert!(file.contains(block), "no longer in the robot:\n{block}");
 }
@@ -29,7 +28,7 @@ fn the_tour_shows_the_robot_of_the_repository() {
     assert!(page.contains(include_str!("../../robots/rover/world.txt")), "the world is another one");
 }
 
-/// The page with what `explain` says of its robot at first: as many lines as it shows.
+/// The page with the first lines of the explanation of its robot, as many as it shows.
 pub fn with_explained(page: &str, package: &mut Package) -> String {
     let checked = package.check(TEXT);
     let robot = checked.programs.iter().find(|program| program.graph.robot).expect("there is a robot");

@@ -1,4 +1,4 @@
-//! The nodes of a crate without a heap.
+//! Nodes of a crate without a heap.
 #![no_std]
 use apex_rt::prelude::*;
 
@@ -8,7 +8,7 @@ pub fn one() -> u64 {
     1
 }
 
-/// Keeps all that it sees.
+/// Stores all tokens.
 #[node]
 pub struct Keep {
     seen: Vec<u64>,
@@ -28,7 +28,7 @@ pub fn write(x: &u64) {
     drop(*x);
 }
 
-/// Says what it sees.
+/// Converts a token to a string.
 #[node]
 pub fn spell(x: &u64) -> String {
     x.to_string()

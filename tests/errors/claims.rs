@@ -1,21 +1,22 @@
-//! Claims about random small graphs, against an enumeration of all states that knows nothing of how the compiler does it.
+//! Claims about random small graphs, compared with an independent enumeration of all states.
 
 use super::compile::{catalog, compile, folder};
 use std::collections::{HashMap, HashSet, VecDeque};
 
-/// Nodes of each graph.
+/// Number of nodes of each graph.
 const NODES: usize = 4;
-/// Graphs that are tried.
+/// Number of graphs.
 const CASES: u64 = 200;
 
-/// Node `i` has the events `l` and `r`, which lead to these nodes. Some nodes are calmed down from outside.
+/// A graph. Node `i` has the events `l` and `r`, which lead to these nodes. The node `calmed` loses activity from
+/// outside.
 struct Case {
     leads: Vec<[Vec<usize>; 2]>,
     begins: Vec<usize>,
     calmed: Option<usize>,
 }
 
-/// A state: active nodes, and tokens with activity, each as (node, event, target).
+/// A state: active nodes, and tokens with activity as (node, event, target).
 type State = (Vec<bool>, Vec<(usize, usize, usize)>);
 
 fn random(seed: &mut u64, below: u64) -> usize {
@@ -77,7 +78,7 @@ impl Case {
             without[node] = false;
             for event in 0..2 {
                 let to = &self.leads[node][event];
-                // Events are triggered only while all of the node are free.
+                // A node triggers an event only while all its events are free.
                 if to.is_empty() || tokens.iter().any(|t| t.0 == node) {
                     continue;
                 }
@@ -98,7 +99,7 @@ impl Case {
         next
     }
 
-    /// All states with the length of a shortest run to each.
+    /// All states, each with the length of a shortest run to it.
     fn states(&self, from: State) -> HashMap<State, usize> {
         let mut found = HashMap::from([(from.clone(), 1)]);
         let mut waiting = VecDeque::from([from]);
@@ -114,11 +115,11 @@ impl Case {
         found
     }
 
-    /// For each claim the length of a shortest run that breaks it.
+    /// For each claim, the length of a shortest run that violates it.
     fn broken(&self) -> [Option<usize>; 3] {
         let states = self.states(self.initial());
         let given = self.begins.len();
-        // The states from which there is a way to `n3`: those that lead to one of them, until there are no more.
+        // States from which `n3` can be reached: predecessors are added until there are no more.
         let mut before: HashMap<State, Vec<&State>> = HashMap::new();
         for state in states.keys() {
             self.next(state).into_iter().for_each(|next| before.entry(next).or_default().push(state));

@@ -1,4 +1,4 @@
-//! Calls the compiler as a library, with the nodes that stand beside this file and no others.
+//! Calls the compiler as a library, with the nodes in this folder and no others.
 
 use apex_dsl::{
     catalog::{Catalog, CrateSpec, Crates},
@@ -12,18 +12,18 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What was read and what was found.
+/// Source files and diagnostics.
 pub struct Compiled {
     pub sources: Sources,
     pub diagnostics: Diagnostics,
 }
 
-/// The folder of this test.
+/// Folder of this test.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/errors")
 }
 
-/// The nodes that the texts can use: those of `nodes.rs`, and by import those of `library.rs`.
+/// Nodes for the source files: those of `nodes.rs`, and by import those of `library.rs`.
 pub fn catalog() -> Catalog {
     let spec = |name: &str, dependencies| CrateSpec {
         name: name.to_owned(),
@@ -37,7 +37,7 @@ pub fn catalog() -> Catalog {
     Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0], ..Crates::default() }, &mut Disk::new(None))
 }
 
-/// Takes `text`, which stands in `path`, through all passes up to generated code.
+/// Runs all passes on `text` as the content of `path`, including code generation.
 pub fn compile(path: &Path, text: &str, catalog: &mut Catalog) -> Compiled {
     let mut sources = Sources::default();
     let mut diagnostics = Diagnostics::default();

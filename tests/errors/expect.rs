@@ -1,12 +1,12 @@
-//! Expected diagnostics are comments under the line they are about:
+//! Expected diagnostics are comments under the line that they refer to:
 //! ```text
 //!     a -> b.x;
 //! //         ^ error[unknown-port]: `b` has no port `x`
 //! // | did you mean `y`? → `y`
 //! ```
-//! `^` marks the characters, `'` a place between two; `~` behind it says that the span goes on in the next line. A span
-//! in the first two columns, where the slashes stand, is written `//<^` or `//<<^`. Lines with `|` belong to the
-//! message: further places (as text, with the distance in lines), notes, and fixes.
+//! `^` marks the characters, `'` a position between two. `~` after the marks means that the span continues in the next
+//! line. A span in the first two columns, which the slashes hide, is written `//<^` or `//<<^`. Lines with `|` belong
+//! to the message: further places (as text, with the distance in lines), notes, and fixes.
 
 use super::compile::Compiled;
 use apex_dsl::{
@@ -14,7 +14,7 @@ use apex_dsl::{
     source::{FileId, Span},
 };
 
-/// `text` without its expectations.
+/// Removes the expectations from `text`.
 pub fn strip(text: &str) -> String {
     text.split_inclusive('\n').filter(|line| !is_expectation(line)).collect()
 }
@@ -28,7 +28,7 @@ fn is_expectation(line: &str) -> bool {
         || rest.starts_with("elsewhere ")
 }
 
-/// The text that was compiled, with what was found in it as expectations.
+/// The compiled source file with its diagnostics as expectations.
 pub fn annotate(compiled: &Compiled) -> String {
     let root = FileId(0);
     let source = compiled.sources.get(root);
@@ -64,7 +64,7 @@ pub fn annotate(compiled: &Compiled) -> String {
     text
 }
 
-/// Line and column from 0, if it is in the text itself.
+/// Line and column, counted from 0, of a diagnostic in the source file itself.
 fn place(compiled: &Compiled, diagnostic: &Diagnostic) -> Option<(usize, usize)> {
     let span = diagnostic.primary.span;
     let (line, column) = compiled.sources.line_column(span.file, span.start);
@@ -103,12 +103,12 @@ fn headline(diagnostic: &Diagnostic) -> String {
     format!("{level}[{}]: {}", diagnostic.code, diagnostic.message)
 }
 
-/// What stands before the marks, so that they stand under what they mark: tabs under tabs.
+/// Indentation of the marks, so that they are under the marked text. Tabs stay tabs.
 fn margin(line: &str, column: usize) -> String {
     if column < 2 {
         return format!("//{}", "<".repeat(column + 1));
     }
-    // A tab is wider than the slashes: it stays, behind them.
+    // A tab is wider than the slashes, so it is kept after them.
     let blanks = line.chars().take(column).map(|c| if c == '\t' { '\t' } else { ' ' });
     let skipped = if line.starts_with('\t') { 0 } else { 2 };
     format!("//{}", blanks.skip(skipped).collect::<String>())
@@ -128,7 +128,7 @@ fn first_line(text: &str) -> &str {
     text.lines().next().unwrap_or_default()
 }
 
-/// The line at which a node is declared changes whenever a node is added.
+/// Removes the line numbers of nodes, which change whenever a node is added.
 pub fn without_lines(note: &str) -> String {
     let mut parts = note.split(".rs:");
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -139,7 +139,7 @@ pub fn without_lines(note: &str) -> String {
     text
 }
 
-/// The text after `fix` was applied.
+/// The source file after a fix.
 pub fn apply(text: &str, span: Span, replacement: &str) -> String {
     format!("{}{replacement}{}", &text[..span.start as usize], &text[span.end as usize..])
 }

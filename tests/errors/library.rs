@@ -1,4 +1,4 @@
-//! The nodes of another crate: a text has to import them.
+//! Nodes of another crate: a source file has to import them.
 use apex_rt::prelude::*;
 
 #[node]
@@ -14,7 +14,7 @@ pub fn corners(x: &u64) -> u64 {
 mod inside {
     use apex_rt::prelude::*;
 
-    /// Nobody outside can name it.
+    /// Not accessible from outside.
     #[node]
     pub fn faces(x: &u64) -> u64 {
         *x

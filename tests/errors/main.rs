@@ -1,5 +1,5 @@
-//! What the compiler says about wrong texts. The expectations stand in `texts/*.afg` under the code they are about
-//! (see `expect.rs`); `APEX_UPDATE_EXPECTATIONS=1` writes them anew.
+//! Diagnostics of wrong source files. The expectations are in `texts/*.afg` under the code that they refer to (see
+//! `expect.rs`); `APEX_UPDATE_EXPECTATIONS=1` writes them again.
 
 mod claims;
 mod compile;
@@ -51,13 +51,13 @@ fn bare_catalog() -> Catalog {
     Catalog::load(Crates { root: folder(), all, here: 0, own: vec![0], ..Crates::default() }, &mut Disk::new(None))
 }
 
-/// All texts with what the compiler says about them.
+/// All source files with their diagnostics.
 fn compiled() -> Vec<(PathBuf, String, Compiled)> {
     let (mut usual, mut bare) = (catalog(), bare_catalog());
     let texts = files(&folder().join("texts"), "afg");
     assert!(!texts.is_empty());
     let compile = |path: PathBuf| {
-        // One is not UTF-8; another text tries to import it.
+        // One file is not UTF-8; another source file tries to import it.
         let text = fs::read_to_string(&path).ok()?;
         let catalog = if path.parent().is_some_and(|folder| folder.ends_with("bare")) { &mut bare } else { &mut usual };
         let compiled = compile(&path, &expect::strip(&text), catalog);
@@ -84,7 +84,7 @@ fn diagnostics_are_as_expected() {
     assert!(wrong.is_empty(), "{}\nAPEX_UPDATE_EXPECTATIONS=1 writes the expectations anew", wrong.join("\n"));
 }
 
-/// The lines that only one of two texts has.
+/// Lines that only one of two texts has.
 fn difference(expected: &str, found: &str) -> String {
     let (old, new): (Vec<&str>, Vec<&str>) = (expected.lines().collect(), found.lines().collect());
     let missing = old.iter().filter(|l| !new.contains(l)).map(|l| format!("- {l}"));
@@ -115,7 +115,7 @@ fn a_fix_removes_its_diagnostic() {
     assert!(tried > 10, "only {tried} fixes were tried");
 }
 
-/// How often something is said.
+/// Number of diagnostics with the same code and message.
 fn count(compiled: &Compiled, diagnostic: &Diagnostic) -> usize {
     let same = |d: &&Diagnostic| d.code == diagnostic.code && d.message == diagnostic.message;
     compiled.diagnostics.sorted().into_iter().filter(same).count()
@@ -138,7 +138,7 @@ fn messages_keep_the_house_style() {
     }
 }
 
-/// The codes of all messages in the source of the compiler.
+/// Codes of all messages in the source of the compiler.
 fn emitted() -> BTreeSet<String> {
     let sources = folder().join("../../apex-dsl/src");
     let mut emitted = BTreeSet::new();

@@ -1,20 +1,20 @@
-//! A hundred mistakes as a stranger makes them, each one change of a right text whose graphs are used several times. One
-//! mistake is told in one message, or in three at most; the first of them points at its line.
+//! A hundred typical mistakes of beginners, each one change of a correct source file whose graphs are used several
+//! times. A mistake must cause one message, or at most three; the first must point at its line.
 
 use super::compile::{catalog, compile, folder};
 use apex_dsl::catalog::Catalog;
 use std::fs;
 
-/// One change of a right text.
+/// One change of a correct source file.
 struct Mistake {
-    /// What is written in the right text; all of them are changed.
+    /// Text in the correct source file; all occurrences are changed.
     right: &'static str,
-    /// What is written instead.
+    /// Replacement.
     wrong: &'static str,
-    /// The code of the first message.
+    /// Code of the first message.
     code: &'static str,
-    /// What stands in the line that the first message points at, if that is not the line of the change: something is
-    /// missing, and the message is about what needs it.
+    /// Text in the line of the first message if that is not the changed line: if something is missing, the message
+    /// refers to its use.
     at: Option<&'static str>,
 }
 
@@ -73,7 +73,7 @@ const DELIVERY: &[Mistake] = &[
     mistake("speed = 1m/s, p", "sped = 1m/s, p", "unknown-argument"),
     mistake("speed = 1m/s, p", "1m/s, p", "unnamed-argument"),
     mistake("speed = 1m/s, p", "speed: 1m/s, p", "syntax"),
-    // Words and signs.
+    // Keywords and punctuation.
     mistake("node begin = Pass();", "node begin = Pass()", "syntax"),
     mistake("node retry = Pass()", "retry = Pass()", "syntax"),
     mistake("node retry = Pass()", "Pass retry", "syntax"),
@@ -160,13 +160,13 @@ const PIPELINE: &[Mistake] = &[
     mistake("graph Twice {", "graph Line {", "duplicate-name"),
 ];
 
-/// What the compiler says about a mistake.
+/// Result of a mistake.
 struct Told {
-    /// What was changed into what.
+    /// The change.
     change: String,
-    /// How many messages there are.
+    /// Number of messages.
     count: usize,
-    /// What is wrong with them.
+    /// Deficiencies of the messages.
     complaints: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! The nodes of the texts: as few as there are kinds of ports and parameters.
+//! The nodes of the source files, with one example for each kind of port and parameter.
 use apex_rt::prelude::*;
 use core::time::Duration;
 
@@ -7,7 +7,7 @@ pub struct Image;
 
 pub const LIMIT: u64 = 3;
 
-/// A struct that is no node.
+/// A struct that is not a node.
 pub struct Plain;
 
 /// A source.
@@ -38,7 +38,7 @@ pub fn lidar(scan: &mut Out<Scan>, count: &mut Out<u64>) {
     count.set(0);
 }
 
-/// A source of two outputs of one type.
+/// A source of two outputs of the same type.
 #[node]
 pub fn pair(low: &mut Out<u64>, high: &mut Out<u64>) {
     low.set(0);
@@ -66,7 +66,7 @@ pub fn maybe_sum(a: &u64, b: Option<&u64>) -> u64 {
     a + b.unwrap_or(&0)
 }
 
-/// Takes two tokens of one type and one of another.
+/// Takes two tokens of different types.
 #[node]
 pub fn label(image: &Image, scan: &Scan) -> Image {
     let _ = (image, scan);
@@ -111,7 +111,7 @@ pub fn halve(x: &[u64; 2]) -> u64 {
     x[0] + x[1]
 }
 
-/// Takes so many tokens that no iteration can be.
+/// Takes so many tokens that no iteration is possible.
 #[node]
 pub fn thin(x: &[u64; 100000]) -> u64 {
     x[0]
@@ -142,7 +142,7 @@ pub struct Idle {
     _state: u64,
 }
 
-/// Its type is decided by what it is connected to.
+/// The type of its tokens follows from its connections.
 #[node]
 pub struct Latch<T> {
     last: Option<T>,
@@ -162,7 +162,7 @@ pub fn maybe(x: &u64) -> Option<u64> {
     (*x > 1).then_some(*x)
 }
 
-/// Two nodes of one name.
+/// Two nodes with the same name.
 pub mod left {
     use super::*;
 
@@ -194,7 +194,7 @@ impl Pass {
     }
 }
 
-/// Passes what comes to its slot on over one of two events.
+/// Passes the tokens of its slot on by one of two events.
 #[node]
 #[derive(Default)]
 pub struct Turn;
@@ -207,7 +207,7 @@ impl Turn {
     }
 }
 
-/// Takes activity away.
+/// Removes activity.
 #[node]
 #[deactivates]
 #[derive(Default)]
@@ -221,7 +221,7 @@ impl Calm {
     }
 }
 
-/// Has nothing but a parameter.
+/// Has only a parameter.
 #[node]
 pub struct Gain {
     #[param(default = 2)]
@@ -235,7 +235,7 @@ impl Gain {
     }
 }
 
-/// Counts what is missing.
+/// Is notified of absent tokens.
 #[node]
 pub struct Patient {
     #[param(default = 2)]
@@ -251,7 +251,7 @@ impl Patient {
     fn missing(&mut self) {}
 }
 
-/// Sums, and tells of it.
+/// Sums numbers and reports the sums.
 #[node]
 #[derive(Default)]
 pub struct Tell {}
@@ -278,13 +278,13 @@ impl<T: Clone> Repeat<T> {
     }
 }
 
-/// A word that lives as long as the program.
+/// Sends a static string.
 #[node]
 pub fn word(x: &u64) -> Option<&'static str> {
     (*x > 1).then_some("word")
 }
 
-/// Reads a word.
+/// Takes a static string.
 #[node]
 pub fn read(word: &&'static str) {
     let _ = word;

@@ -1,5 +1,5 @@
-//! The pages of `docs/errors/`: their examples are compiled, their messages are the real ones. A text block behind a
-//! wrong example is written anew by `APEX_UPDATE_EXPECTATIONS=1`.
+//! The pages of `docs/errors/`: their examples are compiled, and their messages are the real ones.
+//! `APEX_UPDATE_EXPECTATIONS=1` writes the text block after a wrong example again.
 
 use super::{
     compile::{Compiled, catalog, compile, folder},
@@ -17,7 +17,7 @@ const MESSAGE: &str = "```text\n";
 const RIGHT: &str = "```afg\n";
 const END: &str = "```\n";
 
-/// The part of `page` in the first block that begins with `fence`.
+/// Content of the first block of `page` that begins with `fence`.
 fn block<'a>(page: &'a str, fence: &str) -> Option<&'a str> {
     let (_, rest) = page.split_once(fence)?;
     rest.split_once(END).map(|(block, _)| block)
@@ -39,7 +39,7 @@ fn every_page_is_true() {
             assert!(WITHOUT_EXAMPLE.contains(code), "{code} has no example");
             continue;
         };
-        // The name that the messages show; what is imported from the folder has to be found.
+        // The file name that the messages show; imports are searched in its folder.
         let compiled = compile("robot.afg".as_ref(), example, &mut catalog);
         let found: Vec<&str> = compiled.diagnostics.sorted().iter().map(|d| d.code).collect();
         assert!(!found.is_empty() && found.iter().all(|c| c == code), "{code}: the wrong example has {found:?}");

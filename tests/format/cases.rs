@@ -1,4 +1,5 @@
-//! Before and after: in `cases.md` every section has a text and what becomes of it, or a text that stays as it is.
+//! Input and output: in `cases.md` every section has a source file and its formatted version, or one that stays
+//! unchanged.
 
 use crate::properties::check;
 
@@ -27,7 +28,7 @@ fn line_ends_are_those_of_the_first_line() {
     assert_eq!(formatted(" \n\n"), "");
 }
 
-/// Strings are values: nothing in them is touched, whatever the line ends around are.
+/// Strings are values: they are not changed, whatever the line ends around them.
 #[test]
 fn strings_stay_as_they_are() {
     let string = "\"one \n  two\t\r\n\"";

@@ -1,4 +1,4 @@
-//! The formatter: what it makes of texts (`cases.md`), and what is true of it for every text.
+//! The formatter: its output (`cases.md`), and properties for every source file.
 
 mod cases;
 #[path = "../hostile/random.rs"]
@@ -14,12 +14,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The folder of the repository.
+/// Folder of the repository.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// All texts of the repository, by name.
+/// All source files of the repository by name.
 fn texts() -> Vec<(String, String)> {
     let mut texts = vec![];
     for folder in ["benches", "nodes", "robots", "tests"] {
@@ -36,13 +36,13 @@ fn collect(folder: &Path, texts: &mut Vec<(String, String)>) {
         if path.is_dir() {
             collect(&path, texts);
         } else if path.extension().is_some_and(|e| e == "afg") {
-            // One is not UTF-8.
+            // One file is not UTF-8.
             texts.extend(fs::read_to_string(&path).ok().map(|text| (path.display().to_string(), text)));
         }
     }
 }
 
-/// Texts that tests expect to be as they are: those with errors, and those whose positions are expected.
+/// `true` for source files that are not formatted: those with errors, and those with expected positions.
 fn stays_as_it_is(name: &str) -> bool {
     ["tests/errors/", "tests/hostile/", "tests/macro/"].iter().any(|folder| name.contains(folder))
 }
@@ -70,7 +70,7 @@ fn the_documentation_is_formatted() {
     assert!(count > 30, "only {count} graphs were found");
 }
 
-/// The pages of the documentation, without those about errors, whose texts are wrong.
+/// Pages of the documentation, without those about errors, whose source files are wrong.
 fn markdown(folder: &Path) -> Vec<PathBuf> {
     let mut pages = vec![];
     for entry in fs::read_dir(folder).unwrap() {
@@ -91,7 +91,7 @@ fn every_text_keeps_what_it_says() {
     }
 }
 
-/// Texts that are in order, of the repository and made by the generators of the other tests.
+/// Valid source files of the repository and of the generators of other tests.
 fn legal() -> Vec<(String, String)> {
     let sound = |(name, text): (String, String)| check(&name, &text).map(|formatted| (name, formatted));
     let mut texts: Vec<(String, String)> =

@@ -1,4 +1,4 @@
-//! What is true of the formatter for every text.
+//! Properties that the formatter has for every source file.
 
 use apex_dsl::{
     format,
@@ -7,7 +7,7 @@ use apex_dsl::{
     syntax::{parse, tree::File},
 };
 
-/// Formats a text, and holds the result against it; nothing if it has errors.
+/// Formats a source file and checks the result. Returns `None` if it has errors.
 pub fn check(name: &str, text: &str) -> Option<String> {
     let (before, has_errors) = read(text);
     let formatted = match format(text) {
@@ -37,13 +37,13 @@ fn read(text: &str) -> (File, bool) {
     (file, diagnostics.has_errors())
 }
 
-/// The comments, whatever the line ends.
+/// Comments with unified line ends.
 fn comments(text: &str, file: &File) -> Vec<String> {
     let comment = |span: &Span| text[span.start as usize..span.end as usize].trim_end().replace("\r\n", "\n");
     file.comments.iter().map(comment).collect()
 }
 
-/// The tree without places.
+/// Syntax tree without positions.
 fn shape(mut file: File) -> String {
     file.comments.clear();
     file.imports_at = None;
@@ -53,7 +53,7 @@ fn shape(mut file: File) -> String {
     parts.fold(first, |shape, part| shape + part.split_once('}').map_or("", |(_, rest)| rest))
 }
 
-/// A text without its comments, and without the lines that hold nothing else.
+/// Removes comments, and the lines that contain nothing else.
 pub fn without_comments(text: &str) -> String {
     let mut bare = text.replace("\r\n", "\n");
     for Span { start, end, .. } in read(&bare).0.comments.into_iter().rev() {

@@ -1,6 +1,6 @@
-//! The same text with other blanks, line ends and comments; the same for the same seed.
+//! Variations of a source file with other blanks, line ends and comments; deterministic for each seed.
 
-/// xorshift: enough for texts.
+/// A xorshift generator, which is good enough for texts.
 struct Random(u64);
 
 impl Random {
@@ -16,14 +16,14 @@ impl Random {
     }
 }
 
-/// A piece of a text.
+/// A piece of a source file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Piece<'t> {
     /// Blanks between two tokens.
     Blanks(&'t str),
-    /// A comment or a line of documentation, with the line end behind it and the blanks around it.
+    /// A comment or a line of documentation, with the line end after it and the blanks around it.
     Line(&'t str),
-    /// A sign before and behind which anything may stand.
+    /// A token before and after which blanks are optional.
     Sign(&'t str),
     /// Anything else.
     Word(&'t str),
@@ -56,7 +56,7 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
-/// With other blanks and line ends, but the same empty lines.
+/// Replaces blanks and line ends, but keeps empty lines.
 pub fn blanks(text: &str, seed: u64) -> String {
     let blanks = [" ", "\n", "  \t ", "\n        ", " \n"];
     let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
@@ -80,7 +80,7 @@ pub fn blanks(text: &str, seed: u64) -> String {
     shaken
 }
 
-/// With comments in places where blanks may stand: one in so many. There are as many empty lines as before.
+/// Inserts comments where blanks are allowed, at one of `rarity` places. The number of empty lines is kept.
 pub fn comments(text: &str, rarity: usize, seed: u64) -> String {
     let kinds = [
         " /* in */ ",

@@ -1,13 +1,13 @@
-//! Large texts: many of one thing, and little that grows to much.
+//! Large source files: many equal items, and small ones with large results.
 
-/// The parser of a debug build is slow: a sixteenth will do there.
+/// Size of a megabyte in tests; the parser of a debug build is slow, so it is a sixteenth there.
 const MB: usize = if cfg!(debug_assertions) { 1 << 16 } else { 1 << 20 };
 
 fn graph(body: String) -> String {
     format!("graph A {{\n{body}\n}}\n")
 }
 
-/// As many in a release build, fewer in a debug build.
+/// The full count in a release build, a tenth in a debug build.
 const fn scaled(count: usize) -> usize {
     if cfg!(debug_assertions) { count / 10 } else { count }
 }
@@ -16,7 +16,7 @@ fn many(count: usize, item: impl Fn(usize) -> String) -> String {
     (0..count).map(item).collect()
 }
 
-/// Name and text.
+/// Names and contents.
 pub fn texts() -> Vec<(String, String)> {
     let mut texts: Vec<(String, String)> = vec![];
     let mut add = |name: &str, text: String| texts.push((name.to_owned(), text));

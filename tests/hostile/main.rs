@@ -1,5 +1,5 @@
-//! Texts that somebody wrote to hurt: each ends in diagnostics or in a program, soon, on a thread with the stack that
-//! threads have by default. Small ones stand in `corpus/`, large ones are made here.
+//! Hostile source files: each ends in diagnostics or in a program, soon, on a thread with the default stack size.
+//! Small ones are in `corpus/`, large ones are made here.
 
 #[path = "../errors/compile.rs"]
 mod compile;
@@ -16,10 +16,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Far more than any text takes, also in a debug build on a busy machine: a guard against hanging, not a measurement.
+/// Time limit: far more than any source file takes, also in a debug build on a busy machine, to detect hangs.
 const GUARD: Duration = Duration::from_secs(120);
 
-/// Compiles one text after the other and renders all that is said; gives up where one hangs.
+/// Compiles the source files in sequence and renders all diagnostics. Gives up if one hangs.
 fn run(texts: Vec<(String, String)>) {
     let (sender, receiver) = mpsc::channel();
     let worker = thread::spawn(move || {
@@ -75,7 +75,7 @@ fn random_texts() {
     run(random::texts(0..300));
 }
 
-/// A loop for nights: `APEX_SOAK=minutes cargo test --release --test hostile soak -- --nocapture`.
+/// A loop for long runs: `APEX_SOAK=minutes cargo test --release --test hostile soak -- --nocapture`.
 #[test]
 fn soak() {
     let Some(minutes) = std::env::var("APEX_SOAK").ok().and_then(|m| m.parse::<u64>().ok()) else { return };

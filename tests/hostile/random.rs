@@ -1,4 +1,4 @@
-//! Random bytes, random tokens, and valid texts with random changes; the same for the same seed.
+//! Random bytes, random tokens, and valid source files with random changes; deterministic for each seed.
 
 use std::{fs, ops::Range, path::Path};
 
@@ -6,7 +6,7 @@ const TOKENS: &str = "graph A { } ( ) [ ] < > -> => ; : :: = , . .. ..= node in 
     delay essential on timeout pipelined 1 1.5 1m 1e9 0x1f \"s\" true false ! - + * / % && || == x y Ramp double show Latch sum tune \
     halve lidar list G /// /* */ // u64 Image start";
 
-/// xorshift: enough for texts.
+/// A xorshift generator, which is good enough for texts.
 struct Random(u64);
 
 impl Random {
@@ -18,7 +18,7 @@ impl Random {
     }
 }
 
-/// Some texts for each seed.
+/// Some source files for each seed.
 pub fn texts(seeds: Range<u64>) -> Vec<(String, String)> {
     let valid = valid();
     let tokens: Vec<&str> = TOKENS.split_whitespace().collect();
@@ -29,7 +29,7 @@ pub fn texts(seeds: Range<u64>) -> Vec<(String, String)> {
         texts.push((format!("bytes {seed}"), String::from_utf8_lossy(&bytes).into_owned()));
         let soup: Vec<&str> = (0..300).map(|_| tokens[random.below(tokens.len())]).collect();
         texts.push((format!("tokens {seed}"), soup.join(" ")));
-        // Without brackets it gets past the first look at the text.
+        // Without brackets it passes the first scan.
         let flat: Vec<&str> = soup.into_iter().filter(|t| !"(){}[]/**/<".contains(t)).collect();
         texts.push((format!("statements {seed}"), format!("graph A {{ {} }}", flat.join(" "))));
         let text = &valid[random.below(valid.len())];
@@ -38,7 +38,7 @@ pub fn texts(seeds: Range<u64>) -> Vec<(String, String)> {
     texts
 }
 
-/// The texts with expected diagnostics are nearly valid, and use everything that there is.
+/// Source files with expected diagnostics, which are nearly valid and use all features.
 fn valid() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("errors/texts");
     let mut found = vec![];
@@ -52,7 +52,7 @@ fn valid() -> Vec<String> {
     found
 }
 
-/// Words of the text removed, doubled, exchanged or replaced.
+/// Removes, duplicates, exchanges or replaces words.
 fn mutated(text: &str, tokens: &[&str], random: &mut Random) -> String {
     let mut words: Vec<String> = vec![];
     for c in text.chars() {

@@ -1,4 +1,4 @@
-//! What rustc shows of the mistakes that the macros find. `TRYBUILD=overwrite` writes the `.stderr` files anew.
+//! Messages of rustc for mistakes that the macros find. `TRYBUILD=overwrite` writes the `.stderr` files again.
 
 #[test]
 fn errors() {

@@ -1,5 +1,5 @@
-//! What threads share, with every order in which they can reach it (loom): the sources of the runtime are compiled here with
-//! the atomics of the model checker.
+//! Data shared by threads, in every order of accesses (loom): the sources of the runtime are compiled here with the
+//! atomics of the model checker.
 #![allow(dead_code, unsafe_code, missing_docs, reason = "the runtime uses and documents it")]
 
 mod sync {
@@ -34,7 +34,7 @@ use loom::{
     thread,
 };
 
-/// A cell whose ends may go to threads of the model: they need it for ever.
+/// A cell whose ends may go to threads of the model, which need it forever.
 fn ends() -> (CellSender<'static, u32>, CellReceiver<'static, u32>) {
     Box::leak(Box::new(TokenCell::new(0))).ends()
 }
@@ -83,7 +83,7 @@ fn there_is_no_room_before_the_receiver_is_done() {
     });
 }
 
-/// A thread that sleeps until it is rung.
+/// A wake-up call for a thread of the model.
 #[derive(Default)]
 struct Bell(Notify);
 
@@ -97,8 +97,8 @@ fn shared(groups: usize) -> Arc<Shared<Bell>> {
     Arc::new(Shared::new((0..groups).map(|_| Bell(Notify::new()))))
 }
 
-/// What the thread of a group does: it `works` until it has nothing to do, and sleeps then. `work` says whether it wants to be
-/// called again at once.
+/// Body of a group's thread: calls `work` until nothing is left to do, and then sleeps. `work` returns `true` if it
+/// must be called again at once.
 fn group(shared: &Shared<Bell>, number: usize, mut work: impl FnMut(&Shared<Bell>)) {
     while !shared.is_stopped() {
         shared.begin(number);
@@ -114,7 +114,7 @@ fn group(shared: &Shared<Bell>, number: usize, mut work: impl FnMut(&Shared<Bell
 #[test]
 fn all_groups_stop_when_nothing_can_happen_and_not_before() {
     let mut builder = loom::model::Builder::new();
-    // All orders would take hours; errors of this kind need few changes of the thread that runs.
+    // All orders would take hours; errors of this kind need only a few preemptions.
     builder.preemption_bound = Some(2);
     builder.check(|| {
         let (mut sender, mut receiver) = ends();
@@ -163,14 +163,14 @@ fn who_may_wait_was_not_woken_before() {
         shared.begin(0);
         let wakes = thread::spawn(move || other.wake(0));
         if shared.may_wait(0) {
-            // It was not told yet: it will be rung.
+            // This thread was not notified yet, so its alarm will ring.
             shared.alarm(0).0.wait();
         }
         wakes.join().expect("it does not panic");
     });
 }
 
-/// A thread that can be rung as soon as it has begun, as one of the machine can.
+/// An alarm that can ring as soon as its thread has begun, as for an operating-system thread.
 struct Late {
     began: AtomicBool,
     bell: Notify,
@@ -222,7 +222,7 @@ fn who_watches_sees_a_group_that_hangs() {
             if other.wakes_watch() {
                 stirs.notify();
             }
-            // It hangs until somebody sees it.
+            // It hangs until the watchdog detects it.
             hangs.wait();
         });
         while shared.may_watch_sleep() {

@@ -1,4 +1,4 @@
-//! Compiles texts into one program and runs it.
+//! Compiles source files into one program and runs it.
 
 use apex_tests::Libraries;
 use std::{
@@ -9,15 +9,15 @@ use std::{
     thread,
 };
 
-/// A text with the name of its program.
+/// A source file with the name of its program.
 pub struct Program {
-    /// The name.
+    /// Name of the program.
     pub name: String,
-    /// The text.
+    /// Content of the source file.
     pub text: String,
 }
 
-/// Fewest programs that are worth a crate of their own, which takes its time to link.
+/// Minimum number of programs in a crate, because linking a crate takes time.
 const LEAST: usize = 20;
 
 const MAIN: &str = r##"use apex_rt::{prelude::*, record::{Recorder, Tap, WhenFull, replay}};
@@ -109,30 +109,30 @@ fn main() {
 }
 "##;
 
-/// How a program with several thread groups runs.
+/// Execution of a program with several thread groups.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
-    /// One group after the other, on one thread.
+    /// The groups in sequence, on one thread.
     InTurn,
-    /// Each on a thread of its own.
+    /// Each group on a thread of its own.
     OnThreads,
-    /// One group after the other, recorded and replayed: the record is the difference.
+    /// The groups in sequence, recorded and replayed. The record is the difference between both runs.
     Again,
 }
 
-/// Programs that were made and compiled together.
+/// Programs that are compiled together.
 struct Part<'a> {
     programs: &'a [Program],
     file: PathBuf,
 }
 
-/// For each way to run them, the record of each program.
+/// Runs programs. Returns, for each way to run them, the record of each program.
 ///
 /// # Errors
-/// If they cannot be compiled, or if one of them does not come to its end.
+/// Fails if they cannot be compiled, or if one of them does not end.
 pub fn run(folder: &str, programs: &[Program], ways: &[How]) -> Result<Vec<Vec<String>>, String> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
-    // Others wait while one compiles for all.
+    // Other tests wait while one compiles the libraries.
     static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
     fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
     let parts = thread::available_parallelism().map_or(1, usize::from);
@@ -167,7 +167,7 @@ impl Part<'_> {
         }
         let source = self.file.with_extension("rs");
         write(&source, &MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs))?;
-        // The graphs see what this test sees.
+        // The graphs have access to the crates of this test.
         let mut rustc = libraries.rustc(Path::new(env!("CARGO_MANIFEST_DIR")), "oracle");
         rustc.args(["-C", "codegen-units=1", "--cap-lints", "allow", "-o"]).args([&self.file, &source]);
         let built = rustc.output().map_err(|e| format!("cannot run rustc: {e}"))?;

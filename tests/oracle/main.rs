@@ -1,4 +1,4 @@
-//! Compiled programs against the Petri nets of their graphs.
+//! Compiled programs, compared with the Petri nets of their graphs.
 
 mod compile;
 mod nets;

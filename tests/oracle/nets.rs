@@ -1,11 +1,11 @@
-//! Nets by themselves: their own runs are legal, spoiled ones are not.
+//! Nets without programs: their own runs are legal, falsified ones are not.
 
 use apex_tests::{
     Dice,
     oracle::{Case, Checked, Checker, Record, generate, walk},
 };
 
-/// A checked random graph for each seed, if it is a legal one.
+/// The random graph of a seed, or `None` if it is not legal.
 fn checked(checker: &Checker, seed: u64) -> Option<(Case, Checked)> {
     let case = generate(seed, true);
     let checked = checker.check(&case.text("Random")).ok()?;
@@ -45,7 +45,7 @@ fn runs_of_a_net_are_legal() {
     println!("{count} graphs, {records} calls");
 }
 
-/// A run with one record changed, in one of several ways; `None` if this run has no place for it.
+/// Falsifies a run by changing one record in one of several ways. Returns `None` if the run has no suitable record.
 fn spoiled(run: &[Record], way: usize, dice: &mut Dice) -> Option<Vec<Record>> {
     let mut run = run.to_vec();
     let is_call = |r: &Record| matches!(r, Record::Fired(_) | Record::Handled(_));
@@ -55,12 +55,12 @@ fn spoiled(run: &[Record], way: usize, dice: &mut Dice) -> Option<Vec<Record>> {
     let changes: Vec<usize> = (0..run.len()).filter(|i| matches!(run[*i], Record::Activity(..))).collect();
     let pick = |list: &[usize], dice: &mut Dice| (!list.is_empty()).then(|| *dice.of(list));
     match way {
-        // A call that happened twice.
+        // A repeated call.
         0 => {
             let at = pick(&calls, dice)?;
             run.insert(at, run[at].clone());
         }
-        // A call that is missing, with what it found.
+        // A missing call, with its tokens.
         1 => {
             let at = pick(&calls, dice)?;
             run.remove(at);
@@ -68,14 +68,14 @@ fn spoiled(run: &[Record], way: usize, dice: &mut Dice) -> Option<Vec<Record>> {
                 run.remove(at);
             }
         }
-        // A value lost, and one that nobody sent.
+        // A lost value, and one that no node sent.
         2 | 3 => {
             let at = pick(&values, dice)?;
             let Record::Took(tokens) = &mut run[at] else { return None };
             let token = tokens.iter_mut().find(|t| t.is_some())?;
             *token = if way == 2 { None } else { token.map(|value| value + 1) };
         }
-        // Activity that comes or goes without being told, and that comes from nowhere.
+        // Unrecorded activity, and activity without a cause.
         4 => drop(run.remove(pick(&changes, dice)?)),
         5 => {
             let at = pick(&changes, dice)?;

@@ -1,4 +1,4 @@
-//! The exported net is read by a public tool: `pm4py`.
+//! The exported net can be read by a public tool: `pm4py`.
 
 use apex_dsl::petri::pnml;
 use apex_tests::{

@@ -1,26 +1,26 @@
-//! Random graphs, compiled and run, against their nets.
+//! Random graphs, compiled and run, compared with their nets.
 //!
-//! `APEX_ORACLE_GRAPHS` says how many (40), `APEX_ORACLE_SEED` where to begin; with `APEX_ORACLE_RAW` what fails is shown
-//! as it is, not made small first.
+//! `APEX_ORACLE_GRAPHS` is the number of graphs (40), `APEX_ORACLE_SEED` the first seed. With `APEX_ORACLE_RAW`,
+//! failing graphs are shown without reduction.
 
 use crate::compile::{How, Program, run};
 use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, read};
 use std::{collections::BTreeMap, env};
 
-/// Seeds of graphs that ran wrong once, tried each time.
+/// Seeds of graphs with errors in the past, which are always tested.
 const KNOWN: [u64; 6] = [91, 328, 1105, 1680, 5166, 5239];
-/// Programs that are compiled together.
+/// Number of programs that are compiled together.
 const BATCH: usize = 120;
-/// Most failures that are made small and shown.
+/// Maximum number of failures that are reduced and shown.
 const SHOWN: usize = 3;
-/// Most times that one is made smaller: each compiles many graphs.
+/// Maximum number of reduction steps; each compiles many graphs.
 const ROUNDS: usize = 15;
 
 fn number(name: &str) -> Option<u64> {
     env::var(name).ok().and_then(|text| text.parse().ok())
 }
 
-/// What is wrong with each of `cases`, which are legal; nothing where all is right.
+/// Failure of each of the legal `cases`, or `None` if it runs correctly.
 fn judge(checker: &Checker, folder: &str, ways: &[How], cases: &[&Case]) -> Vec<Option<String>> {
     if cases.is_empty() {
         return vec![];
@@ -44,12 +44,12 @@ fn judge(checker: &Checker, folder: &str, ways: &[How], cases: &[&Case]) -> Vec<
     }
 }
 
-/// What kind of failure it is.
+/// Kind of a failure.
 fn kind(why: &str) -> &str {
     why.lines().next().and_then(|line| line.split_whitespace().nth(2)).unwrap_or_default()
 }
 
-/// What is wrong with program `at` in the first way in which something is.
+/// First failure of program `at` in any way to run it.
 fn wrong(checker: &Checker, program: &Program, ways: &[How], records: &[Vec<String>], at: usize) -> Option<String> {
     let mut all = ways.iter().zip(records);
     all.find_map(|(how, records)| {
@@ -80,7 +80,7 @@ fn last_lines(text: &str, count: usize) -> String {
     lines[lines.len().saturating_sub(count)..].join("\n")
 }
 
-/// A small graph that is still wrong, and what is wrong with it.
+/// Reduces a failing graph. Returns a small graph that still fails, and its failure.
 fn smallest(checker: &Checker, folder: &str, ways: &[How], case: Case, why: String) -> (Case, String) {
     let (mut case, mut why) = (case, why);
     for _ in 0..ROUNDS {
@@ -104,7 +104,7 @@ fn smallest(checker: &Checker, folder: &str, ways: &[How], case: Case, why: Stri
     (case, why)
 }
 
-/// Shows the first failure of each kind made small: the others are mostly the same.
+/// Shows the first failure of each kind, reduced; the others mostly have the same cause.
 fn show(checker: &Checker, folder: &str, ways: &[How], failures: &[(&Case, String)]) {
     let mut shown: Vec<&str> = vec![];
     for (case, why) in failures {
@@ -117,7 +117,7 @@ fn show(checker: &Checker, folder: &str, ways: &[How], failures: &[(&Case, Strin
     }
 }
 
-/// Judges random graphs, `made` from a seed each: one of `share` of those that are wanted.
+/// Tests random graphs, each `made` from a seed. Their number is the wanted number divided by `share`.
 fn try_all(folder: &str, ways: &[How], share: u64, made: impl Fn(u64) -> Case) {
     let count = number("APEX_ORACLE_GRAPHS").unwrap_or(40).div_ceil(share);
     let first = number("APEX_ORACLE_SEED").unwrap_or(1);
@@ -150,13 +150,13 @@ fn compiled_programs_run_as_their_nets_may() {
     try_all("oracle", &[How::InTurn], 1, |seed| generate(seed, true));
 }
 
-/// In turn and on threads, compiled once.
+/// In sequence and on threads, compiled once.
 #[test]
 fn thread_groups_run_as_their_nets_may() {
     try_all("oracle-threads", &[How::InTurn, How::OnThreads], 4, |seed| on_threads(generate(seed, true)));
 }
 
-/// Of those with several groups, too: they run in turn here.
+/// Also with several groups, which run in sequence here.
 #[test]
 fn recorded_programs_run_the_same_again() {
     try_all("oracle-again", &[How::Again], 20, |seed| match seed % 2 {

@@ -1,4 +1,4 @@
-//! A file that was cut off, or is something else.
+//! Truncated files, and files that are not recordings.
 
 use crate::{Folder, record, repeat};
 use apex_macros::graph;
@@ -16,7 +16,7 @@ graph! {
     }
 }
 
-/// Records so many milliseconds of it.
+/// Records a run of `ms` milliseconds.
 pub fn run(path: &std::path::Path, ms: i64) {
     record::<Small>(path, |tap| {
         drive_with(Small::new(), SimClock::until(Time::from_millis(ms)), tap);
@@ -39,11 +39,11 @@ fn a_file_that_was_cut_anywhere_is_read_up_to_the_cut() {
                 assert!(report.cut.is_some() || report.reactions == 12, "{length}: {report}");
                 (last, most) = (report.reactions, most.max(report.reactions));
             }
-            // The header is not there yet.
+            // The header is not complete.
             Err(error) => assert!(last == 0, "{length}: {error}"),
         }
     }
-    // Whether the last reaction is whole is certain only where the end of the file says so.
+    // A last reaction is known to be complete only if the end of the file confirms it.
     assert_eq!(most, 11);
 }
 
@@ -57,7 +57,7 @@ fn a_file_with_other_bits_never_panics() {
         let mut bytes = bytes.clone();
         bytes[at] ^= 0x55;
         fs::write(&bad, &bytes).expect("room for it");
-        // What it says is as good as its bytes; it must say something.
+        // Any result is valid, as long as there is one.
         let _ = replay(Small::new(), &bad, ());
     }
 }

@@ -1,5 +1,5 @@
-//! Files in which something is wrong: each change is found, wherever it is. A replay repeats the whole run, or it says
-//! that the file is not whole and where it ended; it never passes for the run that it is not.
+//! Damaged files: each change is detected, wherever it is. A replay repeats the whole run, or it reports that the file
+//! is incomplete and where it ended. It never reports a wrong run as correct.
 
 use crate::{
     Folder,
@@ -8,17 +8,17 @@ use crate::{
 use apex_rt::record::{Report, replay};
 use std::{fs, ops::Range, path::PathBuf};
 
-/// The kind of a chunk.
+/// Kind of a chunk record.
 const CHUNK: u8 = 6;
-/// Bytes of a record before its body: kind and length.
+/// Number of bytes of a record before its body: kind and length.
 const HEAD: usize = 9;
-/// The bytes before the first record.
+/// Number of bytes before the first record.
 const MAGIC: usize = 8;
 
-/// Milliseconds of the run, and its reactions.
+/// Length of the run in milliseconds, and number of its reactions.
 const TIME: i64 = 12;
 
-/// A recording, and a place for others that were made of it.
+/// A recording, and a folder for damaged copies.
 struct Files {
     folder: Folder,
     bytes: Vec<u8>,
@@ -36,13 +36,13 @@ impl Files {
         self.folder.file("other.mcap")
     }
 
-    /// What a replay of other bytes says; `None` if it refuses them.
+    /// Report of a replay of other bytes, or `None` if they are rejected.
     fn replayed(&self, bytes: &[u8]) -> Option<Report> {
         fs::write(self.other(), bytes).expect("room for it");
         replay(Small::new(), &self.other(), ()).ok()
     }
 
-    /// Whether other bytes pass for the whole run.
+    /// `true` if other bytes are accepted as the whole run.
     fn pass(&self, bytes: &[u8], what: &str) -> bool {
         let Some(report) = self.replayed(bytes) else { return false };
         assert!(report.reactions > 0, "{what}: nothing is no replay");
@@ -57,7 +57,7 @@ impl Files {
         false
     }
 
-    /// Where the records stand.
+    /// Positions of the records.
     fn records(&self) -> Vec<Range<usize>> {
         let mut records = vec![];
         let mut at = MAGIC;
@@ -75,7 +75,7 @@ fn every_bit_counts() {
     let files = Files::new();
     assert!(files.pass(&files.bytes, "the file as it is"));
     for at in 0..files.bytes.len() {
-        // One bit of each byte: each of the eight has its turn.
+        // One bit of each byte, in turn one of its eight bits.
         let mut bytes = files.bytes.clone();
         bytes[at] ^= 1 << (at % 8);
         assert!(!files.pass(&bytes, &format!("bit {} of byte {at}", at % 8)), "byte {at} does not count");

@@ -1,4 +1,4 @@
-//! Tokens that come faster than they can be written.
+//! Tokens that arrive faster than they can be written.
 
 use crate::{Folder, repeat};
 use apex_macros::graph;
@@ -19,7 +19,7 @@ graph! {
     }
 }
 
-/// Runs with room for `room` bytes, and says how many messages were lost.
+/// Runs with a buffer of `room` bytes. Returns the numbers of lost messages and the report of the replay.
 fn lost(when_full: WhenFull, room: usize) -> (Vec<(String, u64)>, apex_rt::record::Report) {
     let folder = Folder::new();
     let path = folder.file("a.mcap");

@@ -1,4 +1,4 @@
-//! Recordings: a run that is repeated from its file is the same run, bit by bit.
+//! Recordings: a run that is repeated from its file is bitwise the same run.
 
 mod cut;
 mod damage;
@@ -18,7 +18,7 @@ use std::{
     sync::atomic::{AtomicU32, Ordering},
 };
 
-/// A folder of a test, gone when it is over.
+/// A folder of a test, which is removed at the end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -41,7 +41,7 @@ impl Drop for Folder {
     }
 }
 
-/// Records a run of `program` that `drive` makes with it.
+/// Records a run that `drive` makes.
 fn record<P: Program>(path: &Path, mut drive: impl FnMut(&mut Tap)) -> Finished {
     let mut tap = Tap::Record(Recorder::to_file::<P>(path, WhenFull::Wait).expect("a new file"));
     drive(&mut tap);

@@ -1,4 +1,4 @@
-//! Others read what was recorded: the Python packages `mcap` and `mcap-ros2-support`.
+//! Recordings can be read by other software: the Python packages `mcap` and `mcap-ros2-support`.
 
 use crate::{Folder, record};
 use apex_macros::graph;
@@ -60,7 +60,7 @@ with open(sys.argv[1], 'rb') as file:
             print(schema.name, m.linear.x, m.linear.y, m.angular.z)
 ";
 
-/// What Python reads of a recording; `None` without a Python.
+/// Output of Python for a recording, or `None` without Python.
 fn read(path: &Path) -> Option<String> {
     let packages = "mcap mcap-ros2-support";
     let python = python(Path::new(env!("CARGO_TARGET_TMPDIR")), "mcap_ros2", packages)?;

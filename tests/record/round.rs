@@ -1,4 +1,4 @@
-//! There and back.
+//! Recording and replay of programs with all kinds of tokens.
 
 use crate::{Folder, record, repeat};
 use apex_macros::graph;
@@ -52,7 +52,7 @@ graph! {
         record "batches.mcap" { pairs; }
     }
 
-    /// What a robot knows of the plane.
+    /// Tokens with types for navigation.
     robot Navigator {
         node map = same();
         node costs = same();
@@ -65,7 +65,7 @@ graph! {
         record "navigator.mcap" { map; costs; path; motion; }
     }
 
-    /// Tokens come in from outside, and events are taken out.
+    /// Tokens enter from outside, and events are taken out.
     graph Ports {
         in value: f64;
         slot number: u64;
@@ -83,7 +83,7 @@ graph! {
     }
 }
 
-/// A machine on which reactions take sometimes longer, sometimes not as long.
+/// A machine on which the duration of reactions varies.
 #[derive(Default)]
 struct Busy(u32);
 

@@ -1,5 +1,5 @@
-//! Programs that are recorded while they run on several threads: a replay gives every thread what it had from the others,
-//! when it had it.
+//! Programs that are recorded while they run on several threads. A replay gives every thread the tokens of the others
+//! at the same points of its run.
 
 use crate::{Folder, record, repeat};
 use apex_macros::graph;
@@ -16,7 +16,7 @@ use std::{
     time::Duration,
 };
 
-/// Something that nobody knows before.
+/// An unpredictable number.
 fn chance() -> u64 {
     static SEED: AtomicU64 = AtomicU64::new(0);
     let seed = SEED.fetch_add(0x9e37_79b9_7f4a_7c15, Ordering::Relaxed);
@@ -25,7 +25,7 @@ fn chance() -> u64 {
     mixed ^ (mixed >> 31)
 }
 
-/// Takes its time, or not.
+/// Pauses for a random time.
 fn dawdle() {
     match chance() % 8 {
         0 => thread::sleep(Duration::from_micros(chance() % 300)),
@@ -34,37 +34,37 @@ fn dawdle() {
     }
 }
 
-/// A source that nobody can foresee.
+/// A source of unpredictable numbers.
 #[node]
 pub fn dice() -> u64 {
     dawdle();
     chance()
 }
 
-/// Passes on what comes, sooner or later.
+/// Passes tokens on after a random pause.
 #[node]
 pub fn slow(number: &u64) -> u64 {
     dawdle();
     *number
 }
 
-/// Both of two numbers.
+/// Combines two numbers.
 #[node]
 pub fn both(a: &u64, b: &u64) -> u64 {
     a.rotate_left(9) ^ b
 }
 
-/// Makes one number of all that came, in their order, and says it each time.
+/// Folds all numbers into one, in their order, and sends it after each.
 #[node]
 pub struct Mix {
-    /// What it begins with.
+    /// Initial value.
     #[param(default = 0)]
     seed: i64,
-    /// After so many it says nothing any more.
+    /// Number of tokens after which it stops sending.
     #[param(default = 1_000_000)]
     talks: i64,
     mixed: u64,
-    /// How many came.
+    /// Number of tokens.
     pub count: u64,
 }
 
@@ -91,7 +91,7 @@ impl Mix {
     }
 }
 
-/// Passes on what comes, and whether it is active.
+/// Passes numbers on, each with a bit for its own activity.
 #[node]
 #[derive(Default)]
 pub struct Awake;
@@ -105,7 +105,7 @@ impl Awake {
     }
 }
 
-/// Does not come back for a while at the third token.
+/// Hangs for a while at the third token.
 #[node]
 #[derive(Default)]
 pub struct Stuck {
@@ -123,7 +123,7 @@ impl Stuck {
     }
 }
 
-/// Says how often it was called.
+/// Counts calls and sends the count.
 #[node]
 #[derive(Default)]
 pub struct Heard {
@@ -144,10 +144,10 @@ impl Heard {
     }
 }
 
-/// Says when enough has come.
+/// Reports that enough tokens have arrived.
 #[node]
 pub struct Enough {
-    /// So much.
+    /// Number of tokens.
     #[param]
     after: i64,
     count: i64,
@@ -168,21 +168,21 @@ graph! {
     use crate::threads::{Awake, Enough, Mix, both, dice, slow};
     use apex_tests::nodes::swallow;
 
-    /// Three threads that talk to each other all the time.
+    /// Three threads that exchange tokens all the time.
     robot Crowd {
-        // Sources without a pace and with one.
+        // Sources without and with a period.
         node free   = dice();
         node pace   = dice() every 300us on arms;
         node own    = dice() every 500us on eyes;
 
-        // A region over two threads.
+        // A region on two threads.
         node far    = slow() on eyes;
         node sum    = both();
         free -> [far, sum.a];
         far  -> sum.b;
         sum  -> swallow();
 
-        // Events both ways: what comes first is chance.
+        // Events in both directions, in a random order.
         node arms   = Mix() on arms;
         node eyes   = Mix() on eyes;
         node head   = Mix();
@@ -194,7 +194,7 @@ graph! {
         eyes.told -> [head.right, again.left];
         head.told -> again.right;
 
-        // Activity that goes round.
+        // Activity in a cycle.
         node first  = Awake();
         node second = Awake() on eyes;
         node third  = Awake() on arms;
@@ -221,7 +221,7 @@ graph! {
 graph! {
     use crate::threads::{Enough, Heard, Stuck, dice, slow};
 
-    /// A node hangs, others are late, and somebody hears of it on another thread.
+    /// A node hangs, others are late, and a node on another thread is notified.
     robot Troubles {
         thread main { hang = 40ms }
         node s      = dice() every 5ms;
@@ -238,7 +238,7 @@ graph! {
         record "troubles.mcap" { heard.told; late.late; }
     }
 
-    /// Somebody has put in a token before the threads begin.
+    /// A token is put in before the threads begin.
     graph Asked {
         slot question: u64;
         event answer: u64;
@@ -266,7 +266,7 @@ mod before {
     }
 }
 
-/// Runs a program on its threads, and records it.
+/// Runs a program on its threads and records it.
 fn on_threads<P: Program>(program: &mut P, path: &Path) {
     let pace = WallClock::new().pace().expect("it is the machine's clock");
     let (code, finished) = record_on_threads(program, pace, path, |_| ()).expect("room for the file");
@@ -326,7 +326,7 @@ fn a_file_that_was_cut_is_repeated_up_to_the_cut() {
         fs::write(&cut, &bytes[..bytes.len() * part / 20]).expect("room for it");
         let report = match replay(Crowd::new(), &cut, ()) {
             Ok(report) => report,
-            // No reaction is there yet.
+            // The file contains no reaction.
             Err(error) => {
                 assert!(last == 0, "{part}: {error}");
                 continue;
@@ -350,7 +350,7 @@ fn a_file_with_other_bits_never_hangs() {
         let at = part * (bytes.len() - 2000) / 40 + chance() as usize % 2000;
         bytes[at] ^= 0x55;
         fs::write(&bad, &bytes).expect("room for it");
-        // What it says is as good as its bytes; it must say something.
+        // Any result is valid, as long as there is one.
         let _ = replay(Crowd::new(), &bad, ());
     }
 }

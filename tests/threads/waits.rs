@@ -116,8 +116,9 @@ fn a_program_waits_for_input_as_long_as_somebody_can_give_it() {
     let asks = thread::spawn(|| ask(questions, answers));
     assert_eq!(drive_from(Answers::new(), Counted { clock: WallClock::new(), waits: &waits }, ports), 0);
     assert_eq!(asks.join().expect("it does not panic"), [10, 20, 30]);
-    // Each question wakes it, each answer that is taken may, and the end of both does.
-    assert!((1..=9).contains(&waits.get()), "it waited {} times", waits.get());
+    // Each question wakes it, each answer that is taken may, and the end of both does. On a busy machine all may have
+    // come before it waits.
+    assert!(waits.get() <= 9, "it waited {} times", waits.get());
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the pages say, without a word of HTML.
+//! Contents of the pages, independent of HTML.
 
 use apex_dsl::ide::{ParamFacts, PortFacts};
 use std::{
@@ -6,88 +6,88 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Texts and the nodes that they use.
+/// Source files and the nodes that they use.
 pub struct Book {
-    /// The texts, by their paths.
+    /// Source files, sorted by path.
     pub texts: Vec<Text>,
-    /// The nodes in Rust, by their modules.
+    /// Rust nodes, sorted by module.
     pub nodes: Vec<Item>,
 }
 
-/// What tells a declaration from all others. A text has no line and no name.
+/// Identity of a declaration. That of a source file has line 0 and an empty name.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Key {
-    /// Its file.
+    /// File of the declaration.
     pub file: PathBuf,
-    /// The line of its name, from 1.
+    /// Line of the name, counted from 1.
     pub line: usize,
-    /// Its name.
+    /// Name of the declaration.
     pub name: String,
 }
 
-/// A text.
+/// A source file.
 pub struct Text {
-    /// What it is.
+    /// Identity of the source file.
     pub key: Key,
-    /// Its path, as pages show it.
+    /// Path as shown on pages.
     pub path: String,
     /// Documentation.
     pub docs: String,
-    /// Graphs, robots and state machines, in its order.
+    /// Graphs, robots and state machines in the order of the source file.
     pub items: Vec<Item>,
-    /// Tests, in its order.
+    /// Tests in the order of the source file.
     pub tests: Vec<Test>,
 }
 
-/// A graph, a robot, a state machine or a node in Rust.
+/// A graph, a robot, a state machine or a Rust node.
 pub struct Item {
-    /// What it is.
+    /// Identity of the declaration.
     pub key: Key,
     /// `graph`, `robot`, `fsm` or `node`.
     pub word: &'static str,
-    /// The text or the module that it stands in.
+    /// Source file or Rust module of the declaration.
     pub module: String,
-    /// The path by which texts import it, if it is in Rust.
+    /// Path for `use` in a source file, for Rust nodes.
     pub import: Option<String>,
-    /// File and line, if others than the author know the file by that name.
+    /// File and line, if the path is the same on all machines.
     pub place: Option<String>,
     /// Documentation.
     pub docs: String,
-    /// Name, parameters and ports as a text would declare them, if it is in Rust.
+    /// Name, parameters and ports in the syntax of the language, for Rust nodes.
     pub signature: Option<String>,
-    /// Its parameters.
+    /// Parameters.
     pub params: Vec<ParamFacts>,
-    /// Its ports.
+    /// Ports.
     pub ports: Vec<PortFacts>,
-    /// Pictures of it.
+    /// Diagrams.
     pub pictures: Vec<Picture>,
-    /// The nodes of a graph.
+    /// Nodes of a graph.
     pub nodes: Vec<Use>,
-    /// The states of a machine.
+    /// States of a state machine.
     pub states: Vec<State>,
-    /// What a graph claims.
+    /// Claims of a graph.
     pub claims: Vec<Claim>,
-    /// All of it in the text.
+    /// Source code of the declaration, if it is in a source file.
     pub code: Option<String>,
 }
 
-/// A picture.
+/// A diagram.
 pub struct Picture {
-    /// What it shows.
+    /// Title.
     pub title: &'static str,
-    /// SVG, or the number of boxes that are too many.
+    /// SVG, or the number of boxes if there are too many.
     pub svg: Result<String, usize>,
 }
 
 /// A node of a graph.
 pub struct Use {
-    /// Its name; none if it is written in place.
+    /// Name, or `None` for a node that is written in a connection.
     pub name: Option<String>,
-    /// What it is made of, as written.
+    /// Type as written.
     pub ty: String,
-    /// What that is.
+    /// Declaration of the type.
     pub of: Option<Key>,
-    /// It is made in Rust and handed in.
+    /// `true` if the node is made in Rust and handed in.
     pub handed_in: bool,
     /// Arguments and modifiers, as written.
     pub given: Vec<String>,
@@ -97,7 +97,7 @@ pub struct Use {
 
 /// A state.
 pub struct State {
-    /// Its name behind those of the states around it.
+    /// Name with the names of the enclosing states before it.
     pub path: String,
     /// Documentation.
     pub docs: String,
@@ -105,41 +105,41 @@ pub struct State {
 
 /// A claim.
 pub struct Claim {
-    /// As written.
+    /// Claim as written.
     pub text: String,
-    /// What is known about it.
+    /// Result of the proof, if the claim was checked.
     pub verdict: Option<&'static str>,
 }
 
 /// A test.
 pub struct Test {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The graph that is tested, as written.
+    /// Tested graph, as written.
     pub graph: String,
-    /// What that is.
+    /// Declaration of the tested graph.
     pub of: Option<Key>,
     /// Documentation.
     pub docs: String,
-    /// All of it in the text.
+    /// Source code of the test.
     pub code: String,
 }
 
-/// Where the texts are.
+/// Locations of the source files.
 pub struct Files {
-    /// The folder that all of them are in.
+    /// Folder that contains all of them.
     pub base: PathBuf,
-    /// From the paths under which they were read to those that tell them apart.
+    /// Canonical path of each path under which a file was read.
     pub real: BTreeMap<PathBuf, PathBuf>,
 }
 
 impl Files {
-    /// The path that tells a file from all others.
+    /// Canonical path of a file.
     pub fn real(&self, path: &Path) -> PathBuf {
         self.real.get(path).cloned().unwrap_or_else(|| path.to_owned())
     }
 
-    /// A path as pages show it: the same on all machines.
+    /// Path as shown on pages: the same on all machines.
     pub fn shown(&self, real: &Path) -> String {
         let path = real.strip_prefix(&self.base).ok().or_else(|| real.file_name().map(Path::new)).unwrap_or(real);
         let parts: Vec<_> = path.components().map(|part| part.as_os_str().to_string_lossy()).collect();
@@ -148,7 +148,7 @@ impl Files {
 }
 
 impl Book {
-    /// All items with pages of their own.
+    /// All items that have pages.
     pub fn items(&self) -> impl Iterator<Item = &Item> {
         self.texts.iter().flat_map(|text| &text.items).chain(&self.nodes)
     }

@@ -1,4 +1,4 @@
-//! A checked text → what its pages say.
+//! Collects the contents of the pages from checked source files.
 
 use super::book::{Claim, Files, Item, Key, Picture, State, Test, Text, Use};
 use apex_diagram::{MAX_ITEMS, chart, diagram, folded, folded_states, svg};
@@ -16,22 +16,22 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A text that was checked without an error.
+/// A source file that was checked without errors.
 pub struct Checked<'a> {
-    /// The text, which is the first, and those that it imports.
+    /// The source file, which is the first, and all that it imports.
     pub view: View<'a>,
     /// Its programs.
     pub programs: &'a [Program],
     /// Its other graphs.
     pub parts: &'a [Graph],
-    /// Where the texts are.
+    /// Locations of all files.
     pub files: &'a Files,
-    /// The folder of the workspace, and the package that `crate` means.
+    /// Folder of the workspace, and the package that `crate` stands for.
     pub package: Option<(&'a Path, &'a str)>,
 }
 
 impl Checked<'_> {
-    /// The text. Nodes in Rust that it uses are added to `nodes`.
+    /// Contents of the page of the source file. Rust nodes that it uses are added to `nodes`.
     pub fn text(&self, nodes: &mut BTreeMap<Key, Item>) -> Text {
         let tree = &self.view.texts.files[0].1;
         let graphs = tree.graphs.iter().enumerate();
@@ -58,7 +58,7 @@ impl Checked<'_> {
         self.view.sources.text(span).to_owned()
     }
 
-    /// What is the same in all kinds of items.
+    /// Properties that all kinds of items have.
     fn item(&self, node: NodeType, word: &'static str) -> Item {
         let key = self.key(node);
         let shown = self.files.shown(&key.file);
@@ -144,7 +144,7 @@ impl Checked<'_> {
             None => vec![&package],
         };
         let node = self.view.of_signature(id);
-        // A file outside of the workspace has another path on each machine.
+        // The path of a file outside of the workspace differs between machines.
         let place = signature.file.is_relative().then(|| format!("{}:{}", signature.file.display(), signature.line));
         Item {
             module: module.join("::"),
@@ -155,7 +155,7 @@ impl Checked<'_> {
         }
     }
 
-    /// The nodes of a graph: those with a name, then those that are written in place.
+    /// The nodes of a graph: those with a name, then those that are written in connections.
     fn written<'b>(&self, item: &'b GraphItem) -> Vec<Written<'b>> {
         let named = item.nodes.iter().map(|node| {
             let written = match &node.body {
@@ -209,7 +209,7 @@ impl Checked<'_> {
             let claims = program.graph.claims.iter().zip(&program.claims.verdicts);
             claims.filter(|(claim, _)| claim.span == span).map(|(_, verdict)| *verdict).collect::<Vec<_>>()
         };
-        // It is decided wherever its graph is used.
+        // A claim is checked in every program that contains its graph; the first verdict other than `Holds` is shown.
         let verdicts: Vec<Verdict> = self.programs.iter().flat_map(of_program).collect();
         let verdict = verdicts.iter().find(|verdict| **verdict != Verdict::Holds).or(verdicts.first());
         Claim { text: one_line(self.view.sources.text(span)), verdict: verdict.map(|verdict| verdict.words()) }
@@ -244,14 +244,14 @@ fn picture(title: &'static str, item: &apex_diagram::Item) -> Picture {
     Picture { title, svg: if count > MAX_ITEMS { Err(count) } else { Ok(svg(item)) } }
 }
 
-/// A state and those inside; `around` are the names of those around it, each with a dot.
+/// Adds a state and the states in it; `around` contains the names of the enclosing states, each with a dot.
 fn add_state(state: &StateItem, around: &str, found: &mut Vec<State>) {
     let path = format!("{around}{}", state.name.text);
     found.push(State { path: path.clone(), docs: state.docs.clone() });
     state.states.iter().for_each(|inner| add_state(inner, &format!("{path}."), found));
 }
 
-/// The nodes that are written in place at an end of a connection.
+/// Adds the nodes that are written at this end of a connection.
 fn instances<'a>(end: &'a Endpoint, found: &mut Vec<&'a Instance>) {
     match end {
         Endpoint::Instance(instance) => found.push(instance),
@@ -260,7 +260,7 @@ fn instances<'a>(end: &'a Endpoint, found: &mut Vec<&'a Instance>) {
     }
 }
 
-/// What is written in several lines, in one.
+/// Joins lines.
 fn one_line(text: &str) -> String {
     text.lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! The folder that pages are written to. Files in it that are not pages of ours stay as they are.
+//! Output folder of the pages. Other files in it are not changed.
 
 use super::{html::SIGNATURE, names::is_page};
 use crate::replace::put;
@@ -11,23 +11,23 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The file that names the pages in a folder.
+/// File with the names of the pages in a folder.
 const LIST: &str = ".apex-doc";
-/// Its first line.
+/// First line of that file.
 const HEAD: &str = "Made by `apex doc`, which writes and removes the files that are named here.";
 
-/// Most bytes of the list that are read.
+/// Maximum size of the list in bytes.
 const MAX_BYTES: usize = 16 << 20;
 
-/// A folder that is empty, or that was made for pages.
+/// A folder that was empty, or was created for pages.
 pub struct Folder {
     path: PathBuf,
-    /// The pages in it.
+    /// Names of the pages in it.
     pages: BTreeSet<String>,
 }
 
 impl Folder {
-    /// Looks at a folder, which need not be there. One with other things in it is refused.
+    /// Opens a folder, which need not exist. A folder that has other contents and no list of pages is refused.
     pub fn open(path: PathBuf) -> Result<Self, String> {
         let failed = |e: &dyn Display| format!("cannot write pages to `{}`: {e}", path.display());
         let list = path.join(LIST);
@@ -48,13 +48,14 @@ impl Folder {
             ));
         }
         let lines = list.iter().flat_map(|list| list.lines().skip(1));
-        // The list may come from a stranger: what it names is ours only if it looks as we make it.
+        // The list may come from a third party: a listed file is a page only if its name and its end are those of a
+        // page.
         let is_ours = |name: &&str| is_page(name) && is_signed(&path.join(name));
         let pages = lines.filter(is_ours).map(str::to_owned).collect();
         Ok(Self { path, pages })
     }
 
-    /// Writes `pages` and removes those that were there before. What was put there by somebody else is kept.
+    /// Writes `pages` and removes earlier pages. Files that were not made by `apex doc` are kept.
     pub fn write(&self, pages: &BTreeMap<String, String>) -> Result<(), String> {
         let others = |name: &&String| !self.pages.contains(*name) && self.path.join(name).symlink_metadata().is_ok();
         if let Some(other) = pages.keys().find(others) {
@@ -62,7 +63,7 @@ impl Folder {
             return Err(format!("`{}` was not written by `apex doc`: move it elsewhere", path.display()));
         }
         fs::create_dir_all(&self.path).map_err(|e| failed("make", &self.path, &e))?;
-        // Wherever it is broken off, the next run knows what is of ours.
+        // If writing is interrupted, the list still contains all pages, so that the next run recognises them.
         self.list(self.pages.iter().chain(pages.keys()).collect())?;
         for (name, text) in pages {
             let path = self.path.join(name);
@@ -78,7 +79,7 @@ impl Folder {
         self.list(pages.keys().collect())
     }
 
-    /// Writes down which pages there are.
+    /// Writes the list of pages.
     fn list(&self, names: BTreeSet<&String>) -> Result<(), String> {
         let text: String =
             [HEAD].into_iter().chain(names.into_iter().map(String::as_str)).flat_map(|l| [l, "\n"]).collect();
@@ -86,13 +87,13 @@ impl Folder {
         put(&path, &text, None).map_err(|e| failed("write", &path, &e))
     }
 
-    /// The page to begin with.
+    /// Path of the start page.
     pub fn index(&self) -> PathBuf {
         self.path.join(super::names::Names::INDEX)
     }
 }
 
-/// Whether a file, not what a link leads to, ends as pages do.
+/// `true` for a regular file, not a link, that ends as pages do.
 fn is_signed(path: &Path) -> bool {
     let end = || {
         if !path.symlink_metadata()?.is_file() {

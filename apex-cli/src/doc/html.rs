@@ -1,9 +1,9 @@
-//! Pieces of HTML that all pages are made of.
+//! Pieces of HTML for all pages.
 
-/// What all pages look like, in light and in dark, on a screen and on a phone.
+/// Style of all pages: light and dark, for screens and phones.
 const STYLE: &str = include_str!("style.css");
 
-/// Text for HTML, also in attributes.
+/// Escapes text for HTML, also for attributes.
 pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
@@ -33,20 +33,20 @@ pub fn link(page: &str, inner: &str) -> String {
     format!("<a href=\"{}\">{inner}</a>", escaped(page))
 }
 
-/// A part of a page under a heading; nothing if there is nothing in it.
+/// A part of a page under a heading, or nothing if `inner` is empty.
 pub fn section(title: &str, inner: &str) -> String {
     if inner.is_empty() { String::new() } else { format!("<h2>{}</h2>\n{inner}", escaped(title)) }
 }
 
-/// What is shown only when asked for.
+/// A part of a page that is closed at first.
 pub fn folded(title: &str, inner: &str) -> String {
     format!("<details>\n<summary>{}</summary>\n{inner}</details>\n", escaped(title))
 }
 
-/// The end of every page, by which those that were made here are known again.
+/// End of every page, by which pages that were made here are recognised.
 pub const SIGNATURE: &str = "<footer>Made by <code>apex doc</code>.</footer>\n</body>\n</html>\n";
 
-/// A whole page. `path` are links to the pages above it. Nothing in it may run or load anything.
+/// A whole page. `path` are links to the pages above it. Its security policy forbids scripts and external resources.
 pub fn page(title: &str, path: &[String], body: &str) -> String {
     let title = escaped(title);
     let path: String = path.iter().map(|link| format!("{link} › ")).collect();

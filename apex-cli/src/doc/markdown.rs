@@ -1,5 +1,5 @@
-//! Documentation as HTML. It may come from a stranger: what is HTML in it is shown as it is written, pictures are
-//! their descriptions, and links lead to pages of this documentation or to the web.
+//! Documentation as HTML. It may come from a third party: HTML in it is escaped, images become their descriptions, and
+//! links lead only to pages of this documentation or to the web.
 
 use super::html::escaped;
 use pulldown_cmark::{BrokenLink, CowStr, Event, HeadingLevel, LinkType, Options, Parser, Tag, TagEnd, html};
@@ -7,12 +7,12 @@ use pulldown_cmark::{BrokenLink, CowStr, Event, HeadingLevel, LinkType, Options,
 /// Schemes that links may have.
 const SCHEMES: [&str; 3] = ["https://", "http://", "mailto:"];
 
-/// A text as HTML; `page` knows the pages of graphs and nodes, to which names in square brackets lead.
+/// Converts Markdown to HTML; `page` finds the page of a name in square brackets.
 pub fn html(markdown: &str, page: &dyn Fn(&str) -> Option<String>) -> String {
     let mut known = |link: BrokenLink<'_>| named(&link, page);
     let options = Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH;
     let parser = Parser::new_with_broken_link_callback(markdown.trim(), options, Some(&mut known));
-    // Whether each open link is kept.
+    // For each open link, `true` if it is kept.
     let mut open = vec![];
     let events = parser.filter_map(move |event| harmless(event, &mut open));
     let mut text = String::new();
@@ -20,10 +20,10 @@ pub fn html(markdown: &str, page: &dyn Fn(&str) -> Option<String>) -> String {
     text
 }
 
-/// Where a name in square brackets leads: to its page, or nowhere if it is a name of Rust.
+/// Target of a name in square brackets: its page, or an empty target for code without a page.
 fn named<'a>(link: &BrokenLink<'_>, page: &dyn Fn(&str) -> Option<String>) -> Option<(CowStr<'a>, CowStr<'a>)> {
     let found = page(link.reference.trim_matches('`').rsplit("::").next()?);
-    // Brackets around code are not meant to be read.
+    // Without a page, the brackets around code are removed.
     let found = found.or_else(|| link.reference.starts_with('`').then(String::new));
     found.map(|page| (CowStr::from(page), CowStr::from("")))
 }
@@ -50,13 +50,13 @@ pub fn first_sentence(markdown: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// Where a sentence ends; what goes on with a small letter or a number (`fig. 4.10`) does not.
+/// End of the first sentence. Before a small letter or a number (`fig. 4.10`) a period does not end one.
 fn end_of_sentence(words: &str) -> Option<usize> {
     let begins = |rest: &str| rest.chars().next().is_some_and(|c| !c.is_lowercase() && !c.is_numeric());
     words.match_indices(". ").find(|(at, _)| begins(&words[at + 2..])).map(|(at, _)| at + 1)
 }
 
-/// An event of which no harm can come; nothing if it is left out.
+/// A harmless replacement for an event, or `None` if the event is left out.
 fn harmless<'a>(event: Event<'a>, open: &mut Vec<bool>) -> Option<Event<'a>> {
     match event {
         Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
@@ -64,7 +64,7 @@ fn harmless<'a>(event: Event<'a>, open: &mut Vec<bool>) -> Option<Event<'a>> {
         Event::End(TagEnd::HtmlBlock) => Some(Event::End(TagEnd::Paragraph)),
         Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => None,
         Event::Start(Tag::Link { link_type, dest_url, title, id }) => {
-            // Where no destination is written, it is a page of this documentation, or nothing.
+            // A link without a written target leads to a page of this documentation, or is removed.
             let is_kept = match link_type {
                 LinkType::ReferenceUnknown | LinkType::CollapsedUnknown | LinkType::ShortcutUnknown => {
                     !dest_url.is_empty()
@@ -75,7 +75,7 @@ fn harmless<'a>(event: Event<'a>, open: &mut Vec<bool>) -> Option<Event<'a>> {
             is_kept.then_some(Event::Start(Tag::Link { link_type, dest_url, title, id }))
         }
         Event::End(TagEnd::Link) => open.pop().unwrap_or(false).then_some(event),
-        // The page has headings of its own above these.
+        // The headings of the page itself are on higher levels.
         Event::Start(Tag::Heading { level, .. }) => {
             Some(Event::Start(Tag::Heading { level: lower(level), id: None, classes: vec![], attrs: vec![] }))
         }

@@ -1,5 +1,5 @@
-//! `apex doc`: pages about graphs and nodes. Here texts are read; what the pages say is collected in [`collect`],
-//! turned into HTML in [`pages`] and written by [`folder`].
+//! `apex doc`: pages about graphs and nodes. This module reads the source files, [`collect`] collects the contents of
+//! the pages, [`pages`] converts them to HTML, and [`folder`] writes them.
 
 mod book;
 mod collect;
@@ -23,7 +23,7 @@ use std::{
     process::ExitCode,
 };
 
-/// Writes pages about texts and all that they import to a folder; without one, below where cargo builds.
+/// Writes pages about source files and their imports to a folder, by default in the target folder.
 pub fn run(paths: &[PathBuf], output: Option<&Path>) -> Result<ExitCode, String> {
     let named: Vec<Vec<PathBuf>> = paths.iter().map(|path| texts::named(path)).collect::<Result<_, _>>()?;
     let mut reader = Reader::new(named.concat());
@@ -41,16 +41,16 @@ pub fn run(paths: &[PathBuf], output: Option<&Path>) -> Result<ExitCode, String>
     Ok(ExitCode::SUCCESS)
 }
 
-/// Reads texts, and those that they import.
+/// Reader of source files and their imports.
 struct Reader {
-    /// What is still to be read.
+    /// Source files that have not been read yet.
     waiting: VecDeque<PathBuf>,
-    /// One for each package.
+    /// One checker for each package.
     checkers: BTreeMap<Option<PathBuf>, Checker>,
     files: Files,
-    /// The texts that are or will be read.
+    /// Source files that have been or will be read.
     known: BTreeSet<PathBuf>,
-    /// What was said: a text that several import is checked with each of them.
+    /// Printed messages: a source file that several others import is checked with each of them.
     said: BTreeSet<String>,
     texts: Vec<Text>,
     nodes: BTreeMap<Key, Item>,
@@ -75,18 +75,18 @@ impl Reader {
         Self { waiting, checkers, files, known, said, texts: vec![], nodes }
     }
 
-    /// Where pages go if nobody says so.
+    /// Default folder for the pages.
     fn folder(&mut self) -> Result<PathBuf, String> {
         let Some(first) = self.waiting.front().cloned() else { return Err("there is no source file".to_owned()) };
         let checker = checker(&mut self.checkers, &first)?;
-        // That a text is not there is to be said before all else.
+        // A missing source file is reported before any other problem.
         checker.read(&first)?;
         checker.workspace.as_ref().map(|workspace| workspace.cache_folder().join("doc")).ok_or_else(|| {
             format!("`{}` does not belong to a package: choose a folder for the pages with `--output`", first.display())
         })
     }
 
-    /// All texts with the nodes that they use; nothing if one has errors, which are printed.
+    /// Reads all source files with the nodes that they use. Returns `None` if one has errors, which are printed.
     fn read(mut self) -> Result<Option<Book>, String> {
         let mut is_wrong = false;
         while let Some(path) = self.waiting.pop_front() {
@@ -99,7 +99,7 @@ impl Reader {
         Ok((!is_wrong).then_some(Book { texts: self.texts, nodes }))
     }
 
-    /// Reads one text; false if it has errors.
+    /// Reads one source file. Returns `false` if it has errors.
     fn text(&mut self, path: &Path) -> Result<bool, String> {
         let checker = checker(&mut self.checkers, path)?;
         let text = checker.read(path)?;
@@ -127,7 +127,7 @@ impl Reader {
     }
 }
 
-/// The checker for the package that a text belongs to.
+/// Checker for the package that a source file belongs to.
 fn checker<'a>(checkers: &'a mut BTreeMap<Option<PathBuf>, Checker>, file: &Path) -> Result<&'a mut Checker, String> {
     Ok(match checkers.entry(project::package_of(file)) {
         Entry::Occupied(known) => known.into_mut(),
@@ -135,12 +135,12 @@ fn checker<'a>(checkers: &'a mut BTreeMap<Option<PathBuf>, Checker>, file: &Path
     })
 }
 
-/// The path that tells a text from all others. One that is not there is missed when it is read.
+/// Canonical path of a source file. A missing file is reported when it is read.
 fn real(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// The folder that both are in.
+/// Folder that contains both.
 fn common(a: &Path, b: &Path) -> PathBuf {
     a.components().zip(b.components()).take_while(|(a, b)| a == b).map(|(a, _)| a).collect()
 }

@@ -1,25 +1,25 @@
-//! The names of the files that pages stand in.
+//! File names of the pages.
 
 use super::book::{Book, Key};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Longer names are cut: file systems take no more than 255 bytes.
+/// Maximum length of a name; file systems allow 255 bytes.
 const LONGEST: usize = 150;
-/// What all pages end in.
+/// Suffix of all pages.
 const SUFFIX: &str = ".html";
 
-/// Which page stands where.
+/// File names of all pages.
 pub struct Names<'a> {
     pages: BTreeMap<&'a Key, String>,
-    /// The pages of items by their names alone; nothing if several have one name.
+    /// Items by their bare names, or `None` if several have the same name.
     words: BTreeMap<&'a str, Option<&'a Key>>,
 }
 
 impl<'a> Names<'a> {
-    /// The page that leads to all others.
+    /// Name of the start page.
     pub const INDEX: &'static str = "index.html";
 
-    /// Names for all pages of a book.
+    /// Assigns names to all pages of a book.
     pub fn new(book: &'a Book) -> Self {
         let mut names = Self { pages: BTreeMap::new(), words: BTreeMap::new() };
         let mut taken = BTreeSet::from([Self::INDEX.to_owned()]);
@@ -41,23 +41,23 @@ impl<'a> Names<'a> {
         names
     }
 
-    /// The page of a text or an item.
+    /// Page of a source file or an item.
     pub fn page(&self, key: &Key) -> Option<&str> {
         self.pages.get(key).map(String::as_str)
     }
 
-    /// The page of the only item with this name.
+    /// Page of the only item with this name.
     pub fn of_word(&self, name: &str) -> Option<&str> {
         self.page(self.words.get(name).copied().flatten()?)
     }
 }
 
-/// Whether a page may have this name: a file of that name stands in the folder itself.
+/// `true` for the name of a page: a file directly in the folder.
 pub fn is_page(name: &str) -> bool {
     name.strip_suffix(SUFFIX).is_some_and(|stem| !stem.starts_with('.') && stem.chars().all(is_plain))
 }
 
-/// A name that no other page has, not even where file systems do not tell small letters from capital ones.
+/// A name that no other page has, also on file systems that do not distinguish upper and lower case.
 fn free(wanted: &str, taken: &mut BTreeSet<String>) -> String {
     let plain = wanted.chars().map(|c| match c {
         '/' => '.',

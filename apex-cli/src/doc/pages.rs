@@ -1,4 +1,4 @@
-//! What pages say → HTML.
+//! Converts the contents of pages to HTML.
 
 use super::{
     book::{Book, Claim, Item, Key, Picture, State, Test, Text, Use},
@@ -12,7 +12,7 @@ use apex_dsl::{
 };
 use std::collections::BTreeMap;
 
-/// All pages, by the names of their files. They are the same for the same book.
+/// All pages by file name. Equal books give equal pages.
 pub fn pages(book: &Book) -> BTreeMap<String, String> {
     let site = Site::new(book);
     let mut pages = BTreeMap::from([(Names::INDEX.to_owned(), site.index(book))]);
@@ -29,12 +29,12 @@ pub fn pages(book: &Book) -> BTreeMap<String, String> {
     pages
 }
 
-/// What a page has to know of the others.
+/// Data about all pages that a single page needs.
 struct Site<'a> {
     names: Names<'a>,
-    /// The graphs in which an item is used.
+    /// Graphs that use an item.
     users: BTreeMap<&'a Key, Vec<&'a Key>>,
-    /// The tests of a graph.
+    /// Tests of a graph.
     tests: BTreeMap<&'a Key, Vec<&'a Test>>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> Site<'a> {
         page(title, &[], &format!("<h1>{title}</h1>\n{body}"))
     }
 
-    /// Names with first sentences.
+    /// List of names with first sentences.
     fn entries(&self, items: &[Item]) -> String {
         let entry = |item: &Item| {
             let name = self.link_to(&item.key, &code(&item.key.name));
@@ -205,7 +205,7 @@ impl<'a> Site<'a> {
     }
 }
 
-/// Where an item is declared, and how a text gets it.
+/// Import and declaration of an item.
 fn place(item: &Item) -> String {
     let import = item.import.as_ref().map(|path| code(&format!("use {path};")));
     let parts: Vec<String> = import.into_iter().chain(item.place.as_deref().map(escaped)).collect();
@@ -223,7 +223,7 @@ fn figure(picture: &Picture, of: &str) -> String {
     }
 }
 
-/// How wide a picture is where there is room for all of it.
+/// Width of a picture at its full size.
 fn width(svg: &str) -> Option<u32> {
     let (_, width) = svg.split_once("width=\"")?;
     width.split_once('"')?.0.parse().ok()
@@ -242,12 +242,12 @@ fn definitions(entries: &str) -> String {
     if entries.is_empty() { String::new() } else { format!("<dl>\n{entries}</dl>\n") }
 }
 
-/// Entries with short terms, each in a line where there is room.
+/// List of entries with short terms, each on one line if there is room.
 fn list(entries: &str) -> String {
     if entries.is_empty() { String::new() } else { format!("<dl class=\"list\">\n{entries}</dl>\n") }
 }
 
-/// Lines without the indentation that those behind the first have in common.
+/// Removes the indentation that all lines but the first have in common.
 fn unindented(lines: &str) -> String {
     let indentation = |line: &str| line.len() - line.trim_start_matches(' ').len();
     let common = lines.lines().skip(1).filter(|line| !line.trim().is_empty()).map(indentation).min().unwrap_or(0);

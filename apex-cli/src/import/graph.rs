@@ -1,4 +1,4 @@
-//! What a graph file says.
+//! Contents of a graph file.
 
 use super::{
     Wrong, known,
@@ -9,31 +9,31 @@ use super::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How deep graphs may be in each other: as in the language.
+/// Maximum depth of nested graphs, as in the language.
 const MAX_DEPTH: usize = 64;
 
-/// A graph; those in it are nodes with a graph.
+/// A graph; graphs nested in it are nodes with a graph.
 #[derive(Debug)]
 pub struct Graph {
-    /// Its name in the text.
+    /// Name in the source file.
     pub name: String,
     pub nodes: Vec<Node>,
     pub connections: Vec<Connection>,
-    /// Its own ports, as far as something is connected to them inside or outside.
+    /// Own ports that have a connection inside or outside.
     pub ports: BTreeSet<(Kind, u32)>,
 }
 
 #[derive(Debug)]
 pub struct Node {
-    /// Its name in the text.
+    /// Name in the source file.
     pub name: String,
-    /// Its type, as the file spells it.
+    /// Type as spelled in the graph file.
     pub ty: String,
-    /// Its parameters that have a value, by the names that they get in the text.
+    /// Parameters that have a value, by their names in the source file.
     pub params: Vec<(String, Param)>,
-    /// The names of these.
+    /// Names of these parameters.
     pub param_names: BTreeSet<String>,
-    /// Its thread group.
+    /// Thread group.
     pub group: Option<String>,
     pub enabled: bool,
     pub graph: Option<Graph>,
@@ -47,13 +47,14 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// Whether a `Signal` stands between its ends: there any token is a signal, here `enable` and its like take `()`.
+    /// `true` if a `Signal` goes between the ends: in CS::APEX any token is a signal, but here `enable` and similar
+    /// slots take `()`.
     pub fn needs_signal(&self) -> bool {
         !self.from.sends_signals() && self.to.takes_signals()
     }
 }
 
-/// The value of a parameter.
+/// Value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Param {
     Int(i64),
@@ -61,18 +62,18 @@ pub enum Param {
     Bool(bool),
     Text(String),
     List(Vec<Param>),
-    /// It has none that could be written: a button, a colour wheel.
+    /// No value that could be written: a button, a colour wheel.
     None,
 }
 
-/// What is the same in all graphs of a file.
+/// Data common to all graphs of a file.
 struct File {
     graph_names: Taken,
-    /// The thread groups, by the ids of nodes from the outermost graph on.
+    /// Thread groups by node; the key contains the ids of the node and of all graphs around it.
     groups: BTreeMap<String, String>,
 }
 
-/// Reads a graph (`.apex`), or a snippet with a graph in it (`.apexs`).
+/// Reads a graph (`.apex`), or a snippet that contains a graph (`.apexs`).
 pub fn read(yaml: &Yaml, file_name: &str) -> Result<Graph, Wrong> {
     let snippet = yaml.get("yaml").filter(|_| yaml.get("nodes").is_none());
     let name = yaml.get("name").filter(|_| snippet.is_some());
@@ -84,7 +85,7 @@ pub fn read(yaml: &Yaml, file_name: &str) -> Result<Graph, Wrong> {
     file.graph(yaml, name, "", 0)
 }
 
-/// A graph cannot have the name of a node type.
+/// Reserves the names of all node types, which graphs cannot have.
 fn take_types(yaml: &Yaml, taken: &mut Taken) {
     for node in yaml.get("nodes").and_then(|nodes| nodes.list("").ok()).into_iter().flatten() {
         let ty = node.get("type").and_then(|ty| ty.scalar("").ok()).unwrap_or_default();
@@ -93,7 +94,7 @@ fn take_types(yaml: &Yaml, taken: &mut Taken) {
     }
 }
 
-/// Thread groups that are named; those without a name are the machine's business.
+/// Reads the named thread groups; other assignments are ignored.
 fn groups(yaml: &Yaml) -> Result<BTreeMap<String, String>, Wrong> {
     let mut groups = BTreeMap::new();
     let Some(threads) = yaml.get("threads") else { return Ok(groups) };
@@ -139,13 +140,13 @@ impl File {
 
     fn node(&mut self, yaml: &Yaml, id: &str, path: &str, depth: usize, taken: &mut Taken) -> Result<Node, Wrong> {
         let ty = yaml.need("type", "a node")?.scalar("`type`")?;
-        // A label that nobody has changed is the id of the node or that of one of which it is a copy.
+        // A default label is the id of the node, or that of the node from which it was copied.
         let label = yaml.get("label").and_then(|label| label.scalar("").ok());
         let label = label.filter(|label| !label.is_empty() && !label.starts_with(ty)).unwrap_or(id);
         let path = if path.is_empty() { id.to_owned() } else { format!("{path}:|:{id}") };
         let graph = yaml.get("subgraph").map(|graph| self.graph(graph, label, &path, depth + 1)).transpose()?;
         let params = yaml.get("state").and_then(|state| state.get("params"));
-        // Those of a graph say which ports it has.
+        // The parameters of a graph only describe its ports.
         let params = params.filter(|_| graph.is_none()).map_or(Ok(vec![]), read_params)?;
         Ok(Node {
             name: taken.unique(names::snake(label)),
@@ -205,7 +206,7 @@ impl Graph {
         }
     }
 
-    /// The ports of each node that are connected, each once.
+    /// Connected ports of each node.
     pub fn connected(&self) -> Vec<BTreeSet<&Port>> {
         let mut connected = vec![BTreeSet::new(); self.nodes.len()];
         for end in self.connections.iter().flat_map(|c| [&c.from, &c.to]) {
@@ -217,7 +218,7 @@ impl Graph {
     }
 }
 
-/// The parameters that have a value, by the names that they get in the text.
+/// Reads the parameters that have a value, by their names in the source file.
 fn read_params(yaml: &Yaml) -> Result<Vec<(String, Param)>, Wrong> {
     let (mut taken, mut params) = (Taken::default(), vec![]);
     for (name, entry) in yaml.map("`params`")? {
@@ -230,7 +231,7 @@ fn read_params(yaml: &Yaml) -> Result<Vec<(String, Param)>, Wrong> {
     Ok(params)
 }
 
-/// What stands under a key.
+/// Type of the value under a key.
 #[derive(Clone, Copy)]
 enum Form {
     Int,
@@ -239,7 +240,7 @@ enum Form {
     Text,
 }
 
-/// The keys under which a parameter can have its value: those that come first count first.
+/// Keys under which a parameter can have its value, in order of precedence.
 const FORMS: [(&str, Form); 8] = [
     ("txt", Form::Text),
     ("string", Form::Text),
@@ -251,7 +252,7 @@ const FORMS: [(&str, Form); 8] = [
     ("values", Form::Int),
 ];
 
-/// A parameter has its value, or the two ends of an interval, under the name of its type.
+/// Reads the value of a parameter, or the two ends of an interval. Its key depends on the type.
 fn read_param(yaml: &Yaml) -> Result<Param, Wrong> {
     let Some((value, form)) = FORMS.iter().find_map(|(key, form)| Some((yaml.get(key)?, *form))) else {
         return Ok(Param::None);
@@ -262,7 +263,7 @@ fn read_param(yaml: &Yaml) -> Result<Param, Wrong> {
         Value::Scalar(_) => form.read(value),
         Value::List(items) => {
             let items: Vec<Param> = items.iter().map(|item| form.read(item)).collect::<Result<_, _>>()?;
-            // A list in which something cannot be written is no value.
+            // A list with a value that cannot be written has no value itself.
             Ok(if items.contains(&Param::None) { Param::None } else { Param::List(items) })
         }
         Value::Map(_) => Ok(Param::None),
@@ -270,7 +271,7 @@ fn read_param(yaml: &Yaml) -> Result<Param, Wrong> {
 }
 
 impl Form {
-    /// Reads one value; one that is structured has no form that could be written.
+    /// Reads one value. A structured value has no form that could be written.
     fn read(self, yaml: &Yaml) -> Result<Param, Wrong> {
         let Value::Scalar(text) = &yaml.value else { return Ok(Param::None) };
         let (param, what) = match self {
@@ -283,7 +284,7 @@ impl Form {
     }
 }
 
-/// A number as YAML writes it; those that are not finite cannot be written.
+/// A number as YAML writes it; an infinite number or NaN cannot be written.
 fn read_float(text: &str) -> Option<Param> {
     let bare = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
     if [".inf", ".nan", "inf", "nan"].contains(&&*bare) {

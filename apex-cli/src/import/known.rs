@@ -1,16 +1,16 @@
-//! Node types of CS::APEX that the library has too.
+//! Node types of CS::APEX that the library also has.
 
-/// A node type there and here.
+/// A node type of CS::APEX and its equivalent in the library.
 pub struct Known {
-    /// Its type there.
+    /// Type in CS::APEX.
     pub theirs: &'static str,
-    /// Its module and name in `apex_nodes`.
+    /// Module and name in `apex_nodes`.
     pub ours: (&'static str, &'static str),
-    /// Its ports, there and here.
+    /// Names of each port in CS::APEX and in the library.
     pub ports: &'static [(&'static str, &'static str)],
 }
 
-/// Those that do the same.
+/// Types with the same behaviour.
 const KNOWN: [Known; 3] = [
     Known {
         theirs: "csapex::CountMessages",
@@ -29,7 +29,7 @@ const KNOWN: [Known; 3] = [
     },
 ];
 
-/// What the library has for a type.
+/// Equivalent in the library for a type.
 pub fn find(ty: &str) -> Option<&'static Known> {
     KNOWN.iter().find(|known| known.theirs == ty)
 }

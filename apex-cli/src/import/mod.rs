@@ -1,4 +1,4 @@
-//! `apex import`: graph files of CS::APEX become texts.
+//! `apex import`: converts graph files of CS::APEX to source files.
 
 mod graph;
 mod known;
@@ -12,15 +12,15 @@ use crate::{project, replace};
 use apex_host::read_text;
 use std::{path::Path, process::ExitCode};
 
-/// Most bytes of a file that is read.
+/// Maximum size of a graph file in bytes.
 const MAX_BYTES: usize = 16 << 20;
 
-/// Something that is wrong with a graph file.
+/// An error in a graph file.
 #[derive(Debug, PartialEq)]
 pub struct Wrong {
-    /// Line, from 1.
+    /// Line, counted from 1.
     pub line: usize,
-    /// What is wrong.
+    /// Message.
     pub message: String,
 }
 
@@ -30,8 +30,8 @@ impl Wrong {
     }
 }
 
-/// Writes the graph of `file` as a text into `output`, or prints it, and skeletons of the nodes that the library does
-/// not have into `nodes`. If the file is wrong, nothing is written.
+/// Writes the graph of `file` as a source file to `output`, or prints it. Skeletons of the nodes that the library lacks
+/// are written to `nodes`. If `file` has an error, nothing is written.
 pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<ExitCode, String> {
     for path in [output, nodes].into_iter().flatten() {
         if path.exists() {
@@ -72,7 +72,7 @@ pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<E
     Ok(ExitCode::SUCCESS)
 }
 
-/// The module that a Rust file of a package is, if it stands in `src`.
+/// Module of a Rust file in the folder `src` of a package.
 fn module(file: &Path) -> String {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     if ["lib", "main"].contains(&&*stem) { "crate".to_owned() } else { format!("crate::{}", names::snake(&stem)) }

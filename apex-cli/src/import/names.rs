@@ -1,8 +1,8 @@
-//! Names of a graph file as names of the language.
+//! Converts names of a graph file to names of the language.
 
 use std::collections::BTreeMap;
 
-/// Words that cannot be names in a text or in Rust.
+/// Words that are reserved in the language or in Rust.
 const RESERVED: &[&str] = &[
     "abort", "as", "async", "await", "break", "claim", "const", "continue", "crate", "dyn", "else", "enum", "event",
     "exit", "extern", "false", "fn", "for", "gen", "graph", "if", "impl", "in", "let", "loop", "match", "mod", "move",
@@ -51,17 +51,17 @@ pub fn camel(name: &str) -> String {
     }
 }
 
-/// Names that are taken, each with the number that the next one like it gets.
+/// Names that are taken, each with the number for the next equal name.
 #[derive(Default)]
 pub struct Taken(BTreeMap<String, usize>);
 
 impl Taken {
-    /// Takes a name that must not be given to others.
+    /// Reserves a name.
     pub fn reserve(&mut self, name: String) {
         self.0.entry(name).or_insert(2);
     }
 
-    /// The name, or the name with a number if it is taken; takes it.
+    /// Takes the name, or the name with a number if it is taken already.
     pub fn unique(&mut self, name: String) -> String {
         let Some(mut number) = self.0.get(&name).copied() else {
             self.reserve(name.clone());
@@ -72,7 +72,7 @@ impl Taken {
             number += 1;
         }
         let candidate = numbered(number);
-        // The search goes on where it ended: a thousand nodes of one name are no thousand searches from the beginning.
+        // The next search continues here, so that a thousand nodes of one name do not need a thousand full searches.
         self.0.insert(name, number + 1);
         self.reserve(candidate.clone());
         candidate

@@ -2,7 +2,7 @@
 
 use super::Wrong;
 
-/// What kind of port it is, as its own graph or node has it.
+/// Kind of a port, as seen from its own graph or node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     In,
@@ -14,9 +14,9 @@ pub enum Kind {
 /// A port of a node.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Port {
-    /// By its number. Slots 0 and 1 and events 0 to 2 are those that every node has.
+    /// Port with a number. Every node has the slots 0 and 1 and the events 0 to 2.
     Number(Kind, u32),
-    /// That of a parameter: where it is set, or where it is sent.
+    /// Port that sets or sends a parameter.
     Param(Kind, String),
 }
 
@@ -25,14 +25,14 @@ pub enum Port {
 pub enum PortId {
     /// A node, by its place in the graph.
     Node(usize, Port),
-    /// A port of the graph itself, seen from inside.
+    /// Port of the graph itself, seen from inside.
     Own(Kind, u32),
-    /// A slot or an event of CS::APEX itself.
+    /// Slot or event of CS::APEX as a whole.
     Whole(&'static Whole),
 }
 
 impl PortId {
-    /// Whether its tokens are of type `()`, whatever they are there.
+    /// Returns `true` if the tokens of the port are of type `()` in Apex, independently of their type in CS::APEX.
     pub fn sends_signals(&self) -> bool {
         match self {
             Self::Node(_, port) => port.common().is_some(),
@@ -41,7 +41,7 @@ impl PortId {
         }
     }
 
-    /// Whether it takes tokens of type `()`, although there it takes any.
+    /// `true` if it takes only tokens of type `()`, although it takes any in CS::APEX.
     pub fn takes_signals(&self) -> bool {
         match self {
             Self::Node(_, port) => port.common().is_some(),
@@ -51,11 +51,11 @@ impl PortId {
     }
 }
 
-/// A port of the program as a whole, there and here.
+/// A port of the whole program, in CS::APEX and here.
 #[derive(Debug, PartialEq)]
 pub struct Whole {
     pub theirs: &'static str,
-    /// What the language has for it.
+    /// Equivalent in the language.
     pub ours: Option<&'static str>,
     kind: Kind,
 }
@@ -68,7 +68,7 @@ const WHOLES: [Whole; 5] = [
     Whole { theirs: "slot_save", ours: None, kind: Kind::Slot },
 ];
 
-/// Slots and events that every node has come first.
+/// Slots that every node has; they come first.
 pub const COMMON_SLOTS: [&str; 2] = ["enable", "disable"];
 pub const COMMON_EVENTS: [&str; 3] = ["activated", "deactivated", "processed"];
 
@@ -79,7 +79,7 @@ impl Port {
         }
     }
 
-    /// Its name, if every node has it.
+    /// Name of a port that every node has.
     pub fn common(&self) -> Option<&'static str> {
         match self {
             Self::Number(Kind::Slot, k) => COMMON_SLOTS.get(*k as usize).copied(),
@@ -88,7 +88,7 @@ impl Port {
         }
     }
 
-    /// The port of a nested graph that this port of its node is.
+    /// Port of a nested graph that belongs to this port of its node.
     pub fn of_graph(&self) -> Option<(Kind, u32)> {
         match *self {
             Self::Number(kind @ (Kind::In | Kind::Out), k) => Some((kind, k)),
@@ -100,7 +100,7 @@ impl Port {
 }
 
 impl Kind {
-    /// Its word in the language, which begins its names as well.
+    /// Keyword of the language, which is also the prefix of port names.
     pub fn word(self) -> &'static str {
         match self {
             Self::In => "in",
@@ -119,7 +119,7 @@ impl PortId {
             if let Some(whole) = WHOLES.iter().find(|whole| whole.theirs == id) {
                 return Ok(Self::Whole(whole));
             }
-            // Inside, an input of the graph is where tokens come from.
+            // Seen from inside, the inputs of the graph are sources.
             let kinds = [
                 ("relayout", Kind::In),
                 ("relayin", Kind::Out),
@@ -136,7 +136,7 @@ impl PortId {
         Ok(Self::Node(index, port))
     }
 
-    /// Its name there, if the language has no such port.
+    /// Name in CS::APEX of a port for which the language has no equivalent.
     pub fn without_counterpart(&self) -> Option<&'static str> {
         match self {
             Self::Whole(Whole { theirs, ours: None, .. }) => Some(theirs),
@@ -144,7 +144,7 @@ impl PortId {
         }
     }
 
-    /// Whether tokens come from here.
+    /// `true` if tokens are sent from this end.
     pub fn is_source(&self) -> bool {
         match self {
             Self::Node(_, port) => matches!(port.kind(), Kind::Out | Kind::Event),

@@ -1,4 +1,4 @@
-//! Rust for the node types that the library does not have: their ports and parameters, and nothing that they do.
+//! Rust skeletons of the node types that the library lacks: ports and parameters, without behaviour.
 
 use super::{
     graph::{Graph, Param},
@@ -11,18 +11,18 @@ use std::{
     fmt::Write as _,
 };
 
-/// What all nodes of one type show of it.
+/// Signature of a type, collected from all its nodes.
 #[derive(Default)]
 pub struct Type<'a> {
     params: BTreeMap<String, &'a Param>,
-    /// The ports, and of inputs whether all nodes have them connected.
+    /// For each input, `true` if it is connected in all nodes.
     inputs: BTreeMap<String, bool>,
     outputs: BTreeSet<String>,
     slots: BTreeSet<String>,
     events: BTreeSet<String>,
 }
 
-/// The types that are not in the library.
+/// Types that are not in the library.
 pub fn types(top: &Graph) -> BTreeMap<&str, Type<'_>> {
     let mut types: BTreeMap<&str, Type<'_>> = BTreeMap::new();
     text::visit(top, &mut |graph| {
@@ -43,7 +43,7 @@ pub fn types(top: &Graph) -> BTreeMap<&str, Type<'_>> {
 }
 
 impl Type<'_> {
-    /// Adds the connected ports of one more node.
+    /// Adds the connected ports of one node.
     fn add(&mut self, ports: Vec<(&Port, String)>, is_first: bool) {
         let connected: BTreeSet<&String> = ports.iter().map(|(_, name)| name).collect();
         for (name, mandatory) in &mut self.inputs {
@@ -52,7 +52,7 @@ impl Type<'_> {
         for (port, name) in ports {
             let (Port::Number(kind, _) | Port::Param(kind, _)) = port;
             match kind {
-                // The port of a parameter comes with the parameter.
+                // The port of a parameter is part of the parameter.
                 Kind::In if self.params.contains_key(&name) => {}
                 Kind::In => drop(self.inputs.entry(name).or_insert(is_first)),
                 Kind::Out => drop(self.outputs.insert(name)),
@@ -78,7 +78,7 @@ impl Type<'_> {
             rust.push_str("}\n");
         }
         let _ = writeln!(rust, "#[node]\nimpl {name} {{");
-        // Events belong to what can trigger them.
+        // Events are arguments of the functions that can trigger them.
         let has_process = !self.inputs.is_empty() || !self.outputs.is_empty() || self.slots.is_empty();
         if has_process {
             self.method("process", &self.process_arguments(), rust);
@@ -116,7 +116,7 @@ impl Type<'_> {
     }
 }
 
-/// The type and the default of a parameter in Rust.
+/// Type and default of a parameter in Rust.
 fn rust_value(param: &Param) -> (String, String) {
     match param {
         Param::Int(value) => ("i64".to_owned(), value.to_string()),
@@ -153,7 +153,7 @@ pub fn write(top: &Graph) -> Result<String, String> {
         shown.write(ty, &mut rust);
     }
     let file = syn::parse_file(&rust).map_err(|e| format!("the nodes cannot be written as Rust: {e}"))?;
-    // It writes items without space between them.
+    // `prettyplease` puts no empty lines between items.
     let rust = prettyplease::unparse(&file);
     Ok(rust.replace("\n///", "\n\n///").replace("\n#[node]\nimpl", "\n\n#[node]\nimpl"))
 }

@@ -1,4 +1,4 @@
-//! A graph file as a text of the language; `apex fmt` brings it into the style.
+//! Writes a graph file as a source file, which is then formatted.
 
 use super::{
     graph::{Connection, Graph, Node, Param},
@@ -7,10 +7,10 @@ use super::{
 };
 use std::{collections::BTreeSet, fmt::Write as _};
 
-/// The type of ports that the file says nothing about.
+/// Type of ports whose type the graph file does not specify.
 pub const MESSAGE: &str = "Message";
 
-/// The text; `module` is where the type of messages stands.
+/// The source file; `module` is the module of the type of messages.
 pub fn write(top: &Graph, module: &str) -> String {
     let mut text = "//! Imported from a graph of CS::APEX.\n".to_owned();
     let (mut library, mut has_ports) = (BTreeSet::new(), false);
@@ -32,7 +32,7 @@ pub fn write(top: &Graph, module: &str) -> String {
     text
 }
 
-/// Calls `each` with a graph and those in it.
+/// Calls `each` with a graph and all graphs nested in it.
 pub fn visit<'a>(graph: &'a Graph, each: &mut impl FnMut(&'a Graph)) {
     each(graph);
     graph.nodes.iter().filter_map(|node| node.graph.as_ref()).for_each(|graph| visit(graph, each));
@@ -65,7 +65,7 @@ fn write_connection(graph: &Graph, connection: &Connection, text: &mut String) {
     let _ = writeln!(text, "{} {arrow} {signal}{};", end(graph, from), end(graph, to));
 }
 
-/// The type of the notes on the canvas, which do nothing.
+/// Type of the notes on the canvas, which do nothing.
 pub const NOTE: &str = "csapex::Note";
 
 fn write_node(node: &Node, connected: &BTreeSet<&Port>, text: &mut String) {
@@ -94,7 +94,7 @@ fn write_node(node: &Node, connected: &BTreeSet<&Port>, text: &mut String) {
     let _ = writeln!(text, "node {} = {ty}({arguments}){group};", node.name);
 }
 
-/// What can stand in a comment.
+/// Removes characters that cannot be in a comment.
 fn plain(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).collect()
 }
@@ -104,7 +104,7 @@ fn arguments(node: &Node) -> String {
     arguments.join(", ")
 }
 
-/// A value as the language and Rust write it.
+/// A value in the syntax of both the language and Rust.
 pub fn value(param: &Param) -> String {
     match param {
         Param::Int(value) => value.to_string(),
@@ -127,7 +127,7 @@ fn end(graph: &Graph, end: &PortId) -> String {
     }
 }
 
-/// The name of a port of a node.
+/// Name of a port of a node.
 pub fn port_name(node: &Node, port: &Port) -> String {
     if let Some(name) = port.common() {
         return name.to_owned();
@@ -137,7 +137,7 @@ pub fn port_name(node: &Node, port: &Port) -> String {
     }
     let name = match port {
         Port::Number(kind, k) => format!("{}_{k}", kind.word()),
-        // It is the port of the parameter itself, if that is there.
+        // This is the port of the parameter itself, if the parameter has a value.
         Port::Param(Kind::In, param) if node.param_names.contains(&names::snake(param)) => names::snake(param),
         Port::Param(kind, param) => format!("{}_{}", kind.word(), names::snake(param)),
     };

@@ -1,10 +1,10 @@
-//! YAML as far as graph files need it: scalars, lists and maps, with lines.
+//! The part of YAML that graph files need: scalars, lists and maps, with lines.
 
 use super::Wrong;
 use saphyr_parser::{Event, Parser};
 use std::collections::BTreeSet;
 
-/// How deep lists and maps may be in each other.
+/// Maximum depth of nested lists and maps.
 const MAX_DEPTH: usize = 200;
 
 /// A value and its line.
@@ -28,7 +28,7 @@ impl Yaml {
         entries.iter().find(|(name, _)| name == key).map(|(_, value)| value)
     }
 
-    /// The entry of a map that must have it.
+    /// The entry of a map that must exist.
     pub fn need(&self, key: &str, what: &str) -> Result<&Self, Wrong> {
         match &self.value {
             Value::Map(_) => self.get(key).ok_or_else(|| Wrong::new(self.line, format!("{what} has no `{key}`"))),
@@ -36,7 +36,7 @@ impl Yaml {
         }
     }
 
-    /// A single value.
+    /// The text of a scalar.
     pub fn scalar(&self, what: &str) -> Result<&str, Wrong> {
         match &self.value {
             Value::Scalar(text) => Ok(text),
@@ -44,7 +44,7 @@ impl Yaml {
         }
     }
 
-    /// A list; nothing is an empty one.
+    /// The items of a list; an empty scalar is an empty list.
     pub fn list(&self, what: &str) -> Result<&[Self], Wrong> {
         match &self.value {
             Value::List(items) => Ok(items),
@@ -53,12 +53,12 @@ impl Yaml {
         }
     }
 
-    /// A map; nothing is an empty one.
+    /// The entries of a map; an empty scalar is an empty map.
     pub fn map(&self, what: &str) -> Result<&[(String, Self)], Wrong> {
         match &self.value {
             Value::Map(entries) => Ok(entries),
             Value::Scalar(text) if text.is_empty() || text == "~" => Ok(&[]),
-            // An empty map is sometimes written so.
+            // Some files write an empty map as an empty list.
             Value::List(items) if items.is_empty() => Ok(&[]),
             _ => Err(Wrong::new(self.line, format!("{what} must be a map"))),
         }
@@ -71,17 +71,17 @@ enum Open {
     Map(usize, Entries),
 }
 
-/// The entries of a map that has not ended.
+/// Entries of a map that has not ended.
 #[derive(Default)]
 struct Entries {
     all: Vec<(String, Yaml)>,
-    /// The keys of all of them.
+    /// Keys of all entries.
     keys: BTreeSet<String>,
-    /// The key that waits for its value.
+    /// Key whose value follows.
     key: Option<String>,
 }
 
-/// The one document of a text.
+/// The only document of a file.
 pub fn read(text: &str) -> Result<Yaml, Wrong> {
     let mut open: Vec<Open> = vec![];
     let mut whole = None;

@@ -22,13 +22,14 @@ pub enum Template {
     Firmware,
 }
 
-/// A file of a project, and its text. `{name}`, `{crate}`, `{checkout}` and the crates' paths are filled in.
+/// A file of a project and its content. The placeholders `{name}`, `{crate}`, `{checkout}` and those of the crates'
+/// paths are replaced.
 type File = (&'static str, &'static str);
 
 const GITIGNORE: File = (".gitignore", include_str!("template/gitignore.txt"));
 const RUSTFMT: File = ("rustfmt.toml", include_str!("../../../rustfmt.toml"));
 
-/// The robot is that of `robots/rover`, the firmware that of `robots/firmware`: they are built and tested there.
+/// The robot is that of `robots/rover`, the firmware that of `robots/firmware`, where they are built and tested.
 const ROBOT: [File; 8] = [
     ("Cargo.toml", include_str!("template/robot/Cargo.toml.txt")),
     ("README.md", include_str!("template/robot/README.md")),
@@ -69,7 +70,7 @@ impl Template {
         }
     }
 
-    /// What to do first in the project.
+    /// First commands to run in the project.
     fn next(self) -> &'static [&'static str] {
         match self {
             Self::Robot => &["apex check robot.afg", "apex test robot.afg", "cargo run"],
@@ -79,15 +80,15 @@ impl Template {
     }
 }
 
-/// Makes a project in `folder`, which is named as the folder is. Its crates are those of `checkout`, or of the one that
-/// this command was built from.
+/// Makes a project in `folder`, whose name becomes that of the project. Its crates are those of `checkout`, or of the
+/// checkout from which this command was built.
 pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result<ExitCode, String> {
     let checkout = find(checkout)?;
     let name = name::of(folder, &name::locked(&checkout))?;
     is_free(folder)?;
     let path = |path: &str| toml_string(&checkout.join(path));
     let filled = [
-        // The package that the files of the robot belong to where they are tested.
+        // Package of the robot's files where they are tested.
         ("rover::", format!("{}::", name.replace('-', "_"))),
         ("{name}", name.to_owned()),
         ("{crate}", name.replace('-', "_")),
@@ -106,7 +107,7 @@ pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses a folder in which there is something already.
+/// Refuses a folder that is not empty.
 fn is_free(folder: &Path) -> Result<(), String> {
     let shown = folder.display();
     match fs::read_dir(folder) {
@@ -119,7 +120,7 @@ fn is_free(folder: &Path) -> Result<(), String> {
     }
 }
 
-/// The checkout with the crates of Apex.
+/// Checkout with the crates of Apex.
 fn find(given: Option<&Path>) -> Result<PathBuf, String> {
     let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("/"));
     let checkout = given.unwrap_or(built_from);
@@ -135,7 +136,7 @@ fn find(given: Option<&Path>) -> Result<PathBuf, String> {
     })
 }
 
-/// A path as a string of TOML, which JSON's strings are too.
+/// A path as a TOML string. Every JSON string is one.
 fn toml_string(path: &Path) -> Result<String, String> {
     let shown = path.display();
     let text = path.to_str().ok_or_else(|| format!("the path `{shown}` is not UTF-8: move the checkout of Apex"))?;

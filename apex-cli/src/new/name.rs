@@ -1,28 +1,28 @@
-//! Names that a package can have.
+//! Valid names of packages.
 
 use std::{fs, path::Path};
 
-/// Words that cannot be the name of a crate: Rust or cargo uses them.
+/// Words that cannot be the name of a crate, because Rust or cargo uses them.
 const TAKEN: &str = "\
     abstract alloc as async await become box break build const continue core crate deps do dyn else enum \
     examples extern false final fn for gen if impl in incremental let loop macro match mod move mut \
     override priv proc-macro pub ref return self static std struct super test trait true try type typeof \
     unsafe unsized use virtual where while yield";
 
-/// Names that no file can have on Windows, whatever stands behind a dot; `com` and `lpt` with a digit come to them.
+/// Names that files cannot have on Windows, with any extension. `com` and `lpt` followed by a digit are also forbidden.
 const DEVICES: &str = "aux con nul prn";
 
-/// Cargo's own limit is the file system's.
+/// Maximum length of a name; cargo's own limit is that of the file system.
 const LONGEST: usize = 64;
 
-/// The crates from elsewhere that the crates of Apex are locked to: a package of the same name would be taken for one.
+/// External crates in the lock file of Apex: cargo would take a package of the same name for one of them.
 pub fn locked(checkout: &Path) -> Vec<String> {
     let lock = fs::read_to_string(checkout.join("Cargo.lock")).unwrap_or_default();
     let name = |block: &str| block.split_once("name = \"")?.1.split_once('"').map(|(name, _)| name.to_owned());
     lock.split("[[package]]").filter(|block| block.contains("\nsource = ")).filter_map(name).collect()
 }
 
-/// The name of the package in `folder`: that of the folder. It must not be the same as one of `others`.
+/// Name of the package in `folder`: that of the folder. It must differ from all `others`.
 pub fn of<'a>(folder: &'a Path, others: &[String]) -> Result<&'a str, String> {
     let Some(name) = folder.file_name() else {
         return Err(format!("`{}` is not a name for the project: name a folder, such as `my-robot`", folder.display()));
@@ -36,7 +36,7 @@ pub fn of<'a>(folder: &'a Path, others: &[String]) -> Result<&'a str, String> {
     }
 }
 
-/// What is wrong with a name.
+/// Reason why a name is not valid.
 fn problem(name: &str, others: &[String]) -> Option<&'static str> {
     let first = name.chars().next()?;
     let plain = name.to_ascii_lowercase().replace('_', "-");
@@ -59,13 +59,13 @@ fn problem(name: &str, others: &[String]) -> Option<&'static str> {
     }
 }
 
-/// Whether Windows takes a name for a device.
+/// `true` for the name of a device on Windows.
 fn is_device(name: &str) -> bool {
     let port = |word| name.strip_prefix(word).is_some_and(|n| n.len() == 1 && n.chars().all(|c| c.is_ascii_digit()));
     DEVICES.split(' ').any(|device| device == name) || port("com") || port("lpt")
 }
 
-/// A name near to the one that was wished for.
+/// A valid name similar to the requested one.
 fn suggestion(name: &str, others: &[String]) -> String {
     let words: Vec<String> = name
         .split(|c: char| !c.is_ascii_alphanumeric())
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn no_word_of_rust_can_be_a_name() {
-        // rustc's own list is not to be had; syn knows the words that are no identifiers.
+        // rustc's own list is not accessible; syn knows the keywords, which are not identifiers.
         let words = TAKEN.split(' ').filter(|word| syn::parse_str::<syn::Ident>(&word.replace('-', "_")).is_err());
         assert!(words.count() > 35);
         for word in ["async", "await", "dyn", "gen", "try", "fn", "yield", "crate", "super", "Self", "self"] {

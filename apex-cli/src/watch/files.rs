@@ -5,19 +5,19 @@ use std::{
     time::SystemTime,
 };
 
-/// The files that a program is made of, with their times and lengths.
+/// Files of a program, with their modification times and lengths.
 #[derive(Clone, PartialEq, Eq, Default)]
 pub struct Files(BTreeMap<PathBuf, (Option<SystemTime>, u64)>);
 
 impl Files {
-    /// Texts, Rust files and manifests below these folders. What cannot be read is not there.
+    /// Source files, Rust files and manifests below these folders. Unreadable files count as missing.
     pub fn below(folders: &[PathBuf]) -> Self {
         let mut files = Self::default();
         folders.iter().for_each(|folder| files.collect(folder));
         files
     }
 
-    /// Hidden folders and those that tools mark as their caches are left out.
+    /// Adds files, without hidden folders and folders that are marked as caches.
     fn collect(&mut self, folder: &Path) {
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             let (path, name) = (entry.path(), entry.file_name());

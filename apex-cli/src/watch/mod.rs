@@ -1,4 +1,4 @@
-//! `apex run --watch`: the program follows its text.
+//! `apex run --watch`: builds and starts the program again after changes.
 
 mod files;
 mod program;
@@ -19,13 +19,13 @@ use std::{
     time::Duration,
 };
 
-/// How often files and the program are looked at.
+/// Interval between checks of the files and the program.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Set when the user wants to end.
+/// `true` after Ctrl-C.
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
-/// Builds and runs until Ctrl-C; after each change anew. While the text has errors, the previous program keeps running.
+/// Builds and runs until Ctrl-C; again after each change. While the source file has errors, the previous program keeps running.
 pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed))
         .map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
@@ -59,17 +59,17 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The program, if nothing is wrong with it; what is wrong is printed.
+/// Builds the program. Returns `None` after errors, which are printed.
 fn built(wanted: &Wanted<'_>) -> Result<Option<Found>, String> {
     wanted.check()?.map_or(Ok(None), |programs| wanted.build(&programs))
 }
 
-/// What happens until the next change.
+/// Message about the time until the next change.
 fn waiting(running: Option<&Running>) -> &'static str {
     running.map_or("waiting for a change", |_| "the previous program keeps running")
 }
 
-/// Waits until files have changed and nobody writes any more, or the user wants to end.
+/// Waits until files have changed and are stable, or until Ctrl-C.
 fn wait(files: &Files, folders: &[PathBuf], running: &mut Option<Running>) {
     let mut last = files.clone();
     while !STOPPED.load(Ordering::Relaxed) {
@@ -86,7 +86,7 @@ fn wait(files: &Files, folders: &[PathBuf], running: &mut Option<Running>) {
     }
 }
 
-/// The folders of the packages that the program is made of.
+/// Folders of the packages that belong to the program.
 fn folders(file: &Path) -> Result<Vec<PathBuf>, String> {
     let package = run::package(file)?;
     let workspace = Workspace::load(&package)?;

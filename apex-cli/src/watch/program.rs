@@ -6,34 +6,34 @@ use std::{
     time::Duration,
 };
 
-/// Forgets the parameters that were kept in an earlier watch.
+/// Removes the parameters that were kept by an earlier watch.
 pub fn forget(program: &Found) {
     if let Some(made) = &program.made {
-        // It may never have been there.
+        // The folder need not exist.
         let _ = fs::remove_dir_all(made.join("kept"));
     }
 }
 
-/// Starts a program; others may build as soon as it has.
+/// Starts a program; releases the lock as soon as it has started.
 pub fn start(program: Found, wanted: &Wanted<'_>) -> Result<Running, String> {
     let child = wanted.command(&program).spawn().map_err(|e| program.not_started(&e))?;
     Ok(Running(child))
 }
 
-/// A program that runs, or has ended by itself.
+/// A running program, or one that has ended by itself.
 pub struct Running(Child);
 
-/// How often and how many times is looked whether a program ends that was asked to: five seconds in all.
+/// Interval and number of checks whether a program has ended after `SIGTERM`: five seconds in total.
 const STEP: Duration = Duration::from_millis(20);
 const STEPS: usize = 250;
 
 impl Running {
-    /// How it ended, if it has.
+    /// Exit status, if the program has ended.
     pub fn ended(&mut self) -> Option<ExitStatus> {
         self.0.try_wait().ok().flatten()
     }
 
-    /// Asks it to end, so that it can save what it knows; ends it if it does not listen.
+    /// Sends `SIGTERM`, so that the program can save its state; kills it if it does not end.
     pub fn end(mut self) {
         if self.ended().is_none() && self.ask() {
             for _ in 0..STEPS {
@@ -43,19 +43,19 @@ impl Running {
                 thread::sleep(STEP);
             }
         }
-        // It may just have ended.
+        // The program may have ended in the meantime.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 
-    /// Whether it could be asked.
+    /// Sends `SIGTERM`. Returns `true` if the signal was sent.
     #[cfg(unix)]
     fn ask(&self) -> bool {
         use nix::{sys::signal, unistd::Pid};
         i32::try_from(self.0.id()).is_ok_and(|id| signal::kill(Pid::from_raw(id), signal::Signal::SIGTERM).is_ok())
     }
 
-    /// Whether it could be asked: elsewhere there is no common word for it.
+    /// Returns `false`: there is no portable signal on other systems.
     #[cfg(not(unix))]
     fn ask(&self) -> bool {
         false

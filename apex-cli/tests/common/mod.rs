@@ -1,4 +1,4 @@
-//! The built command, and folders to let it work in.
+//! The built command, and folders for it to work in.
 
 use std::{
     fs,
@@ -10,7 +10,7 @@ use std::{
 pub struct Folder(pub PathBuf);
 
 impl Folder {
-    /// An empty one; the name tells those of one process apart.
+    /// An empty folder. The name must be unique in the process.
     pub fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("apex-cli-{}-{name}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
@@ -31,8 +31,8 @@ impl Drop for Folder {
     }
 }
 
-/// How all is built that tests make, whatever its manifest says: with the same settings cargo builds the compiler once for
-/// all, and what runs for moments is not worth optimising.
+/// Settings of all builds in tests, whatever their manifests contain. With equal settings cargo builds the compiler
+/// only once, and short runs are not worth optimising.
 pub const SETTINGS: [(&str, &str); 4] = [
     ("CARGO_INCREMENTAL", "0"),
     ("CARGO_PROFILE_DEV_DEBUG", "0"),
@@ -40,14 +40,14 @@ pub const SETTINGS: [(&str, &str); 4] = [
     ("CARGO_PROFILE_RELEASE_BUILD_OVERRIDE_OPT_LEVEL", "0"),
 ];
 
-/// The command, which says nothing of what it builds.
+/// The command, without messages about builds.
 pub fn apex() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_apex"));
     command.env("CARGO_TERM_QUIET", "true").envs(SETTINGS);
     command
 }
 
-/// What a command said on standard error.
+/// Standard error of a command.
 pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }

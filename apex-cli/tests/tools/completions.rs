@@ -14,7 +14,7 @@ fn every_shell_gets_a_script_that_names_the_commands() {
     assert_eq!(apex().args(["completions", "cmd"]).output().unwrap().status.code(), Some(2));
 }
 
-/// bash itself reads the script and answers with it.
+/// bash itself runs the script and completes a command.
 #[test]
 fn bash_completes_a_command() {
     let script = apex().args(["completions", "bash"]).output().unwrap().stdout;

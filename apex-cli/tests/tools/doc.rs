@@ -1,4 +1,4 @@
-//! `apex doc`: which pages there are, that they hold together, and what is never touched.
+//! `apex doc`: the set of pages, their links, and the files that are never changed.
 
 use crate::common::{Folder, apex, package, stderr};
 use std::{
@@ -26,7 +26,7 @@ pub struct Total {
 #[node]
 impl Total {
     fn process(&mut self, x: &u64) { self.sum += x; }
-    /// Begins anew.
+    /// Begins again.
     #[slot]
     fn clear(&mut self) { self.sum = 0; }
 }
@@ -45,7 +45,7 @@ use parts::{Inner, Lamp};
 ///     total
 /// ```
 robot Robot(
-    /// How far.
+    /// Length of a step.
     step: f64[m] = 3m in 1..=5,
 ) {
     node inner = Inner();
@@ -66,7 +66,7 @@ test adds: Inner {
 const PARTS: &str = "\
 /// A part that stands in a robot.
 graph Inner {
-    /// What is added.
+    /// Value to add.
     in   x: u64;
     slot go;
     slot clear;
@@ -90,7 +90,7 @@ fsm Lamp {
 }
 ";
 
-/// A package with two texts.
+/// A package with two source files.
 fn project(name: &str) -> Folder {
     let folder = Folder::new(name);
     package(&folder, NODES);
@@ -99,14 +99,14 @@ fn project(name: &str) -> Folder {
     folder
 }
 
-/// `apex doc` of these texts, in a folder.
+/// `apex doc` with these arguments, in a folder.
 fn doc(folder: &Folder, arguments: &[&str]) -> Output {
     let mut command: Command = apex();
     command.arg("doc").args(arguments).current_dir(&folder.0).env_remove("CARGO_TARGET_DIR");
     command.output().unwrap()
 }
 
-/// All files of a folder.
+/// All files in a folder.
 fn files(folder: &Path) -> BTreeMap<String, String> {
     let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
     let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -119,7 +119,7 @@ fn pages(folder: &Path) -> BTreeMap<String, String> {
     files
 }
 
-/// All links of all pages lead to pages, and all pages can be reached.
+/// All links lead to pages, and all pages can be reached.
 fn assert_linked(pages: &BTreeMap<String, String>) {
     let links = |page: &str| -> Vec<String> {
         pages[page].split("href=\"").skip(1).map(|rest| rest.split('"').next().unwrap().to_owned()).collect()
@@ -176,7 +176,7 @@ fn pages_of_texts_and_of_what_they_use() {
                 "src/lib.rs:12",
                 "sum\n    += x\n",
                 "node Total\n",
-                "Begins anew.",
+                "Begins again.",
                 "href=\"parts.Inner.html\"",
             ],
         ),
@@ -259,7 +259,7 @@ fn old_pages_go_and_other_files_stay() {
     folder.file("a.afg", "graph A { }\n\ngraph B { }\n");
     assert_eq!(doc(&folder, &["a.afg", "-o", "pages"]).status.code(), Some(0));
     fs::write(pages.join("notes.html"), "mine").unwrap();
-    // A list that somebody has changed.
+    // A list with additional entries.
     folder.file("precious.html", "mine");
     let list = fs::read_to_string(pages.join(".apex-doc")).unwrap();
     fs::write(pages.join(".apex-doc"), list + "../precious.html\n../a.afg\n/tmp\n").unwrap();
@@ -282,7 +282,7 @@ fn old_pages_go_and_other_files_stay() {
     );
 }
 
-/// A list that a stranger has put there names files that nobody made: they stay, and are not written over.
+/// A list from a third party names files that `apex doc` did not make: they are neither removed nor overwritten.
 #[test]
 fn a_planted_list_takes_nothing() {
     let folder = Folder::new("doc-planted");

@@ -1,4 +1,4 @@
-//! The examples of `docs/tools.md` are what the command does.
+//! The examples in `docs/tools.md` agree with the command.
 
 use crate::{
     MADE, TARGET,
@@ -6,7 +6,7 @@ use crate::{
 };
 use std::{fs, path::Path};
 
-/// The first block of the page that begins so.
+/// First block of the page that begins like this.
 fn block(begin: &str) -> String {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/tools.md");
     let page = fs::read_to_string(page).unwrap();
@@ -16,7 +16,7 @@ fn block(begin: &str) -> String {
     block.split_once('\n').unwrap().1.to_owned()
 }
 
-/// Runs the command of a block in `folder`, and compares what it says.
+/// Runs the command of a block in `folder`, and compares the output.
 fn runs(begin: &str, folder: &Path) {
     let console = block(&format!("console\n$ apex {begin}"));
     let (command, said) = console.split_once('\n').unwrap();

@@ -8,7 +8,7 @@ fn import(file: &Path, more: &[&str]) -> Output {
     apex().arg("import").arg(file).args(more).output().unwrap()
 }
 
-/// What is printed for a file.
+/// Output for a graph file.
 fn text_of(folder: &Folder, graph: &str) -> String {
     let output = import(&folder.file("my robot.apex", graph), &[]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -153,14 +153,14 @@ fn a_graph_becomes_a_text_in_the_style() {
     let checked = apex().args(["fmt", "--check"]).arg(&text).output().unwrap();
     assert_eq!((checked.status.code(), checked.stdout.len()), (Some(0), 0));
 
-    // What is there is not overwritten.
+    // Existing files are not overwritten.
     let output = import(&file, &["--nodes", nodes.to_str().unwrap()]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     assert!(stderr(&output).ends_with("already exists: remove it first, or choose another name\n"));
     assert_eq!(text_of(&folder, ROBOT), TEXT.replace("crate::nodes::", "crate::"));
 }
 
-/// A snippet whose nodes are all unknown: with the skeletons it is right, and it runs.
+/// A snippet with unknown nodes only: with the skeletons, its source file has no errors, and it runs.
 #[test]
 fn with_the_skeletons_the_text_is_right_and_runs() {
     let folder = Folder::new("import-nodes");
@@ -193,9 +193,9 @@ yaml:
     let written = fs::read_to_string(&text).unwrap();
     assert!(written.contains("graph TwoTrees {"), "{written}");
     let checked = apex().arg("check").arg(&text).output().unwrap();
-    // Where activity begins is not in the file: there are warnings, but no errors.
+    // The graph file does not contain the start of activity: there are warnings, but no errors.
     assert!(checked.status.code() == Some(0) && !stderr(&checked).contains("error"), "{}{written}", stderr(&checked));
-    // The camera is a source without end: somebody stands for it who ends the run.
+    // The camera would send tokens forever: another node ends the run.
     let runs = written.replace("graph TwoTrees {", "graph TwoTrees {\n    once() -> exit;\n");
     fs::write(&text, runs).unwrap();
     package(&folder, "use apex_rt::prelude::*;\npub mod nodes;\n#[node]\npub fn once() -> u8 { 1 }\n");

@@ -1,4 +1,4 @@
-//! Graph files of CS::APEX as they are found in the world: all of them come through, and large ones take no longer than they have to.
+//! Real graph files of CS::APEX are imported without errors, and large ones in a reasonable time.
 
 use crate::common::{Folder, apex, stderr};
 use std::{fs, path::Path, process::Output};
@@ -10,7 +10,7 @@ fn import(file: &Path) -> Output {
     apex().arg("import").arg(file).output().unwrap()
 }
 
-/// The text that a file becomes.
+/// Source file for a graph file.
 pub fn text_of(file: &Path) -> String {
     let output = import(file);
     assert_eq!(output.status.code(), Some(0), "{}: {}", file.display(), stderr(&output));
@@ -98,7 +98,7 @@ fn parameters_of_any_shape_and_ports_of_the_program() {
     {
         assert!(nodes.contains(param), "{param}: {nodes}");
     }
-    // What takes tokens does not send any, there as here.
+    // A port that takes tokens cannot send any, as in CS::APEX.
     for (uuid, target, message) in [
         ("slot_exit", "count:|:slot_0", "`slot_exit` sends nothing"),
         ("event_activation", "event_activation", "`event_activation` takes nothing"),
@@ -113,14 +113,14 @@ fn parameters_of_any_shape_and_ports_of_the_program() {
     }
 }
 
-/// What grows with the square of a file's length takes minutes here, not seconds.
+/// An algorithm with quadratic time would take minutes here instead of seconds.
 #[test]
 fn large_files() {
     let folder = Folder::new("import-large");
     let keys: String = (0..100_000).map(|i| format!("k{i}: 1\n")).collect();
     assert!(text_of(&folder.file("keys.apex", keys + "nodes: []\n")).contains("graph Keys {"));
 
-    // A text may have four megabytes.
+    // A source file may have four megabytes.
     const MANY: usize = 30_000;
     let params: String = (0..MANY).map(|i| format!("      k{i}: {{int: {i}}},\n")).collect();
     let to_params: String = (0..MANY).map(|i| format!("- {{uuid: 'b:|:out_0', targets: ['a:|:in_k{i}']}}\n")).collect();

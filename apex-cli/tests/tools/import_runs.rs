@@ -1,4 +1,4 @@
-//! A graph file of CS::APEX that runs: its nodes are written in Rust, and a test of the language plays with it.
+//! A graph file of CS::APEX that runs, with its nodes written in Rust and a test in the language.
 
 use crate::{
     MADE, TARGET,
@@ -7,7 +7,7 @@ use crate::{
 };
 use std::{fs, path::Path, sync::PoisonError};
 
-/// The nodes of `follow_person`, written by hand. Tokens are numbers: a goal, a path and a distance.
+/// Nodes of `follow_person`, written by hand. Tokens are numbers: a goal, a path and a distance.
 const NODES: &str = r#"//! Nodes of a robot that follows a person.
 use apex_rt::prelude::*;
 
@@ -51,7 +51,7 @@ impl FollowPath {
     }
 }
 
-/// Lets something happen later.
+/// Passes a token on after a delay.
 #[node]
 pub struct Delay {
     #[param(default = 0.8)]
@@ -66,7 +66,7 @@ impl Delay {
     fn begin(&mut self) {}
 }
 
-/// How far away somebody is.
+/// Distance of a person.
 #[node]
 pub struct ExtractMeasures {
     #[param(default = 0.0)]
@@ -94,7 +94,7 @@ impl ExtractMeasures {
     }
 }
 
-/// One way or the other.
+/// Sends a token to one of two outputs.
 #[node]
 pub struct Switch {
     #[param(default = true)]
@@ -108,7 +108,7 @@ impl Switch {
     }
 }
 
-/// Whether something is more than that.
+/// Compares a value with a threshold.
 #[node]
 pub struct Threshold {
     #[param(default = 0.0)]
@@ -126,7 +126,7 @@ impl Threshold {
 }
 "#;
 
-/// A person who is far away is followed; one who is near is not.
+/// A distant person is followed, a near one is not.
 const TESTS: &str = "
 test follows_from_afar: FollowForward {
     feed in_1 = 13.5;
@@ -148,10 +148,10 @@ fn follows(folder: &Folder, file: &Path) {
     let manifest = fs::read_to_string(folder.0.join("Cargo.toml")).unwrap();
     folder.file("Cargo.toml", format!("{manifest}apex-nodes = {{ path = {nodes:?} }}\n"));
     let text = text_of(file);
-    // The types of ports, of which the file says nothing.
+    // Types of ports, which the graph file does not contain.
     let typed =
         text.replace("use crate::Message;\n", "").replace("event_0: Message", "event_0").replace(": Message", ": f64");
-    // Of the graph around it the file does not say where its tokens come from.
+    // The graph file does not contain the source of the tokens of the outer graph, which is left out.
     let (head, rest) = typed.split_once("graph FollowPerson {").unwrap();
     let (_, follow) = rest.split_once("}\n").unwrap();
     let text = folder.file("follow.afg", format!("{head}{follow}{TESTS}"));

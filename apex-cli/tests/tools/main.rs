@@ -1,4 +1,4 @@
-//! Commands that make and drive things: projects, completions, programs that follow their text, imports.
+//! Commands that create and drive things: projects, completions, programs that are rebuilt after changes, imports.
 
 use std::{process::Command, sync::Mutex};
 
@@ -20,13 +20,13 @@ mod together;
 mod tour;
 mod watch;
 
-/// Where all that these tests make is built, so that what it needs is built once.
+/// Target folder of all tests here, so that dependencies are built once.
 const TARGET: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/made");
 
-/// Programs that are made for a text all have one name: only one test at a time makes some.
+/// Lock for tests that make programs for source files: the programs have equal names.
 static MADE: Mutex<()> = Mutex::new(());
 
-/// Cargo, which builds as the command does.
+/// Cargo with the settings of the command.
 fn cargo() -> Command {
     let mut cargo = Command::new(env!("CARGO"));
     cargo.envs(common::SETTINGS);

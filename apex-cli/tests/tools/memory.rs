@@ -26,7 +26,7 @@ impl Numbers {
 #[derive(Clone, Default)]
 pub struct Cells(pub [u64; 32]);
 
-/// Keeps much.
+/// Has a large state.
 #[node]
 pub struct Store {
     kept: Cells,

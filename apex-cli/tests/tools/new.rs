@@ -8,7 +8,7 @@ use std::{
     process::{Command, Output},
 };
 
-/// Runs a command in a folder as a user without network would.
+/// Runs a command in a folder, without network.
 pub fn run_in(folder: &Path, command: &mut Command, arguments: &[&str]) -> (Option<i32>, String, String) {
     let command = command.args(arguments).current_dir(folder);
     command.env("CARGO_TARGET_DIR", TARGET).env("CARGO_NET_OFFLINE", "true");
@@ -21,8 +21,9 @@ fn make(arguments: &[&str], folder: &Path) -> Output {
     apex().arg("new").args(arguments).arg(folder).output().unwrap()
 }
 
-/// Makes a project and tries what holds of all: nothing is left to be filled in, its texts and its Rust are right and
-/// in style, its text `text` is right, and `cargo test` passes without a warning. Returns what the last one said.
+/// Makes a project and checks what all templates have in common: no placeholder is left, source files and Rust code are
+/// formatted and without errors, its source file `text` is valid, and `cargo test` passes without a warning. Returns
+/// the output of `cargo test`.
 fn tried(project: &Path, arguments: &[&str], text: &str) -> String {
     let made = make(arguments, project);
     assert_eq!((made.status.code(), stderr(&made)), (Some(0), String::new()));

@@ -13,7 +13,7 @@ pub fn double(x: &f64, #[param(default = 2.0, range = 1.0..=9.0, unit = \"m\")] 
 /// Counts doubles.
 #[node]
 pub struct Tally {
-    /// Where it begins.
+    /// The first number.
     #[param(default = 3)]
     first: u64,
 }
@@ -48,7 +48,7 @@ robot::Tally
   input  x      [u8; 2] (optional)
   slot   clear                           Starts at zero.
   event  full   u64
-  param  first  u64 = 3                  Where it begins.
+  param  first  u64 = 3                  The first number.
 ";
 
 fn nodes(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -78,7 +78,7 @@ fn nodes_are_listed_and_described() {
         page.starts_with("## robot\n\n| node | |\n|---|---|\n| [`double`](#double) | Doubles a `Thing`. |\n"),
         "{page}"
     );
-    assert!(page.contains("| param | `first` | `u64 = 3` | Where it begins. |\n"), "{page}");
+    assert!(page.contains("| param | `first` | `u64 = 3` | The first number. |\n"), "{page}");
 }
 
 #[test]
@@ -106,10 +106,10 @@ says more about each. Written by the test `nodes` of `apex-cli`.
 
 ";
 
-/// A robot that has all features of both crates.
+/// A robot that uses all features of both crates.
 const PACKAGE: &str = "robots/sick-robot-day";
 
-/// With `APEX_UPDATE_EXPECTATIONS=1` the index is written anew.
+/// `APEX_UPDATE_EXPECTATIONS=1` writes the index again.
 #[test]
 fn the_index_of_the_library_is_up_to_date() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -8,7 +8,7 @@ use std::{fs, process::Output};
 
 const NODES: &str = "use apex_rt::prelude::*;
 
-/// Something that nobody knows.
+/// An unpredictable number.
 #[node]
 pub fn noise() -> u64 {
     std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |t| t.as_nanos() as u64)
@@ -129,11 +129,11 @@ fn a_run_is_recorded_and_repeated() {
     package(&folder, NODES);
     folder.file("robot.afg", text(3));
 
-    // What the text says, and what the command says.
+    // Recordings by the source file, and by the command.
     for (robot, arguments, file) in [
         ("Adder", &[][..], "adder.mcap"),
         ("Adder", &["--record", "run.mcap"][..], "run.mcap"),
-        // On its threads.
+        // On several threads.
         ("Apart", &[][..], "apart.mcap"),
     ] {
         let output = run(&folder, &[&["run", "robot.afg", "--robot", robot], arguments].concat());
@@ -147,7 +147,7 @@ fn a_run_is_recorded_and_repeated() {
         assert!(rest.ends_with("reactions, all the same\n"), "{rest}");
     }
 
-    // A text that was changed.
+    // A source file that was changed.
     folder.file("robot.afg", text(4));
     let (code, stdout, _) = replay(&folder, "run.mcap", "Adder");
     assert_eq!(code, Some(1), "{stdout}");
@@ -155,7 +155,7 @@ fn a_run_is_recorded_and_repeated() {
     assert!(stdout.contains("the first difference is token 1, at 0.0"), "{stdout}");
     assert!(stdout.ends_with("reactions, with differences\n"), "{stdout}");
 
-    // A file that was cut off.
+    // A truncated recording.
     let bytes = fs::read(folder.0.join("run.mcap")).expect("it was recorded");
     folder.file("robot.afg", text(3));
     folder.file("cut.mcap", &bytes[..bytes.len() / 2]);

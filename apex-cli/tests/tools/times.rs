@@ -4,13 +4,13 @@ use std::{path::Path, process::Output};
 const NODES: &str = r"//! Nodes.
 use apex_rt::prelude::*;
 
-/// Says one.
+/// Sends one.
 #[node]
 pub fn one() -> u32 {
     1
 }
 
-/// Hears something.
+/// Takes tokens.
 #[node]
 #[derive(Default)]
 pub struct Ear;

@@ -1,4 +1,4 @@
-//! Nothing is built twice, and commands that run at once do not get into each other's way.
+//! Nothing is built twice, and concurrent commands do not disturb each other.
 
 use crate::{
     MADE, TARGET, cargo,
@@ -14,7 +14,7 @@ use std::{
 
 const NODES: &str = "\
 use apex_rt::prelude::*;
-/// Says a word.
+/// Prints a word.
 #[node]
 pub struct Say {
     #[param(default = String::new())]
@@ -29,12 +29,12 @@ impl Say {
 }
 ";
 
-/// A robot that says a word and ends.
+/// A robot that prints a word and ends.
 fn robot(name: &str, word: &str) -> String {
     format!("robot {name} {{\n    node say = Say(word = \"{word}\");\n    say -> exit;\n}}\n\n")
 }
 
-/// A text with a robot, and with a test that is called as all others are.
+/// A source file with a robot, and with a test that has the same name in all source files.
 fn text(name: &str, word: &str) -> String {
     let robot = robot(name, word);
     format!(
@@ -54,18 +54,18 @@ fn ended(child: Child) -> (Option<i32>, String, String) {
     (output.status.code(), String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output))
 }
 
-/// What a command said of its building. That it waited for a test that runs beside it does not count.
+/// Output of a command about its build, without the messages about waiting for other tests.
 fn of_building((code, said, errors): (Option<i32>, String, String)) -> (Option<i32>, String, String) {
     let waits = |line: &&str| line.starts_with("waiting for another") || line.contains("Blocking waiting");
     (code, said, errors.lines().filter(|line| !waits(line)).map(|line| format!("{line}\n")).collect())
 }
 
-/// The crates that were compiled, by what is said of it.
+/// Names of the compiled crates in the output.
 fn compiled(said: &str) -> Vec<&str> {
     said.lines().filter_map(|line| line.trim_start().strip_prefix("Compiling ")?.split(' ').next()).collect()
 }
 
-/// Paths as they are found in the world, some of which differ in one sign only.
+/// Realistic paths, some of which differ in one character only.
 const PATHS: [&str; 7] = [
     "foo-bar/robot.afg",
     "foo_bar/robot.afg",
@@ -76,7 +76,8 @@ const PATHS: [&str; 7] = [
     "\u{7f}\u{a0}/robot.afg",
 ];
 
-/// Seven texts with a robot and a test of the same name each, and two robots whose names differ in case, all at once.
+/// Seven source files, each with a robot and a test of the same name, and two robots whose names differ in case, all at
+/// once.
 #[test]
 fn each_command_runs_its_own_program() {
     let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -99,14 +100,14 @@ fn each_command_runs_its_own_program() {
         let (code, said, errors) = ended(child);
         assert_eq!((code, said.as_str()), (Some(0), word.as_str()), "{errors}");
     }
-    // What has been built is not built again, and nothing is said.
-    // The last path has a control character, which cargo's notes about files cannot name: that one is built each time.
+    // Finished builds are not repeated, and nothing is reported. The last path has a control character, which cargo's
+    // dep-info files cannot represent: that one is built each time.
     for (i, file) in files[..files.len() - 1].iter().enumerate() {
         assert_eq!(of_building(ended(started(&["run"], file))), (Some(0), format!("I am {i}\n"), String::new()));
     }
 }
 
-/// Packages whose paths differ in one sign have nodes of their own.
+/// Packages whose paths differ in one character have their own nodes.
 #[test]
 fn each_package_has_its_own_nodes() {
     let folder = Folder::new("together-nodes");
@@ -136,7 +137,7 @@ fn each_package_has_its_own_nodes() {
     }
 }
 
-/// What `cargo build` has built is used: the program as it is, and for tests all but the crate with the tests.
+/// Results of `cargo build` are used: the program itself, and for tests all but the crate with the tests.
 #[test]
 fn nothing_is_built_twice() {
     let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -157,7 +158,7 @@ fn nothing_is_built_twice() {
     let (code, said, errors) = ended(started(&["test"], &file));
     assert!(code == Some(0) && said.contains("1 passed"), "{said}{errors}");
     assert_eq!(compiled(&errors), ["once"], "{errors}");
-    // A text that no Rust names: its package, and what is made for it, are all that is new.
+    // A source file that no Rust code compiles: only its package and the package made for it are built.
     for (command, what) in [(&["test"][..], "apex-test-other-"), (&["run", "--robot", "Other"], "apex-run-other-")] {
         let (code, _, errors) = ended(started(command, &other));
         let crates = compiled(&errors);
@@ -170,7 +171,7 @@ fn nothing_is_built_twice() {
     }
 }
 
-/// The second of two commands says that it waits, unless it is to be quiet.
+/// The second of two commands reports that it waits, unless it is quiet.
 #[test]
 fn a_command_that_waits_says_so() {
     let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -192,7 +193,7 @@ fn a_command_that_waits_says_so() {
     assert_eq!((code, said.as_str()), (Some(0), "done\n"), "{rest}");
 }
 
-/// Scripts can tell what went wrong.
+/// Exit codes tell scripts the kind of failure.
 #[test]
 fn exit_codes() {
     let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);

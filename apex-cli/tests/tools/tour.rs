@@ -1,5 +1,5 @@
-//! Follows `docs/tour.md` from its beginning: makes the project, writes what is to be written, runs every command, and
-//! compares what it says with what the page says.
+//! Follows `docs/tour.md` from its beginning: makes the project, writes the code, runs every command, and compares the
+//! output with the page.
 
 use crate::{
     MADE, TARGET, cargo,
@@ -18,22 +18,22 @@ fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")
 }
 
-/// The blocks of the page in their order: the words behind the fence, and the lines.
+/// Blocks of the page in their order: the info string of the fence, and the lines.
 fn blocks(page: &str) -> Vec<(&str, &str)> {
     let fenced = page.split("\n```").skip(1).step_by(2);
     fenced.map(|block| block.split_once('\n').expect("a block has lines")).collect()
 }
 
-/// Who follows the tour.
+/// State of a reader who follows the tour.
 struct Follower {
     folder: PathBuf,
-    /// What the last command said on standard error.
+    /// Standard error of the last command.
     errors: String,
     commands: usize,
 }
 
 impl Follower {
-    /// Runs the commands of a block, and compares what they say.
+    /// Runs the commands of a block, and compares their output.
     fn run(&mut self, block: &str) {
         for part in format!("\n{block}").split("\n$ ").skip(1) {
             let (command, expected) = part.split_once('\n').unwrap_or((part, ""));
@@ -49,7 +49,7 @@ impl Follower {
             let mut lines = said.lines();
             for line in expected.lines() {
                 let real = lines.next().unwrap_or_default();
-                // What takes a time says how long, at the end.
+                // Long operations append their duration.
                 assert!(real == line || real.starts_with(&format!("{line}; finished in")), "{command}: {said}");
             }
             let rest: String = lines.collect();
@@ -71,7 +71,7 @@ impl Follower {
         String::from_utf8(output.stdout).unwrap()
     }
 
-    /// What `apex check` says of a text.
+    /// Diagnostics of `apex check` for a source file.
     fn messages(&mut self, text: &str) -> String {
         fs::write(self.folder.join("near.afg"), text).unwrap();
         let output = apex().args(["check", "near.afg"]).current_dir(&self.folder).output().unwrap();
@@ -108,7 +108,7 @@ fn the_tour_can_be_followed() {
     the_project_is_as_it_should_be(&mut follower);
 }
 
-/// With `APEX_UPDATE_EXPECTATIONS=1` the picture of the page is written anew.
+/// `APEX_UPDATE_EXPECTATIONS=1` writes the picture of the page again.
 fn the_picture_is_the_one_that_was_drawn(project: &Path) {
     let (drawn, shown) = (project.join("picture.svg"), docs().join("images/rover.svg"));
     if env::var_os("APEX_UPDATE_EXPECTATIONS").is_some() {
@@ -118,7 +118,7 @@ fn the_picture_is_the_one_that_was_drawn(project: &Path) {
     assert!(same, "docs/images/rover.svg is another picture: APEX_UPDATE_EXPECTATIONS=1 writes it anew");
 }
 
-/// What `apex new` made: in style, without warnings, with nothing left to be filled in; `apex run` runs its program.
+/// The project of `apex new` is formatted, has no warnings and no placeholders; `apex run` runs its program.
 fn the_project_is_as_it_should_be(follower: &mut Follower) {
     for file in ["Cargo.toml", "README.md", ".gitignore", "robot.afg", "src/lib.rs", "src/main.rs", "world.txt"] {
         let text = fs::read_to_string(follower.folder.join(file)).unwrap();

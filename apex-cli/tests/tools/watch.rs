@@ -1,4 +1,4 @@
-//! A program that follows its text. What is waited for is a line, never a time.
+//! A program that is rebuilt after changes. The tests wait for lines, never for a time.
 
 use crate::{
     MADE, TARGET,
@@ -28,17 +28,17 @@ impl Watched {
         Self { child, output, errors }
     }
 
-    /// Reads until the program says this line.
+    /// Reads until the program prints this line.
     fn until(&mut self, line: &str) {
         assert!(self.output.by_ref().any(|l| l.unwrap() == line), "`{line}` never came");
     }
 
-    /// Reads what it complains of, until a line has this in it.
+    /// Reads error messages until a line contains `part`.
     fn until_error(&mut self, part: &str) {
         assert!(self.errors.by_ref().any(|l| l.unwrap().contains(part)), "`{part}` never came");
     }
 
-    /// Asks it to end; the program ends too, or its output would not.
+    /// Sends `SIGTERM`. The program must end too; otherwise its output would stay open.
     #[cfg(unix)]
     fn end(mut self) {
         assert!(Command::new("kill").arg(self.child.id().to_string()).status().unwrap().success());
@@ -49,7 +49,7 @@ impl Watched {
 
 const NODES: &str = "\
 use apex_rt::prelude::*;
-/// Says its parameters.
+/// Prints its parameters.
 #[node]
 pub struct Speaker {
     #[param(default = String::from(\"none\"))]
@@ -70,7 +70,7 @@ impl Speaker {
 pub fn nine() -> u8 { 9 }
 ";
 
-/// A speaker of its own pace.
+/// A speaker with a period.
 fn text(arguments: &str) -> String {
     format!("graph Robot {{\n    node speaker = Speaker({arguments}) every 20ms;\n}}\n")
 }
@@ -92,13 +92,13 @@ fn the_program_follows_its_text_and_keeps_what_it_changed() {
     folder.file("robot.afg", SET);
     watched.until("one 9 1");
 
-    // What it changed itself is kept, what the text says is taken, and so it is in Rust.
+    // Values that the program changed are kept, values from the source file are taken, also after changes in Rust.
     folder.file("robot.afg", text("word = \"two\", pace = 2"));
     watched.until("two 9 2");
     folder.file("src/lib.rs", NODES.replace("{} {} {}", "<{} {} {}>"));
     watched.until("<two 9 2>");
 
-    // Errors leave it running.
+    // Errors do not stop the running program.
     folder.file("robot.afg", text("word = \"three\", pase = 3"));
     watched.until_error("error[unknown-argument]");
     watched.until_error("the previous program keeps running");
@@ -108,7 +108,7 @@ fn the_program_follows_its_text_and_keeps_what_it_changed() {
     watched.until_error("the previous program keeps running");
     watched.until("<two 9 2>");
 
-    // A volume that the text names is no longer the one that was kept.
+    // A volume in the source file replaces the one that was kept.
     folder.file("src/lib.rs", NODES);
     folder.file("robot.afg", text("word = \"four\", volume = 5"));
     watched.until("four 5 1");
@@ -116,7 +116,7 @@ fn the_program_follows_its_text_and_keeps_what_it_changed() {
     assert!(folder.0.join("robot.afg").exists());
 }
 
-/// A program of one's own is restarted too, and one that has ended is started again by a change.
+/// The package's own program is also restarted after a change, even if it has ended.
 #[cfg(unix)]
 #[test]
 fn a_program_of_its_own_is_restarted() {

@@ -1,4 +1,4 @@
-//! Items in layers. A line that goes further than to the next layer, or back, has a bend in each layer that it passes.
+//! Assigns items to layers. A line that skips layers or goes backwards has a bend in each layer between its ends.
 
 use super::{
     Placed, SMALL, cycles,
@@ -9,40 +9,41 @@ use super::{
 use crate::model::{Anchor, Flow, Frame, Item, Line, Side};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Distance between the rows of slots and events.
+/// Distance between the rows of slots and events, in pixels.
 pub const ROW: i64 = 11;
-/// Distance between the nearest row and its box.
+/// Distance between the nearest row and its box, in pixels.
 pub const CLEAR: i64 = 14;
 
-/// A place in a layer.
+/// An item, port, bend or label in a layer.
 #[derive(Debug, Clone)]
 pub struct Cell {
     pub role: Role,
     pub layer: usize,
-    /// What hangs together has one number.
+    /// Number of the connected part of the graph.
     pub part: usize,
     pub size: (i64, i64),
-    /// Ends of lines at the left, from top to bottom; the first `slots` of them in the rows above the box.
+    /// Ends of lines on the left, from top to bottom. The first `slots` of them are in the rows above the box.
     pub left: Vec<usize>,
     pub slots: usize,
-    /// Ends of lines at the right, from top to bottom; the first `outputs` of them beside the box, others in the rows below.
+    /// Ends of lines on the right, from top to bottom. The first `outputs` of them are beside the box, the others in
+    /// the rows below.
     pub right: Vec<usize>,
     pub outputs: usize,
-    /// Where they are, from the upper side of the cell.
+    /// Vertical positions of the ends on the left, relative to the top of the cell.
     pub left_at: Vec<i64>,
     pub right_at: Vec<i64>,
-    /// Whether ends of one side may change places.
+    /// `true` if ends on the same side may be reordered.
     pub free: bool,
 }
 
-/// What a cell is.
+/// Role of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     Item(usize),
-    /// A port of the frame.
+    /// Port of the frame.
     Pin(usize),
     Bend,
-    /// A label, by its number; a line passes below it.
+    /// Label, by its number; a line passes below it.
     Label(usize),
 }
 
@@ -50,36 +51,36 @@ pub enum Role {
 #[derive(Debug, Clone, Copy)]
 pub struct Term {
     pub cell: usize,
-    /// The port of the item or frame.
+    /// Port of the item or frame.
     pub port: usize,
 }
 
-/// A piece of a line between a layer and the next one. Both ends may be in the same layer, where a line turns.
+/// A piece of a line between two neighbouring layers. Both ends are in the same layer where a line turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Link {
-    /// The layer at the left.
+    /// Left layer.
     pub gap: usize,
-    /// The lines that begin together.
+    /// Number of the net: lines with a common start.
     pub net: usize,
     pub from: usize,
     pub to: usize,
 }
 
-/// The cells of a frame.
+/// Cells of a frame.
 #[derive(Debug, Clone)]
 pub struct Cells {
     pub cells: Vec<Cell>,
     pub terms: Vec<Term>,
-    /// The cells of each layer, from top to bottom.
+    /// Cells of each layer, from top to bottom.
     pub layers: Vec<Vec<usize>>,
     pub links: Vec<Link>,
-    /// The pieces of each line.
+    /// Pieces of each line.
     pub paths: Vec<Vec<Link>>,
-    /// The items, with their ports in the order of the model.
+    /// Items, with their ports in the order of the model.
     pub placed: Vec<Placed>,
-    /// What stands at lines.
+    /// Labels of lines.
     pub labels: Vec<String>,
-    /// The ends of lines at ports.
+    /// End of a line at each port.
     ends: BTreeMap<Anchor, usize>,
     bends: BTreeMap<Bend, usize>,
 }
@@ -182,7 +183,7 @@ impl Cells {
         cell.right_at = vec![y; cell.right.len()];
     }
 
-    /// Numbers what hangs together in the order of the model.
+    /// Numbers the connected parts in the order of the model.
     fn find_parts(&mut self, frame: &Frame) {
         let mut part: Vec<usize> = (0..self.cells.len()).collect();
         fn top(part: &[usize], mut cell: usize) -> usize {
@@ -244,7 +245,7 @@ impl Cells {
         path
     }
 
-    /// The bend of a net in a layer; there is one for all of its lines.
+    /// Bend of a net in a layer, which all lines of the net share.
     fn bend(&mut self, bend: Bend, part: usize, label: Option<&String>) -> usize {
         if let Some(&known) = self.bends.get(&bend) {
             return known;
@@ -264,7 +265,7 @@ impl Cells {
         cell
     }
 
-    /// Where an end is, from the upper side of its cell.
+    /// Vertical position of an end, relative to the top of its cell.
     pub fn offset(&self, term: usize) -> i64 {
         let cell = &self.cells[self.terms[term].cell];
         match cell.left.iter().position(|t| *t == term) {
@@ -273,7 +274,7 @@ impl Cells {
         }
     }
 
-    /// The layer of an end.
+    /// Layer of an end.
     pub fn layer(&self, term: usize) -> usize {
         self.cells[self.terms[term].cell].layer
     }

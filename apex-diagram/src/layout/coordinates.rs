@@ -1,4 +1,4 @@
-//! How far down each cell stands: lines as straight as they can be.
+//! Vertical positions of cells, with lines as straight as possible.
 
 use super::{
     cells::{Cell, Cells, ROW, Role},
@@ -6,7 +6,7 @@ use super::{
 };
 use std::collections::BTreeSet;
 
-/// The upper side of each cell. The ends in `apart` are not at one height.
+/// Top of each cell. The ends in each pair of `apart` get different heights.
 pub fn heights(cells: &Cells, apart: &[(usize, usize)]) -> Vec<i64> {
     let mut arcs = vec![];
     for layer in &cells.layers {
@@ -27,7 +27,8 @@ pub fn heights(cells: &Cells, apart: &[(usize, usize)]) -> Vec<i64> {
         if a.0 == b.0 {
             continue;
         }
-        // Something above both ends, and as close to both as it can be.
+        // An auxiliary variable above both ends and as close to both as possible: its distances measure the bend of the
+        // line.
         let weight = weight(&cells.cells[a.0], &cells.cells[b.0]);
         for (cell, offset) in [a, b] {
             arcs.push(Arc { from: count, to: cell, min: -offset, weight });
@@ -39,7 +40,7 @@ pub fn heights(cells: &Cells, apart: &[(usize, usize)]) -> Vec<i64> {
     (0..cells.cells.len()).map(|cell| solved[cell] - least).collect()
 }
 
-/// Whether arcs lead from one cell to another.
+/// `true` if arcs lead from one cell to another.
 fn leads(arcs: &[Arc], from: usize, to: usize) -> bool {
     let mut found = BTreeSet::from([from]);
     let mut open = vec![from];
@@ -49,7 +50,7 @@ fn leads(arcs: &[Arc], from: usize, to: usize) -> bool {
     found.contains(&to)
 }
 
-/// Free room between two neighbours.
+/// Minimum distance between two neighbours.
 fn distance(upper: &Cell, lower: &Cell) -> i64 {
     match (upper.role, lower.role) {
         (Role::Bend, Role::Bend) => ROW,

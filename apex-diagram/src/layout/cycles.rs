@@ -1,9 +1,10 @@
-//! Which lines lead back, and in which layer each item stands.
+//! Backward lines, and the layer of each item.
 
 use super::simplex::{Arc, solve};
 use crate::model::{Anchor, Frame, Line, Shape};
 
-/// The layer of each item, from 1, and the number of the last layer, which belongs to the ports of the frame, as layer 0 does.
+/// Layer of each item, counted from 1, and the number of the last layer. The first layer (0) and the last one contain
+/// the ports of the frame.
 pub fn layers(frame: &Frame) -> (Vec<usize>, usize) {
     let back = leading_back(frame);
     let (first, last) = (frame.items.len(), frame.items.len() + 1);
@@ -11,7 +12,7 @@ pub fn layers(frame: &Frame) -> (Vec<usize>, usize) {
     for (line, is_back) in frame.lines.iter().zip(back) {
         let (from, to) = (line.from.item().unwrap_or(first), line.to.item().unwrap_or(last));
         let (from, to) = if is_back { (to, from) } else { (from, to) };
-        // A label has a layer of its own.
+        // A label needs a layer of its own.
         let min = if line.label.is_empty() { 1 } else { 2 };
         let weight = if from == first || to == last { 1 } else { 2 };
         if from != to {
@@ -27,7 +28,7 @@ pub fn layers(frame: &Frame) -> (Vec<usize>, usize) {
     ((0..frame.items.len()).map(layer).collect(), layer(last))
 }
 
-/// The lines that close a circle where the graph is walked from its entries on.
+/// For each line, `true` if it closes a cycle in a walk from the entries of the graph.
 fn leading_back(frame: &Frame) -> Vec<bool> {
     let count = frame.items.len();
     let mut leaving: Vec<Vec<usize>> = vec![vec![]; count];
@@ -66,7 +67,7 @@ enum Visit {
     Done,
 }
 
-/// Depth first, without recursion.
+/// Walks depth first, without recursion, and marks backward lines.
 fn walk(root: usize, lines: &[Line], leaving: &[Vec<usize>], state: &mut [Visit], back: &mut [bool]) {
     if state[root] != Visit::New {
         return;

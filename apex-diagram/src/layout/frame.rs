@@ -1,4 +1,4 @@
-//! An item with a frame inside: its cells are ordered, get heights and widths, and lines between them.
+//! Layout of an item with a frame: orders its cells, assigns positions and sizes, and routes lines.
 
 use super::{
     Align, NAME, Placed, Point, SMALL, TYPE, Text,
@@ -8,14 +8,14 @@ use super::{
 };
 use crate::model::{Frame, Item, Side};
 
-/// Room between the border and what is inside.
+/// Distance between the outline and the contents.
 const PAD: i64 = 14;
-/// How often heights are changed because lines would lie on each other.
+/// Maximum number of rounds that separate overlapping lines.
 const ROUNDS: usize = 6;
 /// Distance between lines that lead from the top or to the bottom of a frame.
 const STAIR: i64 = 9;
 
-/// An item whose inside is `frame`.
+/// Layout of an item that contains `frame`.
 pub fn place(item: &Item, frame: &Frame) -> Placed {
     let mut cells = Cells::new(item, frame);
     order::order(&mut cells, &|port| item.ports[port].side);
@@ -30,7 +30,7 @@ pub fn place(item: &Item, frame: &Frame) -> Placed {
     layout.placed
 }
 
-/// The upper side of each cell and what is between the layers. Where lines would lie on each other, once more.
+/// Top of each cell, and the gaps between the layers. Repeated while lines would overlap.
 fn heights(cells: &Cells, top: i64) -> (Vec<i64>, Vec<Gap>) {
     let mut apart = vec![];
     for round in 0..=ROUNDS {
@@ -63,7 +63,7 @@ struct Layout<'a> {
     item: &'a Item,
     frame: &'a Frame,
     cells: &'a Cells,
-    /// The upper side of each cell.
+    /// Top of each cell.
     y: Vec<i64>,
     gaps: Vec<Gap>,
     /// Left and right side of each layer.
@@ -72,7 +72,7 @@ struct Layout<'a> {
 }
 
 impl Layout<'_> {
-    /// Ports of the frame at a side, from top to bottom.
+    /// Ports of the frame on a side, from top to bottom.
     fn pins_at(&self, side: Side) -> Vec<(usize, usize)> {
         let column = if matches!(side, Side::Left | Side::Top) { 0 } else { self.cells.layers.len() - 1 };
         let pins = self.cells.layers[column].iter().filter_map(|&cell| match self.cells.cells[cell].role {
@@ -82,7 +82,7 @@ impl Layout<'_> {
         pins.collect()
     }
 
-    /// Where the layers stand, and how large all of it is.
+    /// Assigns horizontal positions to the layers, and sizes to the frame.
     fn columns(&mut self) {
         let mut x = 0;
         let last = self.cells.layers.len() - 1;
@@ -108,7 +108,7 @@ impl Layout<'_> {
         self.placed.size = (x, bottom + PAD);
     }
 
-    /// Lines from slots at the top pass at the left of the title.
+    /// Left end of the title. Lines from slots at the top pass to the left of it.
     fn title_x(&self) -> i64 {
         let slots = self.pins_at(Side::Top).len() as i64;
         if slots == 0 { 8 } else { 6 + (slots + 1) * STAIR }
@@ -131,12 +131,12 @@ impl Layout<'_> {
         self.placed.texts = self.title_texts();
     }
 
-    /// The height of an end.
+    /// Vertical position of an end.
     fn height(&self, term: usize) -> i64 {
         self.y[self.cells.terms[term].cell] + self.cells.offset(term)
     }
 
-    /// Ports of the frame with their names above their lines.
+    /// Places the ports of the frame, with their names above their lines.
     fn pins(&mut self) {
         let (width, height) = self.placed.size;
         for side in [Side::Left, Side::Top, Side::Right, Side::Bottom] {
@@ -144,7 +144,8 @@ impl Layout<'_> {
             let count = pins.len() as i64;
             for (rank, (cell, port)) in pins.into_iter().enumerate() {
                 let y = self.y[cell] + 13;
-                // The uppermost is the one next to the inside, or to the border.
+                // The line of the uppermost port is next to the contents at the top, and next to the outline at the
+                // bottom.
                 let stair = (count - rank as i64) * STAIR;
                 let (at, text) = match side {
                     Side::Left => ((0, y), (5, Align::Begin)),
@@ -166,7 +167,7 @@ impl Layout<'_> {
 
     fn items(&mut self) {
         for (index, item) in self.frame.items.iter().enumerate() {
-            // Items come first, in their order.
+            // The first cells are the items, in their order.
             let cell = &self.cells.cells[index];
             let ports = |terms: &[usize]| -> Vec<usize> { terms.iter().map(|t| self.cells.terms[*t].port).collect() };
             let mut placed = if item.inside.is_some() {
@@ -198,7 +199,7 @@ impl Layout<'_> {
         }
     }
 
-    /// The points from the port of an end to the side of its layer.
+    /// Points from the port of an end to the side of its layer.
     fn way_out(&self, term: usize) -> Vec<Point> {
         let at = self.cells.terms[term];
         let y = self.height(term);
@@ -236,7 +237,7 @@ impl Layout<'_> {
     }
 }
 
-/// `first`, then what else there is.
+/// `first`, then all other ports.
 fn completed(first: Vec<usize>, all: &[usize]) -> Vec<usize> {
     let more: Vec<usize> = all.iter().copied().filter(|p| !first.contains(p)).collect();
     first.into_iter().chain(more).collect()

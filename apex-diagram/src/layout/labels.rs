@@ -1,4 +1,4 @@
-//! What stands at lines. A long way says at its beginning where it leads, and at its end where it comes from.
+//! Labels of lines. A long line is labelled with its target at the start, and with its source at the end.
 
 use crate::{
     model::{Anchor, Frame, Item},
@@ -6,35 +6,35 @@ use crate::{
 };
 use std::collections::BTreeMap;
 
-/// A line that passes so many layers between those of its ends is long.
+/// Minimum number of layers that a long line passes between its ends.
 const LONG: usize = 3;
-/// Longest label, in characters.
+/// Maximum length of a label in characters.
 const LONGEST: usize = 26;
 
-/// A bend: its net, whether that goes back, its layer.
+/// A bend: its net, `true` for a backward line, and its layer.
 pub type Bend = (usize, bool, usize);
 
-/// What stands at bends.
+/// Labels of bends.
 pub type Labels = BTreeMap<Bend, String>;
 
-/// The way of a line over layers.
+/// Path of a line through layers.
 pub struct Way {
-    /// The lines that begin together.
+    /// Number of the net: lines with a common start.
     pub net: usize,
-    /// Its ends.
+    /// Ends of the line.
     pub from: usize,
     pub to: usize,
-    /// It goes from right to left.
+    /// `true` for a backward line, from right to left.
     pub back: bool,
-    /// The layers in which it bends.
+    /// Layers in which the line bends.
     pub passed: Vec<usize>,
-    /// The layer for its own label.
+    /// Layer of the line's own label.
     pub labelled: usize,
-    /// The layer of its end.
+    /// Layer of its end.
     pub end: usize,
 }
 
-/// The labels of all lines of a frame, whose ways are given in the same order.
+/// Labels of all lines of a frame. `ways` has the same order as the lines.
 pub fn labels(around: &Item, frame: &Frame, ways: &[Way]) -> Labels {
     let mut labels = Labels::new();
     let mut targets: BTreeMap<Bend, Vec<String>> = BTreeMap::new();
@@ -45,7 +45,7 @@ pub fn labels(around: &Item, frame: &Frame, ways: &[Way]) -> Labels {
             labels.insert(bend(way.labelled), line.label.clone());
         }
         let (Some(&first), Some(&last)) = (way.passed.first(), way.passed.last()) else { continue };
-        // A way back bends in the layers of its ends, too.
+        // A backward line also bends in the layers of its ends.
         if way.passed.len() < LONG + if way.back { 2 } else { 0 } {
             continue;
         }
@@ -70,7 +70,7 @@ pub fn labels(around: &Item, frame: &Frame, ways: &[Way]) -> Labels {
     labels
 }
 
-/// An end as the text has it: `node.port`.
+/// End of a line in the notation of the language: `node.port`.
 fn name(around: &Item, frame: &Frame, end: Anchor) -> String {
     match end {
         Anchor::Own(port) => around.ports[port].name.clone(),

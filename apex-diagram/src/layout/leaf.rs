@@ -1,4 +1,4 @@
-//! A box without anything inside: its size, its texts, its ports.
+//! Layout of a box without contents: size, texts and ports.
 
 use super::{Align, NAME, Placed, Point, SMALL, TYPE, Text, wide};
 use crate::{
@@ -11,7 +11,8 @@ const ROW: i64 = 15;
 /// Diameter of a dot.
 const DOT: i64 = 14;
 
-/// The ports of an item from top to bottom. At the top and bottom sides that is from right to left, so that the lines do not cross.
+/// Ports of an item, from top to bottom. At the top and the bottom side their order is from right to left, so that
+/// lines do not cross.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sides {
     pub slots: Vec<usize>,
@@ -21,7 +22,7 @@ pub struct Sides {
 }
 
 impl Sides {
-    /// In the order of the model.
+    /// Ports in the order of the model.
     pub fn of(item: &Item) -> Self {
         let reversed = |side| item.at(side).into_iter().rev().collect();
         Self {
@@ -32,7 +33,7 @@ impl Sides {
         }
     }
 
-    /// With these ports before all others of their sides.
+    /// Moves these ports before all others of their sides.
     pub fn first(mut self, these: &dyn Fn(&usize) -> bool) -> Self {
         for ports in [&mut self.slots, &mut self.left, &mut self.right, &mut self.events] {
             ports.sort_by_key(|port| !these(port));
@@ -41,7 +42,7 @@ impl Sides {
     }
 }
 
-/// A box with its ports in this order.
+/// Layout of a box with its ports in this order.
 pub fn place(item: &Item, sides: &Sides) -> Placed {
     if !matches!(item.shape, Shape::Node | Shape::State) {
         return dot(item);
@@ -64,7 +65,7 @@ pub fn place(item: &Item, sides: &Sides) -> Placed {
     Placed { at: (0, 0), size: made.size, texts: made.texts, ports: made.ports, items: vec![], routes: vec![] }
 }
 
-/// A dot; its name stands at the side where no line is, unless it is the start.
+/// Layout of a dot. Its name is on the side without a line; a start dot has no name.
 fn dot(item: &Item) -> Placed {
     let mut placed = Placed {
         at: (0, 0),
@@ -104,12 +105,12 @@ impl Box<'_> {
         &self.item.ports[port].name
     }
 
-    /// Whether ports at the left and the right have names.
+    /// `true` if a port on the left or the right has a name.
     fn is_named(&self) -> bool {
         self.sides.left.iter().chain(&self.sides.right).any(|p| !self.name(*p).is_empty())
     }
 
-    /// Room for a port at the top or the bottom.
+    /// Width that a port at the top or the bottom needs.
     fn share(&self, port: usize) -> i64 {
         (wide(self.name(port), SMALL) + 10).max(16)
     }
@@ -121,11 +122,11 @@ impl Box<'_> {
         let header = self.item.words.iter().map(|w| wide(w, TYPE)).max().unwrap_or(0);
         let header = header.max(text::bold_width(&self.item.name, NAME as f64).ceil() as i64) + 20;
         let width = [rows, header, across(&self.sides.slots), across(&self.sides.events), 44];
-        // Even, so that the middle is a pixel.
+        // An even width, so that the middle is on a pixel.
         (width.into_iter().max().unwrap_or(0) + 1) / 2 * 2
     }
 
-    /// Ports at the top (`y` is 0) or the bottom, with their names inside; gives the end of the row.
+    /// Places ports at the top (`y` is 0) or the bottom, with their names inside. Returns the end of the row.
     fn row_across(&mut self, ports: &[usize], y: i64) -> i64 {
         let total: i64 = ports.iter().map(|p| self.share(*p)).sum();
         let mut right = (self.size.0 + total) / 2;
@@ -143,7 +144,7 @@ impl Box<'_> {
         if has_names { y + ROW } else { y }
     }
 
-    /// Name, type and the like; gives the end of it.
+    /// Places the name, the type and other texts. Returns the end of the header.
     fn header(&mut self, y: i64) -> i64 {
         let middle = self.size.0 / 2;
         let mut y = y + NAME;
@@ -156,7 +157,8 @@ impl Box<'_> {
         y + 4
     }
 
-    /// Ports at the left and the right, in rows below the header; without names they are spread over the height.
+    /// Places ports on the left and the right, in rows below the header. Without names, the ports are distributed over
+    /// the height.
     fn rows(&mut self, top: i64, header: i64) -> i64 {
         let sides = self.sides;
         let count = sides.left.len().max(sides.right.len()) as i64;

@@ -1,8 +1,9 @@
-//! Coordinates for a model. Boxes stand in layers from left to right (Sugiyama, Tagawa, Toda: Methods for visual understanding of
-//! hierarchical system structures, 1981); what is nested is laid out first, and is one big box then.
+//! Coordinates for a model. Boxes are in layers from left to right (Sugiyama, Tagawa, Toda: Methods for visual
+//! understanding of hierarchical system structures, 1981). Nested frames are laid out first; each then counts as one
+//! large box.
 //!
-//! Slots and events stand at the top and the bottom of a box, but their lines go to the left and to the right: each has a row above or
-//! below the box. With its rows, a box has ends of lines on two sides only.
+//! Slots and events are at the top and the bottom of a box, but their lines lead to the left and to the right: each has
+//! a row above or below the box. With its rows, a box has ends of lines on two sides only.
 
 mod cells;
 mod coordinates;
@@ -22,50 +23,50 @@ use crate::{model::Item, text};
 /// A point, in pixels to the right and down.
 pub type Point = (i64, i64);
 
-/// An item with its place.
+/// An item with its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Placed {
-    /// Its upper left corner, in the item around it.
+    /// Upper left corner, relative to the enclosing item.
     pub at: Point,
-    /// Its width and height.
+    /// Width and height.
     pub size: Point,
-    /// What is written in it.
+    /// Texts.
     pub texts: Vec<Text>,
-    /// The points of its ports, from its corner, in the order of the model.
+    /// Positions of the ports relative to the corner, in the order of the model.
     pub ports: Vec<Point>,
-    /// What is inside, from its corner, in the order of the model.
+    /// Nested items, with positions relative to the corner, in the order of the model.
     pub items: Vec<Placed>,
-    /// The lines inside, from its corner, in the order of the model.
+    /// Points of the lines inside, relative to the corner, in the order of the model.
     pub routes: Vec<Vec<Point>>,
 }
 
 /// A line of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Text {
-    /// Where it begins, ends or has its middle; its base line.
+    /// Start, middle or end of the base line.
     pub at: Point,
-    /// What comes first, in bold.
+    /// First part, in bold.
     pub bold: String,
     /// The rest.
     pub plain: String,
-    /// Size of the font.
+    /// Font size in pixels.
     pub size: i64,
-    /// Which end of it is at `at`.
+    /// Alignment at `at`.
     pub align: Align,
 }
 
-/// How a text stands at its point.
+/// Alignment of a text at its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
-    /// It begins there.
+    /// The text begins at the point.
     Begin,
-    /// It has its middle there.
+    /// The middle of the text is at the point.
     Middle,
     /// It ends there.
     PortId,
 }
 
-/// Sizes of fonts: names, types, ports.
+/// Font sizes of names, types and ports.
 const NAME: i64 = 12;
 const TYPE: i64 = 11;
 const SMALL: i64 = 10;
@@ -75,12 +76,12 @@ impl Text {
         Self { at, bold: String::new(), plain: words.to_owned(), size, align }
     }
 
-    /// The room that it takes at most.
+    /// Upper bound of the width.
     pub fn width(&self) -> i64 {
         wide(&self.plain, self.size) + (text::bold_width(&self.bold, self.size as f64)).ceil() as i64
     }
 
-    /// Left, top, right, bottom.
+    /// Left, top, right and bottom.
     pub fn bounds(&self) -> (i64, i64, i64, i64) {
         let left = match self.align {
             Align::Begin => self.at.0,
@@ -95,7 +96,7 @@ fn wide(words: &str, size: i64) -> i64 {
     text::width(words, size as f64).ceil() as i64
 }
 
-/// Gives an item and all that is in it a place.
+/// Lays out an item and all items in it.
 pub fn place(item: &Item) -> Placed {
     match &item.inside {
         Some(frame) => frame::place(item, frame),

@@ -1,14 +1,15 @@
-//! The order in each layer, and of the ports at each side of a box, so that few lines cross: barycentres, then exchanges of neighbours.
+//! Orders the cells of each layer, and the ports on each side of a box, so that few lines cross: barycentres first,
+//! then exchanges of neighbours.
 
 use super::cells::{Cells, Role};
 use crate::model::Side;
 
-/// How often all layers are sorted.
+/// Number of barycentre sweeps.
 const SWEEPS: usize = 24;
-/// How often all neighbours are exchanged.
+/// Maximum number of passes that exchange neighbours.
 const EXCHANGES: usize = 8;
 
-/// Orders the cells. `side` gives the side of a port of the frame.
+/// Orders the cells. `side` returns the side of a port of the frame.
 pub fn order(cells: &mut Cells, side: &dyn Fn(usize) -> Side) {
     let sorter = Sorter::new(cells, side);
     for layer in 0..cells.layers.len() {
@@ -38,11 +39,12 @@ pub fn order(cells: &mut Cells, side: &dyn Fn(usize) -> Side) {
 }
 
 struct Sorter {
-    /// The ends that an end is linked to.
+    /// Ends that are linked to each end.
     linked: Vec<Vec<usize>>,
-    /// The links between two layers.
+    /// Links between neighbouring layers.
     gaps: Vec<Vec<(usize, usize)>>,
-    /// Where cells must stay together: slots before inputs, outputs before events, then by part.
+    /// Class of each cell; cells of one class stay together. Slots are before inputs, outputs before events, then the
+    /// order is by part.
     class: Vec<(usize, usize)>,
 }
 
@@ -71,7 +73,7 @@ impl Sorter {
         cells.layers[layer].sort_by_key(|cell| class[*cell]);
     }
 
-    /// The ends at one side of a layer, numbered from top to bottom.
+    /// Numbers the ends on one side of a layer from top to bottom.
     fn positions(&self, cells: &Cells, layer: usize, right: bool, into: &mut [usize]) {
         let mut next = 0;
         for &cell in &cells.layers[layer] {
@@ -83,7 +85,7 @@ impl Sorter {
         }
     }
 
-    /// Sorts a layer by where its lines lead on one side.
+    /// Sorts a layer by the barycentres of its lines on one side.
     fn sort(&self, cells: &mut Cells, layer: usize, from_left: bool) {
         let other = if from_left { layer.checked_sub(1) } else { Some(layer + 1).filter(|l| *l < cells.layers.len()) };
         let Some(other) = other else { return };
@@ -96,7 +98,8 @@ impl Sorter {
             mean(linked.map(|t| position[*t] as f64))
         };
         let centres: Vec<Option<f64>> = cells.layers[layer].iter().map(|cell| centre(*cell)).collect();
-        // A cell that nothing leads to keeps its place among those of its layer, or stands beside the one that it belongs to.
+        // A cell without lines to that side keeps its position in the layer, or moves beside the cell that it is linked
+        // to.
         let own = &cells.layers[layer];
         let partner = |cell: usize| -> Option<f64> {
             let terms = cells.cells[cell].left.iter().chain(&cells.cells[cell].right);
@@ -115,7 +118,7 @@ impl Sorter {
         cells.layers[layer] = keyed.into_iter().map(|(_, _, cell)| cell).collect();
     }
 
-    /// Sorts the ports at one side of the boxes of a layer.
+    /// Sorts the ports on one side of the boxes of a layer.
     fn sort_ports(&self, cells: &mut Cells, layer: usize, left: bool) {
         let mut position = vec![0; cells.terms.len()];
         if let Some(other) = if left { layer.checked_sub(1) } else { Some(layer + 1) }
@@ -133,7 +136,7 @@ impl Sorter {
             let towards = |term: usize| -> f64 {
                 let centres = self.linked[term].iter().map(|t| match cells.layer(*t) {
                     other if other != layer => position[*t] as f64,
-                    // A line that turns goes around the box.
+                    // A line that turns leads around the box.
                     _ => {
                         let turn = cells.layers[layer].iter().position(|c| *c == cells.terms[*t].cell);
                         if turn.is_some_and(|turn| turn < at) { -1e6 } else { 1e6 }
@@ -154,7 +157,7 @@ impl Sorter {
         (0..cells.layers.len()).map(|gap| self.crossings_of(cells, gap)).sum()
     }
 
-    /// How many lines cross between a layer and the next one.
+    /// Number of crossings between a layer and the next one.
     fn crossings_of(&self, cells: &Cells, gap: usize) -> usize {
         let mut position = vec![0; cells.terms.len()];
         self.positions(cells, gap, true, &mut position);
@@ -187,7 +190,7 @@ impl Sorter {
         count
     }
 
-    /// Exchanges neighbours where that saves crossings; says whether it did.
+    /// Exchanges neighbours if that saves crossings. Returns `true` if it did.
     fn exchange(&self, cells: &mut Cells) -> bool {
         let mut better = false;
         for layer in 0..cells.layers.len() {

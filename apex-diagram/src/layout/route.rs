@@ -1,27 +1,28 @@
-//! Lines between layers: horizontal pieces at the height of their ends, and one vertical piece for each net, on a track of its own.
+//! Routes lines between layers: horizontal pieces at the height of their ends, and one vertical piece for each net, on
+//! a track of its own.
 
 use super::{Point, cells::Cells};
 use std::collections::BTreeMap;
 
 /// Distance between tracks.
 const TRACK: i64 = 9;
-/// Room before the first track, and behind the last one, where arrow heads are.
+/// Distances before the first track and after the last one, where the arrow heads are.
 const BEFORE: i64 = 12;
 const BEHIND: i64 = 18;
-/// Horizontal pieces that are closer than this look like one.
+/// Horizontal pieces at a smaller distance look like one.
 const TOUCHING: i64 = 4;
 
-/// The room between a layer and the next one.
+/// The space between two neighbouring layers.
 pub struct Gap {
-    /// How wide it must be.
+    /// Minimum width.
     pub width: i64,
-    /// Where the vertical piece of a net stands, from the left side of the gap.
+    /// Horizontal position of the vertical piece of each net, relative to the left side of the gap.
     pub tracks: BTreeMap<usize, i64>,
-    /// Ends whose horizontal pieces lie on each other: they must not be at one height.
+    /// Pairs of ends whose horizontal pieces overlap; they need different heights.
     pub hidden: Vec<(usize, usize)>,
 }
 
-/// The vertical piece of a net.
+/// Vertical piece of a net.
 #[derive(Default)]
 struct Piece {
     net: usize,
@@ -48,14 +49,15 @@ impl Piece {
         self.low() - TOUCHING <= other.high() && other.low() - TOUCHING <= self.high()
     }
 
-    /// What it costs if it stands left of `other`: lines that cross, and, much worse, lines that lie on each other.
+    /// Cost of a position left of `other`: crossings, and, with a much higher weight, overlaps.
     fn cost_before(&self, other: &Self) -> usize {
         let crossed = other.lefts.iter().filter(|y| self.spans(**y)).count();
         let crossing = self.rights.iter().filter(|y| other.spans(**y)).count();
         crossed + crossing + 1000 * self.hidden(other).len()
     }
 
-    /// Ends at one height if it stands left of `other`: at its right, and at the left of the other.
+    /// Ends at equal heights on the right of this piece and on the left of `other`, which overlap if this piece is left
+    /// of `other`.
     fn hidden(&self, other: &Self) -> Vec<(usize, usize)> {
         let mut found = vec![];
         for (right, a) in self.rights.iter().zip(&self.right_ends) {
@@ -67,7 +69,7 @@ impl Piece {
     }
 }
 
-/// The gaps behind all layers but the last. `y` gives the height of an end.
+/// Gaps after all layers but the last. `y` returns the vertical position of an end.
 pub fn gaps(cells: &Cells, y: &dyn Fn(usize) -> i64) -> Vec<Gap> {
     let mut pieces: Vec<BTreeMap<usize, Piece>> = cells.layers.iter().map(|_| BTreeMap::new()).collect();
     for link in &cells.links {
@@ -107,14 +109,14 @@ fn gap(pieces: Vec<Piece>) -> Gap {
     Gap { width, tracks, hidden }
 }
 
-/// Pieces from left to right, so that they cost little.
+/// Order of the pieces from left to right with low cost.
 fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
     let cost: Vec<Vec<usize>> = pieces.iter().map(|a| pieces.iter().map(|b| a.cost_before(b)).collect()).collect();
     let gain = |a: usize, b: usize| cost[a][b] as i64 - cost[b][a] as i64;
-    // Each one stands where that costs least among those that are there already.
+    // Inserts each piece at the position with the lowest cost among the pieces before it.
     let mut order: Vec<usize> = vec![];
     for new in 0..pieces.len() {
-        // What it costs to stand before all, and how that changes from place to place.
+        // Cost of the first position, and its change from position to position.
         let (mut change, mut best, mut place) = (0, 0, 0);
         for (at, &old) in order.iter().enumerate() {
             change += gain(old, new);
@@ -140,7 +142,7 @@ fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
     order.into_iter().filter_map(|i| pieces[i].take()).collect()
 }
 
-/// A line without points that say nothing.
+/// Removes repeated and collinear points from a line.
 pub fn simplified(points: Vec<Point>) -> Vec<Point> {
     let mut result: Vec<Point> = vec![];
     for point in points {

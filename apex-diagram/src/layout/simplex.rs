@@ -1,29 +1,29 @@
-//! The network simplex method: numbers that keep distances and make a weighted sum of lengths as small as possible
-//! (Gansner, Koutsofios, North, Vo: A technique for drawing directed graphs, 1993).
+//! Network simplex method: finds numbers that keep minimum distances and minimise a weighted sum of lengths (Gansner,
+//! Koutsofios, North, Vo: A technique for drawing directed graphs, 1993).
 
-/// Most arcs that are looked at. What is found then keeps all distances, but its sum may not be the smallest: that of a graph of
-/// 100 nodes is.
+/// Maximum number of arcs to visit. If it is reached, the result keeps all distances, but its sum may not be minimal. A
+/// graph of 100 nodes stays below it.
 const WORK: usize = 20_000_000;
 
-/// `to` is at least `min` beyond `from`; each unit of distance costs `weight`.
+/// Constraint: `to` is at least `min` larger than `from`. Each unit of distance costs `weight`.
 #[derive(Debug, Clone, Copy)]
 pub struct Arc {
-    /// The smaller one.
+    /// Index of the smaller number.
     pub from: usize,
-    /// The larger one.
+    /// Index of the larger number.
     pub to: usize,
-    /// The smallest distance.
+    /// Minimum distance.
     pub min: i64,
-    /// What the distance costs.
+    /// Cost of a unit of distance.
     pub weight: i64,
 }
 
-/// A number for each of `count` things. The arcs have no cycle.
+/// Solves for `count` numbers. The arcs must not have a cycle.
 pub fn solve(count: usize, arcs: &[Arc]) -> Vec<i64> {
     let mut arcs = arcs.to_vec();
     let mut has_source = vec![false; count];
     arcs.iter().for_each(|arc| has_source[arc.to] = true);
-    // A root holds everything together.
+    // A root joins all parts.
     let free = (0..count).filter(|v| !has_source[*v]);
     let held: Vec<Arc> = free.map(|to| Arc { from: count, to, min: 0, weight: 0 }).collect();
     arcs.extend(held);
@@ -41,18 +41,18 @@ pub fn solve(count: usize, arcs: &[Arc]) -> Vec<i64> {
 
 struct Network {
     arcs: Vec<Arc>,
-    /// The arcs at each thing.
+    /// Arcs at each vertex.
     touching: Vec<Vec<usize>>,
     at: Vec<i64>,
-    /// Whether an arc is in the spanning tree.
+    /// `true` for arcs in the spanning tree.
     in_tree: Vec<bool>,
 }
 
 /// The spanning tree, seen from the root.
 struct Rooted {
-    /// Things, parents first.
+    /// Vertices, parents first.
     order: Vec<usize>,
-    /// The arc to the parent.
+    /// Arc to the parent.
     up: Vec<Option<usize>>,
 }
 
@@ -78,7 +78,7 @@ impl Network {
         if from == end { to } else { from }
     }
 
-    /// Makes a spanning tree of arcs without slack.
+    /// Builds a spanning tree of arcs without slack.
     fn grow(&mut self) {
         let count = self.at.len();
         let mut inside = vec![false; count];
@@ -128,10 +128,10 @@ impl Network {
         Rooted { order, up }
     }
 
-    /// Exchanges an arc of the tree for one that makes the sum smaller, if there is one.
+    /// Exchanges an arc of the tree for another that reduces the sum. Returns `false` if there is none.
     fn pivot(&mut self) -> bool {
         let Rooted { order, up } = self.rooted();
-        // What leaves a subtree minus what enters it; inside, both cancel out.
+        // Weight that leaves a subtree minus weight that enters it; arcs inside cancel out.
         let mut net = vec![0i64; self.at.len()];
         for arc in &self.arcs {
             net[arc.from] += arc.weight;
@@ -171,7 +171,7 @@ impl Network {
     }
 }
 
-/// The smallest numbers that keep all distances.
+/// Smallest numbers that keep all distances.
 fn longest_paths(count: usize, arcs: &[Arc], touching: &[Vec<usize>]) -> Vec<i64> {
     let mut at = vec![0; count];
     let mut open = vec![0; count];

@@ -1,22 +1,22 @@
-//! Lines as they are drawn: what several lines have in common is drawn once, as a part of one of them.
+//! Lines as drawn: a common part of several lines is drawn once, with one of them.
 
 use super::{Placed, Point};
 use crate::model::{Frame, Line};
 
-/// What is drawn of a line.
+/// The drawn part of a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stroke {
     /// Number of the line in its frame.
     pub line: usize,
-    /// The points of what is drawn; fewer than two if all of the line is drawn with other ones.
+    /// Points of the drawn part. Fewer than two if the whole line is drawn with other lines.
     pub points: Vec<Point>,
-    /// It begins at another line, which has the same beginning.
+    /// `true` if it branches off another line with the same start.
     pub parts: bool,
-    /// It ends at another line, which has the same end.
+    /// `true` if it merges into another line with the same end.
     pub joins: bool,
 }
 
-/// The strokes of all lines of a frame, `=>` first: other lines part from these and join them.
+/// Strokes of all lines of a frame, `=>` first: other lines branch off these and merge into them.
 pub fn strokes(frame: &Frame, placed: &Placed) -> Vec<Stroke> {
     let mut order: Vec<usize> = (0..frame.lines.len()).collect();
     let key = |line: &Line| (!line.active, line.from, line.flow);
@@ -43,7 +43,7 @@ fn reversed(points: &[Point]) -> Vec<Point> {
     points.iter().rev().copied().collect()
 }
 
-/// The length of a piece, and its direction.
+/// Length and direction of a piece.
 fn piece(from: Point, to: Point) -> (i64, Point) {
     let (x, y) = (to.0 - from.0, to.1 - from.1);
     (x.abs() + y.abs(), (x.signum(), y.signum()))
@@ -53,7 +53,7 @@ fn length(points: &[Point]) -> i64 {
     points.windows(2).map(|ends| piece(ends[0], ends[1]).0).sum()
 }
 
-/// How long two lines are one, from their beginnings.
+/// Length of the common part of two lines from their starts.
 fn common(a: &[Point], b: &[Point]) -> i64 {
     if a.first() != b.first() {
         return 0;
@@ -72,7 +72,7 @@ fn common(a: &[Point], b: &[Point]) -> i64 {
     sum
 }
 
-/// A line without its first `cut` pixels.
+/// Removes the first `cut` pixels of a line.
 fn without(points: &[Point], cut: i64) -> Vec<Point> {
     let mut left = cut;
     for (at, ends) in points.windows(2).enumerate() {

@@ -19,6 +19,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// of rustc grows with the square of the size of a function.
 pub const MANY: usize = 32;
 
+/// Largest number of slots or timeouts that have functions of their own. More are rows of tables: fewer lines, but a
+/// call takes twice as many instructions.
+const MOST_FUNCTIONS: usize = 128;
+
 /// The asynchronous part of a graph.
 #[derive(Debug)]
 pub struct Asynchronous {
@@ -59,7 +63,7 @@ impl Asynchronous {
         // The tables have a bit for each event of a node.
         let count = |node: &Node| node.ports.iter().filter(|port| port.kind == PortKind::Event).count();
         let is_narrow = graph.nodes.iter().all(|node| count(node) <= u64::BITS as usize);
-        let is_tabled = is_narrow && slots.len().max(timeouts) > MANY;
+        let is_tabled = is_narrow && slots.len().max(timeouts) > MOST_FUNCTIONS;
         let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut may_block = may_block(graph, links, &slots);
         live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);

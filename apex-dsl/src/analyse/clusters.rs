@@ -119,7 +119,7 @@ const MAX_PACES: usize = 1_000;
 pub fn check_paces(graph: &Graph, diagnostics: &mut Diagnostics) -> Option<()> {
     let sets_a_pace = |n: &&Node| matches!(n.kind, NodeKind::Boundary(PortKind::Input)) || n.modifiers.has_pace();
     let Some(node) = graph.nodes.iter().filter(sets_a_pace).nth(MAX_PACES) else { return Some(()) };
-    let message = format!("a program has at most {MAX_PACES} inputs and sources with `every`");
+    let message = format!("a program has at most {MAX_PACES} inputs and sources with `every` or `after`");
     diagnostics.push(Diagnostic::error("too-large", node.span, message));
     None
 }

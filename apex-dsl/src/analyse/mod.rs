@@ -31,7 +31,7 @@ mod steps;
 
 use crate::{
     catalog::Catalog,
-    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{Flow, Graph, NodeId, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -278,9 +278,4 @@ pub fn is_source(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) 
     fires(graph, catalog, links, node)
         && links.inputs[node].is_empty()
         && !matches!(graph.nodes[node].kind, NodeKind::Boundary(PortKind::Output))
-}
-
-/// Returns `true` if a node has one of the `wanted` standard ports, which it has only if they are used.
-pub fn has_standard(graph: &Graph, node: NodeId, wanted: &[Standard]) -> bool {
-    graph.nodes[node].ports.iter().any(|p| p.standard.is_some_and(|s| wanted.contains(&s)))
 }

@@ -15,7 +15,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
 
-/// What the code of a program, or of a part of one, is generated from.
+/// Input of the code generator for a program, or for a part of one.
 #[derive(Clone, Copy)]
 pub struct ProgramView<'a> {
     pub graph: &'a Graph,
@@ -32,7 +32,7 @@ impl<'a> ProgramView<'a> {
     }
 }
 
-/// How a token changes the activity of the node that takes it.
+/// Effect of a token on the activity of the node that takes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Carries {
     /// Not at all.
@@ -46,7 +46,7 @@ pub enum Carries {
 }
 
 impl Generator<'_> {
-    /// What the tokens on `connection` may carry.
+    /// Activity that the tokens on `connection` may carry.
     pub fn carries(&self, graph: &Graph, analysis: &Analysis, connection: usize) -> Carries {
         let c = &graph.connections[connection];
         let checked = self.checks_claims();
@@ -109,7 +109,7 @@ impl Generator<'_> {
         kept
     }
 
-    /// Whether a flag is set.
+    /// Expression that is `true` if a flag is set.
     pub fn is_set(&self, flag: Flag) -> TokenStream {
         let (set, bit) = self.flag(flag);
         quote!(state.#set.has(#bit))
@@ -139,7 +139,7 @@ impl Generator<'_> {
         (format_ident!("{set}"), Literal::usize_unsuffixed(bit))
     }
 
-    /// Whether there is activity in a node.
+    /// Expression that is `true` if a node has activity.
     pub fn is_active_now(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         match view.graph.nodes[node].is_delay() {
             true => {
@@ -150,7 +150,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What a delay holds keeps what it carries: it goes on with the token.
+    /// Moves the activity of a token into a delay, and out of it with the token.
     pub fn hold_activity(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         if !view.analysis.active.contains(&node) {
             return quote!();
@@ -174,7 +174,7 @@ impl Generator<'_> {
         quote! { if #take { #left } }
     }
 
-    /// What follows when a node is no longer active.
+    /// Effects of the end of a node's activity.
     fn left(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let observed = self.observed(view, node, false);
         let (timeout, effects) = (self.stop_timeout(view, node), self.turn_effects(view, node, false));
@@ -283,7 +283,7 @@ impl Generator<'_> {
     }
 }
 
-/// Whether observers are told of a node's activity: not of that of one that only passes tokens on.
+/// Returns `true` if observers are notified of a node's activity. They are not if the node only passes tokens on.
 pub fn is_observed(graph: &Graph, node: NodeId) -> bool {
     !matches!(graph.nodes[node].kind, NodeKind::Relay | NodeKind::Sender(_) | NodeKind::Receiver(_))
 }

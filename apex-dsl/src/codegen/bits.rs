@@ -78,7 +78,7 @@ impl Bits {
         self.count - 1
     }
 
-    /// How many words of 64 conditions there are.
+    /// Number of words, of 64 conditions each.
     pub fn words(&self) -> usize {
         // The dispatcher has a bit of its own.
         if self.count == 0 { 0 } else { (self.count + 1).div_ceil(64) }
@@ -99,7 +99,7 @@ impl Bits {
         &self.room
     }
 
-    /// Whether no asynchronous connection stays occupied.
+    /// Returns `true` if no asynchronous connection may stay occupied.
     pub fn is_all_free(&self) -> bool {
         self.free.is_empty()
     }
@@ -114,7 +114,7 @@ impl Bits {
         self.tokens.get(&connection).copied()
     }
 
-    /// What each condition says, by number.
+    /// Descriptions of all conditions, by number.
     pub fn texts(&self, graph: &Graph, clusters: &[String], guard: &dyn Fn(usize) -> String) -> Vec<String> {
         let mut texts = vec![String::new(); self.count];
         let connection = |c: usize| graph.connection_text(c);
@@ -200,7 +200,7 @@ impl Bits {
         if self.is_sparse() { bits } else { quote!(::apex_rt::Bits::of(#bits)) }
     }
 
-    /// Whether constant sets are lists: they are larger than a list of what is in them where there are many conditions.
+    /// Returns `true` if constant sets are lists of numbers, which are smaller than sets of many conditions.
     fn is_sparse(&self) -> bool {
         const MOST_DENSE: usize = 4;
         self.words() > MOST_DENSE
@@ -236,7 +236,7 @@ impl Bits {
         missing
     }
 
-    /// What must hold for each slot to be served: its node can trigger its events (R5).
+    /// Conditions for serving each slot: its node can trigger its events (R5).
     pub fn needs(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<Vec<usize>> {
         let needs = |connection: &usize| {
             let node = graph.connections[*connection].to.node;
@@ -253,7 +253,8 @@ fn list(bits: &[usize]) -> TokenStream {
     quote!(&[#(#bits),*])
 }
 
-/// Whether all that a cluster sends to another comes from nodes that are done as soon as they have fired.
+/// Returns `true` if all tokens from a cluster to another come from nodes that are free again as soon as they have
+/// fired.
 fn is_pipelined(graph: &Graph, analysis: &Analysis, cluster: usize, down: usize) -> bool {
     let of = |node: NodeId| analysis.cluster_of[node];
     let synchronous = graph.connections.iter().filter(|c| graph.is_synchronous(c));

@@ -17,7 +17,7 @@ pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
     })
 }
 
-/// Whether ⊥ goes over an asynchronous connection of a part: it belongs to synchronous data flow between two groups.
+/// Returns `true` if an asynchronous connection of a part carries ⊥, because it stands for synchronous data flow.
 pub fn carries_missing(graph: &Graph, connection: usize) -> bool {
     let c = &graph.connections[connection];
     match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {

@@ -1,4 +1,4 @@
-//! Where activity is, with what is under way. Claims that could not be decided are looked at by the program whenever activity
+//! Positions of activity, including tokens on their way. The program checks undecided claims whenever activity
 //! has moved; where all are decided, nothing is generated for them.
 
 use super::{
@@ -28,7 +28,7 @@ impl Generator<'_> {
         self.claims.map(Decided::undecided).unwrap_or_default()
     }
 
-    /// Whether the program has claims to look at.
+    /// Returns `true` if the program checks claims.
     pub fn checks_claims(&self) -> bool {
         !self.undecided().is_empty()
     }
@@ -90,7 +90,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Whether a nested graph is active, by its index.
+    /// Function that tells if a nested graph is active, by its index.
     pub fn is_graph_active(&self, view: ProgramView<'_>) -> TokenStream {
         let graph = view.graph;
         if view.analysis.active.is_empty() || graph.scopes.len() == 1 {
@@ -142,7 +142,7 @@ fn broken(claim: usize) -> Ident {
     format_ident!("claim_{claim}")
 }
 
-/// Whether there is activity in one of `places`. A flag that also stands for other places says nothing.
+/// Expression that is `true` if one of `places` has activity. Flags that also stand for other places are left out.
 fn any(flags: &BTreeMap<String, Flagged>, places: &[PlaceId]) -> TokenStream {
     let meant = flags.values().filter(|flag| flag.of.iter().all(|place| places.contains(place)));
     let meant = meant.map(|flag| &flag.test);

@@ -5,16 +5,16 @@ use crate::analyse::{Guard, MANY, is_multirate};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// Clusters that share a function where there are many: rustc takes a time that grows with the square of the size of a function,
-/// and each function costs, too.
+/// Clusters that share a function where there are many: rustc takes a time that grows with the square of the size of a
+/// function, and each function costs, too.
 const CHUNK: usize = 32;
 
-/// Whether functions of which there are `count` go into the one that calls them.
+/// Attribute that decides if each of `count` functions is inlined.
 pub fn inlined(count: usize) -> TokenStream {
     if count > MANY { quote!(#[inline(never)]) } else { quote!(#[inline]) }
 }
 
-/// Whether the clusters of a program share functions.
+/// Returns `true` if the clusters of a program share functions.
 fn share_functions(view: ProgramView<'_>) -> bool {
     view.analysis.clusters.len() > MANY
 }
@@ -82,7 +82,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What a cluster does. The timers of its sources advance with it.
+    /// Code of a cluster. The timers of its sources advance with it.
     fn cluster(&self, view: ProgramView<'_>, cluster: usize) -> TokenStream {
         let guards = view.analysis.clusters[cluster].own_guards.iter();
         let timers = guards.filter_map(|guard| match view.analysis.guards[*guard] {
@@ -143,7 +143,8 @@ impl Firing {
     }
 }
 
-/// Code for many clusters: all of them by number, in their order, which is that of their rows. There are `all` clusters.
+/// Code for many clusters: all of them by number, in their order, which is that of their rows. There are `all`
+/// clusters.
 pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&TokenStream>) -> TokenStream {
     let count = firing.len();
     let budget = slots.map(|_| quote! { if self.state.steps.is_used_up() { break; } });

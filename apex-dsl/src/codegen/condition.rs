@@ -1,5 +1,6 @@
-//! Conditions on a token as Rust. A comparison is made in the token's own type. What is computed with integers is computed in
-//! a wide one, and where it has no result (a division by zero) the condition does not hold: nothing wraps, nothing panics.
+//! Conditions on a token as Rust. A comparison is made in the token's own type. What is computed with integers is
+//! computed in a wide one, and where it has no result (a division by zero) the condition does not hold: nothing wraps,
+//! nothing panics.
 
 use super::types::constant;
 use crate::{
@@ -9,7 +10,7 @@ use crate::{
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-/// Whether `condition` holds for `*token`, which is of type `ty`.
+/// Expression that is `true` if `condition` holds for `*token`, which is of type `ty`.
 pub fn holds(condition: &Condition, ty: &Type) -> TokenStream {
     let computes = condition.computes() && is_integer(ty);
     let test = Writer { ty, wide: computes.then(|| width(ty)) }.write(condition);

@@ -1,4 +1,4 @@
-//! How slot tokens come to their slots: from a queue, or in an order that is known.
+//! Delivery of slot tokens: from a queue, or in an order that is known at compile time.
 
 use super::{Generator, activity::ProgramView, types::ident, wiring::Slot};
 use crate::{
@@ -89,7 +89,7 @@ impl Generator<'_> {
         quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }
     }
 
-    /// Where one token at most is under way, it may go round in a circle.
+    /// Delivery where at most one token is in flight. The token may follow a cycle.
     fn deliver_single(&self, view: ProgramView<'_>, sends: &[usize]) -> TokenStream {
         let (connections, circle) = view.analysis.asynchronous.following(sends);
         let serves: TokenStream = connections.iter().map(|c| self.serve_one(view, *c, None)).collect();

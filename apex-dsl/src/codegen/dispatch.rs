@@ -56,7 +56,7 @@ impl Generator<'_> {
         fields
     }
 
-    /// Whether a token can end the program.
+    /// Returns `true` if a token can end the program.
     pub fn has_exit(&self, graph: &Graph) -> bool {
         graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Exit(_)))
     }
@@ -265,7 +265,8 @@ impl Generator<'_> {
         }
     }
 
-    /// When a program wants to be called because of sources without a pace. If it waits for other thread groups, they wake it.
+    /// When a program wants to be called because of sources without a pace. If it waits for other thread groups, they
+    /// wake it.
     fn next(&self, view: ProgramView<'_>) -> TokenStream {
         let bits = &view.wiring.bits;
         let guards = &view.analysis.guards;
@@ -281,7 +282,7 @@ impl Generator<'_> {
         quote!(if false #(|| #fired)* { ::apex_rt::Next::Now } else { ::apex_rt::Next::Input })
     }
 
-    /// What clusters wait for, to tell a deadlock.
+    /// Function that reports the tokens that clusters wait for, to explain a deadlock.
     pub fn waiting(&self, view: ProgramView<'_>) -> TokenStream {
         let bits = &view.wiring.bits;
         if bits.missing(view.analysis, &|c| self.connection(c)).is_empty() {
@@ -312,7 +313,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What is looked at again and again while a program reacts: timers, mailboxes, timeouts.
+    /// Conditions that each round of a reaction polls: timers, mailboxes, timeouts.
     fn raises(&self, view: ProgramView<'_>) -> TokenStream {
         let bits = &view.wiring.bits;
         let ProgramView { graph, analysis, .. } = view;
@@ -351,7 +352,7 @@ impl Generator<'_> {
         raises.finish()
     }
 
-    /// What a step tests besides its own cause: connections are free, and the steps of the reaction are not used up.
+    /// Further conditions of a step: connections are free, and the steps of the reaction are not used up.
     pub fn allows(&self, view: ProgramView<'_>, free: &[usize]) -> TokenStream {
         const MOST_STRAIGHT: usize = 4;
         let free = if free.len() > MOST_STRAIGHT {
@@ -369,7 +370,7 @@ impl Generator<'_> {
 struct Raises {
     has_agenda: bool,
     code: TokenStream,
-    /// What looks at timers, one after the other.
+    /// Code that polls timers, in sequence.
     timed: TokenStream,
 }
 

@@ -108,7 +108,7 @@ fn boundary(body: &Graph, name: &str, kind: PortKind) -> NodeId {
     body.nodes.iter().position(|n| n.name == name && matches!(n.kind, NodeKind::Boundary(k) if k == kind)).unwrap_or(0)
 }
 
-/// What one element yields at an output, and whether that is an `Option`.
+/// Result of one element at an output, and `true` if it is an `Option`.
 fn result(clusters: &[Emitter<'_>], output: NodeId) -> (TokenStream, bool) {
     let found = clusters.iter().find(|c| c.analysis.clusters[c.cluster].nodes.contains(&output));
     let Some((emitter, from)) = found.and_then(|c| Some((c, c.incoming(PortId { node: output, port: 0 })?))) else {

@@ -253,7 +253,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Where the tokens of an input come from.
+    /// Origin of the tokens of an input.
     pub fn incoming(&self, to: PortId) -> Option<PortId> {
         self.connection(to).map(|c| self.graph.connections[c].from)
     }
@@ -544,7 +544,7 @@ impl<'a> Emitter<'a> {
         quote! { #[allow(unused_mut)] let #mutable results = #value; #fields }
     }
 
-    /// Whether the field itself is an `Option` (a port is optional also if the whole struct may be missing).
+    /// Returns `true` if the field itself is an `Option`. A port is also optional if the whole struct may be missing.
     fn field_is_option(&self, end: PortId) -> bool {
         let NodeKind::Library(library) = &self.graph.nodes[end.node].kind else { return false };
         let signature = &self.generator.catalog.signatures[library.signature];

@@ -1,4 +1,5 @@
-//! The program between analysis and Rust as text: state, conditions, clusters, slots, timers, and what follows from tokens.
+//! The program between analysis and Rust as text: state, conditions, clusters, slots, timers, and what follows from
+//! tokens.
 
 use super::{
     Generator,
@@ -153,7 +154,7 @@ impl Generator<'_> {
     }
 }
 
-/// What a token at a port does besides being there.
+/// Effects of a token at a port.
 fn effects(view: ProgramView<'_>, port: &Port) -> Vec<String> {
     let flag = |flag: &Flag| match *flag {
         Flag::Active(node) => format!("active {}", view.graph.path(node)),

@@ -1,4 +1,4 @@
-//! What a program consists of in memory, piece by piece. How large the pieces are is known to rustc alone.
+//! Memory of a program, in pieces. Only rustc knows their sizes.
 
 use super::{
     Generator,
@@ -16,15 +16,15 @@ use std::collections::BTreeMap;
 /// A piece of the memory of a program.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// What it is there for: `nodes`, `tokens`, …
+    /// Kind of the piece: `nodes`, `tokens`, …
     pub what: &'static str,
-    /// To what of the text it belongs.
+    /// Node or port of the source file that it belongs to.
     pub of: String,
-    /// Where it lies in the program, in Rust: `nodes.fast.planner`.
+    /// Expression of the piece in Rust, from the program: `nodes.fast.planner`.
     pub place: String,
 }
 
-/// The pieces of `program`, which is no test, kind after kind. Together they are all of it, but for padding.
+/// Pieces of `program`, which must not be a test, ordered by kind. Together they are the whole program without padding.
 pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
     let graph = &program.graph;
     let mut pieces = vec![];

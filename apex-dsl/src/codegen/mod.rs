@@ -62,7 +62,7 @@ pub struct Generator<'a> {
     names: &'a Names,
     /// Faults of the compiler itself.
     bugs: &'a Bugs,
-    /// Where a piece of the text stands in the code that called `graph!`.
+    /// Position of a span of the source file in the code that calls `graph!`.
     place: &'a dyn Fn(Span) -> proc_macro2::Span,
     /// The graph around the body of an `each`, and the node that the body belongs to.
     outer: Option<(&'a Graph, NodeId, &'a Generator<'a>)>,
@@ -70,15 +70,16 @@ pub struct Generator<'a> {
     part: Option<(&'a Graph, &'a Part)>,
     /// The thread groups, if there are several.
     parts: &'a [Part],
-    /// What is between the parts.
+    /// Cells between the parts.
     cells: &'a [Cell],
-    /// What is known about the claims; nothing in a part of a program and in the body of an `each`.
+    /// Decisions about the claims; `None` in a part of a program and in the body of an `each`.
     claims: Option<&'a Decided>,
-    /// What is recorded, if the program can be recorded; not in the body of an `each`.
+    /// Recorded channels, if the program can be recorded; `None` in the body of an `each`.
     channels: Option<&'a record::Channels>,
 }
 
-/// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be recorded.
+/// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be
+/// recorded.
 fn program(
     program: &Program,
     catalog: &Catalog,

@@ -11,14 +11,14 @@ use syn::Ident;
 /// Names of locals and fields: those of the text, made unique.
 #[derive(Clone, Default)]
 pub struct Names {
-    /// What tells a program, its parts and the bodies of its `each` apart.
+    /// Number that distinguishes a program, its parts and the bodies of its `each`.
     pub number: usize,
     /// The number of each node in the table of all nodes.
     pub numbers: Vec<usize>,
     tokens: BTreeMap<PortId, String>,
-    /// Where delays hold tokens back.
+    /// Fields of the tokens that delays hold.
     held: BTreeMap<NodeId, String>,
-    /// Where delays keep the activity of these tokens.
+    /// Fields of the activity of these tokens.
     held_activity: BTreeMap<NodeId, String>,
     pub inner: BTreeMap<NodeId, Names>,
 }

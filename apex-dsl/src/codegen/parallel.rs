@@ -1,4 +1,4 @@
-//! `each par`: what its body keeps during a firing is made anew for each thread, so that elements share nothing.
+//! `each par`: what its body keeps during a firing is made again for each thread, so that elements share nothing.
 
 use super::{
     Generator,
@@ -14,7 +14,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
 
-/// What a thread needs to run the body of an `each par`.
+/// State of a thread that runs the body of an `each par`.
 pub struct Local {
     /// The types of it, and the parameters that it is made from.
     pub items: TokenStream,
@@ -23,7 +23,7 @@ pub struct Local {
 }
 
 impl Generator<'_> {
-    /// What a thread needs to run `body`, for which this is the generator.
+    /// State of a thread that runs `body`, for which this is the generator.
     pub fn local(&self, body: &Graph, analysis: &Analysis) -> Local {
         let tokens = state::fields(&self.token_state(body, analysis));
         let state = Struct::new(&ident("LocalState"), "Tokens.", &tokens);

@@ -10,7 +10,7 @@ use crate::{
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// What a program says about its parameters, one entry each.
+/// Description of the parameters of a program, one entry each.
 #[derive(Default)]
 struct Rows {
     table: Vec<TokenStream>,
@@ -18,7 +18,8 @@ struct Rows {
 }
 
 impl Generator<'_> {
-    /// The implementation of `Parameters` for a program; `nodes` says where the nodes are kept that stand beside a node.
+    /// The implementation of `Parameters` for a program; `nodes` says where the nodes are kept that stand beside a
+    /// node.
     pub fn parameters(&self, graph: &Graph, analysis: &Analysis, nodes: &dyn Fn(NodeId) -> TokenStream) -> TokenStream {
         let name = super::types::ident(&graph.name);
         let mut rows = Rows::default();

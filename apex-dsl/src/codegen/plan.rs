@@ -1,5 +1,5 @@
-//! Where each token of a cluster lives: in a local if nobody outside its block needs it, in an `Option` declared
-//! further out if somebody does, in the program's state if a node writes it in place.
+//! Storage of each token of a cluster: a local if only its own block uses it, an `Option` that is declared further out
+//! if other blocks use it, and the state of the program if a node writes it in place.
 
 use crate::{
     analyse::{Analysis, Block, Links, Step, handles_absence, is_mandatory, may_be_missing},
@@ -9,7 +9,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How a token is kept.
+/// Storage of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
     /// A local of the token's type.
@@ -43,7 +43,7 @@ pub struct Plan {
     gated: BTreeSet<PortId>,
 }
 
-/// Whether a node has its token written in place.
+/// Returns `true` if a node writes its token in place.
 pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: PortId) -> bool {
     match &graph.nodes[end.node].kind {
         NodeKind::Library(library) => {
@@ -56,7 +56,7 @@ pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: PortId) -> bool {
     }
 }
 
-/// How a token is kept, seen from its own cluster.
+/// Storage of a token, from the view of its own cluster.
 pub fn storage(graph: &Graph, catalog: &Catalog, end: PortId) -> Storage {
     match graph.nodes[end.node].kind {
         _ if is_buffer(graph, catalog, end) => Storage::Buffer,
@@ -158,23 +158,23 @@ impl Plan {
         a
     }
 
-    /// How a token is kept.
+    /// Storage of a token.
     pub fn storage(&self, end: PortId) -> Storage {
         self.storage.get(&end).copied().unwrap_or(Storage::Outside)
     }
 
-    /// Whether a local has to be declared as an `Option` before it comes into being.
+    /// Returns `true` if a local must be declared as an `Option` before the block that creates it.
     pub fn is_hoisted(&self, end: PortId) -> bool {
         let moves = |declared: &BlockId| self.home.get(&end).is_some_and(|home| declared != home);
         self.declared.get(&end).is_some_and(|declared| moves(declared) || self.gated.contains(&end))
     }
 
-    /// Whether somebody uses the token.
+    /// Returns `true` if the token is used.
     pub fn is_used(&self, end: PortId) -> bool {
         self.declared.contains_key(&end)
     }
 
-    /// Whether its name stands for a value that is there, not for an `Option`.
+    /// Returns `true` if the name is a value, not an `Option`.
     pub fn is_plain(&self, end: PortId) -> bool {
         match self.storage(end) {
             Storage::Argument => true,
@@ -183,7 +183,7 @@ impl Plan {
         }
     }
 
-    /// Whether its name stands for a reference: a block around tests it, or it came into being there.
+    /// Returns `true` if the name is a reference: an enclosing block tests the token, or creates it.
     pub fn is_bound(&self, end: PortId, block: BlockId) -> bool {
         let made_in = self.home.get(&end).filter(|_| self.storage(end) == Storage::Local && self.is_hoisted(end));
         let mut at = block;

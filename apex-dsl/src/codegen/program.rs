@@ -28,7 +28,8 @@ pub fn mailboxes(inputs: &TokenStream, events: &TokenStream, place: &TokenStream
     }
 }
 
-/// One of the structs that a program consists of: `Nodes`, `State`, `Inputs`, `Outputs`, `Events`. Without fields it is `()`.
+/// One of the structs that a program consists of: `Nodes`, `State`, `Inputs`, `Outputs`, `Events`. Without fields it
+/// is `()`.
 pub struct Struct {
     /// Declaration, with that of the structs below it.
     pub item: TokenStream,
@@ -120,7 +121,7 @@ impl Generator<'_> {
         }
     }
 
-    /// How a program reacts: in a function of its own if it is recorded, and as `Program` knows it.
+    /// Functions that react: `react_with` of `Program`, and, if the program is recorded, the function inside it.
     pub fn around(&self, graph: &Graph, react: TokenStream, ports: &TokenStream) -> (TokenStream, TokenStream) {
         match self.channels {
             Some(_) => (react, self.recorded_react(graph, ports)),
@@ -128,8 +129,8 @@ impl Generator<'_> {
         }
     }
 
-    /// The struct of a program or of a part of one, with all that it consists of, and the functions that fire its clusters and
-    /// serve its slots.
+    /// The struct of a program or of a part of one, with all that it consists of, and the functions that fire its
+    /// clusters and serve its slots.
     pub fn items(&self, view: ProgramView<'_>) -> TokenStream {
         let ProgramView { graph, analysis, .. } = view;
         let name = self.program_name(graph);
@@ -231,7 +232,7 @@ impl Generator<'_> {
         Some((name, item))
     }
 
-    /// Where a node of the catalog is kept: `nodes.fast.planner`.
+    /// Field of a node of the catalog: `nodes.fast.planner`.
     pub fn node_place(&self, graph: &Graph, node: NodeId) -> TokenStream {
         let segments = self.node_path(graph, node);
         let segments = segments.iter().map(|s| ident(s));
@@ -253,8 +254,8 @@ impl Generator<'_> {
         segments
     }
 
-    /// The field of the struct of parts for a node that Rust makes: `fast_planner`. Where another node has the same, the later one
-    /// ends in `_`.
+    /// The field of the struct of parts for a node that Rust makes: `fast_planner`. Where another node has the same,
+    /// the later one ends in `_`.
     fn part_field(&self, graph: &Graph, node: NodeId, handed_in: &[(Ident, TokenStream)]) -> Ident {
         let mut name = self.node_path(graph, node).join("_");
         while handed_in.iter().any(|(other, _)| *other == ident(&name)) {
@@ -294,7 +295,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Makes a node anew, unless Rust made it. Its parameters stay as they are: they are settings, not state.
+    /// Creates a node again, unless Rust made it. Its parameters stay as they are: they are settings, not state.
     pub fn remake(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
         if library.handed_in || self.catalog.signatures[library.signature].is_function {
             return quote!();
@@ -313,7 +314,7 @@ impl Generator<'_> {
         self.construct(graph, node, library, &params.collect::<Vec<_>>())
     }
 
-    /// Whether a node is active, by its index.
+    /// Function that tells if a node is active, by its index.
     pub fn is_active(&self, view: ProgramView<'_>) -> TokenStream {
         if view.analysis.active.is_empty() {
             return quote!();

@@ -19,7 +19,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
 
-/// What passes a channel; named as in the runtime.
+/// Role of a channel, named as in the runtime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
     Mailbox,
@@ -78,12 +78,12 @@ impl Channels {
     }
 }
 
-/// Whether what a node sends comes from outside of the program: it is a source.
+/// Returns `true` if the tokens of a node come from outside of the program: it is a source.
 fn is_recorded(graph: &Graph, analysis: &Analysis, catalog: &Catalog, node: NodeId) -> bool {
     matches!(graph.nodes[node].kind, NodeKind::Library(_)) && is_source(graph, catalog, &analysis.links, node)
 }
 
-/// The ports by which a source itself sends to somebody.
+/// The ports by which a source itself sends.
 fn source_ports<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = PortId> + 'a {
     let sends = move |end: &PortId| {
         let all = links.out_of[node].iter().chain(&links.sends[node]);
@@ -106,7 +106,7 @@ impl Generator<'_> {
         self.channels?.number(end, role)
     }
 
-    /// How the tokens of a port are recorded.
+    /// Codec of the tokens of a port.
     fn codec(&self, graph: &Graph, end: PortId) -> TokenStream {
         let ty = self.token_type(graph, end);
         quote!(::apex_rt::__codec!(#ty))
@@ -143,8 +143,8 @@ impl Generator<'_> {
         self.recorded_around(&before, &quote!(self.reaction(now, observer)), &after)
     }
 
-    /// The same for a thread group that runs beside others. Only the main group has `ports`; parameters do not change from
-    /// outside while threads run.
+    /// The same for a thread group that runs beside others. Only the main group has `ports`; parameters do not change
+    /// from outside while threads run.
     pub fn recorded_group(&self, graph: &Graph, ports: Option<&TokenStream>, react: &TokenStream) -> TokenStream {
         let (before, after) = ports.map(|ports| self.mailboxes(graph, ports)).unwrap_or_default();
         self.recorded_around(&quote! { tap.begin(now); #before }, react, &quote! { #after tap.end(); })
@@ -168,7 +168,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What was put into the mailboxes before a reaction, and what they hold after it.
+    /// Contents of the mailboxes before a reaction and after it.
     fn mailboxes(&self, graph: &Graph, ports: &TokenStream) -> (TokenStream, TokenStream) {
         let (mut before, mut after) = (quote!(), quote!());
         for (number, (end, role)) in self.channels.iter().flat_map(|channels| channels.rows.iter().enumerate()) {
@@ -232,7 +232,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What a node of a region with several rates sends in its firing number `i`, into arrays.
+    /// Tokens that a node of a region with several rates sends in its firing number `i`, in arrays.
     pub fn recorded_at_rate(&self, graph: &Graph, node: NodeId, sends: TokenStream) -> TokenStream {
         let places = |end: PortId| {
             let (name, rate) = (self.name(end), graph.port(end).rate);
@@ -301,8 +301,8 @@ impl Emitter<'_> {
         quote! { if let Some(tap) = ::apex_rt::Observer::tap(observer) { #tokens } }
     }
 
-    /// What a node sends: a source that is recorded is not called again. `results` calls it and gives names to what it
-    /// returns; `processed` is what is triggered before.
+    /// Tokens that a node sends. A replayed source is not called. `results` calls the node and binds its results to
+    /// names returns; `processed` is what is triggered before.
     pub fn recorded(&self, node: NodeId, block: BlockId, results: TokenStream, processed: TokenStream) -> TokenStream {
         let ports = self.generator.sources(self.graph, node);
         if ports.is_empty() {

@@ -18,7 +18,7 @@ use crate::{
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
 
-/// Where no queue says which tokens wait, the last slot that a token comes to takes it away.
+/// Returns `true` if a slot removes its token. Without a queue, the last slot that a token reaches does.
 fn takes(view: ProgramView<'_>, connection: usize) -> bool {
     let from = view.graph.connections[connection].from;
     let same = |c: &&usize| view.graph.connections[**c].from == from;
@@ -89,7 +89,7 @@ impl Generator<'_> {
         quote! { #raised #queued #occupied #stamp }
     }
 
-    /// Whether a token lies in the program's state.
+    /// Expression that is `true` if the state of the program holds a token.
     pub fn waits(&self, graph: &Graph, end: PortId) -> TokenStream {
         let name = self.name(end);
         match is_buffer(graph, self.catalog, end) {
@@ -108,13 +108,13 @@ impl Generator<'_> {
         clears.collect()
     }
 
-    /// Whether somebody listens to an event.
+    /// Returns `true` if an event is connected.
     pub fn is_sent_event(&self, view: ProgramView<'_>, end: PortId) -> bool {
         view.graph.port(end).kind == PortKind::Event
             && view.links.sends[end.node].iter().any(|c| view.graph.connections[*c].from == end)
     }
 
-    /// Whether an event that somebody listens to was triggered.
+    /// Expression that is `true` if a connected event was triggered.
     pub fn sent_event(&self, view: ProgramView<'_>, end: PortId) -> Option<TokenStream> {
         self.is_sent_event(view, end).then(|| self.waits(view.graph, end))
     }
@@ -378,7 +378,7 @@ impl Generator<'_> {
         code
     }
 
-    /// What happens once, before the first reaction.
+    /// Code that runs once, before the first reaction.
     pub fn first(&self, view: ProgramView<'_>) -> TokenStream {
         let watches = (0..view.graph.nodes.len()).map(|node| self.watch_silence(view, node));
         let begin = self.begin(view);

@@ -1,4 +1,4 @@
-//! When the source fired that a token descends from, kept where somebody asks; and nodes that are late.
+//! Stamps: the times at which the sources of tokens fired, stored where a node needs them; and nodes that are late.
 
 use super::{
     Generator,
@@ -66,7 +66,7 @@ impl Generator<'_> {
         stamp.map(|stamp| quote! { state.#stamp = ctx.stamp(); }).unwrap_or_default()
     }
 
-    /// What a node with a `deadline` does when it has finished: it looks whether that was in time.
+    /// Check of a node with a `deadline` when it has finished.
     pub fn check_late(&self, graph: &Graph, node: NodeId) -> TokenStream {
         let Some(deadline) = graph.nodes[node].modifiers.deadline else { return quote!() };
         let (index, deadline) = (self.index(node), duration(deadline));
@@ -75,7 +75,7 @@ impl Generator<'_> {
     }
 }
 
-/// Whether clusters downstream want to know when a cluster's source fired.
+/// Returns `true` if clusters downstream need the time at which a cluster's source fired.
 fn is_left(view: ProgramView<'_>, cluster: usize) -> bool {
     let down = &view.analysis.clusters[cluster].downstream;
     down.iter().any(|c| view.analysis.stamps.clusters.contains(c))

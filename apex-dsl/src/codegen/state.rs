@@ -1,4 +1,4 @@
-//! What a program keeps besides its nodes and ports: the fields of its state.
+//! State of a program besides its nodes and ports: its fields.
 
 use super::{
     Generator,
@@ -18,7 +18,7 @@ use syn::Ident;
 
 /// A field of the state of a program.
 pub struct StateField {
-    /// What it is there for.
+    /// Purpose of the field.
     pub kind: Kind,
     /// To what of the text it belongs: of a list, each element.
     pub of: Vec<String>,
@@ -30,20 +30,20 @@ pub struct StateField {
     make: TokenStream,
 }
 
-/// What a field is there for.
+/// Purpose of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// Tokens that outlive a firing, or that a node writes in place.
     Token,
     /// When a source fires, and how long a node has been active.
     Timer,
-    /// Where activity is and goes, and which nodes are enabled.
+    /// Activity of nodes and tokens, and enabled nodes.
     Activity,
     /// When the sources of tokens fired.
     Stamp,
-    /// Which claims are broken.
+    /// Broken claims.
     Claim,
-    /// What decides at run time: bits, the queue of slots.
+    /// Data of the dispatcher: bits, the queue of slots.
     Dispatcher,
 }
 
@@ -102,7 +102,7 @@ impl Generator<'_> {
         kept
     }
 
-    /// What is kept of a token: nothing, if it is gone when its cluster has fired.
+    /// Field of a token; `None` if the token does not outlive the firing of its cluster.
     fn kept_token(&self, graph: &Graph, analysis: &Analysis, end: PortId) -> Option<StateField> {
         let from_here = || graph.connections.iter().filter(|c| c.from == end);
         let is_sent = from_here().any(|c| !graph.is_synchronous(c));
@@ -153,7 +153,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What a node writes in place: one token, or an array of those of a firing.
+    /// Type that a node writes in place: one token, or an array of the tokens of a firing.
     fn buffer_type(&self, graph: &Graph, end: PortId) -> TokenStream {
         let (ty, rate) = (self.token_type(graph, end), graph.port(end).rate);
         if rate > 1 { quote!([#ty; #rate]) } else { ty }

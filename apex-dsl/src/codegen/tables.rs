@@ -1,5 +1,5 @@
-//! Many slots and timeouts: rows of tables, and the code that serves them by number. Only what has a type of its own stands in
-//! code: the call of a slot, and where the token of an event lies.
+//! Many slots and timeouts: rows of tables, and the code that serves them by number. Only what has a type of its own
+//! stands in code: the call of a slot, and where the token of an event lies.
 
 use super::{
     Generator,
@@ -141,7 +141,8 @@ impl Generator<'_> {
         row
     }
 
-    /// The functions that read which events of a node have tokens, and that empty them before the node may trigger them.
+    /// The functions that read which events of a node have tokens, and that empty them before the node may trigger
+    /// them.
     fn token_functions(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
         if ports.tokens.is_empty() {
             return quote! { fn clear(&mut self, node: usize) {} };

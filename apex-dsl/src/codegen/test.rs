@@ -27,7 +27,7 @@ impl Generator<'_> {
         quote! { if let Some(token) = #token { outputs.#probe.saw(#copy); } }
     }
 
-    /// Where the ports of the program are at which a node stands: with the thread group that the node runs in.
+    /// Place of the ports that a node represents: the part of its thread group.
     fn ports_of(&self, graph: &Graph, node: NodeId) -> TokenStream {
         match self.parts.iter().find(|part| part.group == graph.group(node)).map(part_name) {
             Some(part) => quote!(program.#part),

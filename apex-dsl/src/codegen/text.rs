@@ -1,5 +1,5 @@
-//! The Rust module of a text: each state machine, program and test has a module of its own in it, so that names of the text
-//! meet neither each other nor those of the Rust around the call of `graph!`.
+//! The Rust module of a text: each state machine, program and test has a module of its own in it, so that names of the
+//! text meet neither each other nor those of the Rust around the call of `graph!`.
 
 use super::{machine, names::item, program, types::ident};
 use crate::{
@@ -62,8 +62,8 @@ pub fn text(
     }
 }
 
-/// A module that sees what every module sees, also where the crate around it does not. The runtime is called `rt` in it, unless
-/// something of the text is.
+/// A module that sees what every module sees, also where the crate around it does not. The runtime is called `rt` in
+/// it, unless something of the text is.
 pub fn module(name: &Ident, graph: &str, items: TokenStream) -> TokenStream {
     let (alias, items) = match graph == RUNTIME {
         true => (quote!(), items),
@@ -72,7 +72,7 @@ pub fn module(name: &Ident, graph: &str, items: TokenStream) -> TokenStream {
     quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::Observer as _; #alias #items } }
 }
 
-/// What the runtime is called in the module of a program.
+/// Name of the runtime in the module of a program.
 const RUNTIME: &str = "rt";
 
 /// `rt` instead of `::apex_rt`, and numbers without the suffix `usize`, which the types around them say.
@@ -105,7 +105,7 @@ fn plain(literal: Literal) -> Literal {
     plain
 }
 
-/// Whether the path begins here: `::`, and no name before it.
+/// Returns `true` if a path begins here: `::` without a name before it.
 fn ends_in_colons(tokens: &[TokenTree]) -> bool {
     let is_colon = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ':');
     let [before @ .., first, second] = tokens else { return false };
@@ -135,7 +135,8 @@ fn graph_module(name: &str) -> Ident {
     format_ident!("graph_{name}")
 }
 
-/// The module of a text in Rust: `mission_afg` for `mission.afg`; a text inside a call of `graph!` has the line of the call.
+/// The module of a text in Rust: `mission_afg` for `mission.afg`; a text inside a call of `graph!` has the line of the
+/// call.
 pub fn module_name(path: &Path, line: usize) -> String {
     let is_file = path.extension().is_some_and(|e| e == "afg");
     let name = match path.file_stem() {

@@ -1,5 +1,5 @@
-//! A program that runs on several threads: a part for each thread group, the cells between them, and how all of it reacts on
-//! one thread or is handed out to several.
+//! A program that runs on several threads: a part for each thread group, the cells between them, and how all of it
+//! reacts on one thread or is handed out to several.
 
 use super::{
     Generator, Names,
@@ -79,7 +79,7 @@ struct Fields {
     handed_in: Vec<(Ident, TokenStream)>,
 }
 
-/// What the whole program has to know about the code of a part.
+/// Items of a part that the whole program refers to.
 struct PartItems {
     is_active: TokenStream,
     is_graph_active: TokenStream,
@@ -111,7 +111,7 @@ impl Program<'_> {
         ["Ends", "Group"].map(|kind| self.parts[number].item(&self.split.parts[number].graph, kind))
     }
 
-    /// What a thread group is to whoever runs it: the part with its ends of cells.
+    /// Handle of a thread group for the thread that runs it: the part with its ends of cells.
     fn handle(&self, number: usize) -> TokenStream {
         let part = &self.split.parts[number];
         let (program, name) = (self.name(), self.part_struct(number));
@@ -215,7 +215,7 @@ impl Program<'_> {
         port_accessors(&structs, &place)
     }
 
-    /// How the program reacts.
+    /// Functions that react.
     fn program(&self, analysis: &Analysis, all_items: &[PartItems]) -> TokenStream {
         let (name, parts) = (self.name(), &self.split.parts);
         let count = parts.len();
@@ -273,7 +273,8 @@ impl Program<'_> {
         let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
         quote! {
             impl #name {
-                /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to be called next.
+                /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to
+                /// be called next.
                 #[inline]
                 pub fn react(&mut self, now: ::apex_rt::Time) -> ::apex_rt::Next { ::apex_rt::Program::react_with(self, now, &mut ()) }
                 /// Sets how many steps a reaction of a thread group may take before it is reported as an endless loop.
@@ -382,7 +383,7 @@ impl Program<'_> {
     }
 }
 
-/// What the text says about the thread of a group.
+/// Settings of a group's thread.
 pub fn group_info(graph: &Graph, group: &str) -> TokenStream {
     let settings = graph.threads.iter().find(|t| t.group == group).cloned().unwrap_or_default();
     let (cores, priority) = (&settings.cores, super::params::option(settings.priority.map(|p| quote!(#p))));

@@ -144,8 +144,8 @@ impl Generator<'_> {
         }
     }
 
-    /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it does so
-    /// when it is enabled, if it is still active.
+    /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it
+    /// does so when it is enabled, if it is still active.
     pub fn expires(&self, view: ProgramView<'_>, index: usize) -> TokenStream {
         let timeout = &view.wiring.timeouts[index];
         let expire = ident(&timeout.name);

@@ -22,7 +22,7 @@ pub fn path(segments: &[String]) -> TokenStream {
     quote!(#(#segments)::*)
 }
 
-/// An identifier, also where the word is a keyword of Rust. The few that cannot be raw are no names of the language
+/// An identifier, also where the word is a keyword of Rust. The few that cannot be raw are not names of the language
 /// (`syntax::keywords`).
 pub fn ident(name: &str) -> Ident {
     let span = proc_macro2::Span::call_site();

@@ -1,8 +1,8 @@
-//! The asynchronous and active half of a program as data: where the tokens of a port go, where activity goes with them, and
-//! what the token on a connection does to the node of a slot.
+//! The asynchronous and active half of a program as data: where the tokens of a port go, where activity goes with
+//! them, and what the token on a connection does to the node of a slot.
 //!
-//! It is made once from graph and analysis. Few slots become straight-line code, many become tables: both are written from
-//! this.
+//! It is made once from graph and analysis. Few slots become straight-line code, many become tables: both are written
+//! from this.
 
 use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
 use crate::{
@@ -30,7 +30,7 @@ pub enum Flag {
     Carries(usize),
 }
 
-/// What a token at a port sets off, besides what stays in its region. A port may have several of these rows.
+/// Effects of a token at a port outside its region. A port may have several of these rows.
 #[derive(Debug)]
 pub struct Port {
     pub end: PortId,
@@ -75,7 +75,7 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// How the token changes the activity of the node. Where the program ends, what it carries stays on its way.
+    /// Effect of the token on the activity of the node. Where the program ends, the activity stays with the token.
     pub fn carries_to(&self, graph: &Graph) -> Carries {
         match (self.carries, &graph.nodes[self.node].kind) {
             (Carries::Sometimes, NodeKind::Exit(_)) => Carries::Nothing,
@@ -100,8 +100,8 @@ pub struct Timeout {
 pub struct Wiring {
     /// The numbers of the conditions.
     pub bits: Bits,
-    /// The rows of each node: activity goes with the first token in the order of the ports (A5), tokens are sent in the order of
-    /// the text (R7).
+    /// The rows of each node: activity goes with the first token in the order of the ports (A5), tokens are sent in
+    /// the order of the text (R7).
     ports: BTreeMap<NodeId, Vec<Port>>,
     /// The slots by number.
     pub slots: Vec<Slot>,
@@ -228,7 +228,7 @@ fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: usize) -> S
     }
 }
 
-/// What a token at `end` does with activity.
+/// Effect of a token at `end` on activity.
 fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: PortId) -> Port {
     let connections = analysis.links.from(end.node);
     let mut connections: Vec<usize> =

@@ -18,13 +18,13 @@ use syn::Ident;
 /// The message of rustc if the answer is no.
 struct Message {
     text: String,
-    /// Where it is in the text.
+    /// Span in the source file.
     place: Span,
     note: Option<String>,
 }
 
 impl Generator<'_> {
-    /// Whether rustc compares the types of a connection: the scan could not, and both ends can be named.
+    /// Returns `true` if rustc compares the types of a connection: the scan could not, and both ends can be named.
     fn is_compared_by_rustc(&self, graph: &Graph, connection: usize) -> bool {
         let c = &graph.connections[connection];
         let NodeKind::Library(library) = &graph.nodes[c.to.node].kind else { return false };
@@ -350,7 +350,7 @@ fn port_trait(signature: &Signature) -> Option<TokenStream> {
     })
 }
 
-/// Whether all type arguments are known.
+/// Returns `true` if all type arguments are known.
 fn is_whole(library: &Library) -> bool {
     !library.types.iter().any(|ty| matches!(ty, TypeArg::Open))
 }

@@ -1,28 +1,28 @@
-//! Changes that mend what is wrong.
+//! Code actions that fix errors.
 
 use super::{Ready, diagnostics::diagnostic};
 use apex_dsl::{fix, report::Fix};
 use lsp_types::{CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit};
 use std::collections::HashMap;
 
-/// A change that is offered.
+/// A code action to be offered.
 pub struct Offered {
-    /// The change as the protocol wants it, not preferred.
+    /// The action in the form of the protocol, not yet preferred.
     pub action: CodeAction,
-    /// If its diagnostic is certain of it: what a trial has to show.
+    /// For an unambiguous fix: the expected effect of a trial.
     pub certain: Option<Certain>,
 }
 
-/// A change that is said to mend an error without doubt.
+/// A fix that its diagnostic marks as unambiguous.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Certain {
-    /// The change.
+    /// The fix.
     pub fix: Fix,
-    /// The error.
+    /// Message of the error that it should remove.
     pub message: String,
 }
 
-/// The changes that would mend something in `range`.
+/// Code actions for the diagnostics in `range`.
 pub fn actions(ready: &Ready<'_>, range: Range) -> Vec<Offered> {
     let report = &ready.analysis.report;
     let mut actions = vec![];

@@ -1,4 +1,4 @@
-//! What could be written here.
+//! Completion.
 
 use super::Ready;
 use crate::documents::Document;
@@ -18,7 +18,7 @@ use std::{
     path::PathBuf,
 };
 
-/// What could be written at a position. Placeholders are given only to clients that know them.
+/// Completions at a position. Placeholders are used only if `snippets` is set.
 pub fn completion(
     ready: &Ready<'_>,
     position: Position,
@@ -36,7 +36,7 @@ pub fn completion(
 fn item(found: Completion, range: Range, import: Position, snippets: bool) -> CompletionItem {
     let snippet = found.snippet.filter(|_| snippets);
     let format = if snippet.is_some() { InsertTextFormat::SNIPPET } else { InsertTextFormat::PLAIN_TEXT };
-    // What fits for certain comes first, what needs an import last.
+    // Certain completions come first, those that need an import last.
     let rank = found.kind as u8 + 10 * (u8::from(!found.sure) + u8::from(found.import.is_some()));
     CompletionItem {
         sort_text: Some(format!("{rank:02}{}", found.label)),
@@ -66,7 +66,7 @@ fn kind(kind: CompletionKind) -> CompletionItemKind {
     }
 }
 
-/// Where an import can be added: before the first one, or behind the documentation of the text.
+/// Position for a new import: before the first one, or after the documentation of the source file.
 fn import_position(ready: &Ready<'_>) -> Position {
     let text = &ready.analysis.text;
     let first = ready.view().texts.files[0].1.uses.iter().filter_map(|u| u.path.first()).map(|p| p.span.start).min();
@@ -77,13 +77,13 @@ fn import_position(ready: &Ready<'_>) -> Position {
     ready.analysis.lines().position(offset)
 }
 
-/// Whether only blanks stand before a position in its line: there, a blank asks for nothing.
+/// `true` if a position is in the indentation of its line: a blank there does not trigger a completion.
 pub fn is_indent(ready: &Ready<'_>, position: Position) -> bool {
     let before = &ready.analysis.text[..ready.offset(position)];
     before.rsplit('\n').next().is_some_and(|line| line.trim().is_empty())
 }
 
-/// The names of texts, and those of the graphs and state machines in them.
+/// Names of source files, each with the names of its graphs and state machines.
 pub fn siblings(paths: &BTreeSet<PathBuf>, open: &BTreeMap<PathBuf, Document>) -> Vec<(String, Vec<String>)> {
     let of = |path: &PathBuf| {
         let text = open.get(path).map(|d| d.text.to_string()).or_else(|| fs::read_to_string(path).ok())?;

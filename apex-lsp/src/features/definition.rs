@@ -8,7 +8,7 @@ use apex_dsl::{
 use apex_host::read_text;
 use lsp_types::{Location, Position};
 
-/// The declaration of the name at a position: in a text, or in Rust.
+/// Declaration of the name at a position, in a source file or in Rust.
 pub fn definition(ready: &Ready<'_>, position: Position) -> Option<Location> {
     let found = ready.occurrence(position)?;
     match ready.view().origin(found.definition)? {

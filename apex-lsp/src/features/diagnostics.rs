@@ -1,18 +1,18 @@
-//! What is wrong.
+//! Diagnostics.
 
 use super::Ready;
 use crate::places::is_own;
 use apex_dsl::report::{Diagnostic as Found, Severity};
 use lsp_types::{Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, NumberOrString, Range};
 
-/// The messages about a text. One about a text that it imports stands at the import.
+/// Diagnostics of a source file. A diagnostic of an imported source file is shown at the import.
 pub fn diagnostics(ready: &Ready<'_>) -> Vec<Diagnostic> {
     let failed = ready.project.failure.as_ref();
     let package = failed.into_iter().map(|reason| failure(&format!("cannot read the nodes of the package: {reason}")));
     package.chain(ready.analysis.report.diagnostics.sorted().into_iter().map(|d| diagnostic(ready, d))).collect()
 }
 
-/// An error that has nothing to do with any place in the text.
+/// An error without a place in the source file.
 pub fn failure(message: &str) -> Diagnostic {
     Diagnostic {
         severity: Some(DiagnosticSeverity::ERROR),
@@ -22,7 +22,7 @@ pub fn failure(message: &str) -> Diagnostic {
     }
 }
 
-/// A message as the protocol wants it.
+/// A diagnostic in the form of the protocol.
 pub fn diagnostic(ready: &Ready<'_>, found: &Found) -> Diagnostic {
     let label = |span, text: &str| {
         let location = ready.analysis.report.places.location(span)?;
@@ -53,7 +53,7 @@ pub fn diagnostic(ready: &Ready<'_>, found: &Found) -> Diagnostic {
     }
 }
 
-/// Where a message stands.
+/// Range of a diagnostic.
 fn range(ready: &Ready<'_>, found: &Found) -> Range {
     let span = found.primary.span;
     if is_own(span) {

@@ -1,14 +1,14 @@
-//! The one style of the language.
+//! Formatting.
 
 use super::Ready;
 use apex_dsl::format;
 use lsp_types::TextEdit;
 
-/// What has to change for the text to be in the style of the language; nothing as long as it has errors.
+/// Edits that format the source file; none while it has errors.
 pub fn formatting(ready: &Ready<'_>) -> Vec<TextEdit> {
     let text = &ready.analysis.text;
     let Ok(formatted) = format(text) else { return vec![] };
-    // Only what differs is replaced, so that the cursor stays where it is in the rest.
+    // Only the part that differs is replaced, so that the cursor keeps its place elsewhere.
     let same = |(a, b): &((usize, char), char)| a.1 == *b;
     let before: usize = text.char_indices().zip(formatted.chars()).take_while(same).map(|(a, _)| a.1.len_utf8()).sum();
     let (old, new) = (&text[before..], &formatted[before..]);

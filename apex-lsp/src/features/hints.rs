@@ -1,11 +1,12 @@
-//! The kinds of connections, shown in the text.
+//! Inlay hints with the kinds of connections.
 
 use super::Ready;
 use apex_dsl::ide;
 use lsp_types::{InlayHint, InlayHintKind, InlayHintLabel, InlayHintTooltip, MarkupContent, MarkupKind, Range};
 use std::collections::BTreeMap;
 
-/// The kind of each connection in `range`, behind its arrow; those of a list that differ stand side by side.
+/// Hints with the kind of each connection in `range`, after its arrow. Different kinds in a list are shown side by
+/// side.
 pub fn hints(ready: &Ready<'_>, range: Range) -> Vec<InlayHint> {
     let view = ready.view();
     let (start, end) = (ready.offset(range.start) as u32, ready.offset(range.end) as u32);
@@ -31,7 +32,7 @@ pub fn hints(ready: &Ready<'_>, range: Range) -> Vec<InlayHint> {
     arrows.into_iter().map(hint).collect()
 }
 
-/// A short word, because it stands at every arrow.
+/// Short name of a kind, because it appears at every arrow.
 fn word(flow: &str) -> &str {
     match flow {
         "synchronous" => "sync",

@@ -1,10 +1,10 @@
-//! What stands here.
+//! Hover.
 
 use super::Ready;
 use apex_dsl::ide;
 use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
 
-/// What a name, an arrow or a word means.
+/// Description of the name, arrow or keyword at a position.
 pub fn hover(ready: &Ready<'_>, position: Position) -> Option<Hover> {
     let (view, offset) = (ready.view(), ready.offset(position));
     let (value, range) = match ready.occurrence(position) {
@@ -18,7 +18,7 @@ pub fn hover(ready: &Ready<'_>, position: Position) -> Option<Hover> {
     (!matches!(&contents, HoverContents::Markup(m) if m.value.is_empty())).then_some(Hover { contents, range })
 }
 
-/// The connections of the arrow at `offset`.
+/// Descriptions of the connections of the arrow at `offset`.
 fn arrow(ready: &Ready<'_>, offset: usize) -> Option<(String, lsp_types::Range)> {
     let view = ready.view();
     let here = |s: apex_dsl::source::Span| s.start as usize <= offset && offset <= s.end as usize;

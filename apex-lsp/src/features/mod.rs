@@ -1,4 +1,4 @@
-//! One module per feature of the editor. They turn what `apex_dsl::ide` answers into what the protocol wants.
+//! Features of the editor, one module each. They convert the answers of `apex_dsl::ide` to the protocol.
 
 pub mod actions;
 pub mod completion;
@@ -15,26 +15,26 @@ use crate::{analysis::Analysis, project::Project};
 use apex_dsl::ide::{self, Occurrence, View};
 use lsp_types::Position;
 
-/// A text that is ready for questions.
+/// A source file with its analysis and its package.
 pub struct Ready<'a> {
-    /// What is known about it.
+    /// Analysis of the source file.
     pub analysis: &'a Analysis,
-    /// Its package.
+    /// Package of the source file.
     pub project: &'a Project,
 }
 
 impl<'a> Ready<'a> {
-    /// The text as the questions of `apex_dsl::ide` want it.
+    /// View for queries to `apex_dsl::ide`.
     pub fn view(&self) -> View<'a> {
         self.analysis.names.view(self.project)
     }
 
-    /// The byte at a position.
+    /// Byte offset of a position.
     pub fn offset(&self, position: Position) -> usize {
         self.analysis.offset(position)
     }
 
-    /// The name at a position.
+    /// Name at a position.
     pub fn occurrence(&self, position: Position) -> Option<Occurrence> {
         ide::at(&self.analysis.names.occurrences, &self.view(), self.offset(position))
     }

@@ -1,4 +1,4 @@
-//! Other names for things.
+//! Renaming.
 
 use super::{
     Ready,
@@ -8,7 +8,7 @@ use crate::places::is_own;
 use apex_dsl::ide;
 use lsp_types::{Position, PrepareRenameResponse, TextEdit};
 
-/// The name at a position, if it can be changed.
+/// Range and text of the name at a position. Fails if the name cannot be changed.
 pub fn prepare(ready: &Ready<'_>, position: Position) -> Result<PrepareRenameResponse, String> {
     let found = ready.occurrence(position).ok_or("there is no name here")?;
     let view = ready.view();
@@ -24,7 +24,7 @@ pub fn prepare(ready: &Ready<'_>, position: Position) -> Result<PrepareRenameRes
     })
 }
 
-/// The changes of one text that give the target another name.
+/// Edits of one source file that rename the target.
 pub fn edits(ready: &Ready<'_>, wanted: &Target, name: &str) -> Result<Vec<TextEdit>, String> {
     let Some(definition) = uses(ready, wanted).first().map(|o| o.definition) else { return Ok(vec![]) };
     let spans = ide::rename(&ready.view(), &ready.analysis.names.occurrences, definition, name)?;

@@ -1,10 +1,10 @@
-//! What a text declares, as a tree.
+//! Tree of the declarations in a source file.
 
 use super::Ready;
 use apex_dsl::ide::{self, Symbol, SymbolKind};
 use lsp_types::DocumentSymbol;
 
-/// The tree of a text.
+/// Declarations in a source file.
 pub fn symbols(ready: &Ready<'_>) -> Vec<DocumentSymbol> {
     ide::outline(&ready.view()).iter().map(|s| symbol(ready, s)).collect()
 }

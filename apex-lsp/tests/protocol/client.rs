@@ -1,4 +1,4 @@
-//! An editor for tests: talks to a server in the same process.
+//! An editor for tests that communicates with a server in the same process.
 
 use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
 use serde_json::{Value, json};
@@ -17,27 +17,27 @@ pub struct Client {
     server: Option<JoinHandle<bool>>,
     next: i32,
     version: i32,
-    /// What the server said that was no answer.
+    /// Notifications of the server.
     pub said: Vec<Notification>,
 }
 
-/// A text in the folder of PATSY, which can use the library; it exists in the editor only.
+/// A source file in the folder of PATSY, which can use the library. It exists in the editor only.
 pub fn unsaved(name: &str) -> PathBuf {
     repository().join("robots/patsy").join(name)
 }
 
-/// The root of the repository.
+/// Root of the repository.
 pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
 }
 
-/// The address of a file.
+/// Address of a file.
 pub fn uri(path: &Path) -> String {
     format!("file://{}", path.display())
 }
 
 impl Client {
-    /// Starts a server for an editor that can do what most can.
+    /// Starts a server for an editor with the usual capabilities.
     pub fn start() -> Self {
         Self::with(json!({
             "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } },
@@ -45,7 +45,7 @@ impl Client {
         .0
     }
 
-    /// Starts a server for an editor that can do `capabilities`; gives what the server can do, too.
+    /// Starts a server for an editor with `capabilities`; also returns the capabilities of the server.
     pub fn with(capabilities: Value) -> (Self, Value) {
         let (server, connection) = Connection::memory();
         let server = std::thread::spawn(move || apex_lsp::serve(&server, PATIENCE));
@@ -65,7 +65,7 @@ impl Client {
         self.connection().sender.send(message.into()).unwrap();
     }
 
-    /// Sends a request and waits for the answer: the result, or the message of the error.
+    /// Sends a request and waits for the answer: the result, or the error message.
     pub fn ask(&mut self, method: &str, params: Value) -> Result<Value, String> {
         self.next += 1;
         let id = RequestId::from(self.next);
@@ -86,14 +86,14 @@ impl Client {
         }
     }
 
-    /// Opens a text.
+    /// Opens a source file.
     pub fn open(&mut self, path: &Path, text: &str) {
         self.version += 1;
         let document = json!({ "uri": uri(path), "languageId": "afg", "version": self.version, "text": text });
         self.tell("textDocument/didOpen", json!({ "textDocument": document }));
     }
 
-    /// Replaces a part of a text; all of it without a range.
+    /// Replaces a part of a source file, or all of it without a range.
     pub fn change(&mut self, path: &Path, range: Option<Value>, text: &str) {
         self.version += 1;
         let mut change = json!({ "text": text });
@@ -104,7 +104,7 @@ impl Client {
         self.tell("textDocument/didChange", json!({ "textDocument": document, "contentChanges": [change] }));
     }
 
-    /// What is wrong with a text as it is now.
+    /// Diagnostics of the current version of a source file.
     pub fn diagnostics(&mut self, path: &Path) -> Vec<Value> {
         let (uri, version) = (uri(path), self.version);
         loop {
@@ -123,14 +123,14 @@ impl Client {
         }
     }
 
-    /// Asks about the place in `text` where `|` stands in `marked`; that sign is left out. Opens the text.
+    /// Sends a request about the position of `|` in `marked`. Opens the text without that character.
     pub fn at(&mut self, path: &Path, marked: &str, method: &str) -> Result<Value, String> {
         let (before, after) = marked.split_once('|').unwrap();
         self.open(path, &format!("{before}{after}"));
         self.ask_at(path, position(before), method, json!({}))
     }
 
-    /// Asks about a position.
+    /// Sends a request about a position.
     pub fn ask_at(&mut self, path: &Path, position: Value, method: &str, more: Value) -> Result<Value, String> {
         let mut params = json!({ "textDocument": { "uri": uri(path) }, "position": position });
         for (key, value) in more.as_object().unwrap() {
@@ -139,27 +139,27 @@ impl Client {
         self.ask(&format!("textDocument/{method}"), params)
     }
 
-    /// The labels of what could be written at `|`.
+    /// Labels of the completions at `|`.
     pub fn completions(&mut self, path: &Path, marked: &str) -> Vec<String> {
         let found = self.at(path, marked, "completion").unwrap();
         found.as_array().unwrap().iter().map(|item| item["label"].as_str().unwrap().to_owned()).collect()
     }
 
-    /// Says goodbye; whether the server went in good order.
+    /// Shuts the server down. Returns `true` if it ended according to the protocol.
     pub fn stop(mut self) -> bool {
         self.ask("shutdown", Value::Null).unwrap();
         self.tell("exit", Value::Null);
         self.server.take().unwrap().join().unwrap()
     }
 
-    /// Goes without a word.
+    /// Closes the connection without a shutdown.
     pub fn leave(mut self) -> bool {
         self.connection = None;
         self.server.take().unwrap().join().unwrap()
     }
 }
 
-/// Line and column behind a text, in UTF-16.
+/// Position after a text, in lines and UTF-16 columns.
 pub fn position(before: &str) -> Value {
     let before = before.replace("\r\n", "\n").replace('\r', "\n");
     let line = before.matches('\n').count();
@@ -167,7 +167,7 @@ pub fn position(before: &str) -> Value {
     json!({ "line": line, "character": column })
 }
 
-/// The range of the only `part` in `text`.
+/// Range of the only `part` in `text`.
 pub fn range(text: &str, part: &str) -> Value {
     assert_eq!(text.matches(part).count(), 1, "{part}");
     let start = text.find(part).unwrap();

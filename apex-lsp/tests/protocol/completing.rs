@@ -1,4 +1,4 @@
-//! What could be written.
+//! Completion.
 
 use crate::client::{Client, unsaved};
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ graph Find(gap: f32[m] = 15cm) {
     node sum = add();
     ";
 
-/// The completions at `|` in a graph, with more of the graph behind.
+/// Completions at `|` in a graph that continues after it.
 fn in_graph(client: &mut Client, statement: &str) -> Vec<String> {
     let marked = format!("{HEAD}{statement}\n    scan -> clean;\n}}\n");
     client.completions(&unsaved("completing.afg"), &marked)
@@ -72,13 +72,13 @@ fn only_ports_that_fit() {
         let found = at(statement);
         has(&found, &["fast", "stop", "one", "inner.a", "inner.c", "exit", "One"]);
         lacks(&found, &["flag", "inner", "inner.b", "inner.d", "speed", "go", "start", "Inner.a"]);
-        // What fits for certain comes first.
+        // Certain completions come first.
         assert_eq!(found[0], "fast");
     }
     assert_eq!(at("speed -> inner.|"), ["a", "c"]);
     assert_eq!(at("inner.|"), ["d", "failed"]);
     assert_eq!(at("inner.d -> inner.|"), ["b"]);
-    // Only one port of it fits: its name is enough.
+    // Only one of its ports fits, so its name is enough.
     has(&at("inner -> |"), &["inner"]);
     lacks(&at("inner -> |"), &["fast", "inner.a", "inner.b", "one"]);
     assert!(client.stop());
@@ -101,7 +101,7 @@ fn arguments_and_units() {
     assert!(client.stop());
 }
 
-/// A connection may name a parameter: to set it, or to read it.
+/// A connection may name a parameter, to set it or to read it.
 #[test]
 fn parameters_as_ports() {
     let mut client = Client::start();
@@ -115,14 +115,14 @@ fn parameters_as_ports() {
     };
     let found = client.completions(&path, &graph("near -> |"));
     has(&found, &["cut.min", "cut.max"]);
-    // Only where the types agree for certain.
+    // Parameters are proposed only if the types are known to agree.
     let found = client.completions(&path, &graph("scan -> |"));
     has(&found, &["cut"]);
     lacks(&found, &["cut.min", "cut.scan"]);
     assert!(client.stop());
 }
 
-/// What is nested in a graph, however deep, cannot hold it.
+/// A graph cannot contain itself, at any depth.
 #[test]
 fn no_recursion() {
     let mut client = Client::start();
@@ -146,7 +146,7 @@ fn what_is_written() {
     let marked = format!("{HEAD}scan -> cle|\n}}\n");
     let found = client.at(&unsaved("written.afg"), &marked, "completion").unwrap();
     let item = |name: &str| -> Value { found.as_array().unwrap().iter().find(|i| i["label"] == name).unwrap().clone() };
-    // The word that is there is replaced.
+    // The existing word is replaced.
     let edit = item("clean")["textEdit"].clone();
     assert_eq!(edit["newText"], "clean");
     assert_eq!(
@@ -156,13 +156,13 @@ fn what_is_written() {
     assert_eq!(item("JumpDistance")["textEdit"]["newText"], "JumpDistance()$0");
     assert_eq!(item("JumpDistance")["insertTextFormat"], 2);
     assert!(item("JumpDistance")["documentation"]["value"].as_str().unwrap().contains("gap: f32[m] = 0.15"));
-    // What is not imported brings its import along.
+    // A completion that is not imported adds its import.
     let far = item("MedianFilter");
     assert_eq!(far["additionalTextEdits"][0]["newText"], "use apex_nodes::scan::MedianFilter;\n");
     assert_eq!(far["additionalTextEdits"][0]["range"]["start"], json!({ "line": 0, "character": 0 }));
     assert!(client.stop());
 
-    // Without placeholders the name alone is written.
+    // Without placeholders only the name is inserted.
     let (mut client, _) = Client::with(json!({}));
     let found = client.at(&unsaved("written.afg"), &marked, "completion").unwrap();
     let jump = found.as_array().unwrap().iter().find(|i| i["label"] == "JumpDistance").unwrap();

@@ -1,17 +1,17 @@
-//! Random edits of the repository's texts: the server answers everything, and every place that it names is in the text.
-//! `APEX_EDITS=50000` makes more of them.
+//! Random edits of the source files of the repository. The server answers every request, and every place in an answer
+//! exists in the text. `APEX_EDITS=50000` sets the number of edits.
 
 use crate::client::{Client, position, repository, unsaved, uri};
 use serde_json::{Value, json};
 use std::{env, fs, ops::Range, path::Path};
 
 const EDITS: usize = 3000;
-/// Edits of one text before the next one is opened.
+/// Number of edits of one source file before the next one is opened.
 const PER_TEXT: usize = 25;
-/// Longer texts only take longer.
+/// Maximum size of a source file in bytes; larger ones only take longer.
 const MAX_BYTES: u64 = 6000;
 
-/// What is written.
+/// Pieces of text to insert.
 const PIECES: [&str; 40] = [
     "/*",
     "*/",
@@ -55,7 +55,7 @@ const PIECES: [&str; 40] = [
     "\0",
 ];
 
-/// A small generator of numbers (xorshift64*).
+/// A small random number generator (xorshift64*).
 struct Dice(u64);
 
 impl Dice {
@@ -66,13 +66,13 @@ impl Dice {
         ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % n.max(1) as u64) as usize
     }
 
-    /// A place between two characters.
+    /// Random offset between two characters.
     fn place(&mut self, text: &str) -> usize {
         let at = self.below(text.len() + 1);
         (at..=text.len()).find(|i| text.is_char_boundary(*i)).unwrap()
     }
 
-    /// A range to replace, and by what.
+    /// Random range and its replacement.
     fn edit(&mut self, text: &str) -> (Range<usize>, String) {
         let start = self.place(text);
         let length = self.below(30);
@@ -86,7 +86,7 @@ impl Dice {
     }
 }
 
-/// All texts in a folder and in those below.
+/// Adds all source files in a folder and below.
 fn texts(folder: &Path, found: &mut Vec<String>) {
     let mut entries: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     entries.sort();
@@ -100,13 +100,13 @@ fn texts(folder: &Path, found: &mut Vec<String>) {
     }
 }
 
-/// The columns of each line of a text.
+/// Number of columns of each line.
 fn columns(text: &str) -> Vec<usize> {
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     text.split('\n').map(|line| line.encode_utf16().count()).collect()
 }
 
-/// Looks at all positions in an answer that are positions of the text at `uri`.
+/// Checks all positions in an answer that refer to the source file at `uri`.
 fn look(answer: &Value, uri: &str, columns: &[usize]) {
     match answer {
         Value::Array(items) => items.iter().for_each(|item| look(item, uri, columns)),
@@ -127,7 +127,7 @@ fn look(answer: &Value, uri: &str, columns: &[usize]) {
     }
 }
 
-/// Asks everything about a text after an edit at `at`.
+/// Sends all kinds of requests about a source file after an edit at `at`.
 fn ask_all(client: &mut Client, path: &Path, text: &str, at: usize, other: usize) {
     let (uri, columns) = (uri(path), columns(text));
     let look = |answer: Value| look(&answer, &uri, &columns);
@@ -169,7 +169,8 @@ fn random_edits() {
             let change = json!({ "start": position(&text[..range.start]), "end": position(&text[..range.end]) });
             let had_return = text.contains('\r');
             text.replace_range(range.clone(), &piece);
-            // Where `\r` and `\n` come apart or together, lines are counted anew.
+            // An edit that separates or joins `\r` and `
+            // ` changes the numbers of lines.
             if had_return || text.contains('\r') {
                 client.change(&path, None, &text);
             } else {

@@ -1,4 +1,4 @@
-//! Changes that are preferred mend something: tried with all wrong texts that the tests of errors have.
+//! Preferred fixes remove an error: checked with all source files of the tests of errors.
 
 use crate::{
     client::{Client, repository, uri},
@@ -10,10 +10,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Fewer preferred changes than all those texts offer would say that nothing is tried.
+/// Minimum number of preferred fixes in all source files; fewer mean that fixes are not tried.
 const MANY: usize = 40;
 
-/// A package with the nodes of the tests of errors, and their texts.
+/// A package with the nodes and the source files of the tests of errors.
 fn package() -> (Package, Vec<PathBuf>) {
     let package = Package::new("fixing", "");
     let errors = repository().join("tests/errors");
@@ -33,7 +33,7 @@ fn package() -> (Package, Vec<PathBuf>) {
     (package, texts)
 }
 
-/// Copies all texts in a folder and in those below; gives the copies.
+/// Copies all source files in a folder and below. Returns the paths of the copies.
 fn texts(from: &Path, to: &Path) -> Vec<PathBuf> {
     fs::create_dir_all(to).unwrap();
     let mut copies = vec![];
@@ -51,7 +51,7 @@ fn texts(from: &Path, to: &Path) -> Vec<PathBuf> {
     copies
 }
 
-/// A text without what its test expects of it.
+/// Removes the expectations of a test from a source file.
 fn strip(text: &str) -> String {
     let is_expectation = |line: &&str| {
         let Some(rest) = line.strip_prefix("//").map(str::trim_start) else { return false };
@@ -62,7 +62,7 @@ fn strip(text: &str) -> String {
     text.split_inclusive('\n').filter(|line| !is_expectation(line)).collect()
 }
 
-/// The byte at a position of the protocol.
+/// Byte offset of a position of the protocol.
 fn offset(text: &str, position: &Value) -> usize {
     let line = position["line"].as_u64().unwrap() as usize;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();

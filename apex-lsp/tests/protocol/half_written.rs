@@ -1,10 +1,10 @@
-//! Texts in any state: the server answers, and does not fail.
+//! Incomplete and broken source files, for which the server answers every request.
 
 use crate::client::{Client, position, repository, unsaved, uri};
 use serde_json::{Value, json};
 use std::fs;
 
-/// Texts with everything in them.
+/// Source files that use all features of the language.
 const TEXTS: [&str; 4] = [
     "robots/patsy/mission.afg",
     "tests/behaviour/machines.afg",
@@ -12,7 +12,7 @@ const TEXTS: [&str; 4] = [
     "tests/behaviour/scripts.afg",
 ];
 
-/// Asks everything about a place; the client fails if the server does.
+/// Sends all kinds of requests about a position; the client fails if the server does.
 fn ask_all(client: &mut Client, text: &str, before: &str) {
     let path = unsaved("half_written.afg");
     let document = json!({ "uri": uri(&path) });
@@ -29,7 +29,7 @@ fn ask_all(client: &mut Client, text: &str, before: &str) {
     client.ask("textDocument/codeAction", params).unwrap();
 }
 
-/// The places of a text that are tried: every one of a short text, fewer of a long one.
+/// Offsets to be tested: all of a short text, fewer of a long one.
 fn places(text: &str) -> Vec<usize> {
     let step = text.len() / 400 + 1;
     (0..=text.len()).filter(|i| text.is_char_boundary(*i)).step_by(step).collect()
@@ -79,7 +79,7 @@ fn pieces_left_out() {
     assert!(client.stop());
 }
 
-/// What stands around a statement that is being written is still known.
+/// The rest of the source file is known while a statement is incomplete.
 #[test]
 fn the_rest_is_known() {
     let mut client = Client::start();
@@ -113,7 +113,7 @@ fn the_rest_is_known() {
     assert!(client.stop());
 }
 
-/// Closers are added behind a comment that ends the text, not in it.
+/// Missing closing brackets are added after a comment at the end of the text, not in it.
 #[test]
 fn a_comment_at_the_end() {
     let mut client = Client::start();
@@ -127,7 +127,7 @@ fn a_comment_at_the_end() {
     assert!(client.stop());
 }
 
-/// What is said is said of the text that was checked: the one that stands in for a half-written text may import more.
+/// Diagnostics refer to the text that was checked: the repaired text may have more imports.
 #[test]
 fn errors_in_imports_of_a_half_written_text() {
     let mut client = Client::start();
@@ -150,7 +150,7 @@ fn errors_in_imports_of_a_half_written_text() {
     assert!(client.stop());
 }
 
-/// A text that nests without end, and one that is too large.
+/// Very deep nesting, and source files that are too large.
 #[test]
 fn too_much() {
     let mut client = Client::start();

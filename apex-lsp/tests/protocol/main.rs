@@ -1,4 +1,4 @@
-//! The language server, seen from an editor.
+//! The language server as seen from an editor.
 
 mod client;
 mod completing;

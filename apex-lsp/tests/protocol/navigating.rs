@@ -1,4 +1,4 @@
-//! Where things are.
+//! Definitions and references.
 
 use crate::client::{Client, range, repository, unsaved, uri};
 use serde_json::{Value, json};
@@ -19,7 +19,7 @@ graph Twice {
 }
 ";
 
-/// `TEXT` with a bar in front of the `n`th `word`.
+/// `TEXT` with a bar before the `n`th `word`.
 fn marked(word: &str, n: usize) -> String {
     let at = TEXT.match_indices(word).nth(n).unwrap().0;
     format!("{}|{}", &TEXT[..at], &TEXT[at..])
@@ -57,7 +57,7 @@ fn definitions() {
     ] {
         assert_eq!(client.at(&path, &marked(word, n), "definition").unwrap(), target, "{word} {n}");
     }
-    // A parameter and a port of a node in Rust lead to the field and the argument.
+    // A parameter and a port of a Rust node lead to the field and the argument.
     let file = repository().join("nodes/src/scan/segment.rs");
     let text = std::fs::read_to_string(&file).unwrap();
     for (word, n, before) in [("gap", 1, "    "), ("scan;", 0, "    fn process(&mut self, ")] {
@@ -126,7 +126,7 @@ fn all_uses() {
     assert!(client.stop());
 }
 
-/// A graph is also used by the texts beside it, whether they are open or not.
+/// A graph is also used by other source files in its folder, whether they are open or not.
 #[test]
 fn uses_in_other_texts() {
     let mut client = Client::start();

@@ -1,4 +1,4 @@
-//! Packages that tests make.
+//! Packages for tests.
 
 use crate::client::repository;
 use std::{fs, path::PathBuf};
@@ -7,7 +7,7 @@ use std::{fs, path::PathBuf};
 pub struct Package(pub PathBuf);
 
 impl Package {
-    /// A package of this name with these nodes.
+    /// A package with this name and these nodes.
     pub fn new(name: &str, nodes: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("apex-lsp-{}-{name}", std::process::id()));
         fs::create_dir_all(folder.join("src")).unwrap();

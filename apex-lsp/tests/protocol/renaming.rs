@@ -1,4 +1,4 @@
-//! Other names for things.
+//! Renaming.
 
 use crate::client::{Client, position, unsaved, uri};
 use serde_json::{Value, json};
@@ -23,14 +23,14 @@ fsm Door { slot go; event ring; state shut { on go => open -> ring; } state open
 test finds: Find { expect active(jump); }
 ";
 
-/// Renames what the `n`th `word` of a text means.
+/// Renames the `n`th `word` of a source file.
 fn rename(client: &mut Client, path: &Path, text: &str, (word, n): (&str, usize), name: &str) -> Result<Value, String> {
     client.open(path, text);
     let at = text.match_indices(word).nth(n).unwrap().0;
     client.ask_at(path, position(&text[..at]), "rename", json!({ "newName": name }))
 }
 
-/// A text after the changes to it.
+/// Applies the edits of a source file.
 fn applied(text: &str, path: &Path, edit: &Value) -> String {
     let mut edits = edit["changes"][uri(path)].as_array().cloned().unwrap_or_default();
     edits.sort_by_key(|e| {
@@ -114,7 +114,7 @@ fn a_graph_and_the_texts_that_import_it() {
     let edit = rename(&mut client, &inner, texts[0].1, ("Inner", 0), "Core").unwrap();
     assert_eq!(applied(texts[0].1, &inner, &edit), "graph Core { in x: u8; }\n");
     assert_eq!(applied(texts[1].1, &outer, &edit), texts[1].1.replace("Inner", "Core"));
-    // What an import calls by a name of its own keeps that.
+    // A name that an import introduces is kept.
     assert_eq!(applied(texts[2].1, &other, &edit), texts[2].1.replace("Inner", "Core"));
     // The port, seen from outside.
     let edit = rename(&mut client, &outer, texts[1].1, ("i.x", 0), "j").unwrap();
@@ -123,7 +123,7 @@ fn a_graph_and_the_texts_that_import_it() {
     let edit = client.ask_at(&outer, at, "rename", json!({ "newName": "value" })).unwrap();
     assert_eq!(applied(texts[0].1, &inner, &edit), "graph Inner { in value: u8; }\n");
     assert_eq!(applied(texts[1].1, &outer, &edit), texts[1].1.replace("i.x", "i.value"));
-    // A name that has a meaning in one of the texts is refused.
+    // A name that has a meaning in one of the source files is refused.
     let found = rename(&mut client, &inner, texts[0].1, ("Inner", 0), "Outer").unwrap_err();
     assert!(found.ends_with("re_outer.afg"), "{found}");
     let found = rename(&mut client, &other, texts[2].1, ("Mine", 1), "Yours").unwrap_err();

@@ -1,4 +1,4 @@
-//! What is shown: hover, hints, fixes.
+//! Hover, hints, fixes.
 
 use crate::client::{Client, position, unsaved, uri};
 use serde_json::{Value, json};
@@ -24,7 +24,7 @@ graph Watch(
 graph Cut { node j = JumpDistance(gap = 1m) timeout 5s; }
 ";
 
-/// What hover says in front of the `n`th `word`.
+/// Hover text before the `n`th `word`.
 fn hover(client: &mut Client, word: &str, n: usize) -> String {
     let path = unsaved("showing.afg");
     client.open(&path, TEXT);
@@ -62,7 +62,7 @@ fn what_a_name_means() {
     assert!(client.stop());
 }
 
-/// A unit is shown where one is declared; a time can be written in any.
+/// A unit is shown if it is declared; a time may have any unit.
 #[test]
 fn no_unit_is_invented() {
     let mut client = Client::start();
@@ -157,7 +157,7 @@ fn the_style_of_the_language() {
             json!({ "textDocument": { "uri": uri(&path) }, "options": { "tabSize": 4, "insertSpaces": true } });
         client.ask("textDocument/formatting", params).unwrap()
     };
-    // Only the blanks that are missing are written.
+    // Only the missing blanks are inserted.
     let edit = &format("// ü\ngraph A {\n  in x: u64;\n}\n")[0];
     assert_eq!(
         (edit["newText"].as_str(), &edit["range"]["start"]["line"], &edit["range"]["end"]["line"]),

@@ -1,4 +1,4 @@
-//! How long an editor waits. Run with
+//! Measurement of the response times. Run with
 //! `cargo test --release -p apex-lsp --test protocol -- --ignored --nocapture speed`.
 
 use crate::client::{Client, position, repository, uri};
@@ -8,13 +8,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Keystrokes that are measured.
+/// Number of measured keystrokes.
 const KEYS: usize = 100;
 
-/// What a text is full of, how often, and the text of that size.
+/// Repeated content of a source file, number of repetitions, and function that returns a text with that number.
 type Shape<'a> = (&'a str, usize, &'a dyn Fn(usize) -> String);
 
-/// Large texts of many shapes, each in two sizes: what takes more than twice the time for twice the text grows too fast.
+/// Large source files of many shapes, each in two sizes. The time should at most double with the size.
 #[test]
 #[ignore = "a measurement: it prints, and decides nothing"]
 fn large_texts() {
@@ -84,7 +84,7 @@ fn a_thousand_nodes() {
 
     let mut times: [(&str, Vec<Duration>); 4] = ["diagnostics", "completion", "hints", "hover"].map(|n| (n, vec![]));
     for key in 0..KEYS {
-        // Somebody writes, and takes it back.
+        // Type a character, then remove it.
         let end = json!({ "line": here["line"], "character": 1 });
         let empty = json!({ "start": here, "end": here });
         let (range, typed) = if key % 2 == 0 { (empty, "x") } else { (json!({ "start": here, "end": end }), "") };

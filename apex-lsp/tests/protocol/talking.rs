@@ -1,4 +1,4 @@
-//! How server and editor understand each other.
+//! Communication between server and editor.
 
 use crate::{
     client::{Client, range, unsaved, uri},
@@ -40,14 +40,14 @@ fn what_it_does_not_know_is_an_error_of_the_protocol() {
     );
     assert!(client.ask("textDocument/hover", json!({ "position": 3 })).unwrap_err().contains("Position"));
     client.tell("textDocument/didChange", json!("nonsense"));
-    // A text that is not open has no answers.
+    // Requests about a source file that is not open have no result.
     let nowhere =
         json!({ "textDocument": { "uri": "file:///nowhere.afg" }, "position": { "line": 0, "character": 0 } });
     assert_eq!(client.ask("textDocument/hover", nowhere), Ok(Value::Null));
     assert!(client.stop());
 }
 
-/// Whatever becomes of a request, it is answered once: by the worker, as stale, as cancelled or as late.
+/// Every request has exactly one answer: from the worker, or as stale, cancelled or late.
 #[test]
 fn every_request_has_one_answer() {
     for patience in [0, 5, 600_000].map(Duration::from_millis) {
@@ -70,7 +70,7 @@ fn every_request_has_one_answer() {
                 _ => {}
             }
         }
-        // Those that wait are answered when the editor has gone.
+        // Requests in the queue are answered after the editor has disconnected.
         drop(client.sender);
         let mut answers = vec![0; 301];
         for message in client.receiver {
@@ -114,7 +114,7 @@ fn errors_while_typing() {
     assert!(client.stop());
 }
 
-/// Columns are units of UTF-16, unless bytes are offered; lines end as on Windows, too.
+/// Columns are UTF-16 code units unless the client offers bytes. Windows line ends are supported.
 #[test]
 fn columns() {
     let text = "/// 😀ü\r\ngraph A {\r\n    /* 😀 */ node a = Nothing();\r\n}\r\n";
@@ -124,7 +124,7 @@ fn columns() {
         client.open(&path, text);
         let found = client.diagnostics(&path);
         assert_eq!(found[0]["range"]["start"], json!({ "line": 2, "character": column }), "{capabilities}");
-        // A change behind characters that are wider than one column.
+        // A change after characters that are wider than one column.
         let end = json!({ "line": 2, "character": column + 7 });
         client.change(&path, Some(json!({ "start": { "line": 2, "character": column }, "end": end })), "B");
         let found = client.diagnostics(&path);
@@ -154,7 +154,7 @@ fn nodes_that_change_are_read_again() {
     assert_eq!(client.diagnostics(&path), Vec::<Value>::new());
     assert!(client.stop());
 
-    // One that does not: the nodes are read when a text is saved.
+    // A client that does not: the nodes are read when a source file is saved.
     let mut client = Client::start();
     client.open(&path, text);
     assert_eq!(client.diagnostics(&path), Vec::<Value>::new());
@@ -180,7 +180,7 @@ fn a_package_that_cargo_cannot_read() {
     assert!(client.stop());
 }
 
-/// What is open in the editor counts, not what is on the disk; and what is wrong in a text stands where it is imported.
+/// The text in the editor has precedence over the disk. Errors in an imported source file are shown at the import.
 #[test]
 fn texts_that_import_each_other() {
     let mut client = Client::start();

@@ -1,14 +1,14 @@
-//! copper-rs: tasks and a graph in RON, compiled by a macro; every task is timed twice per tick. Nothing is logged.
+//! copper-rs: tasks and a graph in RON, compiled by a macro. Every task is timed twice per tick. Nothing is logged.
 
 use crate::Ran;
 use std::cell::Cell;
 
 thread_local! {
-    /// What the sink of the last application had when it was stopped: it cannot be asked for its state.
+    /// Final value of the sink of the last application, whose state is not accessible.
     static CHECKSUM: Cell<u64> = const { Cell::new(0) };
 }
 
-/// What the graphs are made of.
+/// Tasks of the graphs.
 pub mod tasks {
     use super::CHECKSUM;
     use apex_bench::nodes::{self, Count, OneOf, add, op, sum8};
@@ -42,7 +42,7 @@ pub mod tasks {
         }
     }
 
-    /// `op` with a number known to the compiler.
+    /// `op` with a compile-time constant.
     #[derive(Default, Reflect)]
     pub struct Op<const K: u64>;
 
@@ -90,7 +90,7 @@ pub mod tasks {
         }
     }
 
-    /// Sum of two.
+    /// Sum of two values.
     #[derive(Default, Reflect)]
     pub struct Join;
 
@@ -109,7 +109,7 @@ pub mod tasks {
         }
     }
 
-    /// Sum of eight, which all have a message in every tick.
+    /// Sum of eight values, which are all present in every tick.
     #[derive(Default, Reflect)]
     pub struct Sum8;
 
@@ -132,7 +132,7 @@ pub mod tasks {
         }
     }
 
-    /// Folds all it gets into a checksum.
+    /// Folds all values into a checksum.
     #[derive(Default, Reflect)]
     #[reflect(from_reflect = false)]
     pub struct Last {

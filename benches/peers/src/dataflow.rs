@@ -1,4 +1,4 @@
-//! timely dataflow: one worker. A tick is an epoch; it is over when the probe at the end has passed it.
+//! timely dataflow: one worker. A tick is an epoch, which ends when the probe at the end has passed it.
 
 use crate::{Ran, timed};
 use apex_bench::nodes::{Count, OneOf, Sink, op};
@@ -8,12 +8,12 @@ use timely::dataflow::{
     operators::{Input, Inspect, Probe, vec::Map},
 };
 
-/// Operations in a row.
+/// A chain of operations.
 fn ops<'s>(from: StreamVec<'s, u64, u64>, numbers: impl Iterator<Item = u64>) -> StreamVec<'s, u64, u64> {
     numbers.fold(from, |from, k| from.map(move |x| op(&x, k)))
 }
 
-/// An epoch for each tick.
+/// Runs one epoch per tick.
 fn lockstep(
     ticks: u64,
     graph: impl for<'s> FnOnce(StreamVec<'s, u64, u64>) -> StreamVec<'s, u64, u64> + Send + Sync + 'static,
@@ -56,7 +56,7 @@ chain! {
     chain100: 100;
 }
 
-/// A filter that passes 1 % in front of 98 operations.
+/// A filter that passes 1 % of the values to 98 operations.
 pub fn bot100(ticks: u64) -> Ran {
     let mut filter = OneOf::new(100);
     lockstep(ticks, move |from| ops(ops(from, 1..=1).flat_map(move |x| filter.process(&x)), 3..=100))

@@ -6,13 +6,13 @@ use dfir_rs::dfir_syntax;
 use seq_macro::seq;
 use std::{cell::RefCell, hint::black_box, rc::Rc};
 
-/// State that a flow and the one who runs it share.
+/// State shared between a flow and its caller.
 fn shared<T: Default>() -> (Rc<RefCell<T>>, Rc<RefCell<T>>) {
     let shared = Rc::<RefCell<T>>::default();
     (shared.clone(), shared)
 }
 
-/// One tick of the flow for each tick; the checksum is what the sink has.
+/// Runs one tick of the flow per tick; the checksum is that of the sink.
 macro_rules! ticks {
     ($flow:ident, $ticks:ident, $sink:ident) => {{
         let time = timed(|| {
@@ -101,7 +101,7 @@ diamond! {
     diamond64: 64;
 }
 
-/// A filter that passes 1 % in front of 98 operations.
+/// A filter that passes 1 % of the values to 98 operations.
 pub fn bot100(ticks: u64) -> Ran {
     let (mut source, mut filter) = (Count::default(), OneOf::new(100));
     let (inner, sink) = shared::<Sink>();
@@ -130,7 +130,7 @@ pub fn throttle(ticks: u64) -> Ran {
     ticks!(flow, ticks, sink)
 }
 
-/// Two tokens a firing meet three tokens a firing.
+/// Two tokens per firing meet three tokens per firing.
 pub fn rate23(ticks: u64) -> Ran {
     let mut source = Pairs::default();
     let (inner, sink) = shared::<Sink>();
@@ -165,7 +165,7 @@ pub fn nested1000(ticks: u64) -> Ran {
     ticks!(flow, ticks, sink)
 }
 
-/// A token that goes to and fro: to B in a tick, and back to A, whose next token waits for the next tick.
+/// A token that goes back and forth: to B in a tick and back to A, whose next token is sent in the next tick.
 pub fn pingpong(ticks: u64) -> Ran {
     let (inner, a) = shared::<Ping>();
     let mut flow = dfir_syntax! {
@@ -175,7 +175,7 @@ pub fn pingpong(ticks: u64) -> Ran {
     ticks!(flow, ticks, a)
 }
 
-/// Adds up what it gets.
+/// Sum of all values.
 #[derive(Default)]
 struct Sum {
     acc: u64,
@@ -187,12 +187,12 @@ impl Sum {
     }
 }
 
-/// What producer `p` sends, and the number of the operation for it.
+/// Value that producer `p` sends, and the number of its operation.
 fn event(i: u64, p: u64) -> (u64, u64) {
     (p + 1, numbered(&i, p))
 }
 
-/// Eight values a tick.
+/// Eight values per tick.
 pub fn mpse8(ticks: u64) -> Ran {
     let mut source = Count::default();
     let (inner, sum) = shared::<Sum>();

@@ -1,4 +1,4 @@
-//! Libraries that pass values between threads: two regions that run freely.
+//! Libraries that pass values between threads: two regions that run independently.
 
 use crate::{Ran, timed};
 use apex_bench::tworegion::{Region, Value};
@@ -8,7 +8,7 @@ use std::{
     thread,
 };
 
-/// A region that ticks: it reads the latest value, if there is a new one, and publishes its own.
+/// Ticks of a region, which reads the latest value if there is a new one, and publishes its own.
 fn run(ticks: u64, mut read: impl FnMut(&mut Value), mut publish: impl FnMut(Value)) -> u64 {
     let (mut region, mut other) = (Region::default(), Value::default());
     for _ in 0..ticks {
@@ -18,7 +18,7 @@ fn run(ticks: u64, mut read: impl FnMut(&mut Value), mut publish: impl FnMut(Val
     region.torn()
 }
 
-/// One of both runs on a thread of its own, the other one here.
+/// Runs one region on a new thread and the other on this one.
 fn together(theirs: impl FnOnce() -> u64 + Send, ours: impl FnOnce() -> u64) -> Ran {
     let start = Barrier::new(2);
     thread::scope(|scope| {
@@ -33,7 +33,7 @@ fn together(theirs: impl FnOnce() -> u64 + Send, ours: impl FnOnce() -> u64) -> 
     })
 }
 
-/// Three buffers for each direction.
+/// One triple buffer for each direction.
 pub fn triple_buffer(ticks: u64) -> Ran {
     let (mut to_left, mut from_right) = triple_buffer::triple_buffer(&Value::default());
     let (mut to_right, mut from_left) = triple_buffer::triple_buffer(&Value::default());

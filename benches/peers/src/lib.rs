@@ -1,6 +1,7 @@
-//! The graphs of `apex-bench` as other frameworks have them. They call the same node functions.
+//! The graphs of `apex-bench` in other frameworks, with the same node functions.
 //!
-//! Lockstep: a tick begins when the sink has the value of the one before. What relaxes this has `-batch` in its name.
+//! Ticks run in lockstep: a tick begins when the sink has the value of the previous one. Peers with relaxed lockstep
+//! have `-batch` in their names.
 
 #![recursion_limit = "1024"] // A hundred operations in a row are a type of this depth.
 
@@ -15,27 +16,27 @@ pub mod tasks;
 
 use std::time::{Duration, Instant};
 
-/// What a run gave.
+/// Result of a run.
 #[derive(Clone, Copy)]
 pub struct Ran {
-    /// How long all ticks took, without what is done once.
+    /// Time of all ticks, without initialization.
     pub time: Duration,
-    /// What the sink had at the end.
+    /// Final checksum of the sink.
     pub checksum: u64,
 }
 
-/// How long `ticks` takes.
+/// Time of `ticks`.
 pub(crate) fn timed(ticks: impl FnOnce()) -> Duration {
     let start = Instant::now();
     ticks();
     start.elapsed()
 }
 
-/// A graph as a framework has it.
+/// A graph in a framework.
 pub struct Peer {
     /// The graph.
     pub graph: &'static str,
-    /// The framework, and what is special about how it is used.
+    /// Name of the framework, with special features of its use.
     pub name: &'static str,
     /// Runs a number of ticks from the beginning.
     pub run: fn(u64) -> Ran,
@@ -43,7 +44,7 @@ pub struct Peer {
 
 macro_rules! peers {
     ($($name:literal: $($graph:ident = $run:path),+;)+) => {
-        /// All of them.
+        /// All peers.
         pub const PEERS: &[Peer] = &[$($(Peer { graph: stringify!($graph), name: $name, run: $run },)+)+];
     };
 }

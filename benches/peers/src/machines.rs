@@ -3,11 +3,11 @@
 use crate::{Ran, timed};
 use apex_bench::nodes::{Entered, Symbols};
 
-/// What the ring reads.
+/// Input symbol of the ring.
 pub enum Symbol {
-    /// On to the next state.
+    /// To the next state.
     Next,
-    /// Back to the first one.
+    /// Back to the first state.
     Reset,
 }
 
@@ -68,7 +68,7 @@ pub mod statig {
         s15 "enter16" enter16 16 => s0,
     }
 
-    /// Symbols for the ring.
+    /// Runs the ring with its symbols.
     pub fn fsm16(ticks: u64) -> Ran {
         let mut symbols = Symbols::default();
         let mut ring = Ring::default().uninitialized_state_machine().init();
@@ -124,7 +124,7 @@ pub mod smlang {
         }
     });
 
-    /// Symbols for the ring.
+    /// Runs the ring with its symbols.
     pub fn fsm16(ticks: u64) -> Ran {
         let (mut symbols, mut sink) = (Symbols::default(), Entered::default());
         sink.s(&1);

@@ -1,4 +1,4 @@
-//! Runs peers on request. First it writes a line `graph peer` for each that it has, and an empty one. For each line
+//! Runs peers on request. First it writes a line `graph peer` for each of its peers, and an empty line. For each line
 //! `graph peer ticks` that it then reads, it writes `nanoseconds checksum`.
 
 use apex_peers::{PEERS, Ran};

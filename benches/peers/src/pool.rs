@@ -5,7 +5,7 @@ use apex_bench::nodes::{Count, Rows, Sink, op, sum};
 use rayon::{Scope, prelude::*};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Runs `ticks` on a thread of the pool: otherwise each tick would wait for one to wake up.
+/// Runs `ticks` on a thread of the pool. Otherwise each tick would wait until one wakes up.
 fn in_pool(ticks: u64, tick: impl FnMut(u64) -> u64 + Send) -> Ran {
     let mut tick = tick;
     let (mut source, mut sink) = (Count::default(), Sink::default());
@@ -20,7 +20,7 @@ fn in_pool(ticks: u64, tick: impl FnMut(u64) -> u64 + Send) -> Ran {
     Ran { time, checksum: sink.checksum() }
 }
 
-/// The operations from `k` to `n`, each spawned by the one before.
+/// Operations from `k` to `n`, each spawned by the previous one.
 fn step<'a>(scope: &Scope<'a>, x: u64, k: u64, n: u64, last: &'a AtomicU64) {
     scope.spawn(move |scope| {
         let x = op(&x, k);
@@ -28,7 +28,7 @@ fn step<'a>(scope: &Scope<'a>, x: u64, k: u64, n: u64, last: &'a AtomicU64) {
     });
 }
 
-/// `N` operations in a row.
+/// A chain of `N` operations.
 pub fn chain<const N: u64>(ticks: u64) -> Ran {
     let last = AtomicU64::new(0);
     in_pool(ticks, |x| {
@@ -37,7 +37,7 @@ pub fn chain<const N: u64>(ticks: u64) -> Ran {
     })
 }
 
-/// `N` operations side by side.
+/// `N` parallel operations.
 pub fn diamond<const N: u64>(ticks: u64) -> Ran {
     in_pool(ticks, |x| (1..=N).into_par_iter().map(|k| op(&x, k)).reduce(|| 0, u64::wrapping_add))
 }

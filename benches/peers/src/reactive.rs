@@ -6,7 +6,7 @@ use rxrust::prelude::*;
 use seq_macro::seq;
 use std::{cell::RefCell, hint::black_box, rc::Rc};
 
-/// A source that sends one value a tick.
+/// Sends one value per tick into a stream.
 fn counted<O: Observer<Item = u64>>(ticks: u64, mut subject: O, sink: &RefCell<Sink>) -> Ran {
     let mut source = Count::default();
     let time = timed(|| {
@@ -62,7 +62,7 @@ diamond! {
     diamond64: 64;
 }
 
-/// A filter that passes 1 % in front of 98 operations.
+/// A filter that passes 1 % of the values to 98 operations.
 pub fn bot100(ticks: u64) -> Ran {
     let (subject, sink) = (LocalSubject::new(), Rc::<RefCell<Sink>>::default());
     let (inner, mut filter) = (sink.clone(), OneOf::new(100));
@@ -74,7 +74,7 @@ pub fn bot100(ticks: u64) -> Ran {
     counted(ticks, subject, &sink)
 }
 
-/// A join of a filtered and a full branch. `zip` pairs what comes one after the other: ⊥ is a value.
+/// A join of a filtered and a full branch. `zip` pairs values by their order, so ⊥ is a value here.
 pub fn throttle(ticks: u64) -> Ran {
     let (subject, sink) = (LocalSubject::new(), Rc::<RefCell<Sink>>::default());
     let (inner, filter) = (sink.clone(), RefCell::new(OneOf::new(10)));
@@ -90,7 +90,7 @@ pub fn throttle(ticks: u64) -> Ran {
     counted(ticks, subject, &sink)
 }
 
-/// Two tokens a firing meet three tokens a firing.
+/// Two tokens per firing meet three tokens per firing.
 pub fn rate23(ticks: u64) -> Ran {
     let (mut subject, sink) = (LocalSubject::new(), Rc::<RefCell<Sink>>::default());
     let (inner, mut source) = (sink.clone(), Pairs::default());
@@ -135,7 +135,7 @@ pub fn nested1000(ticks: u64) -> Ran {
     Ran { time, checksum }
 }
 
-/// Eight values a tick.
+/// Eight values per tick.
 pub fn mpse8(ticks: u64) -> Ran {
     let (mut subject, sum) = (LocalSubject::new(), Rc::new(RefCell::new(0u64)));
     let (inner, mut source) = (sum.clone(), Count::default());

@@ -1,4 +1,4 @@
-//! tokio: a task for each node, channels of one element between them, all on one thread.
+//! tokio: one task per node with channels of one element between them, all on one thread.
 
 use crate::Ran;
 use apex_bench::nodes::{Count, OneOf, Ping, Sink, add, numbered, op};
@@ -9,10 +9,10 @@ use tokio::{
     sync::mpsc::{Receiver, Sender, channel},
 };
 
-/// A message, or ⊥: the sink has to hear of every tick.
+/// A message, or ⊥, because the sink must be notified of every tick.
 type Token = Option<u64>;
 
-/// A task that makes a token of each.
+/// A task that converts each token.
 fn node(mut from: Receiver<Token>, mut make: impl FnMut(u64) -> Token + Send + 'static) -> Receiver<Token> {
     let (to, output) = channel(1);
     spawn(async move {
@@ -25,12 +25,12 @@ fn node(mut from: Receiver<Token>, mut make: impl FnMut(u64) -> Token + Send + '
     output
 }
 
-/// Operations in a row.
+/// A chain of operations.
 fn ops(from: Receiver<Token>, numbers: impl Iterator<Item = u64>) -> Receiver<Token> {
     numbers.fold(from, |from, k| node(from, move |x| Some(op(&x, k))))
 }
 
-/// Gives each token to all.
+/// Copies each token to several receivers.
 fn tee(mut from: Receiver<Token>, count: usize) -> Vec<Receiver<Token>> {
     let (senders, receivers): (Vec<Sender<Token>>, Vec<_>) = (0..count).map(|_| channel(1)).unzip();
     spawn(async move {
@@ -43,7 +43,7 @@ fn tee(mut from: Receiver<Token>, count: usize) -> Vec<Receiver<Token>> {
     receivers
 }
 
-/// Adds up one token of each; ⊥ if one of them is ⊥.
+/// Sum of one token from each receiver, or ⊥ if one of them is ⊥.
 fn join(mut from: Vec<Receiver<Token>>) -> Receiver<Token> {
     let (to, output) = channel(1);
     spawn(async move {
@@ -66,7 +66,7 @@ fn on_one_thread<T>(graph: impl Future<Output = T>) -> T {
     Builder::new_current_thread().build().expect("a runtime needs nothing").block_on(graph)
 }
 
-/// Source and sink are here, what is between them is what `graph` makes.
+/// Runs source and sink, with the nodes of `graph` between them.
 fn lockstep(ticks: u64, graph: impl FnOnce(Receiver<Token>) -> Receiver<Token>) -> Ran {
     on_one_thread(async {
         let (mut source, mut sink) = (Count::default(), Sink::default());
@@ -83,17 +83,17 @@ fn lockstep(ticks: u64, graph: impl FnOnce(Receiver<Token>) -> Receiver<Token>) 
     })
 }
 
-/// `N` operations in a row.
+/// A chain of `N` operations.
 pub fn chain<const N: u64>(ticks: u64) -> Ran {
     lockstep(ticks, |input| ops(input, 1..=N))
 }
 
-/// `N` operations side by side.
+/// `N` parallel operations.
 pub fn diamond<const N: usize>(ticks: u64) -> Ran {
     lockstep(ticks, |input| join((1..).zip(tee(input, N)).map(|(k, branch)| ops(branch, k..=k)).collect()))
 }
 
-/// A filter that passes 1 % in front of 98 operations.
+/// A filter that passes 1 % of the values to 98 operations.
 pub fn bot100(ticks: u64) -> Ran {
     let mut filter = OneOf::new(100);
     lockstep(ticks, |input| ops(node(ops(input, 1..=1), move |x| filter.process(&x)), 3..=100))
@@ -109,7 +109,7 @@ pub fn throttle(ticks: u64) -> Ran {
     })
 }
 
-/// A token that goes to and fro.
+/// A token that goes back and forth.
 pub fn pingpong(ticks: u64) -> Ran {
     on_one_thread(async {
         let (to, input) = channel(1);
@@ -126,7 +126,7 @@ pub fn pingpong(ticks: u64) -> Ran {
     })
 }
 
-/// Eight values a tick.
+/// Eight values per tick.
 pub fn mpse8(ticks: u64) -> Ran {
     on_one_thread(async {
         let (to, input) = channel(1);

@@ -1,9 +1,9 @@
-//! Every peer computes what the hand-written program computes.
+//! Every peer computes the same result as the hand-written program.
 
 use apex_bench::{CASES, tworegion};
 use apex_peers::PEERS;
 
-/// Enough for the slowest filter to pass twice.
+/// Number of ticks in which the slowest filter passes a value twice.
 const TICKS: u64 = 201;
 
 #[test]

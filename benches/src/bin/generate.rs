@@ -1,4 +1,4 @@
-//! Writes what is generated: graphs into `graphs/`, and the longest program by hand.
+//! Writes the generated files: graphs into `graphs/`, and the longest hand-written program.
 
 use std::{fs, io, path::Path};
 
@@ -10,6 +10,6 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-// Not through the library, which cannot be built before the graphs are there.
+// Included as a file, because the library cannot be built before the graphs exist.
 #[path = "../text.rs"]
 mod text;

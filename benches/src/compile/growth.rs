@@ -1,17 +1,17 @@
-//! What rustc takes for large graphs of one kind: lines of generated code, and CPU time of a release build.
+//! Costs of large graphs of one kind for rustc: lines of generated code, and CPU time of a release build.
 
 use super::{Edited, cargo, cpu_seconds, met, output};
 use std::{fmt::Write as _, path::Path, process::Command};
 
-/// So many nodes.
+/// Numbers of nodes.
 const SIZES: [usize; 2] = [300, 1000];
-/// Wanted: CPU seconds of rustc for 1000 nodes.
+/// Goal: CPU time of rustc for 1000 nodes, in s.
 const CPU: f64 = 5.0;
 
-/// Nodes of one kind, and how they are connected.
+/// Nodes of one kind, and their connections.
 struct Kind {
     name: &'static str,
-    /// Wanted: generated lines per node.
+    /// Goal: generated lines per node.
     lines: f64,
     text: fn(usize) -> String,
 }
@@ -46,7 +46,7 @@ pub fn run(apex: &Path, root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// A graph of which `line` gives the lines for each node.
+/// A graph; `line` writes the lines of each node.
 fn graph(nodes: usize, first: &str, line: impl Fn(&mut String, usize)) -> String {
     let mut text = format!("use apex_bench::nodes::{{Count, Pass, Silent, Sink, op}};\n\ngraph Growth {{\n{first}");
     (0..nodes).for_each(|node| line(&mut text, node));

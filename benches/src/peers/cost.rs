@@ -1,5 +1,5 @@
-//! What a tick costs besides time, compiled and by hand: instructions, allocations, how even its time is. And how large a
-//! program is.
+//! Other costs of a tick, compiled and by hand: instructions, allocations, variation of its time. Also the size of a
+//! program.
 
 use crate::instructions::{self, Side};
 use apex_bench::{CASES, Case, Run, allocations};
@@ -10,38 +10,38 @@ use std::{
     time::Instant,
 };
 
-/// A value of the compiled program, and that of the hand-written one.
+/// Values of the compiled and the hand-written program.
 pub type Both<T> = [T; 2];
 
-/// What a tick of a graph costs.
+/// Costs of a tick of a graph.
 pub struct Cost {
-    /// The graph.
+    /// Name of the graph.
     pub graph: &'static str,
-    /// Instructions per tick; nothing where there is no valgrind.
+    /// Instructions per tick, or `None` without valgrind.
     pub instructions: Option<Both<f64>>,
-    /// Allocations per tick, once all storage has been made.
+    /// Allocations per tick, after all storage has been allocated.
     pub allocations: Both<f64>,
-    /// How long the slowest of a thousand runs of about a microsecond takes, in times of the median.
+    /// Ratio of the slowest of a thousand runs to the median; a run takes about a microsecond.
     pub unevenness: Both<f64>,
 }
 
-/// How large a program with one graph is.
+/// Size of a program with one graph.
 pub struct Size {
-    /// Bytes of the program without symbols.
+    /// Size of the executable without symbols, in bytes.
     pub file: u64,
-    /// Kilobytes of memory that it had at most (Linux).
+    /// Peak memory in kB (Linux).
     pub memory: Option<u64>,
 }
 
-/// All that was found.
+/// All costs.
 pub struct Costs {
-    /// For each graph.
+    /// Costs for each graph.
     pub ticks: Vec<Cost>,
-    /// For `chain100`.
+    /// Sizes for `chain100`.
     pub sizes: Both<Size>,
 }
 
-/// What ticks of `graphs` cost.
+/// Costs of ticks of `graphs`.
 pub fn all(graphs: impl Iterator<Item = &'static str>) -> Result<Costs, String> {
     let counts = instructions::can_count();
     let cases = graphs.filter_map(|name| CASES.iter().find(|case| case.name == name));
@@ -64,8 +64,8 @@ fn allocations_per_tick(run: Run) -> f64 {
     (allocations(run, 2 * TICKS) as f64 - allocations(run, TICKS) as f64) / TICKS as f64
 }
 
-/// A tick may take less time than reading the clock, so that several are timed at once; only few, so that interrupts of
-/// the machine meet fewer than one in a thousand.
+/// Variation of the time of a tick. A tick may take less time than reading the clock, so several ticks are timed at
+/// once. Their number is small, so that less than one in a thousand measurements contains an interrupt.
 fn unevenness(run: Run) -> f64 {
     const RUNS: usize = 100_000;
     let mut ticks = 1;

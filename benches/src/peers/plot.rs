@@ -1,24 +1,24 @@
-//! The ratios as a picture: a row for each graph, a dot for each that has it, on a logarithmic axis.
+//! Picture of the ratios: a row for each graph, a dot for each participant, on a logarithmic axis.
 
 use super::{Row, table::is_apex};
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 860.0;
-/// Where the axis begins and ends.
+/// Start and end of the axis.
 const LEFT: f64 = 90.0;
 const RIGHT: f64 = WIDTH - 20.0;
 const ROW: f64 = 24.0;
-/// The names of all stand above the rows, so many in a line.
+/// Number of names per line above the rows.
 const NAMES: usize = 7;
 const NAME: f64 = 118.0;
 
-/// Colours that can be told apart, also by those who see fewer; the first one is that of Apex.
+/// Distinguishable colours, also for people with colour blindness. The first one is that of Apex.
 const COLOURS: [&str; 14] = [
     "#d62728", "#ff9896", "#1f77b4", "#17becf", "#9467bd", "#2ca02c", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22",
     "#aec7e8", "#ffbb78", "#98df8a", "#c5b0d5",
 ];
 
-/// The picture.
+/// The picture as SVG.
 pub fn svg(rows: &[Row]) -> String {
     let names = names(rows);
     let top = 30.0 + 18.0 * names.len().div_ceil(NAMES) as f64;
@@ -37,7 +37,7 @@ pub fn svg(rows: &[Row]) -> String {
     for (i, row) in rows.iter().enumerate() {
         let y = top + ROW * (i as f64 + 0.5);
         let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>", LEFT - 10.0, y + 4.0, row.graph);
-        // Those that come first in the list of names lie above the others.
+        // The first names in the list are drawn last, above the others.
         let right = row.others.iter().filter(|other| other.equal);
         let mut dots: Vec<_> = right.filter_map(|o| Some((index(&names, &o.name)?, o.ratio))).collect();
         dots.sort_by_key(|(index, _)| std::cmp::Reverse(*index));
@@ -48,7 +48,7 @@ pub fn svg(rows: &[Row]) -> String {
     svg + "</svg>\n"
 }
 
-/// All names; first those of Apex, then the others as they appear.
+/// All names: first those of Apex, then the others in the order of their occurrence.
 fn names(rows: &[Row]) -> Vec<&str> {
     let mut names: Vec<&str> = vec!["apex"];
     let all = || rows.iter().flat_map(|row| &row.others);
@@ -87,7 +87,7 @@ impl Axis {
         LEFT + (ratio.log10() - f64::from(self.low)) / f64::from(self.high - self.low) * (RIGHT - LEFT)
     }
 
-    /// A line for each power of ten; that of the hand-written program is thicker.
+    /// Draws a line for each power of ten; that of the hand-written program is thicker.
     fn draw(&self, svg: &mut String, top: f64, bottom: f64) {
         for power in self.low..=self.high {
             let x = self.x(10f64.powi(power));

@@ -1,5 +1,5 @@
-//! Programs that have graphs of other frameworks. First a program writes a line `graph peer` for each that it has, and an
-//! empty one. For each line `graph peer ticks` that it then gets, it answers `nanoseconds checksum`.
+//! Executables with graphs in other frameworks. First an executable writes a line `graph peer` for each of its peers,
+//! and an empty line. To each line `graph peer ticks` it answers `nanoseconds checksum`.
 
 use crate::measure::Round;
 use std::{
@@ -9,17 +9,17 @@ use std::{
     process::{Child, ChildStdin, ChildStdout, Command, Stdio},
 };
 
-/// A program that waits for what it is to run.
+/// A process that waits for requests.
 pub struct Program {
     child: Child,
-    /// Closed when the program is to end.
+    /// Standard input; closing it ends the process.
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
-    /// Graphs and peers.
+    /// Pairs of graph and peer.
     peers: Vec<(String, String)>,
 }
 
-/// All programs that can be built here, and what is missing for the others.
+/// All executables that can be built here, and a message for each of the others.
 pub fn all() -> (Vec<Program>, Vec<String>) {
     let (mut programs, mut missing) = (vec![], vec![]);
     for (peers, program) in [("all peers in Rust", rust()), ("tbb-1", tbb())] {
@@ -31,7 +31,7 @@ pub fn all() -> (Vec<Program>, Vec<String>) {
     (programs, missing)
 }
 
-/// The peers in Rust.
+/// Starts the executable with the peers in Rust.
 fn rust() -> Result<Program, String> {
     let quiet = if io::stderr().is_terminal() { None } else { Some("--quiet") };
     let mut command = Command::new(env!("CARGO"));
@@ -40,7 +40,7 @@ fn rust() -> Result<Program, String> {
     Program::start(&mut command).map_err(|why| format!("{why}; does `cargo build` in benches/peers succeed?"))
 }
 
-/// oneTBB.
+/// Starts the executable with oneTBB.
 fn tbb() -> Result<Program, String> {
     const HEADER: &str = "tbb/flow_graph.h";
     let compiler = || Command::new("c++");
@@ -58,12 +58,12 @@ fn tbb() -> Result<Program, String> {
     }
 }
 
-/// The sources of the programs.
+/// Folder with the sources of the executables.
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("peers")
 }
 
-/// Where they are built: beside the profiles of this package's own build.
+/// Target folder of the executables: beside the profiles of this package's own build.
 fn build_folder() -> Result<PathBuf, String> {
     let own = env::current_exe().map_err(|e| e.to_string())?;
     let target = own.ancestors().nth(2).ok_or("this program is in no folder of a build")?;
@@ -88,7 +88,7 @@ impl Program {
         }
     }
 
-    /// The peers that have `graph`.
+    /// Names of the peers that have `graph`.
     pub fn peers_of(&self, graph: &str) -> impl Iterator<Item = &str> {
         self.peers.iter().filter(move |(name, _)| name == graph).map(|(_, peer)| peer.as_str())
     }

@@ -1,4 +1,4 @@
-//! Tables of what was measured.
+//! Tables of the results.
 
 use super::{
     Other, Row,
@@ -6,7 +6,7 @@ use super::{
 };
 use std::fmt::Write as _;
 
-/// For a terminal.
+/// Tables for a terminal.
 pub fn text(rows: &[Row], costs: &Costs, missing: &[String]) -> String {
     let mut text = format!("{:<12}{:>10}  {}\n", "graph", "hand ns", "in times of that, per tick");
     for row in rows {
@@ -25,7 +25,7 @@ pub fn text(rows: &[Row], costs: &Costs, missing: &[String]) -> String {
     text + "\n" + &sizes(&costs.sizes) + "\n" + &lines(missing)
 }
 
-/// For a page.
+/// Tables in Markdown.
 pub fn markdown(rows: &[Row], costs: &Costs, missing: &[String]) -> String {
     let mut text = "| graph | hand, ns per tick | in times of that |\n|---|--:|---|\n".to_owned();
     for row in rows {
@@ -42,7 +42,7 @@ pub fn markdown(rows: &[Row], costs: &Costs, missing: &[String]) -> String {
     text + "\n" + &sizes(&costs.sizes) + "\n" + &lines(missing)
 }
 
-/// Whether it is what Apex makes of the graph, and nothing but that.
+/// `true` for the plain compiled program of Apex.
 pub fn is_apex(other: &Other) -> bool {
     other.name == "apex"
 }

@@ -1,6 +1,6 @@
 //! The tree-sitter grammar of `.afg` texts: how its parser is made, and the parser itself.
 //!
-//! Needs a C compiler, and `node` to read the grammar; therefore it is no default member of the workspace.
+//! Needs a C compiler, and `node` to read the grammar; therefore it is not a default member of the workspace.
 
 mod generate;
 

@@ -87,7 +87,7 @@ fn the_corpus() {
     }
 }
 
-/// What is wrong for the compiler is wrong here too: the grammar does not take everything.
+/// Texts that the compiler refuses are errors here, too: the grammar does not accept everything.
 #[test]
 fn wrong_texts() {
     for text in ["graph A { x -> ; }", "graph A { node = B(); }", "graph { }", "use a::;", "test t { }"] {
@@ -125,7 +125,7 @@ fn colours() {
     assert!(!found.contains(&("scan", "variable.builtin")));
 }
 
-/// What a packager gets is whole: the tables, the headers, and what describes them.
+/// The generated parser is complete for packagers: tables, headers, and their descriptions.
 #[test]
 fn the_parser_can_be_written_elsewhere() {
     let folder = std::env::temp_dir().join(format!("apex-tree-sitter-{}", std::process::id()));

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// What `--help` says.
+/// Output of `--help`.
 pub const HELP: &str = "Random inputs for everything that reads files: no panic, no hang, no more memory than 2 GiB.
 
 Usage: cargo run --release -- [OPTIONS]
@@ -15,26 +15,26 @@ Usage: cargo run --release -- [OPTIONS]
   --out FOLDER   where inputs that fail are kept (failures)
 ";
 
-/// What the command line says.
+/// Options of the command line.
 pub struct Args {
-    /// Time for all targets.
+    /// Time for all targets, in s.
     pub seconds: u64,
     /// The only target.
     pub target: Option<String>,
-    /// Where random numbers begin.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// The first input.
+    /// Number of the first input.
     pub from: u64,
-    /// Most inputs.
+    /// Maximum number of inputs.
     pub count: Option<u64>,
-    /// Where inputs that fail are kept.
+    /// Folder for inputs that fail.
     pub out: PathBuf,
-    /// This process runs one target.
+    /// `true` for a process that runs one target.
     pub worker: bool,
 }
 
 impl Args {
-    /// Reads the command line; nothing if help is wanted.
+    /// Reads the command line. Returns `None` for `--help`.
     pub fn parse(mut words: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
         let mut args =
             Self { seconds: 60, target: None, seed: 1, from: 0, count: None, out: "failures".into(), worker: false };

@@ -1,4 +1,4 @@
-//! Sources of Rust, which the catalog reads.
+//! Rust sources for the catalog.
 
 use crate::{
     mutate::{Dice, files, root, split, words},
@@ -14,7 +14,7 @@ use std::{
     sync::Arc,
 };
 
-/// Words that matter to the catalog.
+/// Tokens with a meaning for the catalog.
 const WORDS: &[&str] = &[
     "#[node]\n",
     "#[cfg(windows)]\n",
@@ -61,7 +61,7 @@ struct Sources {
     files: Vec<String>,
 }
 
-/// The target of sources.
+/// The target with Rust sources.
 pub fn catalog() -> Box<dyn Target> {
     let files = ["nodes/src", "tests/src/nodes", "tests/errors", "apex-rt/src"];
     Box::new(Sources { files: files.iter().flat_map(|folder| files_of(folder)).collect() })
@@ -71,7 +71,7 @@ fn files_of(folder: &str) -> Vec<String> {
     files(&root().join(folder), "rs")
 }
 
-/// The one file is all that there is, under three names.
+/// A file system with a single file under three names.
 struct OneFile(Arc<str>);
 
 impl World for OneFile {

@@ -1,7 +1,7 @@
-//! Random inputs for everything that reads files, for a given time: `--help` says more.
+//! Random inputs for everything that reads files, for a given time. See `--help`.
 //!
-//! Each target runs in a process of its own, so that an overflow of the stack or a process that is killed for its memory is
-//! found, too. An input follows from the seed, the target and its number alone.
+//! Each target runs in a process of its own, so that a stack overflow or a process killed because of its memory is
+//! detected, too. An input depends only on the seed, the target and its number.
 
 mod args;
 mod catalog;
@@ -18,7 +18,7 @@ use std::{
 };
 use worker::Target;
 
-/// Makes a target.
+/// Constructor of a target.
 pub type Make = fn() -> Box<dyn Target>;
 
 /// All targets, by name.
@@ -74,7 +74,7 @@ fn all(args: &Args) -> ExitCode {
     }
 }
 
-/// Whether a target stood its inputs. The one at which its process ended is kept.
+/// Runs one target. Returns `true` if it passed, otherwise keeps the input at which its process ended.
 fn one(args: &Args, name: &str, seconds: u64) -> bool {
     let program = env::current_exe().expect("a running program has a file");
     let mut command = Command::new(program);

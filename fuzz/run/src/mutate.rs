@@ -1,17 +1,17 @@
-//! Changes of inputs.
+//! Mutation of inputs.
 
-/// A small generator of numbers (xorshift64*).
+/// A small random number generator (xorshift64*).
 pub struct Dice(u64);
 
 impl Dice {
-    /// The numbers of `seed`.
+    /// The generator with `seed`.
     pub fn new(seed: u64) -> Self {
         let mut dice = Self(seed | 1);
         (0..4).for_each(|_| _ = dice.below(2));
         dice
     }
 
-    /// A number below `n`.
+    /// A random number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -19,13 +19,13 @@ impl Dice {
         ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % n.max(1) as u64) as usize
     }
 
-    /// One of a list.
+    /// A random element of a list.
     pub fn of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
         &list[self.below(list.len())]
     }
 }
 
-/// Numbers and signs at which readers stumble.
+/// Numbers and tokens that are often read wrongly.
 const ODD: &[&str] = &[
     "0",
     "-1",
@@ -74,7 +74,7 @@ const ODD: &[&str] = &[
     "#",
 ];
 
-/// Bytes changed, removed, doubled and exchanged.
+/// Changes, removes, duplicates and exchanges bytes.
 pub fn bytes(input: &[u8], dice: &mut Dice) -> Vec<u8> {
     let mut bytes = input.to_vec();
     for _ in 0..1 + dice.below(6) {
@@ -107,7 +107,7 @@ fn pick<'a>(words: &[&'a str], dice: &mut Dice) -> &'a str {
     if words.is_empty() { "" } else { words[dice.below(words.len())] }
 }
 
-/// Words of a text removed, doubled, exchanged, or replaced by those of `others`.
+/// Removes, duplicates and exchanges words of a text, or replaces them by words of `others`.
 pub fn words<'a>(text: &'a str, others: &[&'a str], dice: &mut Dice) -> String {
     let mut words = split(text);
     for _ in 0..1 + dice.below(5) {
@@ -133,7 +133,7 @@ pub fn words<'a>(text: &'a str, others: &[&'a str], dice: &mut Dice) -> String {
     words.concat()
 }
 
-/// Words of a text, and what stands between them.
+/// Splits a text into words and the text between them.
 pub fn split(text: &str) -> Vec<&str> {
     let mut words = vec![];
     let mut start = 0;
@@ -150,7 +150,7 @@ pub fn split(text: &str) -> Vec<&str> {
     words
 }
 
-/// All files below `folder` with this ending, sorted.
+/// All files below `folder` with this extension, sorted.
 pub fn files(folder: &std::path::Path, ending: &str) -> Vec<String> {
     let mut found = vec![];
     let mut open = vec![folder.to_owned()];
@@ -171,7 +171,7 @@ pub fn files(folder: &std::path::Path, ending: &str) -> Vec<String> {
     found.iter().filter_map(|path| std::fs::read_to_string(path).ok()).filter(|t| t.len() < 20_000).collect()
 }
 
-/// The root of the project.
+/// Root of the repository.
 pub fn root() -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }

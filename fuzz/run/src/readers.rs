@@ -1,4 +1,4 @@
-//! Readers of files of the library.
+//! File readers of the library.
 
 use crate::{
     mutate::{Dice, bytes, words},
@@ -35,7 +35,7 @@ graph! {
     }
 }
 
-/// Text that is changed by words, and a reader of it.
+/// A reader, and texts whose words are mutated.
 struct Reader {
     texts: Vec<Vec<u8>>,
     words: &'static [&'static str],
@@ -56,7 +56,7 @@ impl Target for Reader {
     }
 }
 
-/// A file with this content, for readers that want one.
+/// A file with this content, for readers that need one.
 fn file(ending: &str, input: &[u8]) -> PathBuf {
     let file = env::temp_dir().join(format!("apex-fuzz-{}.{ending}", process::id()));
     fs::write(&file, input).expect("room for the file");
@@ -67,7 +67,7 @@ fn reader(texts: Vec<Vec<u8>>, words: &'static [&'static str], read: fn(&[u8])) 
     Box::new(Reader { texts, words, read })
 }
 
-/// The target of pose graphs.
+/// The target with pose graphs.
 pub fn g2o() -> Box<dyn Target> {
     let mut text = "# a square\nFIX 0\n".to_owned();
     for i in 0..8 {
@@ -79,14 +79,14 @@ pub fn g2o() -> Box<dyn Target> {
     reader(vec![text.into_bytes()], &["VERTEX_SE2", "EDGE_SE2", "FIX", "0", "1", "1e300", "-1e-300"], |input| {
         let file = file("g2o", input);
         if let Ok(mut graph) = PoseGraph::read_g2o(&file) {
-            // Whatever could be read can be worked with.
+            // Every graph that could be read can be optimized.
             let _ = graph.optimize(3);
         }
         let _ = fs::remove_file(file);
     })
 }
 
-/// The target of tables of numbers.
+/// The target with tables of numbers.
 pub fn csv() -> Box<dyn Target> {
     let text = "a,b,c\n1,2.5,-3e3\n,,\n 4 , NaN ,inf\n";
     reader(vec![text.as_bytes().to_vec(), vec![b','; 3000]], &["1e309", ",", "\n", ",,", "nan"], |input| {
@@ -101,7 +101,7 @@ pub fn csv() -> Box<dyn Target> {
     })
 }
 
-/// The target of logs of laser scans.
+/// The target with logs of laser scans.
 pub fn scans() -> Box<dyn Target> {
     let table = "7,1,0.5,1.25,3,20,0\n8,1,0.5,NaN,,inf,-1\n".as_bytes().to_vec();
     let log = "PARAM x 1\nFLASER 5 1.0 2.0 3.0 81.91 0.5 1 2 0.5 1 2 0.5 976052857.9 host 0.25\nODOM 1 2\n"
@@ -124,7 +124,7 @@ pub fn scans() -> Box<dyn Target> {
     })
 }
 
-/// The target of models.
+/// The target with models.
 pub fn models() -> Box<dyn Target> {
     let model = |sizes: &[usize]| {
         let network = Mlp::new(sizes, &mut Random::new(1));
@@ -137,7 +137,7 @@ pub fn models() -> Box<dyn Target> {
     })
 }
 
-/// The target of parameters.
+/// The target with parameters.
 pub fn params() -> Box<dyn Target> {
     let text = params::save(&mut Tuned::new());
     let more = format!("{text}\n[nope]\nx = [1, [2]]\ny = 1979-05-27\n\"smooth\".reach = 0x10\n");

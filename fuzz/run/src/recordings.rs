@@ -1,4 +1,4 @@
-//! Recordings, which are replayed.
+//! Replays of recordings.
 
 use crate::{
     mutate::{Dice, bytes},
@@ -39,7 +39,7 @@ struct Recordings {
     file: PathBuf,
 }
 
-/// The target of recordings.
+/// The target with recordings.
 pub fn recordings() -> Box<dyn Target> {
     let file = env::temp_dir().join(format!("apex-fuzz-{}.mcap", process::id()));
     let whole = [1, 12, 60].map(|ms| recorded(&file, ms)).into();
@@ -63,7 +63,7 @@ impl Target for Recordings {
 
     fn run(&mut self, input: &[u8]) {
         fs::write(&self.file, input).expect("room for the file");
-        // Whatever it says: it says it.
+        // Any result is valid, as long as it can be printed.
         let _ = replay(Restless::new(), &self.file, ()).map(|report| report.to_string()).map_err(|e| e.to_string());
     }
 }

@@ -1,4 +1,4 @@
-//! Texts: checked, formatted, repaired, completed, explained.
+//! Source files: checked, formatted, repaired, completed, explained.
 
 use crate::{
     mutate::{Dice, files, root, split, words},
@@ -15,7 +15,7 @@ use apex_host::Disk;
 use apex_tests::texts::generate;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// States that are looked at to decide claims: enough to see the code, few enough for thousands of texts.
+/// Maximum number of states to visit for claims: enough to reach the code, few enough for thousands of source files.
 const STATES: usize = 500;
 
 struct SourceSet {
@@ -25,7 +25,7 @@ struct SourceSet {
     step: u64,
 }
 
-/// The target of texts.
+/// The target with source files.
 pub fn texts() -> Box<dyn Target> {
     let folder = root().join("tests/errors");
     let spec = |name: &str, dependencies| CrateSpec {
@@ -40,7 +40,7 @@ pub fn texts() -> Box<dyn Target> {
     let crates = Crates { root: folder.clone(), all, here: 0, own: vec![0], ..Crates::default() };
     let catalog = Catalog::load(crates, &mut Disk::new(None));
     let mut texts = files(&root(), "afg");
-    // Made texts are for a package with other nodes: what is not found is searched for, too.
+    // Generated source files use nodes of another package, which tests the search for similar names.
     texts.extend((0..200).flat_map(|seed| generate(seed).texts).map(|text| text.text()));
     let mut vocabulary: BTreeSet<String> = BTreeSet::new();
     texts.iter().for_each(|text| vocabulary.extend(split(text).into_iter().map(str::to_owned)));
@@ -52,7 +52,7 @@ impl Target for SourceSet {
         let others: Vec<&str> = (0..12).map(|_| dice.of(&self.vocabulary).as_str()).collect();
         let mut text = dice.of(&self.texts).clone();
         if dice.below(8) == 0 {
-            // The beginning of one text and the end of another.
+            // The beginning of one source file and the end of another.
             let other = dice.of(&self.texts);
             let (a, b) = (split(&text), split(other));
             text = [&a[..dice.below(a.len())], &b[dice.below(b.len())..]].concat().concat();
@@ -101,7 +101,7 @@ impl Target for SourceSet {
     }
 }
 
-/// What an editor asks for, at a few places.
+/// Queries of an editor at a few positions.
 fn edited(view: &ide::View<'_>, text: &str, dice: &mut Dice) {
     let occurrences = ide::occurrences(view);
     ide::outline(view);

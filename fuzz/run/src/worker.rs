@@ -1,4 +1,4 @@
-//! One target in a process: makes inputs, runs them, and watches time and memory.
+//! Process of one target: generates inputs, runs them, and watches time and memory.
 
 use crate::{TARGETS, args::Args, mutate::Dice};
 use std::{
@@ -16,19 +16,19 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Far more than any input takes: a guard against hanging, not a measurement.
+/// Time limit of an input: far more than any input takes, to detect hangs.
 const LIMIT: Duration = Duration::from_secs(20);
-/// Most memory of the process.
+/// Maximum memory of the process, in bytes.
 const MEMORY: u64 = 2 << 30;
-/// Most panics that are kept.
+/// Maximum number of panics that are kept.
 const SHOWN: usize = 20;
 
-/// What reads inputs.
+/// A reader of inputs.
 pub trait Target {
-    /// An input.
+    /// Generates an input.
     fn make(&mut self, dice: &mut Dice) -> Vec<u8>;
 
-    /// Reads it.
+    /// Reads an input.
     fn run(&mut self, input: &[u8]);
 }
 
@@ -42,17 +42,17 @@ fn dice(name: &str, seed: u64, number: u64) -> Dice {
     Dice::new(hash.wrapping_add(number.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
 }
 
-/// The input with this number.
+/// Input with this number.
 pub fn made(name: &str, seed: u64, number: u64) -> Vec<u8> {
     target(name).make(&mut dice(name, seed, number))
 }
 
-/// The file in which a worker writes the number of its input.
+/// File in which a worker writes the number of its current input.
 pub fn progress(name: &str) -> PathBuf {
     env::temp_dir().join(format!("apex-fuzz-{name}"))
 }
 
-/// The input at which a worker ended.
+/// Number of the input at which a worker ended.
 pub fn last(name: &str) -> Option<u64> {
     let bytes = fs::read(progress(name)).ok()?;
     Some(u64::from_le_bytes(bytes.try_into().ok()?))
@@ -76,7 +76,7 @@ pub fn run(name: &str, args: &Args) -> ExitCode {
         if ran.is_err() {
             failed += 1;
             keep(args, name, number, &input);
-            // What it was doing may be half done.
+            // After a panic, the state of the target may be inconsistent.
             target = self::target(name);
         }
         number += 1;
@@ -99,7 +99,7 @@ fn keep(args: &Args, name: &str, number: u64, input: &[u8]) {
     eprintln!("{name}: input {number} panics; again: --target {name} --seed {} --from {number} --count 1", args.seed);
 }
 
-/// Ends the process where an input takes too long, or too much memory.
+/// Ends the process if an input takes too long, or too much memory.
 fn watch(name: String, current: Arc<AtomicU64>) {
     thread::spawn(move || {
         let (mut input, mut since) = (u64::MAX, Instant::now());
@@ -122,7 +122,7 @@ fn watch(name: String, current: Arc<AtomicU64>) {
     });
 }
 
-/// Memory of the process, in bytes, where Linux says it.
+/// Memory of the process in bytes, or 0 if the system does not provide it.
 fn memory() -> u64 {
     let text = fs::read_to_string("/proc/self/statm").unwrap_or_default();
     let pages: Option<u64> = text.split_whitespace().nth(1).and_then(|pages| pages.parse().ok());

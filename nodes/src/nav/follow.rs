@@ -15,7 +15,7 @@ const TURN: f32 = 0.1;
 /// in the frame of the robot; before the first one, no obstacle is known. The node sends twists while it has a path,
 /// and drops the path when the robot
 /// * has `reached` the goal,
-/// * is `blocked`: for longer than `blocked_timeout`, an obstacle stands on the path ahead or the robot makes no progress,
+/// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path ahead or the robot makes no progress,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///

@@ -1,12 +1,12 @@
-//! A program without the standard library and without a heap. That it compiles is the test; what it does is
-//! looked at too.
+//! A program without the standard library and without a heap. Its compilation is the main test; its results are
+//! checked, too.
 #![no_std]
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
 use heapless::Vec;
 
-/// 0, 1, 2, … four at a time.
+/// 0, 1, 2, … in groups of four.
 #[node]
 #[derive(Debug, Default)]
 pub struct Batches {
@@ -35,7 +35,7 @@ pub fn largest(list: &Vec<u32, 4>) -> Result<u32, &'static str> {
     list.iter().copied().max().ok_or("the list is empty")
 }
 
-/// Keeps the sum.
+/// Adds two numbers.
 #[node]
 pub fn plus(a: &u32, b: &u32) -> u32 {
     a + b

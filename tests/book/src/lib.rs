@@ -1,17 +1,17 @@
-//! The documentation as a book of HTML pages, made with mdBook as a library: nobody has to install it.
+//! The documentation as a book of HTML pages, made with mdBook as a library, so that it need not be installed.
 
 use mdbook_driver::MDBook;
 use std::path::{Path, PathBuf};
 
-/// The folder of the pages.
+/// Folder of the pages.
 pub fn pages() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
 }
 
-/// Builds the book into `folder`, or where `book.toml` says.
+/// Builds the book into `folder`, or into the folder in `book.toml`.
 ///
 /// # Errors
-/// A page is missing, or cannot be read or written.
+/// Fails if a page is missing, or cannot be read or written.
 pub fn build(folder: Option<&Path>) -> Result<PathBuf, String> {
     let mut book = MDBook::load(pages()).map_err(|e| format!("{e:#}"))?;
     if let Some(folder) = folder {

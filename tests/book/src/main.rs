@@ -1,4 +1,4 @@
-//! Builds the book: `cargo run [FOLDER]`, without a folder where `docs/book.toml` says.
+//! Builds the book: `cargo run [FOLDER]`, by default into the folder in `docs/book.toml`.
 
 use std::{env, path::PathBuf, process::ExitCode};
 

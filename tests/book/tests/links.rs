@@ -1,4 +1,4 @@
-//! Every link in the book leads to a page of the book, and to a heading that is there.
+//! Every link in the book leads to an existing page of the book and an existing heading.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -7,7 +7,7 @@ use std::{
     process,
 };
 
-/// The HTML pages below a folder, by their path in it.
+/// HTML pages below a folder, by relative path.
 fn pages(folder: &Path) -> BTreeMap<PathBuf, String> {
     let (mut open, mut found) = (vec![folder.to_owned()], BTreeMap::new());
     while let Some(inner) = open.pop() {
@@ -23,14 +23,14 @@ fn pages(folder: &Path) -> BTreeMap<PathBuf, String> {
     found
 }
 
-/// The values of an attribute in a page.
+/// Values of an attribute in a page.
 fn values<'a>(page: &'a str, attribute: &str) -> impl Iterator<Item = &'a str> {
     let begin = format!(" {attribute}=\"");
     let starts: Vec<usize> = page.match_indices(&begin).map(|(at, _)| at + begin.len()).collect();
     starts.into_iter().filter_map(|at| page[at..].split_once('"').map(|(value, _)| value))
 }
 
-/// A link of a page, as a path in the book.
+/// Target of a link as a path in the book.
 fn resolved(page: &Path, target: &str) -> Option<PathBuf> {
     let mut path = page.parent()?.to_owned();
     for part in Path::new(target).components() {
@@ -44,7 +44,7 @@ fn resolved(page: &Path, target: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// What is wrong with a link.
+/// Fault of a link, if it has one.
 fn fault(folder: &Path, pages: &BTreeMap<PathBuf, String>, page: &Path, link: &str) -> Option<String> {
     let (target, anchor) = link.split_once('#').map_or((link, None), |(target, anchor)| (target, Some(anchor)));
     let path = if target.is_empty() { Some(page.to_owned()) } else { resolved(page, target) };
@@ -64,7 +64,7 @@ fn every_link_stays_in_the_book_and_leads_somewhere() {
     let built = apex_book::build(Some(&folder)).unwrap();
     let pages = pages(&built);
     let (mut count, mut faults) = (0, vec![]);
-    // The page for what is not found has links from the root of the server.
+    // The page for missing pages has links from the root of the server.
     for (page, text) in pages.iter().filter(|(page, _)| page.as_path() != Path::new("404.html")) {
         for link in values(text, "href").chain(values(text, "src")).filter(|link| !link.contains("://")) {
             count += 1;

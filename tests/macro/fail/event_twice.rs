@@ -1,4 +1,4 @@
-//! A firing can trigger each event at most once: it is given by value.
+//! A firing can trigger each event at most once: it is passed by value.
 use apex_rt::prelude::*;
 
 #[node]

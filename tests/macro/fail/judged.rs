@@ -1,11 +1,11 @@
-//! What only rustc can judge, of nodes and tokens: its message names the node, the port and the line of the text.
+//! Bounds of nodes and tokens that only rustc can check: its message names the node, the port and the line.
 use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::{ops::Add, rc::Rc};
 
 pub struct Image;
 
-/// Neither `Default` nor `Send`.
+/// A type without `Default` and `Send`.
 pub struct Lens(Rc<u8>);
 
 #[node]
@@ -13,7 +13,7 @@ pub fn camera() -> Image {
     Image
 }
 
-/// Sums up its tokens.
+/// Sums its tokens.
 #[node]
 #[derive(Default)]
 pub struct Total<T> {

@@ -1,4 +1,4 @@
-//! What only rustc can judge, of thread groups: whether nodes and tokens can be moved to another thread.
+//! Bounds of thread groups that only rustc can check: nodes and tokens must be `Send`.
 use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::rc::Rc;

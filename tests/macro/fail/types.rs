@@ -1,4 +1,4 @@
-//! What only rustc can see: the type behind a trait.
+//! Types behind traits, which only rustc knows.
 use apex_macros::graph;
 use apex_rt::prelude::*;
 

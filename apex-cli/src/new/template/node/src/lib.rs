@@ -3,24 +3,24 @@
 
 use apex_rt::prelude::*;
 
-/// The voltage that an analogue-to-digital converter with 10 bits has measured, in V; `reference` is that of its largest
-/// value.
+/// Converts a measurement of an analogue-to-digital converter with 10 bits to V; `reference` is the voltage of its
+/// largest value.
 #[node]
 pub fn volts(raw: &u16, #[param(unit = "V", default = 5.0, range = 0.0..=100.0)] reference: f64) -> f64 {
     f64::from(*raw) * reference / 1023.0
 }
 
-/// Whether a value is larger than a level.
+/// Sends `true` if a value is larger than a level.
 #[node]
 pub fn exceeds(raw: &u16, #[param] level: u16) -> bool {
     *raw > level
 }
 
-/// Passes a value on when it has changed and then been the same for a while: a button that does not bounce.
+/// Passes a value on when it has changed and then stayed the same for a while: debounces a button.
 #[node]
 #[derive(Debug, Default)]
 pub struct Debounce {
-    /// How long it has to stay the same.
+    /// Time for which a new value has to stay the same.
     #[param(unit = "s", default = 0.05, range = 0.0..=10.0)]
     hold: f32,
     seen: Option<(bool, Time)>,
