@@ -70,7 +70,7 @@ fn what_cannot_be_read_is_two() {
     fs::create_dir(folder.0.join("empty")).unwrap();
     for (path, reason) in [
         (folder.0.join("missing.afg"), "there is no such file"),
-        (folder.0.join("empty"), "there is no `.afg` text in"),
+        (folder.0.join("empty"), "there is no `.afg` file in"),
         (folder.file("latin1.afg", b"graph \xfc { }"), "byte 6 is not UTF-8"),
         (folder.file("large.afg", " ".repeat(5 << 20)), "bytes; at most"),
     ] {
@@ -162,7 +162,10 @@ fn parameters_from_a_file() {
     folder.file("src/main.rs", "fn main() {}\n");
     let output = run(&file, &[&load]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).starts_with("error: `--params` and `--save-params` are for programs that are made"));
+    assert!(
+        stderr(&output)
+            .starts_with("error: `--params` and `--save-params` only apply to programs that `apex run` generates")
+    );
 }
 
 #[test]
@@ -371,7 +374,7 @@ fn what_cannot_be_formatted_is_two_and_the_rest_is_done() {
     fs::set_permissions(&read_only, permissions).unwrap();
     for (path, reason) in [
         (folder.0.join("missing.afg"), "there is no such file"),
-        (folder.0.join("empty"), "there is no `.afg` text in"),
+        (folder.0.join("empty"), "there is no `.afg` file in"),
         (folder.file("latin1.afg", b"graph \xfc { }"), "byte 6 is not UTF-8"),
         (folder.file("large.afg", " ".repeat(5 << 20)), "bytes; at most"),
         (read_only, "it is read-only"),

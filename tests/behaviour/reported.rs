@@ -58,7 +58,7 @@ fn df_11_a_mismatch_names_both_sides() {
         assert!(found.message.contains(word), "{word} in {found:?}");
     }
     assert!(found.says("sources.rs:") && found.says("params.rs:"), "both declarations: {found:?}");
-    assert!(found.says("nothing is converted silently"), "{found:?}");
+    assert!(found.says("types are not converted implicitly"), "{found:?}");
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn what_a_name_means() {
     assert_eq!(hover(&mut client, "rose", 0), "```afg\nevent rose: ()\n```\n\nEvent of `Edge`.");
     assert_eq!(hover(&mut client, "speed", 0), "```afg\nin    speed: f64\n```\n\nInput of `Watch`.");
     assert!(hover(&mut client, "exit", 0).contains("ends the program"));
-    assert!(hover(&mut client, "timeout", 0).contains("active for so long"));
+    assert!(hover(&mut client, "timeout", 0).contains("active for this time"));
     assert_eq!(hover(&mut client, "1m", 0), "");
     assert!(client.stop());
 }
