@@ -15,6 +15,7 @@ use crate::{
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
+use syn::Ident;
 
 /// The rows of ports, and the tokens of each node.
 struct Ports<'a> {
@@ -158,14 +159,19 @@ impl Generator<'_> {
         });
         let clear = ports.tokens.iter().map(|(node, tokens)| {
             let node = Literal::usize_unsuffixed(self.index(*node));
-            let names = tokens.iter().map(|end| self.name(*end));
-            quote! { #node => { #(state.#names = None;)* } }
+            let names: Vec<Ident> = tokens.iter().map(|end| self.name(*end)).collect();
+            match names.as_slice() {
+                [name] => quote! { #node => state.#name = None, },
+                names => quote! { #node => { #(state.#names = None;)* } },
+            }
         });
         quote! {
             /// The events of a node that have tokens, as bits.
+            #[inline(never)]
             fn present(state: &#state, node: usize) -> u64 {
                 match node { #(#present)* _ => 0 }
             }
+            #[inline(never)]
             fn clear(&mut self, node: usize) {
                 let state = &mut self.state;
                 match node { #(#clear)* _ => {} }
