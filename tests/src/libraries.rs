@@ -8,7 +8,7 @@ use std::{
     process::Command,
 };
 
-/// What such programs use.
+/// Crates that these programs use.
 const USED: [&str; 4] = ["apex_macros", "apex_nodes", "apex_rt", "apex_tests"];
 
 /// Compiled libraries. In a package made for a test, cargo would compile all of them again, including the compiler.
