@@ -2116,7 +2116,7 @@ pub fn clock9(n900: u64, mut acc: u64) -> u64 {
     acc
 }
 
-/// Sum of the checksums of all sinks.
+/// Sum of all sinks.
 pub fn checksum(graph: &Mixed1000) -> u64 {
     let n = graph.nodes();
     [
