@@ -2,11 +2,29 @@
 
 use core::time::Duration;
 
+/// A token in the state of a program.
+pub trait Token {
+    /// Returns `true` unless it is ⊥.
+    fn is_there(&self) -> bool;
+    /// Makes it ⊥.
+    fn clear(&mut self);
+}
+
+impl<T> Token for Option<T> {
+    fn is_there(&self) -> bool {
+        self.is_some()
+    }
+
+    fn clear(&mut self) {
+        *self = None;
+    }
+}
+
 /// Effects of a token at an event of a node (static data).
 #[derive(Debug)]
 pub struct Port {
-    /// Number of the token among those of the node: its bit in what `present` returns.
-    pub token: u32,
+    /// Number of the token.
+    pub token: usize,
     /// Slots whose tokens are queued.
     pub queued: &'static [u16],
     /// Conditions "holds a token" that are set.
@@ -27,7 +45,7 @@ pub struct Port {
 
 impl Port {
     /// Returns the port of a token without connections.
-    pub const fn new(token: u32) -> Self {
+    pub const fn new(token: usize) -> Self {
         Self {
             token,
             queued: &[],

@@ -147,7 +147,7 @@ pub fn rust() -> String {
         clocked(&mut text, &nodes, region);
     }
     text.push_str(
-        "\n/// What all sinks got.\npub fn checksum(graph: &Mixed1000) -> u64 {\n    let n = graph.nodes();\n    [\n",
+        "\n/// Sum of all sinks.\npub fn checksum(graph: &Mixed1000) -> u64 {\n    let n = graph.nodes();\n    [\n",
     );
     for k in sinks(&nodes) {
         let _ = writeln!(text, "        n.s{k}.sum(),");

@@ -25,7 +25,7 @@ pub fn larger<T: PartialOrd + Copy>(a: &T, b: &T) -> T {
     if a < b { *b } else { *a }
 }
 
-/// Counts down while it is active, one a firing, and says when it is done.
+/// Counts down while it is active, by one per firing, and triggers `done` at zero.
 #[node]
 pub struct Countdown {
     /// First number after the activation.
@@ -45,7 +45,7 @@ impl Countdown {
             done.emit(ctx.now());
         }
     }
-    /// Goes on with another number.
+    /// Continues with another number.
     #[slot]
     fn set(&mut self, left: &u32) {
         self.left = *left;

@@ -1,4 +1,4 @@
-//! The compiler as a library: what it says about a text.
+//! The compiler as a library: its messages about a source file.
 
 use apex_dsl::{
     catalog::Catalog,
@@ -9,22 +9,22 @@ use apex_dsl::{
 use apex_host::{Disk, Seen, Workspace};
 use std::path::Path;
 
-/// One message, with the text that each of its places stands for.
+/// A message with the texts at its places.
 #[derive(Debug)]
 pub struct Found {
-    /// Stable name.
+    /// Code.
     pub code: &'static str,
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// The text at which the message points.
+    /// Text at the place of the message.
     pub at: String,
-    /// Line and column of that text, both from 1.
+    /// Line and column of that text, counted from 1.
     pub place: (usize, usize),
-    /// The texts of all other places.
+    /// Texts at all other places.
     pub also: Vec<String>,
     /// Notes, labels and titles of fixes.
     pub remarks: Vec<String>,
-    /// What the fixes put in place.
+    /// Replacements of the fixes.
     pub fixes: Vec<String>,
 }
 
@@ -45,13 +45,13 @@ impl Found {
         }
     }
 
-    /// Whether one of the remarks contains `words`.
+    /// `true` if one of the remarks contains `words`.
     pub fn says(&self, words: &str) -> bool {
         self.remarks.iter().any(|r| r.contains(words))
     }
 }
 
-/// All errors of `text`, which sees the nodes of this package, in the order of the text.
+/// All errors of `text`, which can use the nodes of this package, in the order of the text.
 pub fn check(text: &str) -> Vec<Found> {
     compile(text).0
 }
@@ -82,17 +82,17 @@ fn compile(text: &str) -> (Vec<Found>, String) {
 /// The only error of `text`.
 ///
 /// # Panics
-/// If there is none, or more than one.
+/// Panics if there is none, or more than one.
 pub fn error(text: &str) -> Found {
     let mut found = check(text);
     assert_eq!(found.len(), 1, "one error is expected: {found:#?}");
     found.remove(0)
 }
 
-/// The Rust that `text` is compiled to.
+/// Rust code for `text`.
 ///
 /// # Panics
-/// If it has errors.
+/// Panics if it has errors.
 pub fn expand(text: &str) -> String {
     let (found, code) = compile(text);
     assert!(found.is_empty(), "{found:#?}");

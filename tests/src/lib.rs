@@ -1,4 +1,4 @@
-//! What the tests of the whole need: scripted nodes, a firing log, and the compiler as a library.
+//! Utilities of the tests of all crates: scripted nodes, a log of firings, and the compiler as a library.
 //!
 //! All tokens are `i64` unless a test is about types. A negative number in a script stands for ⊥.
 
@@ -13,7 +13,7 @@ mod random;
 pub mod texts;
 
 pub mod nodes {
-    //! Nodes for the texts of the tests.
+    //! Nodes for the source files of the tests.
     mod active;
     mod control;
     mod events;
@@ -53,5 +53,5 @@ pub use machines::{LETTERS, Machine, machine, machines_text};
 pub use python::python;
 pub use random::{Case, SEED, Trace, cases, text};
 
-/// A constant that texts use.
+/// A constant for source files.
 pub const SEVEN: i64 = 7;

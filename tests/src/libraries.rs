@@ -1,4 +1,5 @@
-//! Programs that tests make are given to rustc directly, with the libraries that cargo has compiled for the tests.
+//! Programs that tests generate are compiled by rustc directly, with the libraries that cargo has compiled for the
+//! tests.
 
 use serde_json::Value;
 use std::{
@@ -7,22 +8,22 @@ use std::{
     process::Command,
 };
 
-/// What such programs use.
+/// Crates that these programs use.
 const USED: [&str; 4] = ["apex_macros", "apex_nodes", "apex_rt", "apex_tests"];
 
-/// Compiled libraries. In a package made for a test, cargo would compile all of them again, and the compiler with them.
+/// Compiled libraries. In a package made for a test, cargo would compile all of them again, including the compiler.
 pub struct Libraries {
     files: Vec<(String, PathBuf)>,
-    /// Where those lie that these use.
+    /// Folder of their dependencies.
     folder: PathBuf,
 }
 
 impl Libraries {
-    /// Asks cargo for them: it has compiled the tests, and finds that all is there. `temporary` is
-    /// `env!("CARGO_TARGET_TMPDIR")`, which lies where cargo compiles.
+    /// Gets the libraries from cargo, which has compiled them for the tests already. `temporary` is
+    /// `env!("CARGO_TARGET_TMPDIR")`, which is in the target folder.
     ///
     /// # Panics
-    /// If they cannot be compiled.
+    /// Panics if they cannot be compiled.
     pub fn ask(temporary: &Path) -> Self {
         let mut cargo = apex_host::cargo();
         cargo.args(["build", "--package", "apex-tests", "--lib", "--offline", "--message-format=json", "--target-dir"]);
@@ -39,13 +40,13 @@ impl Libraries {
             })
             .collect();
         assert_eq!(files.len(), USED.len(), "cargo has not compiled all of {USED:?}: {files:?}");
-        // The library that cargo is asked for lies elsewhere; the runtime lies with all others.
+        // The requested library is copied to another folder; the runtime is in the same folder as all others.
         let runtime = files.iter().find(|(name, _)| name == "apex_rt");
         let folder = runtime.and_then(|(_, file)| file.parent()).expect("a file lies in a folder").to_owned();
         Self { files, folder }
     }
 
-    /// rustc for a crate of the package in `package`. `graph!` takes it for one that cargo compiles.
+    /// rustc command for a crate of the package in `package`, with the environment that `graph!` expects from cargo.
     pub fn rustc(&self, package: &Path, name: &str) -> Command {
         let mut command = Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
         command.env("CARGO_MANIFEST_DIR", package).env("CARGO_CRATE_NAME", name);
@@ -58,7 +59,7 @@ impl Libraries {
     }
 }
 
-/// The root of the repository.
+/// Root of the repository.
 pub fn root() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().unwrap_or(package)

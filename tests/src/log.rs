@@ -4,29 +4,29 @@ use std::{
     time::Duration,
 };
 
-/// What happened while a program reacted.
+/// Events during the reactions of a program.
 #[derive(Debug, Default)]
 pub struct Log {
     names: Vec<&'static str>,
     takers: Vec<usize>,
     claims: &'static [&'static str],
-    /// The names of the nodes that fired, in order.
+    /// Names of the nodes that fired, in order.
     pub fired: Vec<&'static str>,
-    /// The names of the nodes whose slots were called, in order.
+    /// Names of the nodes whose slots were called, in order.
     pub handled: Vec<&'static str>,
-    /// Nodes that became active (`true`), or are no longer.
+    /// Nodes that became active (`true`) or inactive (`false`).
     pub activity: Vec<(&'static str, bool)>,
-    /// Nodes that took part in an endless loop, with how often.
+    /// Nodes in an endless loop, with the number of their steps.
     pub endless: Vec<(&'static str, u32)>,
-    /// Nodes that failed, with what they said.
+    /// Nodes that failed, with their messages.
     pub failed: Vec<(&'static str, String)>,
-    /// Nodes that were late, with the milliseconds since their source fired.
+    /// Nodes that missed their deadline, with the milliseconds since their source fired.
     pub late: Vec<(&'static str, u128)>,
-    /// How long every reaction seems to have been going on whenever somebody asks.
+    /// Simulated duration of every reaction.
     pub elapsed: Duration,
     /// Claims that did not hold, in order.
     pub broken: Vec<&'static str>,
-    /// Nodes that refused a value: node, parameter, value.
+    /// Nodes that rejected a value: node, parameter, value.
     pub refused: Vec<(&'static str, &'static str, String)>,
 }
 
@@ -42,12 +42,12 @@ impl Log {
         }
     }
 
-    /// How often `node` fired.
+    /// Number of firings of `node`.
     pub fn count(&self, node: &str) -> usize {
         self.fired.iter().filter(|n| **n == node).count()
     }
 
-    /// The order of firings, in one line.
+    /// Order of firings in one line.
     pub fn order(&self) -> String {
         self.fired.join(" ")
     }
@@ -84,7 +84,7 @@ impl Observer for Log {
     }
 }
 
-/// Lets `program` react `times` times at time zero, and says what happened.
+/// Runs `times` reactions of `program` at time zero. Returns the log.
 pub fn react<P: Program>(program: &mut P, times: usize) -> Log {
     let mut log = Log::of(program);
     for _ in 0..times {
@@ -93,13 +93,13 @@ pub fn react<P: Program>(program: &mut P, times: usize) -> Log {
     log
 }
 
-/// The nodes of `program` that are active.
+/// Names of the active nodes of `program`.
 pub fn active<P: Program>(program: &P) -> String {
     let nodes = P::INFO.nodes.iter().enumerate().filter(|(node, _)| program.is_active(*node));
     nodes.map(|(_, node)| node.name).collect::<Vec<_>>().join(" ")
 }
 
-/// The nodes that are active after each of `N` iterations.
+/// Names of the active nodes after each of `N` iterations.
 pub fn active_after_each<P: Program, const N: usize>(program: &mut P) -> [String; N] {
     [(); N].map(|()| {
         react(program, 1);
@@ -107,7 +107,7 @@ pub fn active_after_each<P: Program, const N: usize>(program: &mut P) -> [String
     })
 }
 
-/// Runs `program` on a simulated clock from `start` to `end` (exclusive), and says what happened.
+/// Runs `program` on a simulated clock from `start` to `end` (exclusive). Returns the log.
 pub fn simulate<P: Program>(program: &mut P, start: Time, end: Time) -> Log {
     let mut log = Log::of(program);
     let mut now = start;

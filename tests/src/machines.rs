@@ -3,13 +3,13 @@
 use crate::Dice;
 use std::fmt::Write as _;
 
-/// What a machine can be told.
+/// Input letters of a machine.
 pub const LETTERS: [&str; 3] = ["a", "b", "c"];
 
-/// For each state where each letter leads to; it stays where it is without.
+/// For each state, the target of each letter, or `None` if the state remains.
 pub type Machine = Vec<[Option<usize>; LETTERS.len()]>;
 
-/// The machine that comes out of `seed`.
+/// The machine for `seed`.
 pub fn machine(seed: u64) -> Machine {
     let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
     let states = 2 + dice.below(7);
@@ -17,7 +17,8 @@ pub fn machine(seed: u64) -> Machine {
     (0..states).map(|from| LETTERS.map(|_| target(from))).collect()
 }
 
-/// The machines 0 to `count`, each as the machine `A…` in the graph `Said…`, and translated as the graph `Flow…`.
+/// Source file with the machines 0 to `count`, each as the machine `A…` in the graph `Said…`, and translated as the
+/// graph `Flow…`.
 pub fn machines_text(count: u64) -> String {
     let mut text = "//! Made by `apex_tests::machines_text`.\nuse apex_tests::nodes::Phase;\n".to_owned();
     for number in 0..count {

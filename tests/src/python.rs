@@ -1,9 +1,9 @@
-//! Tools of others that are written in Python.
+//! External tools that are written in Python.
 
 use std::{path::Path, process::Command};
 
-/// A Python that has `module`, one of `package`: that of the environment `python` in the target folder, or the system's.
-/// Without one it says how to get it. `temporary` is `env!("CARGO_TARGET_TMPDIR")`, which lies in the target folder.
+/// A Python that has `module` of `package`: that of the environment `python` in the target folder, or the system's.
+/// Without one, prints instructions. `temporary` is `env!("CARGO_TARGET_TMPDIR")`, which is in the target folder.
 pub fn python(temporary: &Path, module: &str, package: &str) -> Option<String> {
     let environment = temporary.with_file_name("python").display().to_string();
     let import = format!("import {module}");

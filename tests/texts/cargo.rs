@@ -1,4 +1,4 @@
-//! A workspace with a package for each text of a batch.
+//! A workspace with a package for each case of a batch.
 
 use apex_host::Workspace;
 use apex_tests::{
@@ -18,15 +18,15 @@ use std::{
 /// An error of rustc.
 #[derive(Debug, Clone)]
 pub struct Message {
-    /// `E0425`
+    /// Code, such as `E0425`.
     pub code: String,
-    /// What is wrong.
+    /// Message.
     pub text: String,
-    /// All of it.
+    /// The rendered message.
     pub rendered: String,
-    /// It is about what `graph!` made.
+    /// `true` if it refers to code that `graph!` generated.
     pub in_graph: bool,
-    /// It points into the text of the call.
+    /// `true` if it points into the source text of the call.
     pub in_text: bool,
 }
 
@@ -39,7 +39,7 @@ fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("texts")
 }
 
-/// The package of a text, by the crates that it has.
+/// Name of the package of a case.
 fn package(slot: usize, shape: Shape) -> String {
     match shape {
         Shape::Library => format!("text{slot}"),
@@ -47,7 +47,7 @@ fn package(slot: usize, shape: Shape) -> String {
     }
 }
 
-/// The crate in which `graph!` is called.
+/// Name of the crate that calls `graph!`.
 pub fn call_of(slot: usize, shape: Shape) -> String {
     match shape {
         Shape::Library => format!("text{slot}"),
@@ -87,7 +87,7 @@ exclude = [\"target\"]
 ";
 
 impl Packages {
-    /// Makes so many packages of each shape.
+    /// Makes `count` packages of each shape.
     pub fn new(count: usize) -> Self {
         let folder = folder();
         let _ = fs::remove_dir_all(&folder);
@@ -104,13 +104,13 @@ impl Packages {
             }
         }
         fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("there is a lock file");
-        // The packages enter the lock file. Nothing is downloaded for this, as `metadata` would for other platforms.
+        // Adds the packages to the lock file. Unlike `metadata`, this downloads nothing for other platforms.
         let made = cargo().args(["update", "--workspace", "--offline"]).output().expect("cargo runs");
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
         Self { known: BTreeMap::new() }
     }
 
-    /// Writes a text and its Rust, and returns the folder of its package.
+    /// Writes the files of a case. Returns the folder of its package.
     pub fn write(&self, slot: usize, case: &Case) -> PathBuf {
         let package = folder().join(package(slot, case.shape));
         let _ = fs::remove_dir_all(package.join("src"));
@@ -120,7 +120,7 @@ impl Packages {
         package
     }
 
-    /// What cargo knows of a package.
+    /// Metadata of a package from cargo.
     pub fn workspace(&mut self, slot: usize, shape: Shape) -> &Workspace {
         let package = folder().join(package(slot, shape));
         self.known
@@ -135,7 +135,7 @@ fn cargo() -> Command {
     command
 }
 
-/// The errors of rustc in packages, with their tests.
+/// Errors of rustc in packages, including their tests.
 pub fn check_all(packages: &[(usize, Shape)]) -> Vec<Vec<Message>> {
     static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
     let threads = thread::available_parallelism().map_or(1, usize::from);
@@ -149,7 +149,7 @@ pub fn check_all(packages: &[(usize, Shape)]) -> Vec<Vec<Message>> {
     })
 }
 
-/// The errors in one package.
+/// Errors in one package.
 fn check(libraries: &Libraries, slot: usize, shape: Shape) -> Vec<Message> {
     let (folder, name) = (folder().join(package(slot, shape)), package(slot, shape));
     let library = folder.join("lib.rmeta");
@@ -183,7 +183,7 @@ fn rustc(libraries: &Libraries, folder: &Path, name: &str, root: &str, args: &[&
     messages
 }
 
-/// An error among what rustc prints about a crate with this root.
+/// An error in the output of rustc for a crate with this root file.
 fn message(message: &Value, source: &Path) -> Option<Message> {
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     if message["level"] != "error" || text(&message["message"]).starts_with("aborting due to") {

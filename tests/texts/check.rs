@@ -1,4 +1,4 @@
-//! The compiler as a library, on a package with a random text.
+//! The compiler as a library, for a package with a random source file.
 
 use crate::{
     cargo::{Packages, call_of},
@@ -23,31 +23,31 @@ use std::{
     time::Duration,
 };
 
-/// Far more than a text takes, also on a busy machine: a guard against hanging, not a measurement.
+/// Time limit: far more than a source file takes, also on a busy machine, to detect hangs.
 const GUARD: Duration = Duration::from_secs(60);
 
-/// What the compiler says about a text.
+/// Result of the compiler for a source file.
 pub enum Checked {
-    /// It has no error; the names of its nodes and graphs, which rustc has to mention where it is left to judge.
+    /// No errors. Contains the names of its nodes and graphs, which rustc has to mention in its errors.
     Accepted(Vec<String>),
-    /// It has an error, with this code.
+    /// An error with this code.
     Refused(String),
-    /// It is wrong about it.
+    /// A wrong result.
     Failed(Failure),
 }
 
-/// Checks texts.
+/// Checker of source files.
 pub struct Checker {
     packages: Packages,
 }
 
 impl Checker {
-    /// A checker of so many texts at a time.
+    /// A checker with `count` packages.
     pub fn new(count: usize) -> Self {
         Self { packages: Packages::new(count) }
     }
 
-    /// Writes `case` into the package of this number and checks all of its calls of `graph!`.
+    /// Writes `case` into a package and checks all of its calls of `graph!`.
     pub fn check(&mut self, slot: usize, case: &Case) -> Checked {
         let folder = self.packages.write(slot, case);
         let workspace = self.packages.workspace(slot, case.shape);
@@ -70,7 +70,7 @@ impl Checker {
     }
 }
 
-/// Checks the text of a call on a thread of its own.
+/// Checks the source file of a call on a thread of its own.
 fn check(call: &Call, path: &Path, crates: Crates, site: (PathBuf, usize)) -> Checked {
     let (sender, receiver) = mpsc::channel();
     let (name, path) = (call.text.clone(), path.to_owned());
@@ -120,14 +120,14 @@ fn compile(path: &Path, crates: Crates, (file, line): &(PathBuf, usize)) -> Chec
     }
 }
 
-/// The first error of a text that is refused has to stand in it.
+/// Checks that the first error of a rejected source file is in it.
 fn refused(error: &Diagnostic, sources: &Sources) -> Checked {
     let span = error.primary.span;
     let source = sources.get(span.file);
     let (start, end) = (span.start as usize, span.end as usize);
     let is_text = source.path.extension().is_some_and(|e| e == "afg");
     let inside = start <= end && source.text.get(start..end).is_some();
-    // An empty text is the only one in which nothing can be pointed at.
+    // Only an empty source file has no place to point at.
     let points = source.text.trim().is_empty() || end > start || start > 0;
     match is_text && inside && points && !error.message.is_empty() {
         true => {
@@ -140,7 +140,7 @@ fn refused(error: &Diagnostic, sources: &Sources) -> Checked {
     }
 }
 
-/// A node that no path leads to would be left out of the program.
+/// Fails for a node without a path, which would be missing in the program.
 fn unspelled(program: &Program, catalog: &Catalog) -> Option<Checked> {
     let lost = program.graph.nodes.iter().find(|node| match &node.kind {
         NodeKind::Library(library) => catalog.signatures[library.signature].path.is_empty(),

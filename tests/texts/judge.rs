@@ -1,30 +1,31 @@
-//! rustc on texts that the compiler accepted.
+//! Runs rustc on source files that the compiler accepted.
 
 use crate::cargo::{Message, check_all};
 use apex_tests::texts::{Case, Shape};
 use std::fmt;
 
-/// What is wrong.
+/// Kind of failure.
 #[derive(Debug, Clone)]
 pub enum Failure {
     /// The compiler panics.
     Panic(String),
-    /// The compiler does not come to an end.
+    /// The compiler does not end.
     Hang(String),
-    /// The first error does not stand in the text.
+    /// The first error is not in the source file.
     Outside(String),
     /// A node of the program has no path.
     Unspelled(String),
-    /// rustc refuses it.
+    /// rustc rejects the program.
     Rustc(Vec<Message>),
-    /// rustc refuses it as only it can, and says where in the text. This is how it should be.
+    /// rustc rejects the program for a reason that only rustc can detect, and names the place in the source file. This
+    /// is correct.
     Named(Vec<Message>),
-    /// The Rust beside the text is wrong: a mistake of the generator.
+    /// The Rust code beside the source file has an error, because of a mistake of the generator.
     Rust(Vec<Message>),
 }
 
 impl Failure {
-    /// Failures of one class have the same cause, mostly.
+    /// Class of a failure; failures of one class mostly have the same cause.
     pub fn class(&self) -> String {
         match self {
             Self::Panic(text) => format!("panic: {}", plain(text)),
@@ -54,7 +55,7 @@ fn class(message: &Message) -> String {
     format!("{} {}", message.code, plain(&message.text))
 }
 
-/// A message without what stands between back quotes, and without numbers.
+/// A message without the text between back quotes, and without numbers.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     for (i, part) in text.lines().next().unwrap_or_default().split('`').enumerate() {
@@ -63,7 +64,7 @@ fn plain(text: &str) -> String {
     plain.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).take(120).collect()
 }
 
-/// What rustc says about accepted texts, each in the package of its number, with the names of its nodes.
+/// Results of rustc for accepted cases, each given by its package and the names of its nodes.
 pub fn judge(cases: &[(usize, &Case, &[String])]) -> Vec<Option<Failure>> {
     if cases.is_empty() {
         return vec![];
@@ -86,13 +87,13 @@ fn verdict(names: &[String], messages: Vec<Message>) -> Option<Failure> {
     }
 }
 
-/// Whether a message names a node (or what is connected with it) and a line of the text.
+/// `true` if a message names a node (or something connected with it) and a line of the source file.
 fn is_named(message: &Message, names: &[String]) -> bool {
     let lines = message.rendered.split(".afg:").skip(1).any(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
-    // A text in a Rust file has its place in a label.
+    // Source text in a Rust file has its place in a label.
     let inline = message.in_text || message.rendered.contains("^ --> ");
     let quoted = message.rendered.split('`').skip(1).step_by(2);
-    // A node of a nested graph is named by its path: `split.filter`.
+    // A node of a nested graph is identified by its path: `split.filter`.
     let is_node = |word: &str| names.iter().any(|n| n == word);
     let named = quoted.flat_map(|q| q.split(['.', ' ', ':', '('])).any(is_node);
     (lines || inline) && named

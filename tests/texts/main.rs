@@ -1,8 +1,8 @@
-//! Random texts with the Rust that they use: what the compiler accepts, rustc accepts; what it refuses has its first error in
-//! the text.
+//! Random source files with their Rust code. If the compiler accepts a source file, rustc accepts it. If the compiler
+//! rejects it, its first error is in the source file.
 //!
-//! `APEX_TEXTS` says how many (300), `APEX_TEXTS_SEED` where to begin; with `APEX_TEXTS_RAW` what fails is shown as it is, not
-//! made small first, and `APEX_TEXTS_OUT` names a folder for all that fails.
+//! `APEX_TEXTS` is the number of cases (300), `APEX_TEXTS_SEED` the first seed. With `APEX_TEXTS_RAW`, failing cases
+//! are shown without reduction. `APEX_TEXTS_OUT` is a folder for all failing cases.
 
 mod cargo;
 mod check;
@@ -13,18 +13,18 @@ use check::{Checked, Checker};
 use judge::{Failure, judge};
 use std::{collections::BTreeMap, env, fs, path::PathBuf};
 
-/// Texts that are compiled together.
+/// Number of cases that are compiled together.
 const BATCH: usize = 40;
-/// Failures that are made small and shown.
+/// Maximum number of failures that are reduced and shown.
 const SHOWN: usize = 5;
-/// Times that one is made smaller: each compiles many texts.
+/// Maximum number of reduction steps; each compiles many cases.
 const ROUNDS: usize = 12;
 
 fn number(name: &str) -> Option<u64> {
     env::var(name).ok().and_then(|text| text.parse().ok())
 }
 
-/// What was found out about many texts.
+/// Results of many cases.
 #[derive(Default)]
 struct Found {
     accepted: usize,
@@ -35,7 +35,7 @@ struct Found {
 }
 
 impl Found {
-    /// Checks texts, and compiles those that are accepted.
+    /// Checks cases, and compiles those that are accepted.
     fn look_at(&mut self, checker: &mut Checker, seeds: impl Iterator<Item = u64>) {
         let cases: Vec<Case> = seeds.map(generate).collect();
         let mut accepted = vec![];
@@ -63,7 +63,7 @@ impl Found {
         }
     }
 
-    /// The failures by class.
+    /// Failures by class.
     fn classes(&self) -> BTreeMap<String, Vec<&(Case, Failure)>> {
         let mut classes: BTreeMap<String, Vec<&(Case, Failure)>> = BTreeMap::new();
         for failure in &self.failures {
@@ -73,7 +73,7 @@ impl Found {
     }
 }
 
-/// A small text that fails in the same way.
+/// Reduces a case while it fails in the same way.
 fn smallest(checker: &mut Checker, case: &Case, failure: &Failure) -> (Case, Failure) {
     let (mut case, mut failure) = (case.clone(), failure.clone());
     for _ in 0..ROUNDS {
@@ -116,7 +116,7 @@ fn keep(case: &Case, failure: &Failure) {
         .expect("the folder of the failures can be written");
 }
 
-/// Seeds of texts that were accepted and did not compile once, tried each time.
+/// Seeds of cases that were accepted but did not compile in the past, which are always tested.
 const KNOWN: [u64; 14] =
     [100311, 100338, 101415, 103895, 104126, 104223, 106993, 107031, 109446, 110275, 110982, 119244, 201560, 204655];
 
@@ -160,7 +160,7 @@ fn what_is_accepted_compiles() {
         let (case, failure) = if raw { (case.clone(), failure.clone()) } else { smallest(&mut checker, case, failure) };
         println!("\n=== {}\n{failure}\n{}", failure.class(), case.shown());
     }
-    // Where the Rust beside a text is wrong, the text is neither right nor wrong.
+    // With wrong Rust code beside it, a source file is neither correct nor wrong.
     let (own, failures): (Vec<_>, Vec<_>) = found.failures.iter().partition(|(_, f)| matches!(f, Failure::Rust(_)));
     assert!(failures.is_empty(), "{} of {count} texts fail", failures.len());
     assert!(own.len() <= 1 + found.accepted / 50, "the generator writes wrong Rust in {} texts", own.len());

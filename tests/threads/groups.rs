@@ -1,4 +1,4 @@
-//! What crosses from one thread group to another.
+//! Connections between thread groups.
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
@@ -34,7 +34,7 @@ fn an_event_is_answered_by_another_thread() {
     assert_eq!(program.nodes().heard.seen, [5, 10, 15]);
 }
 
-/// Asks as much as there is room for, then takes all answers.
+/// Asks until there is no room, then takes all answers.
 macro_rules! flood {
     ($program:expr) => {{
         let mut program = $program;

@@ -1,4 +1,4 @@
-//! Programs on several threads: on one thread in turn, where their result is always the same, and on real ones.
+//! Programs with several thread groups: in sequence on one thread, with deterministic results, and on real threads.
 
 mod groups;
 mod real;

@@ -1,4 +1,4 @@
-//! Programs on real threads: nothing is lost, their ends are clean, and nobody waits awake.
+//! Programs on real threads: no token is lost, they end cleanly, and waiting threads sleep.
 
 use crate::groups::{Enough, Hangs, Match, Panics, Strict, There, Warned};
 use apex_rt::{prelude::*, threads};
@@ -12,13 +12,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Gives every ball back, until it has come often enough.
+/// Returns every ball, up to a number of balls.
 #[node]
 pub struct Player {
-    /// So often.
+    /// Maximum number of balls.
     #[param]
     limit: i64,
-    /// The balls that came.
+    /// Received balls.
     pub seen: Vec<i64>,
 }
 
@@ -33,7 +33,7 @@ impl Player {
     }
 }
 
-/// Begins a match.
+/// Starts a match.
 #[node]
 #[derive(Default)]
 pub struct Once;
@@ -46,10 +46,10 @@ impl Once {
     }
 }
 
-/// Counts what comes in order, and says when it is enough.
+/// Checks that tokens arrive in order, and reports the last one.
 #[node]
 pub struct Stop {
-    /// So much is enough.
+    /// Number of tokens.
     #[param]
     after: i64,
     next: i64,
@@ -81,7 +81,7 @@ impl Bad {
     }
 }
 
-/// Does not come back for a while at the third token.
+/// Hangs for a while at the third token.
 #[node]
 #[derive(Default)]
 pub struct Stuck {
@@ -103,7 +103,7 @@ impl Stuck {
 
 static HEARD: AtomicBool = AtomicBool::new(false);
 
-/// Hears that something hangs.
+/// Takes reports of hanging nodes.
 #[node]
 #[derive(Default)]
 pub struct Safe;
@@ -117,7 +117,7 @@ impl Safe {
     }
 }
 
-/// Hears who hangs.
+/// Records hanging nodes.
 #[derive(Clone, Copy)]
 struct Hears<'a>(&'a Mutex<Vec<usize>>);
 

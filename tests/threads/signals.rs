@@ -1,4 +1,4 @@
-//! What Ctrl-C does to a program that is driven: this test runs itself as another process, which hangs.
+//! Effect of Ctrl-C on a driven program: this test starts itself as another process, which hangs.
 #![cfg(unix)]
 
 use apex_macros::graph;
@@ -10,12 +10,12 @@ use std::{
     thread,
 };
 
-/// What the other process says when it hangs.
+/// Output of the other process when it hangs.
 const HANGS: &str = "it hangs";
-/// What it says when it was asked to end, and hangs still.
+/// Output of the other process after the first signal, while it still hangs.
 const ASKED: &str = "it was asked";
 
-/// Does not come back, until somebody kills the process.
+/// Hangs until the process is killed.
 #[node]
 #[derive(Default)]
 pub struct Never;
@@ -48,7 +48,7 @@ fn say(what: &str) {
 #[ignore = "it hangs: `a_second_signal_ends_a_program_that_hangs` runs it as a process"]
 fn hangs() {
     let clock = UntilStopped::ctrl_c(WallClock::new()).expect("the signals are free");
-    // The group `other` sleeps for an hour, and ends when the first signal comes: it is told so by `Drop`.
+    // The group `other` sleeps for an hour, and ends after the first signal, which `Drop` reports.
     let ends = thread::spawn(move || {
         let _ = drive(OnlyOther::new(), clock);
         say(ASKED);
@@ -71,7 +71,7 @@ fn wait_for(line: &str, lines: &mut impl Iterator<Item = std::io::Result<String>
     assert!(found, "it said nothing of `{line}`");
 }
 
-/// A process that is not left behind.
+/// A process that is killed when the value is dropped.
 struct Killed(Child);
 
 impl Drop for Killed {

@@ -1,10 +1,10 @@
-//! Programs that wait for other threads: they sleep, they are woken, and they end when nobody can wake them any more.
+//! Programs that wait for other threads: they sleep, are woken, and end when no thread can wake them any more.
 
 use apex_macros::graph;
 use apex_rt::{PortReceiver, PortSender, Ports, Switch, UntilStopped, drive, drive_from, prelude::*};
 use std::{cell::Cell, thread};
 
-/// Gives what comes to the event.
+/// Passes tokens on by an event.
 #[node]
 #[derive(Default)]
 pub struct Echo;
@@ -17,7 +17,7 @@ impl Echo {
     }
 }
 
-/// Plays for ever, and turns the switch after a while.
+/// Plays forever, and turns the switch after a while.
 #[node]
 #[derive(Default)]
 pub struct Tired {
@@ -42,7 +42,7 @@ impl Tired {
 graph! {
     use crate::{real::{Once, Player}, waits::{Echo, Tired}};
 
-    /// What comes in goes out again.
+    /// Returns every token.
     graph Answers {
         slot  question: i64;
         slot  end;
@@ -53,7 +53,7 @@ graph! {
         end       -> exit;
     }
 
-    /// The same by way of another thread.
+    /// The same through another thread.
     graph Far {
         slot  question: i64;
         slot  end;
@@ -66,7 +66,7 @@ graph! {
         end       -> exit;
     }
 
-    /// A match without end between two threads, none of which is ever idle.
+    /// An endless match between two threads that are never idle.
     graph Endless {
         node home  = Tired();
         node away  = Player(limit = 9223372036854775807) on other;
@@ -78,7 +78,7 @@ graph! {
     }
 }
 
-/// Asks three times, each time when the answer has come; then drops the ends.
+/// Asks three times, each time after the previous answer, then drops the ends.
 fn ask(questions: PortSender<i64>, answers: PortReceiver<i64>) -> Vec<i64> {
     let ask = |question| {
         questions.send(question).expect("the program waits as long as it can be asked");
@@ -87,7 +87,7 @@ fn ask(questions: PortSender<i64>, answers: PortReceiver<i64>) -> Vec<i64> {
     [1, 2, 3].map(ask).to_vec()
 }
 
-/// The machine's clock, which counts how often it is to wait for ever.
+/// The machine's clock, which counts the waits without a time limit.
 #[derive(Clone, Copy)]
 struct Counted<'a> {
     clock: WallClock,
@@ -142,7 +142,7 @@ fn a_token_that_is_not_taken_is_given_back() {
     assert_eq!((questions.put(1), questions.put(2)), (Ok(()), Err(2)), "nobody drives it yet");
     let other = questions.clone();
     let asks = thread::spawn(move || {
-        // Nobody takes the answers: one waits at this end, one in the program, and then questions are held back.
+        // The answers are not taken: one is in this end, one in the program, and then questions are held back.
         let given: Vec<i64> = (2..).take_while(|question| other.send(*question).is_ok() && *question < 4).collect();
         assert_eq!(end.put(()), Ok(()));
         given

@@ -25,7 +25,8 @@ const INTERVAL: Duration = Duration::from_millis(200);
 /// `true` after Ctrl-C.
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
-/// Builds and runs until Ctrl-C; again after each change. While the source file has errors, the previous program keeps running.
+/// Builds and runs until Ctrl-C, again after each change. While the source file has errors, the previous program keeps
+/// running.
 pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed))
         .map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;

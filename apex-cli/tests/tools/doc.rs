@@ -38,7 +38,7 @@ use crate::{Total, ramp};
 use parts::{Inner, Lamp};
 
 /// The whole.
-/// It has [`Inner`] inside.
+/// Contains [`Inner`].
 ///
 /// ```text
 /// inner
@@ -153,9 +153,9 @@ fn pages_of_texts_and_of_what_they_use() {
             &[
                 "<svg ",
                 "<h2>Activity</h2>",
-                "It has <a href=\"parts.Inner.html\"><code>Inner</code></a> inside.",
+                "Contains <a href=\"parts.Inner.html\"><code>Inner</code></a>.",
                 "range <code>1..=5</code> · default <code>3m</code>",
-                "How far.",
+                "Distance to drive.",
                 "inner\n    total\n",
                 "<code>step = step</code>",
                 "href=\"robot.ramp.html\"",
@@ -166,7 +166,7 @@ fn pages_of_texts_and_of_what_they_use() {
         ),
         (
             "parts.Inner.html",
-            &["<svg ", "input · <code>u64</code>", "What is added.", "<code>adds</code>", "href=\"robot.Robot.html\""],
+            &["<svg ", "input · <code>u64</code>", "Number to add.", "<code>adds</code>", "href=\"robot.Robot.html\""],
         ),
         ("parts.Lamp.html", &["<svg ", "<code>shining</code>", "Dark.", "press / lit"]),
         (

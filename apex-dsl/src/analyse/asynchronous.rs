@@ -10,7 +10,7 @@
 use super::{Delivery, Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
-    graph::{Flow, Graph, Node, NodeId, NodeKind, PortId, Standard},
+    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub const MANY: usize = 32;
 
 /// Largest number of slots or timeouts that have functions of their own. More are rows of tables: fewer lines, but a
-/// call takes twice as many instructions.
+/// call takes four times as many instructions.
 const MOST_FUNCTIONS: usize = 128;
 
 /// The asynchronous part of a graph.
@@ -60,10 +60,7 @@ impl Asynchronous {
         let to_slot = |c: &usize| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
         let slots: Vec<usize> = (0..graph.connections.len()).filter(to_slot).collect();
         let timeouts = graph.nodes.iter().filter(|node| node.modifiers.timeout.is_some()).count();
-        // The tables have a bit for each event of a node.
-        let count = |node: &Node| node.ports.iter().filter(|port| port.kind == PortKind::Event).count();
-        let is_narrow = graph.nodes.iter().all(|node| count(node) <= u64::BITS as usize);
-        let is_tabled = is_narrow && slots.len().max(timeouts) > MOST_FUNCTIONS;
+        let is_tabled = slots.len().max(timeouts) > MOST_FUNCTIONS;
         let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut may_block = may_block(graph, links, &slots);
         live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);

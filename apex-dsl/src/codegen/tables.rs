@@ -1,5 +1,5 @@
-//! Many slots and timeouts: rows of tables, and the code that serves them by number. Only what has a type of its own
-//! stands in code: the call of a slot, and where the token of an event lies.
+//! Tables of many slots and timeouts, and the code that serves them by number. Only parts with types of their own are
+//! code: the calls of slots, and the fields of the tokens of events.
 
 use super::{
     Generator,
@@ -14,15 +14,15 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-/// The rows of ports, and the tokens of each node.
+/// The rows of ports, with their nodes and tokens.
 struct Ports<'a> {
     rows: Vec<&'a Port>,
     /// The rows of each node: the first of them, and the end.
     of: BTreeMap<NodeId, (usize, usize)>,
-    /// The tokens of each node, by their number in the node.
-    tokens: BTreeMap<NodeId, Vec<PortId>>,
+    /// The tokens, by number.
+    tokens: Vec<PortId>,
 }
 
 impl<'a> Ports<'a> {
@@ -30,7 +30,7 @@ impl<'a> Ports<'a> {
     fn new(generator: &Generator<'_>, view: ProgramView<'a>) -> Self {
         let wiring = view.wiring;
         let nodes = wiring.slots.iter().map(|slot| slot.node).chain(wiring.timeouts.iter().map(|t| t.node));
-        let mut ports = Self { rows: vec![], of: BTreeMap::new(), tokens: BTreeMap::new() };
+        let mut ports = Self { rows: vec![], of: BTreeMap::new(), tokens: vec![] };
         for node in nodes {
             if ports.of.contains_key(&node) {
                 continue;
@@ -38,17 +38,11 @@ impl<'a> Ports<'a> {
             let first = ports.rows.len();
             ports.rows.extend(wiring.of(node).iter().filter(|port| generator.is_sent_event(view, port.end)));
             ports.of.insert(node, (first, ports.rows.len()));
-            let tokens: BTreeSet<PortId> = ports.rows[first..].iter().map(|port| port.end).collect();
-            if !tokens.is_empty() {
-                ports.tokens.insert(node, tokens.into_iter().collect());
-            }
         }
+        ports.tokens = ports.rows.iter().map(|port| port.end).collect();
+        ports.tokens.sort_unstable();
+        ports.tokens.dedup();
         ports
-    }
-
-    /// The number of a token in its node.
-    fn number(&self, end: PortId) -> Option<usize> {
-        self.tokens.get(&end.node)?.iter().position(|token| *token == end)
     }
 
     fn range(&self, node: NodeId) -> TokenStream {
@@ -72,18 +66,19 @@ impl Generator<'_> {
         let rows: Vec<TokenStream> = ports.rows.iter().map(|port| self.port_row(view, &ports, port)).collect();
         let slots: Vec<TokenStream> = view.wiring.slots.iter().map(|slot| self.slot_row(view, &ports, slot)).collect();
         let (port_count, slot_count) = (rows.len(), slots.len());
-        let (tokens, leave) = (self.token_functions(view, &ports), self.leave(view, &ports));
+        let (token, clear, leave) =
+            (self.token_function(view, &ports), self.clear_function(&ports), self.leave(view, &ports));
         let (slot, call, turns) = (self.slot_function(view), self.call_function(view), self.turns(view));
         let expire = self.expire_table(view, &ports);
         quote! {
             const PORTS: [::apex_rt::tables::Port; #port_count] = { use ::apex_rt::tables::Port; [#(#rows),*] };
             const SLOTS: [::apex_rt::tables::Slot; #slot_count] = { use ::apex_rt::tables::Slot; [#(#slots),*] };
-            #tokens #leave #slot #call #turns #expire
+            #token #clear #leave #slot #call #turns #expire
         }
     }
 
     fn port_row(&self, view: ProgramView<'_>, ports: &Ports<'_>, port: &Port) -> TokenStream {
-        let Some(token) = ports.number(port.end) else {
+        let Ok(token) = ports.tokens.binary_search(&port.end) else {
             return self.bug(view.graph.nodes[port.end.node].span, "the token of an event is in no table");
         };
         let token = Literal::usize_unsuffixed(token);
@@ -141,36 +136,29 @@ impl Generator<'_> {
         row
     }
 
-    /// The functions that read which events of a node have tokens, and that empty them before the node may trigger
-    /// them.
-    fn token_functions(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
-        if ports.tokens.is_empty() {
-            return quote! { fn clear(&mut self, node: usize) {} };
-        }
+    /// The function that returns the field of an event's token.
+    fn token_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
         let state = self.item(view.graph, "State");
-        let present = ports.tokens.iter().map(|(node, tokens)| {
-            let node = Literal::usize_unsuffixed(self.index(*node));
-            let bits = tokens.iter().enumerate().map(|(number, end)| {
-                let (name, number) = (self.name(*end), Literal::usize_unsuffixed(number));
-                quote!((state.#name.is_some() as u64) << #number)
-            });
-            quote! { #node => #(#bits)|*, }
+        let Some((last, tokens)) = ports.tokens.split_last() else { return quote!() };
+        let arms = tokens.iter().enumerate().map(|(number, end)| {
+            let (number, name) = (Literal::usize_unsuffixed(number), self.name(*end));
+            quote! { #number => &mut state.#name, }
         });
-        let clear = ports.tokens.iter().map(|(node, tokens)| {
-            let node = Literal::usize_unsuffixed(self.index(*node));
-            let names = tokens.iter().map(|end| self.name(*end));
-            quote! { #node => { #(state.#names = None;)* } }
-        });
+        let last = self.name(*last);
         quote! {
-            /// The events of a node that have tokens, as bits.
-            fn present(state: &#state, node: usize) -> u64 {
-                match node { #(#present)* _ => 0 }
-            }
-            fn clear(&mut self, node: usize) {
-                let state = &mut self.state;
-                match node { #(#clear)* _ => {} }
+            /// The token of an event.
+            fn token(state: &mut #state, number: usize) -> &mut dyn ::apex_rt::tables::Token {
+                match number { #(#arms)* _ => &mut state.#last, }
             }
         }
+    }
+
+    /// The function that empties the events of a node before it may trigger them.
+    fn clear_function(&self, ports: &Ports<'_>) -> TokenStream {
+        let clear = (!ports.tokens.is_empty()).then(|| {
+            quote! { for port in &Self::PORTS[first..end] { Self::token(&mut self.state, port.token).clear(); } }
+        });
+        quote! { fn clear(&mut self, (first, end): (usize, usize)) { #clear } }
     }
 
     /// The function that sends what a node has triggered, with its activity.
@@ -197,8 +185,6 @@ impl Generator<'_> {
                     #gains
                     let Self { state, .. } = self;
                     #check
-                    // The node may have triggered `deactivated`.
-                    present = Self::present(&self.state, node);
                 }
             }
         });
@@ -215,7 +201,7 @@ impl Generator<'_> {
         let stamps =
             stamped.then(|| quote! { for stamp in port.stamps { self.state.stamps[*stamp as usize] = ctx.stamp(); } });
         let chosen = self.chosen_function(view, ports);
-        let choose = (!chosen.is_empty()).then(|| quote! { self.chosen(row, observer); });
+        let choose = (!chosen.is_empty()).then(|| quote! { self.chosen(port.token, observer); });
         quote! {
             /// Sends the events that a node has triggered. Its activity goes with the first over an active connection.
             fn leave<O: ::apex_rt::Observer>(
@@ -225,13 +211,11 @@ impl Generator<'_> {
                 ctx: &::apex_rt::Ctx,
                 observer: &mut O,
             ) {
-                let mut present = Self::present(&self.state, node);
-                if present == 0 { return; }
                 for port in &Self::PORTS[first..end] {
-                    if present & 1 << port.token != 0 { #takes_away #passes }
+                    if Self::token(&mut self.state, port.token).is_there() { #takes_away #passes }
                 }
-                for (row, port) in (first..end).zip(&Self::PORTS[first..end]) {
-                    if present & 1 << port.token != 0 { #choose #queue #bits #stamps }
+                for port in &Self::PORTS[first..end] {
+                    if Self::token(&mut self.state, port.token).is_there() { #choose #queue #bits #stamps }
                 }
             }
             #chosen
@@ -240,20 +224,22 @@ impl Generator<'_> {
 
     /// The function that records chosen events.
     fn chosen_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
-        let rows = ports.rows.iter().enumerate();
-        let arms: Vec<TokenStream> = rows
-            .map(|(row, port)| (row, self.chosen_event(view.graph, port.end)))
+        let arms: Vec<TokenStream> = ports
+            .tokens
+            .iter()
+            .enumerate()
+            .map(|(number, end)| (number, self.chosen_event(view.graph, *end)))
             .filter(|(_, code)| !code.is_empty())
-            .map(|(row, code)| quote! { #row => { #code } })
+            .map(|(number, code)| quote! { #number => { #code } })
             .collect();
         if arms.is_empty() {
             return quote!();
         }
         quote! {
             /// Records events that were chosen.
-            fn chosen<O: ::apex_rt::Observer>(&mut self, row: usize, observer: &mut O) {
+            fn chosen<O: ::apex_rt::Observer>(&mut self, token: usize, observer: &mut O) {
                 let Self { state, .. } = self;
-                match row { #(#arms)* _ => {} }
+                match token { #(#arms)* _ => {} }
             }
         }
     }
@@ -307,7 +293,7 @@ impl Generator<'_> {
                 #since
                 if let Some(connection) = row.connection { observer.handled(connection); }
                 #frees
-                self.clear(row.node);
+                self.clear(row.ports);
                 #activity
                 self.call(slot, ctx, observer);
                 observer.finished(row.node);
@@ -427,7 +413,7 @@ impl Generator<'_> {
             /// The `timeout` of a node is triggered.
             fn expire<O: ::apex_rt::Observer>(&mut self, timeout: usize, ctx: &::apex_rt::Ctx, observer: &mut O) {
                 let row = &Self::TIMEOUTS[timeout];
-                self.clear(row.node);
+                self.clear(row.ports);
                 let Self { state, .. } = self;
                 state.timeouts[timeout].stop();
                 #open

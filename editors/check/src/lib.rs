@@ -1,4 +1,4 @@
-//! The tree-sitter grammar of `.afg` texts: how its parser is made, and the parser itself.
+//! The tree-sitter grammar of `.afg` source files: generation of its parser, and the parser itself.
 //!
 //! Needs a C compiler, and `node` to read the grammar; therefore it is not a default member of the workspace.
 

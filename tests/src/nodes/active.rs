@@ -1,6 +1,6 @@
 use apex_rt::prelude::*;
 
-/// Numbers and events, without end; its slot only takes activity.
+/// Sends numbers and events without end; its slot only takes activity.
 #[node]
 #[derive(Default)]
 pub struct Starter {
@@ -18,7 +18,7 @@ impl Starter {
     fn s(&mut self, _token: &i64) {}
 }
 
-/// As `Src`, with a slot that only takes activity.
+/// Like `Src`, with a slot that only takes activity.
 #[node]
 pub struct Scripted {
     /// The script.
@@ -37,15 +37,15 @@ impl Scripted {
     fn s(&mut self, _token: &i64) {}
 }
 
-/// Takes activity, and counts how often it came and went.
+/// Takes activity, and counts its activations and deactivations.
 #[node]
 #[derive(Default)]
 pub struct Taker {
-    /// What came.
+    /// Received tokens.
     pub seen: Vec<i64>,
-    /// How often it became active.
+    /// Number of activations.
     pub came: usize,
-    /// How often it was no longer active.
+    /// Number of deactivations.
     pub went: usize,
 }
 
@@ -69,7 +69,7 @@ impl Taker {
 #[node]
 #[derive(Default)]
 pub struct Told {
-    /// How many came.
+    /// Number of signals.
     pub count: usize,
 }
 
@@ -81,7 +81,7 @@ impl Told {
     }
 }
 
-/// A state of a machine that was translated to activity: while it is active, each letter leads on.
+/// A state of a machine that was translated to activity: while it is active, each letter leads to another state.
 #[node]
 #[derive(Default)]
 pub struct Phase {}

@@ -1,6 +1,6 @@
 use apex_rt::{Failure, prelude::*};
 
-/// Triggers one of its events a firing, as its script says: 1 is `a`, 2 is `b`, 3 is `c`, all else is nothing.
+/// Triggers one of its events per firing, according to its script: 1 is `a`, 2 is `b`, 3 is `c`, others are none.
 #[node]
 pub struct Buttons {
     /// The script.
@@ -22,11 +22,11 @@ impl Buttons {
     }
 }
 
-/// Records what is said of failures.
+/// Records messages about failures.
 #[node]
 #[derive(Default)]
 pub struct Notes {
-    /// What was said.
+    /// Received messages.
     pub seen: Vec<String>,
 }
 
@@ -41,7 +41,7 @@ impl Notes {
 /// Counts its values, and panics at `at`.
 #[node]
 pub struct Shaky {
-    /// Where it panics.
+    /// Number at which it panics.
     #[param]
     at: i64,
     count: i64,
@@ -65,7 +65,7 @@ impl Shaky {
 #[node]
 #[derive(Default)]
 pub struct OddSlot {
-    /// What came and was even.
+    /// Received even tokens.
     pub seen: Vec<i64>,
 }
 
@@ -81,7 +81,7 @@ impl OddSlot {
     }
 }
 
-/// Records what came which way.
+/// Records tokens with their ports.
 #[node]
 #[derive(Default)]
 pub struct Both {
@@ -100,7 +100,7 @@ impl Both {
     }
 }
 
-/// Two events of one firing, with a number and its negative.
+/// Triggers two events in one firing, with a number and its negative.
 #[node]
 #[derive(Default)]
 pub struct Twins {
@@ -116,7 +116,7 @@ impl Twins {
     }
 }
 
-/// An event by `process` and by a slot.
+/// Triggers an event from `process` and from a slot.
 #[node]
 #[derive(Default)]
 pub struct Echo;
@@ -132,11 +132,11 @@ impl Echo {
     }
 }
 
-/// A slot that takes some time on the clock on the wall.
+/// A slot that takes some time on the wall clock.
 #[node]
 #[derive(Default)]
 pub struct Slow {
-    /// What came.
+    /// Received tokens.
     pub seen: Vec<i64>,
 }
 
@@ -149,11 +149,11 @@ impl Slow {
     }
 }
 
-/// Records when it fired.
+/// Records the times of its firings.
 #[node]
 #[derive(Default)]
 pub struct Stamps {
-    /// The times.
+    /// Times of the firings.
     pub seen: Vec<Time>,
 }
 
@@ -164,13 +164,13 @@ impl Stamps {
     }
 }
 
-/// Records its events `late`, and how old what it took was.
+/// Records its events `late`, and the ages of its tokens.
 #[node]
 #[derive(Default)]
 pub struct Ages {
-    /// When the slot was called.
+    /// Times of the slot calls.
     pub late: Vec<Time>,
-    /// The ages of the tokens at the input, in milliseconds.
+    /// Ages of the tokens at the input, in ms.
     pub ages: Vec<u128>,
 }
 

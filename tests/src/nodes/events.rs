@@ -1,6 +1,6 @@
 use apex_rt::prelude::*;
 
-/// Triggers its event with its values, one a firing, then no more. A negative value triggers nothing.
+/// Triggers its event with its values, one per firing, until the script ends. A negative value triggers nothing.
 #[node]
 pub struct Emit {
     /// The script.
@@ -19,7 +19,7 @@ impl Emit {
     }
 }
 
-/// Four events of one firing.
+/// Triggers four events in one firing.
 #[node]
 pub fn four(a: Event<i64>, b: Event<i64>, c: Event<i64>, d: Event<i64>) {
     d.emit(4);
@@ -28,11 +28,11 @@ pub fn four(a: Event<i64>, b: Event<i64>, c: Event<i64>, d: Event<i64>) {
     a.emit(1);
 }
 
-/// Records what comes to its slot.
+/// Records the tokens at its slot.
 #[node]
 #[derive(Default)]
 pub struct Take {
-    /// What came.
+    /// Received tokens.
     pub seen: Vec<i64>,
 }
 
@@ -44,11 +44,11 @@ impl Take {
     }
 }
 
-/// Passes what comes to its slot on as an event.
+/// Passes the tokens at its slot on by an event.
 #[node]
 #[derive(Default)]
 pub struct Pass {
-    /// What came.
+    /// Received tokens.
     pub seen: Vec<i64>,
 }
 
@@ -74,11 +74,11 @@ impl Tee {
     }
 }
 
-/// Passes values on, and says whether it is active.
+/// Passes values on, and records its activity.
 #[node]
 #[derive(Default)]
 pub struct Watch {
-    /// Whether it was active, by firing.
+    /// For each firing, `true` if the node was active.
     pub seen: Vec<bool>,
 }
 
@@ -90,7 +90,7 @@ impl Watch {
     }
 }
 
-/// Takes activity away.
+/// Removes activity.
 #[node]
 #[deactivates]
 #[derive(Default)]
@@ -104,7 +104,7 @@ impl Dampen {
     }
 }
 
-/// Forgets the value: an event without one.
+/// Triggers an event without a value for each token.
 #[node]
 #[derive(Default)]
 pub struct Signal;

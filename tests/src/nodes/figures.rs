@@ -1,7 +1,7 @@
 use super::Label;
 use apex_rt::prelude::*;
 
-/// Words, one a firing, then nothing.
+/// Sends words, one per firing, then nothing.
 #[node]
 pub struct Words {
     /// The script.
@@ -18,17 +18,17 @@ impl Words {
     }
 }
 
-/// Always the same word.
+/// Sends the same word in every firing.
 #[node]
 pub fn label(#[param] word: &'static str) -> Label {
     Label(word.to_owned())
 }
 
-/// A lamp that is switched by messages to another machine: says when one is out.
+/// A lamp that is switched by messages to another machine: triggers an event when one was sent.
 #[node]
 #[derive(Default)]
 pub struct Export {
-    /// What was sent.
+    /// Sent messages.
     pub sent: Vec<bool>,
 }
 
@@ -40,7 +40,7 @@ impl Export {
     }
 }
 
-/// Three times its input; its slot passes signals on.
+/// Multiplies its input by three; its slot passes signals on.
 #[node]
 #[derive(Default)]
 pub struct Black;
@@ -56,11 +56,11 @@ impl Black {
     }
 }
 
-/// Records what comes to several slots.
+/// Records the tokens at several slots.
 #[node]
 #[derive(Default)]
 pub struct Desk {
-    /// The slot and the token.
+    /// Slots and tokens.
     pub seen: Vec<(char, i64)>,
 }
 
@@ -80,7 +80,7 @@ impl Desk {
     }
 }
 
-/// A state of a machine: says when it is entered, and leaves by a letter of the alphabet 0, 1.
+/// A state of a machine: triggers an event when it is entered, and leaves by a letter of the alphabet 0, 1.
 #[node]
 #[derive(Default)]
 pub struct State;
@@ -101,7 +101,7 @@ impl State {
     }
 }
 
-/// Says once that a message has come, after it was asked to.
+/// After a request, reports the next message once.
 #[node]
 #[derive(Default)]
 pub struct Listener {
@@ -122,7 +122,7 @@ impl Listener {
     }
 }
 
-/// Where signs are: each time one more of them.
+/// Sends the positions of signs, with one more in each firing.
 #[node]
 pub struct SignMap {
     /// Numbers of signs; the pose of sign `n` is `100 n`.
@@ -139,7 +139,7 @@ impl SignMap {
     }
 }
 
-/// The pose of a sign, or an event that it is not known.
+/// Sends the pose of a sign, or triggers an event if it is not known.
 #[node]
 #[allow(clippy::ptr_arg)]
 pub fn map_lookup(key: &i64, map: &Vec<(i64, i64)>, unknown: Event<i64>) -> Option<i64> {
@@ -150,10 +150,10 @@ pub fn map_lookup(key: &i64, map: &Vec<(i64, i64)>, unknown: Event<i64>) -> Opti
     pose
 }
 
-/// A path to a person: how many steps. None if the person is too far away.
+/// Sends the number of steps of a path to a person, or ⊥ if the person is too far away.
 #[node]
 pub struct Planner {
-    /// How far it can plan.
+    /// Maximum number of steps.
     #[param]
     reach: i64,
 }
@@ -166,12 +166,12 @@ impl Planner {
     }
 }
 
-/// Goes along a path, a step a firing.
+/// Follows a path, one step per firing.
 #[node]
 #[derive(Default)]
 pub struct Follower {
     left: i64,
-    /// How many steps it went.
+    /// Number of steps so far.
     pub steps: usize,
 }
 
@@ -192,7 +192,7 @@ impl Follower {
     }
 }
 
-/// Where the person is; says so while it is active.
+/// Sends the position of a person; triggers an event with it while it is active.
 #[node]
 #[derive(Default)]
 pub struct Tracker;

@@ -1,36 +1,36 @@
 use apex_rt::prelude::*;
 
-/// A type of its own, so that a token of another type shows.
+/// A type that differs from all others.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Label(pub String);
 
-/// The first of two.
+/// Sends the first of two tokens.
 #[node]
 pub fn first_of<A: Clone, B>(a: &A, b: &B) -> A {
     let _ = b;
     a.clone()
 }
 
-/// Both, the other way round.
+/// Sends two tokens in reverse order.
 #[node]
 pub fn swap<A: Clone, B: Clone>(a: &A, b: &B, x: &mut Out<B>, y: &mut Out<A>) {
     x.set(b.clone());
     y.set(a.clone());
 }
 
-/// How many.
+/// Sends the length of a list.
 #[node]
 pub fn len_of<T>(list: &Vec<T>) -> i64 {
     list.len() as i64
 }
 
-/// A label for a number.
+/// Sends a label for a number.
 #[node]
 pub fn keep(x: &i64) -> Label {
     Label(x.to_string())
 }
 
-/// Sends the value that came last; before the first, nothing.
+/// Sends the last value; before the first, nothing.
 #[node]
 #[derive(Default)]
 pub struct Latch<T> {
@@ -51,7 +51,7 @@ impl<T: Clone> Latch<T> {
 #[node]
 #[derive(Default)]
 pub struct Held<T> {
-    /// What came.
+    /// Received tokens.
     pub seen: Vec<T>,
 }
 

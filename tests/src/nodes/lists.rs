@@ -1,6 +1,6 @@
 use apex_rt::prelude::*;
 
-/// Sends lists, one a firing, then nothing.
+/// Sends lists, one per firing, then nothing.
 #[node]
 pub struct Lists {
     /// The script.
@@ -20,7 +20,7 @@ impl Lists {
 /// `[0·x, 1·x, … (n−1)·x]`, written in place.
 #[node]
 pub struct Range {
-    /// How many.
+    /// Length.
     #[param(default = 8)]
     n: i64,
 }
@@ -52,22 +52,22 @@ pub fn list_sum(list: &Vec<i64>) -> i64 {
     list.iter().sum()
 }
 
-/// What [`parity`] says.
+/// Outputs of [`parity`].
 #[derive(Outputs)]
 pub struct Parity {
     /// Half of an even value.
     pub half: Option<i64>,
-    /// Whether the value is odd.
+    /// `true` if the value is odd.
     pub odd: bool,
 }
 
-/// Half of even values, and whether a value is odd.
+/// Half of even values, and the parity of each value.
 #[node]
 pub fn parity(x: &i64) -> Parity {
     Parity { half: (x % 2 == 0).then_some(x / 2), odd: x % 2 != 0 }
 }
 
-/// Sends how many values it has had, across all elements and iterations.
+/// Sends the number of its values, across all elements and iterations.
 #[node]
 #[derive(Default)]
 pub struct Tally {
@@ -87,7 +87,7 @@ impl Tally {
 #[node]
 #[derive(Default)]
 pub struct ListSink {
-    /// What came.
+    /// Received lists.
     pub seen: Vec<Vec<i64>>,
 }
 
@@ -102,7 +102,7 @@ impl ListSink {
 #[node]
 #[derive(Default)]
 pub struct PairSink {
-    /// What came.
+    /// Received lists.
     pub seen: Vec<Vec<Vec<i64>>>,
 }
 

@@ -1,12 +1,12 @@
 use apex_rt::prelude::*;
 
-/// Times `k`.
+/// Multiplies by `k`.
 #[node]
 pub fn mul(x: &i64, #[param] k: i64) -> i64 {
     x * k
 }
 
-/// As it came.
+/// Passes every value on.
 #[node]
 pub fn pass(x: &i64) -> i64 {
     *x
@@ -24,7 +24,7 @@ pub fn product(a: &i64, b: &i64) -> i64 {
     a * b
 }
 
-/// Sum of five.
+/// Sum of five values.
 #[node]
 pub fn total_of_five(a: &i64, b: &i64, c: &i64, d: &i64, e: &i64) -> i64 {
     a + b + c + d + e
@@ -42,13 +42,13 @@ pub fn keep_multiples(x: &i64, #[param] of: i64) -> Option<i64> {
     (x % of == 0).then_some(*x)
 }
 
-/// `x` plus what is at `by`, or plus 100 without it.
+/// `x` plus the value at `by`, or plus 100 without it.
 #[node]
 pub fn add_or(x: &i64, by: Option<&i64>) -> i64 {
     x + by.unwrap_or(&100)
 }
 
-/// What there is of both: a node without a mandatory input.
+/// Combines the present values: a node without a mandatory input.
 #[node]
 pub fn both_or(a: Option<&i64>, b: Option<&i64>) -> Option<i64> {
     match (a, b) {
@@ -73,7 +73,7 @@ pub fn odd_fails(x: &i64) -> Result<Option<i64>, &'static str> {
     }
 }
 
-/// Two ways, of which a value takes one.
+/// Two outputs, one of which gets the value.
 #[derive(Outputs)]
 pub struct Switch {
     /// Even values.
@@ -82,7 +82,7 @@ pub struct Switch {
     pub odd: Option<i64>,
 }
 
-/// Sends even values one way and odd ones the other (thesis 3.6.1).
+/// Sends even values to one output and odd ones to the other (thesis 3.6.1).
 #[node]
 pub fn switch(x: &i64) -> Switch {
     let even = x % 2 == 0;
@@ -116,7 +116,7 @@ pub fn negate_odd(x: &i64) -> Signs {
     Signs { plus: *x, minus: (x % 2 != 0).then_some(-x) }
 }
 
-/// Twice the value, written in place; multiples of 3 are left out.
+/// Twice the value, written in place; multiples of 3 are not sent.
 #[node]
 pub fn doubled_in_place(x: &i64, y: &mut Out<i64>) {
     if x % 3 != 0 {
@@ -151,7 +151,7 @@ pub fn listed(x: &i64, list: &mut Out<Vec<i64>>) -> i64 {
     *x
 }
 
-/// Sum of all values so far, modulo 1009.
+/// Current sum of all values, modulo 1009.
 #[node]
 #[derive(Default)]
 pub struct Accumulate {
@@ -166,7 +166,7 @@ impl Accumulate {
     }
 }
 
-/// Passes a value that is larger than the one before.
+/// Passes a value that is larger than the previous one.
 #[node]
 #[derive(Default)]
 pub struct Rise {
@@ -184,7 +184,7 @@ impl Rise {
 /// Passes every `n`th value (thesis 3.6.1).
 #[node]
 pub struct Throttle {
-    /// One of how many passes.
+    /// Number of values of which one passes.
     #[param(range = 1..=1000)]
     n: i64,
     seen: i64,

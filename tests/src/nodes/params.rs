@@ -1,13 +1,13 @@
 use apex_rt::prelude::*;
 use std::time::Duration;
 
-/// Records the gain that each firing finds.
+/// Records the gain in each firing.
 #[node]
 pub struct Gain {
     /// A gain.
     #[param(default = 1, range = 0..=10)]
     gain: i64,
-    /// What the firings found.
+    /// Gains of the firings.
     pub seen: Vec<i64>,
 }
 
@@ -24,19 +24,19 @@ pub fn scaled(x: &i64, #[param(default = 1, range = 0..=10)] gain: i64) -> i64 {
     x * gain
 }
 
-/// `x` and `by`.
+/// `x` plus `by`.
 #[node]
 pub fn offset(x: &i64, #[param(default = 0)] by: i64) -> i64 {
     x + by
 }
 
-/// Cuts at `limit` metres.
+/// Limits values to `limit`, in m.
 #[node]
 pub fn limited(x: &f64, #[param(unit = "m", default = 1.0, range = 0.0..=2.0)] limit: f64) -> f64 {
     x.min(limit)
 }
 
-/// Only there for its parameters.
+/// A node that has only parameters.
 #[node]
 pub struct Settings {
     /// A length.

@@ -18,7 +18,7 @@ pub fn split_in_two(x: &i64) -> [i64; 2] {
     [10 * x, 10 * x + 1]
 }
 
-/// Three of a kind, written in place; none for odd values.
+/// Three equal values, written in place; none for odd values.
 #[node]
 pub fn triples(x: &i64, y: &mut Out<[i64; 3]>) {
     if x % 2 == 0 {
@@ -26,7 +26,7 @@ pub fn triples(x: &i64, y: &mut Out<[i64; 3]>) {
     }
 }
 
-/// Two numbers a firing: 0 1, 2 3, …
+/// Two numbers per firing: 0 1, 2 3, …
 #[node]
 #[derive(Default)]
 pub struct Pairs {

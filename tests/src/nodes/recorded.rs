@@ -1,4 +1,4 @@
-//! Sources of which nobody knows what they send next, and nodes that make something of it.
+//! Sources of unpredictable tokens, and nodes that process them.
 
 use apex_nodes::{
     map::{Grid, Occupancy, Raster},
@@ -9,14 +9,14 @@ use apex_rt::{Ctx, Event, Out, Outputs, node};
 use serde::{Deserialize, Serialize};
 use std::time::SystemTime;
 
-/// Something that differs from call to call, and from run to run.
+/// A number that differs between calls and between runs.
 fn chance() -> u64 {
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     let mixed = (now.as_nanos() as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     mixed ^ (mixed >> 29)
 }
 
-/// A number in 0..1 that nobody knows.
+/// An unpredictable number in 0..1.
 #[node]
 pub fn noise() -> f64 {
     chance() as f64 / u64::MAX as f64
@@ -32,18 +32,18 @@ pub fn ranges() -> Vec<f32> {
 /// A reading of a device.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Reading {
-    /// Nothing there.
+    /// No value.
     Empty,
-    /// Something.
+    /// A value.
     Value { number: u64, text: String },
 }
 
-/// Several outputs at once, one of which may be missing.
+/// Several outputs, one of which may be absent.
 #[derive(Outputs)]
 pub struct Readings {
     /// Always sent.
     pub reading: Reading,
-    /// Sent now and then.
+    /// Sent for odd numbers.
     pub odd: Option<u64>,
 }
 
@@ -56,11 +56,11 @@ pub fn device() -> Readings {
     Readings { reading, odd: (!number.is_multiple_of(2)).then_some(number) }
 }
 
-/// A device that writes its output in place, has an event, fails now and then, and counts what is asked of it.
+/// A device that writes its output in place, has an event, fails occasionally, and counts requests.
 #[node]
 #[derive(Default)]
 pub struct Moody {
-    /// How often it was called, which a replay does not do.
+    /// Number of calls; a replay calls nothing.
     pub calls: u32,
     asked: u64,
 }
@@ -77,7 +77,7 @@ impl Moody {
         if number.is_multiple_of(7) { Err(format!("no more than {number}")) } else { Ok(()) }
     }
 
-    /// Answers with something that nobody knows.
+    /// Answers with an unpredictable number.
     #[slot]
     fn ask(&mut self, question: &u64, answer: Event<u64>) {
         self.calls += 1;
@@ -86,11 +86,11 @@ impl Moody {
     }
 }
 
-/// The mean of all values so far, and whether it took long.
+/// Mean of all values, plus an offset.
 #[node]
 #[derive(Default)]
 pub struct Mean {
-    /// What is added to it.
+    /// Number to add.
     #[param(default = 0.0)]
     offset: f64,
     sum: f64,
@@ -106,19 +106,19 @@ impl Mean {
     }
 }
 
-/// The sum of all ranges, as bits: NaN, infinity and −0 count.
+/// Checksum of all ranges as bits, including NaN, infinity and −0.
 #[node]
 pub fn bits(ranges: &Vec<f32>) -> u64 {
     ranges.iter().fold(0, |sum: u64, range| sum.rotate_left(7) ^ u64::from(range.to_bits()))
 }
 
-/// Passes on what comes.
+/// Passes values on.
 #[node]
 pub fn same<T: Clone>(value: &T) -> T {
     value.clone()
 }
 
-/// Writes down what came, in order.
+/// Records tokens in order.
 #[node]
 #[derive(Default)]
 pub struct Diary {
@@ -155,7 +155,7 @@ impl Diary {
     }
 }
 
-/// Takes whatever comes.
+/// Takes any token.
 #[node]
 pub fn swallow<T>(value: &T) {
     let _ = value;
@@ -187,7 +187,7 @@ pub fn word() -> String {
     "zwölf".to_owned()
 }
 
-/// Where maps lie.
+/// Raster of all maps.
 const RASTER: Raster = Raster { corner: Point2::new(-1.5, 0.25), resolution: 0.5, width: 3, height: 2 };
 
 /// A map.
@@ -224,13 +224,13 @@ pub fn twist() -> Twist {
     Twist::new(0.5, -0.25, 1.5)
 }
 
-/// Twelve numbers that nobody knows.
+/// Twelve unpredictable numbers.
 #[node]
 pub fn dozen() -> [u64; 12] {
     core::array::from_fn(|i| chance() ^ i as u64)
 }
 
-/// Two numbers become one.
+/// Combines two numbers into one.
 #[node]
 pub fn pairs(numbers: &[u64; 2]) -> u64 {
     numbers[0] ^ numbers[1].rotate_left(1)

@@ -1,4 +1,4 @@
-//! Nodes whose calls send what a script says, and note what they found.
+//! Nodes that send tokens according to a script, and record the tokens that they take.
 
 use crate::oracle::call;
 use apex_rt::prelude::*;
@@ -6,16 +6,16 @@ use apex_rt::prelude::*;
 /// Two outputs.
 #[derive(Outputs)]
 pub struct ScriptedPair {
-    /// One.
+    /// First output.
     pub a: Option<i64>,
-    /// Another.
+    /// Second output.
     pub b: Option<i64>,
 }
 
 /// A source.
 #[node]
 pub struct ScSource {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -35,7 +35,7 @@ impl ScSource {
 /// A source with an event and a slot.
 #[node]
 pub struct ScSourceE {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -61,7 +61,7 @@ impl ScSourceE {
 /// A source of events.
 #[node]
 pub struct ScTicker {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -81,7 +81,7 @@ impl ScTicker {
 /// One input, one output.
 #[node]
 pub struct ScPass {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -101,7 +101,7 @@ impl ScPass {
 /// One input, two outputs.
 #[node]
 pub struct ScSplit {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -121,7 +121,7 @@ impl ScSplit {
 /// Two inputs.
 #[node]
 pub struct ScJoin {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -141,7 +141,7 @@ impl ScJoin {
 /// Two inputs, one of them optional.
 #[node]
 pub struct ScMaybe {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -161,7 +161,7 @@ impl ScMaybe {
 /// An input, an output and an event.
 #[node]
 pub struct ScEvent {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -182,7 +182,7 @@ impl ScEvent {
 /// All kinds of ports.
 #[node]
 pub struct ScFull {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -216,7 +216,7 @@ impl ScFull {
 /// A sink.
 #[node]
 pub struct ScSink {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -235,7 +235,7 @@ impl ScSink {
 /// A sink with a slot and an event.
 #[node]
 pub struct ScSinkS {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -257,10 +257,10 @@ impl ScSinkS {
     }
 }
 
-/// A sink that is told of ⊥.
+/// A sink that is notified of ⊥.
 #[node]
 pub struct ScKeen {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -283,7 +283,7 @@ impl ScKeen {
 /// Slots and events.
 #[node]
 pub struct ScHandler {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -308,11 +308,11 @@ impl ScHandler {
     }
 }
 
-/// Takes activity away.
+/// Removes activity.
 #[node]
 #[deactivates]
 pub struct ScStop {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -333,7 +333,7 @@ impl ScStop {
 /// A slot without a value.
 #[node]
 pub struct ScKick {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -354,7 +354,7 @@ impl ScKick {
 /// Sends lists.
 #[node]
 pub struct ScList {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.
@@ -374,7 +374,7 @@ impl ScList {
 /// A sink of lists.
 #[node]
 pub struct ScListSink {
-    /// Its number.
+    /// Identifier of the node.
     #[param]
     id: i64,
     /// Seed, mode and limit.

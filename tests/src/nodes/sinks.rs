@@ -4,7 +4,7 @@ use apex_rt::prelude::*;
 #[node]
 #[derive(Default)]
 pub struct Snk {
-    /// What came.
+    /// Received values.
     pub seen: Vec<i64>,
 }
 
@@ -19,7 +19,7 @@ impl Snk {
 #[node]
 #[derive(Default)]
 pub struct Pair {
-    /// What came.
+    /// Received pairs.
     pub seen: Vec<(i64, i64)>,
 }
 
@@ -30,11 +30,11 @@ impl Pair {
     }
 }
 
-/// Records values and the lack of one.
+/// Records values and absent values.
 #[node]
 #[derive(Default)]
 pub struct Essential {
-    /// What came; `None` is ⊥.
+    /// Received values; `None` is ⊥.
     pub seen: Vec<Option<i64>>,
 }
 
@@ -45,11 +45,11 @@ impl Essential {
     }
 }
 
-/// Records values, and counts how often there was none.
+/// Records values and notifications of ⊥.
 #[node]
 #[derive(Default)]
 pub struct Keen {
-    /// What came; `None` is ⊥.
+    /// Received values; `None` is ⊥.
     pub seen: Vec<Option<i64>>,
 }
 

@@ -1,6 +1,6 @@
 use apex_rt::prelude::*;
 
-/// Sends its values, one a firing, then nothing. A negative value is ⊥.
+/// Sends its values, one per firing, then nothing. A negative value is ⊥.
 #[node]
 pub struct Src {
     /// The script.
@@ -17,7 +17,7 @@ impl Src {
     }
 }
 
-/// 0, 1, 2, … as long as it is below `end`.
+/// Sends 0, 1, 2, … below `end`.
 #[node]
 pub struct Count {
     /// The first number that is not sent.
@@ -34,7 +34,7 @@ impl Count {
     }
 }
 
-/// 1, 2, 3, … without end: an output that is never ⊥.
+/// Sends 1, 2, 3, … without end: an output that is never ⊥.
 #[node]
 #[derive(Default)]
 pub struct OneBased {
@@ -49,7 +49,7 @@ impl OneBased {
     }
 }
 
-/// Nothing but ⊥.
+/// Sends only ⊥.
 #[node]
 pub fn silent() -> Option<i64> {
     None

@@ -1,4 +1,4 @@
-//! Sinks of which a program may have any number: they all write on one tape.
+//! Sinks that all write to the same tape, so that a program may have any number of them.
 
 use apex_rt::prelude::*;
 use std::cell::RefCell;
@@ -11,27 +11,27 @@ fn write(id: i64, value: Option<i64>) {
     TAPE.with_borrow_mut(|tape| tape.push((id, value)));
 }
 
-/// What was written on this thread since it was asked last.
+/// Takes all entries that were written on this thread.
 pub fn take_tape() -> Vec<(i64, Option<i64>)> {
     TAPE.take()
 }
 
-/// Writes values.
+/// Writes values to the tape.
 #[node]
 pub fn tape(x: &i64, #[param] id: i64) {
     write(id, Some(*x));
 }
 
-/// Writes values and the lack of one.
+/// Writes values and absent values to the tape.
 #[node]
 pub fn tape_all(x: Option<&i64>, #[param] id: i64) {
     write(id, x.copied());
 }
 
-/// Writes values and the lack of one.
+/// Writes values and notifications of ⊥ to the tape.
 #[node]
 pub struct TapeKeen {
-    /// What it writes besides.
+    /// Identifier of the sink.
     #[param]
     id: i64,
 }

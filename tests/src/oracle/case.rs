@@ -1,9 +1,9 @@
-//! A random graph before it is written.
+//! A random graph before it is written as a source file.
 
-/// A type of scripted node, by its ports. An input with `?` is optional.
+/// A type of scripted node with its ports. A `?` marks an optional input.
 #[derive(Debug, PartialEq, Eq)]
 pub struct NodeType {
-    /// Its name in Rust.
+    /// Name in Rust.
     pub name: &'static str,
     /// Inputs.
     pub inputs: &'static [&'static str],
@@ -47,7 +47,7 @@ pub const NODE_TYPES: &[NodeType] = &[
     ty("ScListSink", &["x"], &[], &[], &[]),
 ];
 
-/// The type with this name.
+/// Type with this name.
 pub fn node_type(name: &str) -> &'static NodeType {
     NODE_TYPES.iter().find(|t| t.name == name).unwrap_or(&NODE_TYPES[0])
 }
@@ -55,59 +55,60 @@ pub fn node_type(name: &str) -> &'static NodeType {
 /// A node of a random graph.
 #[derive(Debug, Clone)]
 pub struct Instance {
-    /// Its number; it keeps it when others are taken out.
+    /// Identifier, which is kept when other nodes are removed.
     pub id: usize,
-    /// Its type.
+    /// Type.
     pub ty: &'static NodeType,
-    /// See [`super::sends`].
+    /// Mode, see [`super::sends`].
     pub mode: i64,
-    /// The group that it stands in; 0 is the graph itself.
+    /// Index of the nested graph; 0 is the graph itself.
     pub group: usize,
-    /// Tokens by which its outputs are held back.
+    /// Number of tokens by which its outputs are delayed.
     pub delay: usize,
-    /// `every` so many milliseconds, and `after`; for sources.
+    /// Periods of `every` and `after` in ms, for sources.
     pub every: Option<(usize, usize)>,
-    /// `start => …`
+    /// `true` for `start => …`.
     pub starts: bool,
-    /// The thread that it runs on; 0 is the main one.
+    /// Thread; 0 is the main one.
     pub thread: usize,
 }
 
-/// A connection between two nodes, by their numbers.
+/// A connection between two nodes, given by their identifiers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Link {
-    /// The sender.
+    /// Sending node and port.
     pub from: (usize, &'static str),
-    /// The taker.
+    /// Receiving node and port.
     pub to: (usize, &'static str),
-    /// `=>`
+    /// `true` for `=>`.
     pub active: bool,
-    /// It passes slots and events of nested graphs, not inputs and outputs.
+    /// `true` if it passes slots and events of nested graphs instead of inputs and outputs.
     pub relayed: bool,
 }
 
 /// A random graph.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Decides what its nodes send.
+    /// Seed of the scripts of the nodes.
     pub seed: u64,
-    /// Calls in which a node triggers events.
+    /// Number of calls in which a node triggers events.
     pub limit: usize,
-    /// The nodes.
+    /// Nodes.
     pub nodes: Vec<Instance>,
-    /// The connections.
+    /// Connections.
     pub links: Vec<Link>,
-    /// For each group the one around it; the first is the graph itself.
+    /// For each nested graph, the index of the enclosing one; the first is the graph itself.
     pub groups: Vec<usize>,
 }
 
 impl Case {
-    /// The node with this number.
+    /// Node with this identifier.
     pub fn node(&self, id: usize) -> Option<&Instance> {
         self.nodes.iter().find(|n| n.id == id)
     }
 
-    /// All that is a little smaller, the smallest first: without some nodes, a node, a connection, a group, activity, or a delay.
+    /// All graphs that are a little smaller, the smallest first: without some nodes, a node, a connection, a nested
+    /// graph, activity, or a delay.
     pub fn smaller(&self) -> Vec<Self> {
         let mut found = vec![];
         let mut add = |change: &dyn Fn(&mut Self)| {
@@ -162,7 +163,7 @@ impl Case {
         found
     }
 
-    /// Takes out connections without an end, then nodes whose mandatory inputs are open.
+    /// Removes connections without an end, then nodes with unconnected mandatory inputs.
     pub fn clean(&mut self) {
         loop {
             let ids: Vec<usize> = self.nodes.iter().map(|n| n.id).collect();

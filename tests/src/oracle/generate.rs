@@ -1,4 +1,4 @@
-//! Makes random graphs.
+//! Generates random graphs.
 
 use super::{
     ALWAYS,
@@ -6,13 +6,13 @@ use super::{
 };
 use crate::Dice;
 
-/// Types that stand in the middle of data flow.
+/// Types that are neither sources nor sinks.
 const MIDDLE: [&str; 7] = ["ScPass", "ScSplit", "ScJoin", "ScMaybe", "ScEvent", "ScFull", "ScFull"];
 const SINKS: [&str; 3] = ["ScSink", "ScSinkS", "ScKeen"];
 const SOURCES: [&str; 4] = ["ScSource", "ScSource", "ScSourceE", "ScTicker"];
 const HANDLERS: [&str; 3] = ["ScHandler", "ScHandler", "ScStop"];
 
-/// What a graph has, besides data flow.
+/// Features of a graph besides data flow.
 struct Flavour {
     events: bool,
     hybrid: bool,
@@ -23,7 +23,7 @@ struct Flavour {
     delays: bool,
 }
 
-/// The graph that comes out of `seed`. `asynchronous` allows events, slots and activity.
+/// The graph for `seed`. `asynchronous` allows events, slots and activity.
 pub fn generate(seed: u64, asynchronous: bool) -> Case {
     let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
     let size = match dice.below(4) {
@@ -57,7 +57,7 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
     case
 }
 
-/// The same graph on two to four threads: neighbouring nodes of a nested graph mostly run on the same one.
+/// Distributes a graph to two to four threads. Neighbouring nodes of a nested graph mostly run on the same thread.
 pub fn on_threads(mut case: Case) -> Case {
     let mut dice = Dice(case.seed.wrapping_mul(0xd134_2543_de82_ef95) | 1);
     let count = 2 + dice.below(3);
@@ -70,7 +70,7 @@ pub fn on_threads(mut case: Case) -> Case {
         group = node.group;
         node.thread = thread;
     }
-    // Some lists go to the body of an `each` on another thread, but most do not.
+    // For some lists, the body of an `each` is on another thread, but not for most.
     for at in 1..case.nodes.len() {
         if matches!(case.nodes[at].ty.name, "pass" | "ScListSink") && !dice.one_in(3) {
             case.nodes[at].thread = case.nodes[at - 1].thread;
@@ -125,7 +125,7 @@ fn push(dice: &mut Dice, case: &mut Case, ty: &'static NodeType, flavour: &Flavo
     });
 }
 
-/// Puts neighbouring nodes in nested graphs, two deep at most.
+/// Moves neighbouring nodes into nested graphs, with at most two levels.
 fn nest(dice: &mut Dice, case: &mut Case) {
     let count = case.nodes.len();
     for _ in 0..1 + dice.below(3) {
@@ -149,12 +149,12 @@ fn link(dice: &mut Dice, case: &mut Case, from: (usize, &'static str), to: (usiz
     let is_synchronous =
         NODE_TYPES.iter().any(|t| t.outputs.contains(&from.1)) && !to.1.starts_with('s') && !to.1.starts_with('t');
     let relayed = flavour.relayed && dice.one_in(if is_synchronous { 8 } else { 2 });
-    // Activity does not pass delays yet.
+    // Activity cannot pass delays yet.
     let active = flavour.activity && dice.one_in(3) && case.node(from.0).is_none_or(|n| n.delay == 0);
     case.links.push(Link { from, to, active, relayed });
 }
 
-/// Each input gets an output that stands before it, or a later one whose tokens are held back, or an event.
+/// Connects each input to an earlier output, to a later one with a delay, or to an event.
 fn connect_inputs(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
     for n in 0..case.nodes.len() {
         let ty = case.nodes[n].ty;
@@ -176,7 +176,7 @@ fn connect_inputs(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
     }
 }
 
-/// A port that an input of node `n` may be connected to.
+/// Random port that may be connected to an input of node `n`.
 fn sender(dice: &mut Dice, case: &Case, n: usize, event: bool) -> Option<(usize, &'static str)> {
     let is_list = |i: usize| matches!(case.nodes[i].ty.name, "ScList" | "pass");
     for _ in 0..60 {
@@ -193,7 +193,7 @@ fn sender(dice: &mut Dice, case: &Case, n: usize, event: bool) -> Option<(usize,
     None
 }
 
-/// Events and outputs to slots, several to some, in any direction.
+/// Connects events and outputs to slots, several to some, in any direction.
 fn connect_slots(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
     for n in 0..case.nodes.len() {
         for slot in case.nodes[n].ty.slots {
@@ -205,7 +205,7 @@ fn connect_slots(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
                     continue;
                 }
                 let port = *dice.of(ports);
-                // A node that waits for its own event is refused by the compiler.
+                // The compiler rejects a node that waits for its own event.
                 if from == n || case.links.iter().any(|l| l.from == (from, port) && l.to == (n, slot)) {
                     continue;
                 }
@@ -215,7 +215,7 @@ fn connect_slots(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
     }
 }
 
-/// Some nodes are active from the beginning.
+/// Activates some nodes at the start.
 fn activate(dice: &mut Dice, case: &mut Case) {
     for _ in 0..1 + dice.below(3) {
         let n = dice.below(case.nodes.len());

@@ -18,7 +18,7 @@ use std::{
     time::Duration,
 };
 
-/// The compiler as far as nets need it.
+/// The parts of the compiler that nets need.
 pub struct Checker {
     catalog: RefCell<Catalog>,
 }
@@ -27,32 +27,32 @@ pub struct Checker {
 pub struct Checked {
     /// The graph.
     pub graph: Graph,
-    /// Its net.
+    /// Net of the graph.
     pub net: Net,
 }
 
 /// One entry of a recorded run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Record {
-    /// `R`: a reaction begins, at so many nanoseconds.
+    /// `R`: a reaction begins at this time in ns.
     Begin(u64),
     /// `F`: a node fires.
     Fired(NodeId),
     /// `H`: a slot takes the token on a connection.
     Handled(usize),
-    /// `A`: a node becomes active, or no longer is.
+    /// `A`: a node becomes active (`true`) or inactive (`false`).
     Activity(NodeId, bool),
-    /// `T`: what the call that came last found; `None` is ⊥.
+    /// `T`: tokens of the previous call; `None` is ⊥.
     Took(Vec<Option<i64>>),
     /// `E`: the reaction ends.
     PortId,
 }
 
-/// What is wrong with a run: the number of the record, from 0, and why.
+/// Failure of a run: the number of the record, counted from 0, and the reason.
 pub type Failure = (usize, String);
 
 impl Record {
-    /// The record in words; `name` names nodes.
+    /// Description of the record; `name` returns the names of nodes.
     pub fn named(&self, name: &dyn Fn(NodeId) -> String, checked: &Checked) -> String {
         match self {
             Self::Begin(now) => format!("reaction at {now} ns"),
@@ -69,7 +69,7 @@ impl Record {
 }
 
 impl Checker {
-    /// Sees the nodes of this package.
+    /// Checker with the nodes of this package.
     #[allow(clippy::new_without_default)]
     pub fn new() -> Self {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -80,7 +80,7 @@ impl Checker {
         Self { catalog: RefCell::new(catalog) }
     }
 
-    /// The first program of `text` with its net, or what is wrong with the text.
+    /// The first program of `text` with its net, or the errors of the text.
     pub fn check(&self, text: &str) -> Result<Checked, String> {
         let mut sources = Sources::default();
         let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
@@ -112,7 +112,7 @@ impl Checker {
     }
 }
 
-/// Reads a run, one record a line.
+/// Reads a run with one record per line.
 pub fn read(text: &str) -> Vec<Record> {
     text.lines().filter_map(record).collect()
 }
@@ -133,7 +133,7 @@ fn record(line: &str) -> Option<Record> {
     })
 }
 
-/// The numbers and parameters of the scripted nodes of a graph.
+/// Identifiers and parameters of the scripted nodes of a graph.
 pub fn script_of(graph: &Graph, catalog: &Catalog) -> BTreeMap<NodeId, (i64, script::Parameters)> {
     let mut scripts = BTreeMap::new();
     for (node, n) in graph.nodes.iter().enumerate() {
@@ -158,7 +158,7 @@ fn integer(value: &Value) -> Option<i64> {
     }
 }
 
-/// Replays a run on the net. What is not recorded may have come early or late.
+/// Replays a run on the net. Unrecorded transitions may occur early or late.
 pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
     let Err((step, early)) = replay(catalog, checked, records, false) else { return Ok(()) };
     let late = replay(catalog, checked, records, true);
@@ -188,7 +188,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
                 replay.begin(Duration::from_nanos(*now));
                 Ok(())
             }
-            // Nodes in the body of an `each` come after all others.
+            // Nodes in the body of an `each` have larger indices than all others.
             Record::Fired(node) if *node >= graph.nodes.len() => Ok(()),
             Record::Fired(node) => {
                 let ports = graph.nodes[*node].ports.iter().enumerate();
@@ -216,7 +216,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
     Ok(())
 }
 
-/// Where a value was made. What no scripted node has made comes from a port that there is not.
+/// Origin of a value. A value that no scripted node made gets a port that does not exist.
 fn origin(graph: &Graph, by_id: &BTreeMap<i64, NodeId>, value: i64) -> Origin {
     let nowhere = Origin { end: PortId { node: usize::MAX, port: 0 }, call: 0 };
     let Some((id, port, call)) = script::origin(value) else { return nowhere };

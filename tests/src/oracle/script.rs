@@ -1,4 +1,4 @@
-//! What scripted nodes do: a function of their parameters and of how often they were called.
+//! Behaviour of scripted nodes, as a function of their parameters and of the number of calls.
 
 use apex_rt::Event;
 use std::{
@@ -10,36 +10,36 @@ use std::{
     time::{Duration, SystemTime, UNIX_EPOCH},
 };
 
-/// What happened, by thread: lines in the order in which they were noted.
+/// Notes with their threads: lines in the order in which they were written.
 static NOTES: Mutex<Vec<(ThreadId, String)>> = Mutex::new(vec![]);
 
-/// Whether threads pause where they note something, so that they run in orders that a quiet machine does not show.
+/// `true` to pause before each note, so that threads run in orders that are rare on an idle machine.
 static UNEVEN: AtomicBool = AtomicBool::new(false);
 
-/// Lets threads pause where they note something.
+/// Enables pauses before notes.
 pub fn run_unevenly() {
     UNEVEN.store(true, Ordering::Relaxed);
 }
 
-/// Adds a line to what happened.
+/// Writes a line.
 pub fn note(line: std::fmt::Arguments<'_>) {
     let (thread, line) = (thread::current().id(), line.to_string());
     if UNEVEN.load(Ordering::Relaxed) {
-        // The last digits of the clock, spread over 0 to 40 µs.
+        // A pause of 0 to 40 µs, from the last digits of the clock.
         let digits = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |now| now.subsec_nanos() / 7 % 40);
         thread::sleep(Duration::from_micros(digits.into()));
     }
     NOTES.lock().unwrap_or_else(PoisonError::into_inner).push((thread, line));
 }
 
-/// What happened since it was asked last, line by line.
+/// Takes all notes since the previous call of this function.
 pub fn take_notes() -> String {
     let notes = std::mem::take(&mut *NOTES.lock().unwrap_or_else(PoisonError::into_inner));
     in_order(notes).into_iter().map(|(_, line)| line + "\n").collect()
 }
 
-/// Puts together what belongs to one call, whatever other threads did meanwhile: before it the activity that its tokens
-/// bring, behind it the activity of its slot and what it found.
+/// Groups the notes of each call, without those of other threads: first the activity that its tokens bring, then the
+/// call, then the activity of its slot and its tokens.
 fn in_order<T: Copy + PartialEq>(mut notes: Vec<(T, String)>) -> Vec<(T, String)> {
     let is_call = |line: &str| line.starts_with('F') || line.starts_with('H');
     let mut at = 0;
@@ -68,17 +68,17 @@ fn in_order<T: Copy + PartialEq>(mut notes: Vec<(T, String)>) -> Vec<(T, String)
     notes
 }
 
-/// The parameters of a scripted node: `[seed, mode, limit]`.
+/// Parameters of a scripted node: `[seed, mode, limit]`.
 pub type Parameters = [i64; 3];
 
-/// The mode in which a node sends at each call.
+/// Mode in which a node sends in each call.
 pub const ALWAYS: i64 = 1;
 
-/// The ports of scripted nodes that send, by which their values are told apart.
+/// Sending ports of scripted nodes; the index is part of their values.
 const PORTS: [&str; 5] = ["out", "a", "b", "e", "f"];
 
-/// Whether call number `call` of node `id` sends at `port`. Events are triggered only in the first calls, so that
-/// they do not go round for ever.
+/// `true` if call number `call` of node `id` sends at `port`. Events are triggered only in the first calls, so that
+/// they do not run in cycles forever.
 pub fn sends(id: i64, [seed, mode, limit]: Parameters, port: &str, call: i64) -> bool {
     if matches!(port, "e" | "f") && call >= limit {
         return false;
@@ -98,25 +98,25 @@ fn number(port: &str) -> i64 {
     PORTS.iter().position(|p| *p == port).unwrap_or(PORTS.len()) as i64
 }
 
-/// The value that call number `call` of node `id` sends at `port`.
+/// Value that call number `call` of node `id` sends at `port`.
 pub fn value(id: i64, port: &str, call: i64) -> i64 {
     (id * 10 + number(port)) * 1_000_000 + call
 }
 
-/// Node, port and call of a value.
+/// Node, port and call from which a value comes.
 pub fn origin(value: i64) -> Option<(i64, &'static str, usize)> {
     let port = usize::try_from(value / 1_000_000 % 10).ok()?;
     Some((value / 10_000_000, PORTS.get(port)?, usize::try_from(value % 1_000_000).ok()?))
 }
 
-/// One call of a scripted node.
+/// A call of a scripted node.
 pub struct Now {
     id: i64,
     parameters: Parameters,
     call: i64,
 }
 
-/// Begins a call that has found `tokens`.
+/// Begins a call with `tokens`.
 pub fn call(id: i64, parameters: Parameters, calls: &mut i64, tokens: &[Option<i64>]) -> Now {
     let tokens: Vec<String> = tokens.iter().map(|t| t.map_or("-".to_owned(), |value| value.to_string())).collect();
     note(format_args!("T {}", tokens.join(" ")));
@@ -125,12 +125,12 @@ pub fn call(id: i64, parameters: Parameters, calls: &mut i64, tokens: &[Option<i
 }
 
 impl Now {
-    /// What is sent at `port`.
+    /// Value to be sent at `port`.
     pub fn value(&self, port: &str) -> Option<i64> {
         sends(self.id, self.parameters, port, self.call).then(|| value(self.id, port, self.call))
     }
 
-    /// Triggers `event` if it is to be.
+    /// Triggers `event` if the script says so.
     pub fn event(&self, port: &str, event: Event<'_, i64>) {
         if let Some(value) = self.value(port) {
             event.emit(value);
@@ -142,11 +142,11 @@ impl Now {
 mod tests {
     use super::in_order;
 
-    /// Two threads between each other, each as `thread line`.
+    /// Two interleaved threads, each entry as `thread line`.
     #[test]
     fn what_belongs_to_a_call_stands_with_it() {
         let orders = [
-            // What the call of thread 1 found, and the activity that it brought, come after a call of thread 2.
+            // The tokens of thread 1's call, and the activity that it caused, are noted after a call of thread 2.
             ("1 H5|2 H6|2 T6|1 A9|1 T5", "1 H5|1 A9|1 T5|2 H6|2 T6"),
             ("1 F5|2 F6|1 T5|2 T6", "1 F5|1 T5|2 F6|2 T6"),
             ("1 A9|1 A8|2 F6|2 T6|1 F5|1 T5", "2 F6|2 T6|1 A9|1 A8|1 F5|1 T5"),

@@ -1,10 +1,10 @@
-//! A random graph as a text.
+//! Writes a random graph as a source file.
 
 use super::case::{Case, Instance, Link};
 use std::{collections::BTreeMap, fmt::Write as _};
 
 impl Case {
-    /// The text of this graph, by the name `name`.
+    /// Source file of this graph, with the name `name`.
     pub fn text(&self, name: &str) -> String {
         let mut bodies = Bodies { case: self, lines: vec![vec![]; self.groups.len()], pins: BTreeMap::new() };
         for node in &self.nodes {
@@ -65,12 +65,12 @@ impl Case {
         if node.thread > 0 { format!(" on t{}", node.thread) } else { String::new() }
     }
 
-    /// Whether a group has anything in it.
+    /// `true` if a nested graph contains any node.
     fn is_used(&self, group: usize) -> bool {
         self.nodes.iter().any(|n| self.around(n.group).contains(&group))
     }
 
-    /// A group and those around it, innermost first, without the graph itself.
+    /// A nested graph and all around it, innermost first, without the graph itself.
     fn around(&self, mut group: usize) -> Vec<usize> {
         let mut groups = vec![];
         while group != 0 {
@@ -84,7 +84,7 @@ impl Case {
 struct Bodies<'a> {
     case: &'a Case,
     lines: Vec<Vec<String>>,
-    /// The ports of each group.
+    /// Ports of each nested graph.
     pins: BTreeMap<usize, BTreeMap<String, String>>,
 }
 

@@ -1,4 +1,4 @@
-//! Runs a net by itself: a random legal run, written down as a program would write it.
+//! Runs a net without a program: a random legal run, recorded as by a program.
 
 use super::{
     judge::{Checked, Record, script_of},
@@ -12,7 +12,7 @@ use apex_dsl::{
 };
 use std::{collections::BTreeMap, time::Duration};
 
-/// A random run of so many reactions, one each millisecond. Silent transitions occur at random times, too.
+/// A random run of `reactions` reactions, one per millisecond. Silent transitions occur at random times.
 pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u64) -> Vec<Record> {
     let Checked { graph, net } = checked;
     let scripts = script_of(graph, catalog);
@@ -63,7 +63,7 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
     records
 }
 
-/// Lets a transition occur. A call is one thing: what it takes, what it sends, what it triggers.
+/// Fires a transition. A call is one unit: the tokens that it takes and sends, and the events that it triggers.
 fn occur(
     graph: &Graph,
     state: &mut State<'_>,
@@ -109,7 +109,7 @@ fn changes(state: &mut State<'_>, records: &mut Vec<Record>) {
     records.extend(state.take_changes().into_iter().map(|(node, active)| Record::Activity(node, active)));
 }
 
-/// The value that a scripted node sends; 7 is what delays begin with.
+/// Value that a scripted node sends; 7 is the initial token of delays.
 fn value(graph: &Graph, token: Token) -> Option<i64> {
     let made = |end: PortId, call: usize| {
         let NodeKind::Library(library) = &graph.nodes[end.node].kind else { return 7 };

@@ -3,32 +3,32 @@ use std::fmt;
 /// A value or ⊥.
 pub type Token = Option<i64>;
 
-/// A kind of node: how a text writes it, its ports, and what it does.
+/// A kind of node: its notation, its ports and its behaviour.
 pub struct Kind {
-    /// Its name in Rust.
+    /// Name in Rust.
     pub name: &'static str,
-    /// Its inputs.
+    /// Inputs.
     pub inputs: &'static [&'static str],
-    /// How many of them, counted from the last, are optional.
+    /// Number of optional inputs, which are the last ones.
     pub optional: usize,
-    /// Its outputs.
+    /// Outputs.
     pub outputs: &'static [&'static str],
-    /// It is told of ⊥ at its mandatory inputs.
+    /// `true` if it is notified of ⊥ at its mandatory inputs.
     pub told: bool,
-    /// Its parameter, and the values it may have.
+    /// Parameter, with the range of its values.
     pub parameter: Option<(&'static str, std::ops::Range<i64>)>,
-    /// What it sends: from its state, its parameter and its inputs.
+    /// Computes the tokens to send from the state, the parameter and the inputs.
     pub fire: fn(&mut State, i64, &[Token]) -> Vec<Token>,
 }
 
-/// What a node remembers.
+/// State of a node.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     /// A number.
     pub number: i64,
-    /// The value that came last.
+    /// Last value.
     pub last: Token,
-    /// What a sink wrote.
+    /// Tokens that a sink wrote.
     pub tape: Vec<Token>,
 }
 
@@ -70,7 +70,7 @@ pub const ONE_BASED: Kind = plain("OneBased", &[], |s, _, _| {
     vec![Some(s.number)]
 });
 
-/// What stands in the middle.
+/// Nodes with inputs and outputs.
 pub const OPERATIONS: &[Kind] = &[
     Kind { parameter: Some(("k", 0..3)), ..plain("mul", &["x"], |_, k, t| vec![Some(k * value(t, 0))]) },
     plain("add", &["a", "b"], |_, _, t| vec![Some(value(t, 0) + value(t, 1))]),
@@ -147,7 +147,7 @@ pub const OPERATIONS: &[Kind] = &[
     },
 ];
 
-/// What stands at the ends. Their parameter is their number.
+/// Sinks. Their parameter is their identifier.
 pub const SINKS: &[Kind] = &[
     Kind { outputs: &[], ..plain("tape", &["x"], wind) },
     Kind { outputs: &[], ..plain("tape", &["x"], wind) },

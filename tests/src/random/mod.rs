@@ -1,6 +1,6 @@
-//! Random synchronous graphs: as texts for the compiler, and run by the rules R1 to R3 themselves.
+//! Random synchronous graphs: as source files for the compiler, and run by an interpreter of the rules R1 to R3.
 //!
-//! Every graph is written twice, flat and with some neighbouring nodes in a nested graph; both must do the same.
+//! Every graph is written twice, flat and with some neighbouring nodes in a nested graph; both must behave identically.
 
 mod kinds;
 mod run;
@@ -13,7 +13,7 @@ use crate::Dice;
 use kinds::{COUNT, Kind, ONE_BASED, OPERATIONS, SINKS, Token};
 use std::ops::Range;
 
-/// What the committed texts were made from.
+/// Seed of the committed source files.
 pub const SEED: u64 = 0x5eed_a9e1;
 
 /// An output of a node.
@@ -28,9 +28,9 @@ struct End {
 struct Instance {
     kind: &'static Kind,
     parameter: i64,
-    /// Where its inputs come from; an optional one may be open.
+    /// Source of each input; an optional one may be unconnected.
     inputs: Vec<Option<End>>,
-    /// What its outputs send before its own tokens, if they are held back; `None` is the default, 0.
+    /// Initial tokens, if the outputs are delayed; `None` is the default, 0.
     delay: Option<Vec<Token>>,
 }
 
@@ -38,11 +38,11 @@ struct Instance {
 #[derive(Debug)]
 pub struct Case {
     nodes: Vec<Instance>,
-    /// The nodes that are also written as a nested graph.
+    /// Nodes that are also written as a nested graph.
     group: Range<usize>,
 }
 
-/// The first `count` graphs that come out of `seed`.
+/// The first `count` graphs for `seed`.
 pub fn cases(seed: u64, count: usize) -> Vec<Case> {
     let mut dice = Dice(seed);
     (0..count).map(|_| case(&mut dice)).collect()
@@ -90,19 +90,19 @@ fn instance(dice: &mut Dice, kind: &'static Kind, inputs: Vec<Option<End>>) -> I
     Instance { kind, parameter, inputs, delay: None }
 }
 
-/// An output that is there already, rather a late one.
+/// A random existing output, preferably a late one.
 fn end(dice: &mut Dice, nodes: &[Instance]) -> End {
     let near = if dice.one_in(2) { nodes.len() } else { nodes.len().min(5) };
     let node = nodes.len() - 1 - dice.below(near);
     End { node, output: dice.below(nodes[node].kind.outputs.len()) }
 }
 
-/// Numbers that go round must not grow without end: a loop goes through a node whose numbers are small.
+/// Values in cycles must not grow without bound: a loop goes through a node whose values are small.
 fn ends_loops(kind: &Kind) -> bool {
     kind.name == "Accumulate"
 }
 
-/// Some inputs are connected to a later node that holds its tokens back.
+/// Connects some inputs to a later node with delayed outputs.
 fn close_loops(dice: &mut Dice, nodes: &mut [Instance]) {
     for node in 0..nodes.len() {
         for input in 0..nodes[node].inputs.len() {

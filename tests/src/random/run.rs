@@ -4,12 +4,12 @@ use super::{
 };
 use std::collections::VecDeque;
 
-/// What a graph did.
+/// Behaviour of a graph.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// For each iteration the nodes that fired, in the order of their names.
+    /// For each iteration, the nodes that fired, in the order of their names.
     pub fired: Vec<Vec<String>>,
-    /// What each sink wrote.
+    /// Tokens that each sink wrote.
     pub tapes: Vec<Vec<Token>>,
 }
 
@@ -28,7 +28,7 @@ impl Case {
     }
 
     fn iteration(&self, states: &mut [State], delays: &mut [Vec<VecDeque<Token>>]) -> Vec<String> {
-        // What a delayed node sends is there before anything fires.
+        // The tokens of a delayed node exist before any node fires.
         let waiting = delays.iter_mut().map(|queues| queues.iter_mut().filter_map(VecDeque::pop_front).collect());
         let mut sent: Vec<Vec<Token>> = waiting.collect();
         let mut fired = vec![];
@@ -53,7 +53,7 @@ impl Case {
         fired
     }
 
-    /// The number of sinks.
+    /// Number of sinks.
     pub fn sinks(&self) -> usize {
         self.nodes.iter().filter(|n| n.kind.outputs.is_empty()).count()
     }

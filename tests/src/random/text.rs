@@ -1,10 +1,10 @@
 use super::{Case, End, Instance};
 use std::{collections::BTreeSet, fmt::Write as _, ops::Range};
 
-/// The text of `cases`, formatted: graphs `Flat0`, `Nested0`, `Flat1`, …
+/// Formatted source file of `cases`: graphs `Flat0`, `Nested0`, `Flat1`, …
 ///
 /// # Panics
-/// If it is not a text without errors.
+/// Panics if it has errors.
 pub fn text(cases: &[Case]) -> String {
     let mut text = String::from("//! Written by the generator in tests/src/random; see tests/behaviour/random.rs.\n");
     for (number, case) in cases.iter().enumerate() {
@@ -21,7 +21,7 @@ pub fn text(cases: &[Case]) -> String {
 }
 
 impl Case {
-    /// The statements for the nodes in `range`, those in `group` replaced by a nested graph.
+    /// Statements for the nodes in `range`, with those in `group` replaced by a nested graph.
     fn body(&self, range: Range<usize>, group: &Range<usize>) -> String {
         let mut text = String::new();
         let ports = |ends: BTreeSet<End>, word: &str, text: &mut String| {
@@ -73,7 +73,7 @@ impl Case {
         format!("{}({argument}){delay}", kind.name)
     }
 
-    /// How an output is named in a body that holds the nodes in `range`, those in `group` as a nested graph.
+    /// Notation of an output in the body of the nodes in `range`, with those in `group` as a nested graph.
     fn end(&self, end: End, range: &Range<usize>, group: &Range<usize>) -> String {
         if group.contains(&end.node) {
             format!("group.{}", port(end))

@@ -1,72 +1,72 @@
-//! A random text with the Rust around it.
+//! A random source file with its Rust code.
 
 use super::kinds::Kind;
 
-/// Another binary of the package: nothing in it can be used.
+/// Another binary of the package, whose items cannot be used.
 const OTHER: &str = "use apex_rt::prelude::*;\n\npub struct Elsewhere;\npub const AWAY: u8 = 1;\n\n#[node]\npub fn elsewhere(x: &f64) -> f64 {\n    \
     *x\n}\n\nfn main() {}\n";
 
-/// The crates of the package that a text is part of.
+/// Crates of the package of a source file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// A library.
     Library,
-    /// A library with the nodes, and a binary with the text.
+    /// A library with the nodes, and a binary with the source file.
     Both,
 }
 
-/// A `.afg` text.
+/// A source file.
 #[derive(Debug, Clone)]
 pub struct Text {
-    /// Its file, without the ending.
+    /// Name of the file, without extension.
     pub name: String,
-    /// Its items.
+    /// Items.
     pub items: Vec<Item>,
 }
 
-/// An item of a text: one line, or a head, statements of one line each, and `}`.
+/// An item: one line, or a head, statements of one line each, and `}`.
 #[derive(Debug, Clone)]
 pub struct Item {
-    /// The first line.
+    /// First line.
     pub head: String,
-    /// The statements, if it has any.
+    /// Statements, if any.
     pub body: Option<Vec<String>>,
 }
 
 /// A call of `graph!`.
 #[derive(Debug, Clone)]
 pub struct Call {
-    /// The text.
+    /// Name of the source file.
     pub text: String,
-    /// The module that it stands in; the root of the crate without one.
+    /// Module of the call, or `None` for the root of the crate.
     pub module: Option<String>,
-    /// The text itself stands in the call, not the name of its file.
+    /// `true` if the call contains the source text instead of a file name.
     pub inline: bool,
 }
 
-/// A random text with the Rust around it.
+/// A random source file with its Rust code.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// What it came from.
+    /// Seed.
     pub seed: u64,
-    /// Its hostile features.
+    /// Hostile features.
     pub kinds: Vec<Kind>,
-    /// The crates of its package.
+    /// Crates of the package.
     pub shape: Shape,
     /// Attributes of the crate.
     pub attributes: Vec<String>,
     /// Items of the library.
     pub library: Vec<String>,
-    /// Items of the binary, if there is one.
+    /// Items of the binary, if any.
     pub binary: Vec<String>,
-    /// The texts.
+    /// Source files.
     pub texts: Vec<Text>,
-    /// Where they are compiled.
+    /// Calls of `graph!`.
     pub calls: Vec<Call>,
 }
 
 impl Text {
-    /// The text itself.
+    /// Content of the file.
     pub fn text(&self) -> String {
         self.items.iter().map(Item::text).collect()
     }
@@ -90,7 +90,7 @@ impl Item {
 }
 
 impl Case {
-    /// The files of its package, below `src`.
+    /// Files of the package, relative to `src`.
     pub fn files(&self) -> Vec<(String, String)> {
         let mut files: Vec<(String, String)> =
             self.texts.iter().map(|text| (format!("{}.afg", text.name), text.text())).collect();
@@ -127,7 +127,7 @@ impl Case {
         }
     }
 
-    /// Everything in it, for people.
+    /// Contents of all files, for people.
     pub fn shown(&self) -> String {
         let files = self.files();
         let mut shown = format!("// seed {}: {:?}\n", self.seed, self.kinds);
@@ -137,12 +137,12 @@ impl Case {
         shown
     }
 
-    /// Bytes of all files: which of two is the smaller one.
+    /// Size of all files in bytes, to compare cases.
     pub fn size(&self) -> usize {
         self.files().iter().map(|(_, text)| text.len()).sum()
     }
 
-    /// All that is a little smaller: without an item, statements, a call, an attribute.
+    /// All cases that are a little smaller: without an item, statements, a call, an attribute.
     pub fn smaller(&self) -> Vec<Self> {
         let mut found = vec![];
         let mut add = |change: &dyn Fn(&mut Self)| {

@@ -1,4 +1,4 @@
-//! Graphs: ports, nodes and connections, grown step by step from tokens that are at hand.
+//! Graphs: ports, nodes and connections, added step by step to the available tokens.
 
 use super::{
     case::Item,
@@ -10,53 +10,53 @@ use super::{
     values::{PARAMS, Param},
 };
 
-/// A token that is at hand.
+/// An available token.
 #[derive(Debug, Clone)]
 pub struct Wire {
-    /// The end of a connection that sends it.
+    /// Sending end of a connection.
     pub from: String,
-    /// Its type.
+    /// Type.
     pub ty: &'static Type,
-    /// It comes as an event.
+    /// `true` for the token of an event.
     pub event: bool,
 }
 
-/// A graph that is growing.
+/// A graph under construction.
 #[derive(Debug, Default)]
 pub struct Sheet {
-    /// Names of its nodes and ports.
+    /// Names of nodes and ports.
     pub used: Vec<String>,
-    /// Its ports.
+    /// Ports.
     pub ports: Vec<(&'static str, Port)>,
-    /// How the types of ports are written.
+    /// Declarations of ports.
     pub port_lines: Vec<String>,
-    /// Its nodes.
+    /// Declarations of nodes.
     pub nodes: Vec<String>,
-    /// Its connections.
+    /// Connections.
     pub links: Vec<String>,
-    /// Tokens at hand.
+    /// Available tokens.
     pub wires: Vec<Wire>,
     /// Parameters.
     pub params: Vec<(String, &'static Param)>,
-    /// Names of its nodes with their types.
+    /// Names of nodes with their types.
     pub named: Vec<(String, Node)>,
     /// Nodes that can be active.
     pub active: Vec<String>,
 }
 
-/// A graph from outside.
+/// A graph as seen from outside.
 #[derive(Debug, Clone)]
 pub struct Interface {
-    /// It as a node.
+    /// The graph as a node type.
     pub node: Node,
-    /// Its nodes.
+    /// Nodes.
     pub named: Vec<(String, Node)>,
     /// Nodes that can be active.
     pub active: Vec<String>,
 }
 
 impl Maker {
-    /// Makes a graph, with the graphs inside of it before it.
+    /// Generates a graph, after the graphs nested in it.
     pub fn graph(&mut self) -> Interface {
         let mut sheet = Sheet::default();
         let mut used: Vec<String> = self.graphs.iter().map(|g| g.node.name.clone()).collect();
@@ -87,7 +87,7 @@ impl Maker {
         self.close(sheet, name)
     }
 
-    /// A port through which tokens of this type come in.
+    /// Adds a port through which tokens of this type enter.
     pub fn input(&mut self, sheet: &mut Sheet, ty: &'static Type) -> Wire {
         let name = self.port_name(&mut sheet.used);
         let kind = if self.dice.one_in(3) { "slot" } else { "in" };
@@ -100,7 +100,7 @@ impl Maker {
         wire
     }
 
-    /// A token of this type that is at hand, or a new port.
+    /// An available token of this type, or that of a new port.
     pub fn wire(&mut self, sheet: &mut Sheet, ty: &'static Type) -> Wire {
         let fitting: Vec<Wire> = sheet.wires.iter().filter(|w| w.ty == ty).cloned().collect();
         match fitting.is_empty() || self.dice.one_in(8) {
@@ -109,7 +109,7 @@ impl Maker {
         }
     }
 
-    /// A type of parameters, mostly one that a text can give a value to.
+    /// A type of parameters, mostly one with values in the language.
     pub fn param_type(&mut self) -> &'static Param {
         loop {
             let param = self.dice.of(PARAMS);
@@ -119,7 +119,7 @@ impl Maker {
         }
     }
 
-    /// Parameters of a graph, with a default each or not.
+    /// Adds parameters of the graph, with or without defaults.
     fn params(&mut self, sheet: &mut Sheet) {
         let hard = self.strikes(Kind::Twice, 2);
         for _ in 0..1 + self.dice.below(2) {
@@ -130,7 +130,7 @@ impl Maker {
         }
     }
 
-    /// Tokens that nobody takes leave the graph, or most of them.
+    /// Adds outputs for most of the unused tokens.
     fn outputs(&mut self, sheet: &mut Sheet) {
         let wires = sheet.wires.clone();
         let last = wires.len().saturating_sub(3);
@@ -179,7 +179,7 @@ impl Maker {
         Interface { node, named: sheet.named, active: sheet.active }
     }
 
-    /// What is said of a thread.
+    /// Adds settings of a thread.
     fn thread(&mut self, sheet: &mut Sheet) {
         let group = self.groups[self.dice.below(self.groups.len())];
         let settings = ["hang = 200ms", "cores = [0]", "priority = 3; policy = fifo", "rights = warn", "cores = []"];
@@ -187,7 +187,7 @@ impl Maker {
         sheet.nodes.push(format!("thread {group} {{ {setting} }}"));
     }
 
-    /// A parameter as a graph declares it.
+    /// Declaration of a parameter in a graph.
     fn param(&mut self, name: &str, param: &'static Param) -> String {
         let ty = match param.ty.trim_start_matches("&'static ") {
             "core::time::Duration" => "Duration",
@@ -196,7 +196,7 @@ impl Maker {
         let ty = if self.strikes(Kind::WrongTypes, 3) { self.dice.of(super::types::WRONG) } else { ty };
         let before = self.mistakes;
         let default = self.value(param).filter(|_| !self.dice.one_in(8));
-        // A constant of Rust is no default of a graph: only as a mistake.
+        // A Rust constant cannot be the default of a graph, except as a mistake.
         let default = default.filter(|value| !value.contains("crate::") || self.mistakes > before);
         let default = default.map(|value| format!(" = {value}")).unwrap_or_default();
         let range = if param.ty.starts_with('f') && self.dice.one_in(3) { " in -10..=10" } else { "" };

@@ -1,11 +1,11 @@
-//! Hostile features: a text has one or two of them.
+//! Hostile features: a case has one or two of them.
 
 /// A hostile feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// Names of nodes.
     NodeNames,
-    /// Names of graphs, next to names that are generated from them.
+    /// Names of graphs that are similar to generated names.
     GraphNames,
     /// Names of ports and parameters.
     PortNames,
@@ -13,21 +13,21 @@ pub enum Kind {
     RustNames,
     /// Types that do not exist, or have other type arguments.
     WrongTypes,
-    /// Types without `Clone`, `Default`, `Debug` or `Send`, and types that are seldom seen at ports.
+    /// Types without `Clone`, `Default`, `Debug` or `Send`, and types that are rare at ports.
     OddTypes,
     /// Trait bounds that are not met, and constants of types that cannot be inferred.
     Bounds,
     /// Numbers that do not fit, and values of other types.
     Values,
-    /// Constants of Rust that are missing, private or of another type.
+    /// Rust constants that are missing, private or of another type.
     Constants,
     /// Private nodes, modules and types.
     Visibility,
-    /// Nodes that exist on other machines, or only with features.
+    /// Nodes that exist only on other machines, or only with features.
     Cfg,
     /// Attributes of nodes and of the crate.
     Attributes,
-    /// Modifiers where nobody expects them.
+    /// Modifiers in unusual places.
     Modifiers,
     /// Tests: names, values, ports.
     Tests,
@@ -35,9 +35,9 @@ pub enum Kind {
     Threads,
     /// State machines: names, guards, values.
     Machines,
-    /// Several texts that use one another.
+    /// Several source files that import each other.
     Files,
-    /// Declarations that stand there twice.
+    /// Duplicate declarations.
     Twice,
 }
 
@@ -64,7 +64,7 @@ pub const KINDS: [Kind; 18] = [
 ];
 
 impl Kind {
-    /// Whether what shows it is mostly a mistake, which the compiler has to find.
+    /// `true` if the feature mostly causes errors, which the compiler has to find.
     pub const fn is_mostly_wrong(self) -> bool {
         matches!(self, Self::WrongTypes | Self::Values | Self::Constants | Self::Modifiers | Self::Twice)
     }

@@ -9,14 +9,14 @@ use super::{
     types::Type,
 };
 
-/// Names of states that are hard to generate code for.
+/// Names of states that are difficult for code generation.
 const STATES: &[&str] = &[
     "Self", "self", "state", "token", "match", "super", "crate", "a_b", "aB", "AB", "ab", "type", "new", "Idle",
     "idle", "idle_", "None", "Some", "_", "__", "x1", "x_1", "entry", "on", "fn", "events", "Clone", "r", "A", "a",
     "event",
 ];
 const PLAIN_STATES: &[&str] = &["waiting", "driving", "docked", "failed", "searching", "first_try", "second_try"];
-/// Names of slots and events that are hard to generate code for.
+/// Names of slots and events that are difficult for code generation.
 const PORTS: &[&str] = &[
     "state",
     "new",
@@ -50,7 +50,7 @@ const PORTS: &[&str] = &[
     "timeout",
 ];
 
-/// Adds a machine to the text.
+/// Adds a state machine to the source file.
 pub fn add(maker: &mut Maker) {
     let mut used: Vec<String> = maker.machines.iter().map(|m| m.name.clone()).collect();
     let list = if maker.strikes(Kind::GraphNames, 1) { names::GRAPHS } else { &["Courier", "Turns", "Door"] };
@@ -159,7 +159,7 @@ fn sent(maker: &mut Maker, slot: &Port, events: &[Port]) -> String {
     if maker.dice.one_in(3) {
         return String::new();
     }
-    // What is triggered on entry and exit is left alone: a transition triggers an event once.
+    // Events of entry and exit are not used here: a transition triggers an event at most once.
     let event = events[0].clone();
     match same(event.ty, slot.ty) && maker.dice.one_in(2) || maker.strikes(Kind::Machines, 6) {
         true => format!(" -> {}", event.name),

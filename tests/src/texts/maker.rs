@@ -1,4 +1,4 @@
-//! Makes random texts.
+//! Generates random source files.
 
 use super::{
     case::{Call, Case, Item, Shape, Text},
@@ -12,34 +12,34 @@ use super::{
 };
 use crate::Dice;
 
-/// What is being made.
+/// A case under construction.
 pub struct Maker {
-    /// Decides everything.
+    /// Source of all decisions.
     pub dice: Dice,
-    /// The hostile features of this text.
+    /// Hostile features of this case.
     pub kinds: Vec<Kind>,
     /// Types of its tokens.
     pub types: Vec<&'static Type>,
-    /// Items of Rust that stand beside the text.
+    /// Rust items.
     pub rust: Vec<String>,
-    /// Nodes that were declared.
+    /// Declared nodes.
     pub nodes: Vec<Node>,
-    /// Items of the text.
+    /// Items of the source file.
     pub items: Vec<Item>,
-    /// Graphs that are whole, to be used and tested.
+    /// Complete graphs, to be used and tested.
     pub graphs: Vec<Interface>,
     /// State machines.
     pub machines: Vec<Node>,
-    /// Names of items of Rust.
+    /// Names of Rust items.
     pub taken: Vec<String>,
-    /// Thread groups, if the text uses them.
+    /// Thread groups, if any.
     pub groups: Vec<&'static str>,
-    /// Mistakes that it has so far.
+    /// Number of mistakes so far.
     pub mistakes: usize,
     counter: usize,
 }
 
-/// The text that comes out of `seed`.
+/// The case for `seed`.
 pub fn generate(seed: u64) -> Case {
     let mut maker = Maker::new(seed);
     if maker.has(Kind::RustNames) {
@@ -104,46 +104,46 @@ impl Maker {
         }
     }
 
-    /// Whether this text has a feature.
+    /// `true` if this case has a feature.
     pub fn has(&self, kind: Kind) -> bool {
         self.kinds.contains(&kind)
     }
 
-    /// Whether a feature shows here.
+    /// Decides at random whether a feature occurs here.
     pub fn strikes(&mut self, kind: Kind, one_in: usize) -> bool {
         let strikes = self.has(kind) && self.dice.one_in(one_in);
         if !strikes || !kind.is_mostly_wrong() {
             return strikes;
         }
-        // One mistake in a text: of several only the first would be seen.
+        // At most one mistake per source file, because only the first one would be reported reliably.
         self.mistakes += 1;
         self.mistakes == 1
     }
 
-    /// One of some words.
+    /// A random word.
     pub fn word(&mut self, words: &[&'static str]) -> &'static str {
         words[self.dice.below(words.len())]
     }
 
-    /// A type of this text.
+    /// A type of this case.
     pub fn ty(&mut self) -> &'static Type {
         self.types[self.dice.below(self.types.len())]
     }
 
-    /// Adds an item of Rust, once.
+    /// Adds a Rust item, once.
     pub fn rust(&mut self, item: &str) {
         if !item.is_empty() && !self.rust.iter().any(|known| known.contains(item) || shares_a_name(known, item)) {
             self.rust.push(item.to_owned());
         }
     }
 
-    /// A number that was not used yet.
+    /// A new number.
     pub fn number(&mut self) -> usize {
         self.counter += 1;
         self.counter
     }
 
-    /// A type as the text writes it at a port.
+    /// Notation of a type at a port.
     pub fn written(&mut self, ty: &Type) -> String {
         if self.strikes(Kind::WrongTypes, 4) {
             return (*self.dice.of(WRONG)).to_owned();
@@ -152,7 +152,7 @@ impl Maker {
         if own && self.dice.one_in(5) { format!("crate::{}", ty.name) } else { ty.name.to_owned() }
     }
 
-    /// A name of a node that is not in `used`.
+    /// Name of a node that is not in `used`.
     pub fn node_name(&mut self, used: &mut Vec<String>) -> String {
         let hard = self.strikes(Kind::NodeNames, 3);
         let list = if hard { names::HARD } else { names::PLAIN_NODES };
@@ -167,13 +167,13 @@ impl Maker {
         self.free(list, used)
     }
 
-    /// A name of a port or parameter that is not in `used`.
+    /// Name of a port or parameter that is not in `used`.
     pub fn port_name(&mut self, used: &mut Vec<String>) -> String {
         let list = if self.strikes(Kind::PortNames, 4) { names::HARD } else { names::PLAIN_PORTS };
         self.free(list, used)
     }
 
-    /// One of `list` that is not in `used`; with a number behind it if there is none.
+    /// An element of `list` that is not in `used`, with a number if there is none.
     pub fn free(&mut self, list: &[&str], used: &mut Vec<String>) -> String {
         let twice = self.strikes(Kind::Twice, 12);
         for _ in 0..6 {
@@ -199,7 +199,7 @@ impl Maker {
         (!param.good.is_empty()).then(|| (*self.dice.of(param.good)).to_owned())
     }
 
-    /// A value of a token, if a text can say one.
+    /// Value of a token, if the language has a notation for it.
     pub fn token(&mut self, ty: &Type) -> Option<String> {
         if self.strikes(Kind::Values, 2) {
             let odd =
@@ -212,7 +212,7 @@ impl Maker {
         (!ty.values.is_empty()).then(|| (*self.dice.of(ty.values)).to_owned())
     }
 
-    /// Constants, tuple structs and types whose names are used elsewhere.
+    /// Adds constants, tuple structs and types with colliding names.
     fn colliding_items(&mut self) {
         for _ in 0..2 + self.dice.below(4) {
             let name = *self.dice.of(names::ITEMS);
@@ -267,7 +267,7 @@ impl Maker {
         let mut binary = vec![];
         if shape == Shape::Both {
             binary.push(prelude.to_owned());
-            // Some of the nodes belong to the binary.
+            // Some nodes belong to the binary.
             if self.dice.one_in(3) && library.len() > 2 {
                 let node = library.pop();
                 binary.extend(node.filter(|n| n.contains("#[node]") && !names_a_type(n)));
@@ -287,7 +287,7 @@ impl Maker {
         Call { text: text.to_owned(), module, inline: self.dice.one_in(10) }
     }
 
-    /// Divides the text into several, some of which are compiled by themselves, too.
+    /// Splits the source file into several, some of which are also compiled separately.
     fn files(&mut self, texts: &mut Vec<Text>, calls: &mut Vec<Call>) {
         if !(self.has(Kind::Files) || self.dice.one_in(12)) || texts[0].items.len() < 2 {
             return;
@@ -309,7 +309,7 @@ impl Maker {
             };
             texts[0].items.insert(0, Item::line(line));
         }
-        // In a macro a text has no folder of its own.
+        // In a macro, source text has no folder of its own.
         calls.iter_mut().for_each(|call| call.inline = false);
         if self.dice.one_in(2) {
             let module = if self.has(Kind::Files) && self.dice.one_in(2) { None } else { Some("other".to_owned()) };
@@ -319,7 +319,7 @@ impl Maker {
     }
 }
 
-/// Whether an item of Rust names a type that is declared beside it.
+/// `true` if a Rust item names a type that is declared in the same crate.
 fn names_a_type(item: &str) -> bool {
     let own = |ty: &Type| {
         !ty.item.is_empty() && ty.name.split(['<', ':', '>']).any(|w| !w.is_empty() && w != "Vec" && item.contains(w))
@@ -327,7 +327,7 @@ fn names_a_type(item: &str) -> bool {
     PLAIN.iter().chain(ODD).any(own)
 }
 
-/// Whether two items of Rust declare the same name first.
+/// `true` if two Rust items declare the same name first.
 fn shares_a_name(a: &str, b: &str) -> bool {
     let name = |item: &str| {
         let words = item.split(|c: char| !c.is_alphanumeric() && c != '_').collect::<Vec<_>>();

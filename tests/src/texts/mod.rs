@@ -1,5 +1,5 @@
-//! Random texts with the Rust that they use: plausible programs with one or two hostile features each. A text that the
-//! compiler accepts must compile; one that it refuses must have its first error in the text.
+//! Random source files with their Rust code: plausible programs with one or two hostile features each. If the compiler
+//! accepts a source file, rustc must accept it. If the compiler rejects it, its first error must be in the source file.
 
 mod case;
 mod graph;

@@ -1,6 +1,6 @@
-//! Names that collide with something: with Rust, with the language, with what is generated.
+//! Names that collide with Rust, with the language, or with generated code.
 
-/// Names of nodes, ports and states that are hard to generate code for.
+/// Names of nodes, ports and states that are difficult for code generation.
 pub const HARD: &[&str] = &[
     "Some",
     "None",
@@ -192,7 +192,7 @@ pub const HARD: &[&str] = &[
     "fired",
 ];
 
-/// Names of graphs: words of Rust, types of the prelude, and what is generated for a graph `Arm` or `Robot`.
+/// Names of graphs: Rust keywords, types of the prelude, and names that are generated for a graph `Arm` or `Robot`.
 pub const GRAPHS: &[&str] = &[
     "Self",
     "crate",
@@ -288,7 +288,7 @@ pub const PLAIN_NODES: &[&str] = &[
 pub const PLAIN_PORTS: &[&str] =
     &["x", "y", "z", "speed", "pose", "range", "go", "stop", "goal", "found", "level", "angle", "beat", "sum"];
 
-/// Names of items of Rust beside the graph: what is generated, and what names of nodes may mean as a pattern.
+/// Names of Rust items beside the graph: generated names, and names that nodes could match as a pattern.
 pub const ITEMS: &[&str] = &[
     "ArmState",
     "ArmNodes",
@@ -357,6 +357,6 @@ pub const ITEMS: &[&str] = &[
     "inner",
 ];
 
-/// Words that Rust never takes as a name, or only as `r#…`.
+/// Words that are not valid as a name in Rust, or only as `r#…`.
 pub const KEYWORDS: &[&str] =
     &["type", "match", "move", "fn", "loop", "ref", "use", "in", "dyn", "async", "box", "yield", "try"];

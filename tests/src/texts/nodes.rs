@@ -1,15 +1,15 @@
-//! Nodes in Rust: of many shapes, visible or hidden in many ways. None of them ever runs.
+//! Rust nodes of many forms, visible or hidden in many ways. They are never run.
 
 use super::{kinds::Kind, maker::Maker, names::KEYWORDS, types::Type, values::Param};
 
-/// A node type as a text sees it.
+/// A node type as seen by a source file.
 #[derive(Debug, Clone)]
 pub struct Node {
-    /// How the text calls it.
+    /// Name in the source file.
     pub name: String,
-    /// Type arguments that may be written.
+    /// Type arguments that are allowed.
     pub generic: Option<String>,
-    /// Inputs that have to be connected.
+    /// Inputs that must be connected.
     pub inputs: Vec<Port>,
     /// Outputs.
     pub outputs: Vec<Port>,
@@ -24,19 +24,19 @@ pub struct Node {
 /// A port with its type.
 #[derive(Debug, Clone)]
 pub struct Port {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The type of its tokens.
+    /// Type of the tokens.
     pub ty: &'static Type,
 }
 
-/// A port.
+/// A port with this name and type.
 pub fn port(name: &str, ty: &'static Type) -> Port {
     Port { name: name.trim_start_matches("r#").to_owned(), ty }
 }
 
-/// How a node is written. `{N}` is its name, `{T}` the type of its tokens, `{P}` that of its parameter with `{D}` as its default;
-/// `{I} {O} {S} {E}` are an input, an output, a slot and an event. Signs after the name say which ports it has.
+/// Form of a node. `{N}` is its name, `{T}` the type of its tokens, `{P}` that of its parameter with `{D}` as its
+/// default; `{I} {O} {S} {E}` are an input, an output, a slot and an event. Characters after the name select its ports.
 struct Shape {
     name: &'static str,
     ports: &'static str,
@@ -125,11 +125,11 @@ const SHAPES: &[Shape] = &[
     shape("double", "io", "{#}\n{V}fn {N}({I}: &{T}) -> [{T}; 2] {\n    loop {}\n}"),
 ];
 
-/// Shapes in which only rustc can judge the types.
+/// Forms whose types only rustc can check.
 const BOUND: [&str; 8] = ["Ordered", "Generic", "Summed", "Fixed", "Sized", "Holder", "Ring", "Fresh"];
 
 impl Maker {
-    /// A node that takes (or for a source: sends) tokens of this type, an old one or a new one.
+    /// A node that takes (or, for a source, sends) tokens of this type, either existing or new.
     pub fn node(&mut self, ty: &'static Type) -> Node {
         let known: Vec<Node> = self.nodes.iter().filter(|n| n.takes(ty) && !n.has_rates()).cloned().collect();
         if !known.is_empty() && self.dice.one_in(2) {
@@ -156,7 +156,7 @@ impl Maker {
         self.node_of("Source", ty)
     }
 
-    /// A new node of one shape.
+    /// A new node of a form.
     pub fn node_of(&mut self, shape: &str, ty: &'static Type) -> Node {
         let shape = SHAPES.iter().find(|s| s.name == shape).unwrap_or(&SHAPES[0]);
         let mut name = format!("{}{}", shape.name, self.number());
@@ -221,7 +221,7 @@ impl Maker {
                 0 => format!("r#{}", self.dice.of(KEYWORDS)),
                 _ => (*self.dice.of(&odd)).to_owned(),
             };
-            // Names of arguments and of methods do not stand twice.
+            // Names of arguments and methods must be unique.
             let is_item = self.taken.contains(&names[at]);
             if is_item || names.iter().filter(|n| **n == names[at]).count() > 1 {
                 names[at] = format!("other_{at}");
@@ -230,7 +230,7 @@ impl Maker {
         names
     }
 
-    /// The text of a node as it stands in the crate: visible or not, with attributes or without.
+    /// Code of a node in the crate, with random visibility and attributes.
     fn disguised(&mut self, text: String, node: &mut Node) -> String {
         let mut mark = "#[node]".to_owned();
         if self.strikes(Kind::Attributes, 2) {
@@ -286,7 +286,7 @@ impl Maker {
         if hides && self.dice.one_in(2) { self.in_module(&text, node) } else { text }
     }
 
-    /// A node in a module, which the text names or not.
+    /// Moves a node into a module, which the source file names or not.
     fn in_module(&mut self, text: &str, node: &mut Node) -> String {
         let module = format!("place{}", self.number());
         let name = node.name.clone();
@@ -310,22 +310,22 @@ impl Maker {
     }
 }
 
-/// Shapes with fields that are no parameters.
+/// Forms with fields that are not parameters.
 const STATEFUL: [&str; 11] =
     ["Holder", "Ring", "Fresh", "Keeper", "Taker", "Fails", "Latest", "Source", "Begins", "Tuned", "apex_nodes::flow"];
 
 impl Node {
-    /// Whether it can be made again.
+    /// `true` if it has a state.
     pub fn has_state(&self) -> bool {
         STATEFUL.iter().any(|shape| self.name.starts_with(shape))
     }
 
-    /// Whether it takes or sends several tokens at a time.
+    /// `true` if it takes or sends several tokens per firing.
     fn has_rates(&self) -> bool {
         self.name.starts_with("pair") || self.name.starts_with("double")
     }
 
-    /// Whether its first input or slot takes this type.
+    /// `true` if its first input or slot takes this type.
     pub fn takes(&self, ty: &Type) -> bool {
         self.inputs.iter().chain(&self.slots).next().is_some_and(|p| p.ty == ty)
     }

@@ -1,8 +1,8 @@
-//! Random tests of the graphs of a text.
+//! Random tests of the graphs of a source file.
 
 use super::{case::Item, graph::Interface, kinds::Kind, maker::Maker};
 
-/// Names of tests that are hard to generate code for.
+/// Names of tests that are difficult for code generation.
 const NAMES: &[&str] = &[
     "Self", "self", "crate", "match", "test", "tests", "Robot", "Arm", "arm", "passes", "std", "core", "apex_rt",
     "super", "made", "type", "_", "main", "a", "A", "ArmState", "program", "alloc", "Some", "u8", "String", "Vec",

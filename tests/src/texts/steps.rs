@@ -1,4 +1,4 @@
-//! What is added to a graph at a time.
+//! Random steps in the construction of a graph.
 
 use super::{
     graph::{Interface, Sheet, Wire},
@@ -10,7 +10,7 @@ use super::{
 };
 
 impl Maker {
-    /// Adds something.
+    /// Adds a random part.
     pub fn step(&mut self, sheet: &mut Sheet) {
         let nested = self.dice.one_in(4) || (self.has(Kind::NodeNames) && self.dice.one_in(2));
         let machine = self.has(Kind::Machines) && self.dice.one_in(2);
@@ -46,7 +46,7 @@ impl Maker {
         }
     }
 
-    /// A node with its inputs connected; its outputs and events are at hand then.
+    /// Adds a node and connects its inputs. Its outputs and events become available.
     pub fn instance(&mut self, sheet: &mut Sheet, node: &Node, named: bool) {
         let wires: Vec<Wire> = node.inputs.iter().map(|p| self.wire(sheet, p.ty)).collect();
         let args = self.arguments(sheet, node);
@@ -193,7 +193,7 @@ impl Maker {
         text
     }
 
-    /// A node of the library.
+    /// Adds a node of the library.
     fn library(&mut self, sheet: &mut Sheet) {
         let ty = self.ty();
         let number = &PLAIN[1];
@@ -224,7 +224,7 @@ impl Maker {
         self.instance(sheet, &node, true);
     }
 
-    /// Bounds that may not be met, and constants that nothing decides.
+    /// Adds a node whose bounds may not be met, or whose constants cannot be inferred.
     fn bounded(&mut self, sheet: &mut Sheet) {
         let ty = self.ty();
         let shape = *self.dice.of(&["Ordered", "Summed", "Fixed", "Sized", "Ring", "Fresh", "Holder", "Generic"]);
@@ -232,7 +232,7 @@ impl Maker {
         self.instance(sheet, &node, true);
     }
 
-    /// A node for each element of a list.
+    /// Adds a node with `each`.
     fn each(&mut self, sheet: &mut Sheet) {
         let list = PLAIN.iter().find(|t| t.name == "Vec<f64>").unwrap_or(&PLAIN[0]);
         let wire = self.wire(sheet, list);
@@ -253,7 +253,7 @@ impl Maker {
         sheet.named.push((name, outside));
     }
 
-    /// Two tokens of one, and one of two, in a region of their own.
+    /// Adds a region with two rates.
     pub fn rates(&mut self, sheet: &mut Sheet) {
         let ty = self.ty();
         let (from, to) = (self.port_name(&mut sheet.used), self.port_name(&mut sheet.used));
@@ -282,7 +282,7 @@ impl Maker {
         sheet.links.push(format!("{before} -> {to};"));
     }
 
-    /// A state in which activity waits, and a way on.
+    /// Adds a node that can be active, and a path to another one.
     fn activity(&mut self, sheet: &mut Sheet) {
         let name = self.node_name(&mut sheet.used);
         let timeout = if self.dice.one_in(2) { " timeout 2s" } else { "" };
@@ -311,7 +311,7 @@ impl Maker {
         sheet.active.push(format!("{name}.{leave}"));
     }
 
-    /// Ports that every node has.
+    /// Uses ports that every node has.
     fn inherited(&mut self, sheet: &mut Sheet) {
         let Some((name, _)) = sheet.named.last().cloned() else { return };
         let line = match self.dice.below(5) {

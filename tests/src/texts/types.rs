@@ -3,15 +3,15 @@
 /// A type of tokens.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Type {
-    /// How it is written, in the text and in Rust.
+    /// Notation in the source file and in Rust.
     pub name: &'static str,
-    /// The item that declares it, if it is not one of the standard library.
+    /// Item that declares it, unless it is in the standard library.
     pub item: &'static str,
-    /// `Clone`
+    /// `true` if it implements `Clone`.
     pub clone: bool,
-    /// `Default`
+    /// `true` if it implements `Default`.
     pub default: bool,
-    /// Values of it, as a text may give them.
+    /// Values in the notation of the language.
     pub values: &'static [&'static str],
 }
 
@@ -23,7 +23,7 @@ const fn without(name: &'static str, item: &'static str, clone: bool, default: b
     Type { name, item, clone, default, values: &[] }
 }
 
-/// Types that nothing is wrong with.
+/// Types without special properties.
 pub const PLAIN: &[Type] = &[
     ty("i64", "", &["3", "-7", "0", "9_000"]),
     ty("f64", "", &["1.5", "-0.25", "3", "1e3"]),
@@ -45,7 +45,7 @@ const PHASE: &str =
 const PAIR: &str =
     "#[derive(Debug, Clone, Copy, Default, PartialEq)]\npub struct Pair<T> {\n    pub a: T,\n    pub b: T,\n}";
 
-/// Types that lack what most have, and types that are seldom sent.
+/// Types without common traits, and types that are rarely sent.
 pub const ODD: &[Type] = &[
     without("Solid", "#[derive(Debug, Default, PartialEq)]\npub struct Solid(pub u8);", false, true),
     without("Bare", "pub struct Bare;", false, false),
@@ -73,7 +73,7 @@ pub const ODD: &[Type] = &[
 
 const GRID: &str = "#[derive(Debug, Clone, Copy, Default, PartialEq)]\npub struct Grid<const N: usize>(pub [u8; 4], pub [(); N])\nwhere\n    [(); N]: Default;";
 
-/// Types that do not exist, or take other type arguments, as a text may write them.
+/// Types that do not exist, or have other type arguments.
 pub const WRONG: &[&str] = &[
     "Pos2",
     "crate::Pos2",

@@ -1,17 +1,17 @@
-//! Parameters of nodes and graphs, with values that fit and values that do not.
+//! Parameters of nodes and graphs, with valid and invalid values.
 
 /// A type of parameters.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Param {
-    /// The type in Rust.
+    /// Type in Rust.
     pub ty: &'static str,
-    /// A default, in Rust.
+    /// Default in Rust.
     pub default: &'static str,
-    /// The item that it needs.
+    /// Item that the type needs.
     pub item: &'static str,
-    /// Values that fit.
+    /// Valid values.
     pub good: &'static [&'static str],
-    /// Values that do not.
+    /// Invalid values.
     pub bad: &'static [&'static str],
 }
 
@@ -76,7 +76,7 @@ pub const PARAMS: &[Param] = &[
 /// Constants beside the graph.
 pub const CONSTANTS: &str = "pub const GAIN: f64 = 1.5;\npub const NUMBER: i64 = 3;\npub const SMALL: u8 = 3;\npub const MAYBE: Option<f64> = None;\npub const TEXT: &str = \"text\";\npub static STILL: u8 = 3;\nconst HIDDEN: u8 = 3;\npub mod limits {\n    pub const TOP: u8 = 9;\n    const LOW: u8 = 1;\n    pub const SUM: u8 = TOP + LOW;\n}\npub fn made() -> u8 {\n    HIDDEN + limits::SUM\n}";
 
-/// Paths of constants, which may be of any type, or missing.
+/// Paths of constants, of any type or missing.
 pub const PATHS: &[&str] = &[
     "crate::AWAY",
     "crate::GAIN",
