@@ -53,7 +53,7 @@ impl Files {
             return true;
         }
         let text = report.to_string();
-        assert!(text.contains("not whole") || text.contains("missing"), "{what}: it says nothing of it: {text}");
+        assert!(text.contains("incomplete") || text.contains("missing"), "{what}: it says nothing of it: {text}");
         false
     }
 

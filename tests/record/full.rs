@@ -37,7 +37,7 @@ fn what_does_not_fit_is_counted_and_reported() {
     let sum: u64 = dropped.iter().map(|(_, count)| count).sum();
     assert!(sum > 0, "20000 reactions fit into 4 kB");
     assert_eq!(report.dropped, dropped, "the file says the same");
-    assert!(report.to_string().contains("were lost when this was recorded"), "{report}");
+    assert!(report.to_string().contains("were lost during the recording"), "{report}");
     let reactions = dropped.iter().find(|(name, _)| name == "apex/reaction").map_or(0, |(_, count)| *count);
     assert_eq!(report.reactions + reactions, 20_000, "what is there and what was lost is all");
 }

@@ -232,7 +232,7 @@ fn wrong_files_are_refused_with_the_line() {
             "nodes:\n  - {type: A, uuid: a, state: {params: {x: {int: many}}}}\n".to_owned(),
             "2: this is not a whole number",
         ),
-        ("nodes: &all\n  - {type: A, uuid: a, subgraph: {nodes: *all}}\n".to_owned(), "2: references (`*name`)"),
+        ("nodes: &all\n  - {type: A, uuid: a, subgraph: {nodes: *all}}\n".to_owned(), "2: aliases (`*name`)"),
         (connection("{targets: []}"), "5: a connection has no `uuid`"),
         (connection("{uuid: 'a:|:out_0'}"), "5: a connection has no `targets`"),
         (
@@ -287,5 +287,5 @@ fn a_text_and_its_nodes_are_two_files() {
     let one = folder.0.join("one.rs").display().to_string();
     let output = import(&folder.file("a.apex", "nodes: []\n"), &["-o", &one, "--nodes", &one]);
     assert_eq!((output.status.code(), Path::new(&one).exists()), (Some(2), false));
-    assert!(stderr(&output).contains("need files of their own"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("need separate files"), "{}", stderr(&output));
 }

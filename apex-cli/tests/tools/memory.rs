@@ -100,7 +100,7 @@ fn what_cannot_be_built_has_no_sizes() {
     let file = folder.file("alone.afg", "graph Alone { }\n");
     let output = explain(&file, &[]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert!(stderr(&output).contains("is in no cargo package"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("is not in a cargo package"), "{}", stderr(&output));
 
     package(&folder, NODES);
     let text = "use crate::Numbers;\ngraph Wrong {\n    node a = Numbers();\n    node a = Numbers();\n}\n";

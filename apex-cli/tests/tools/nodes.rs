@@ -46,9 +46,9 @@ const TALLY: &str = "\
 robot::Tally
   Counts doubles.
   input  x      [u8; 2] (optional)
-  slot   clear                           Starts at zero.
+  slot   clear                      Starts at zero.
   event  full   u64
-  param  first  u64 = 3                  The first number.
+  param  first  u64 = 3             The first number.
 ";
 
 fn nodes(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -94,7 +94,7 @@ fn what_is_not_found_is_said_with_what_may_be_meant() {
     }
     let (code, _, errors) = nodes(&folder.0, &["--package", "/"]);
     assert_eq!(code, Some(2));
-    assert!(errors.contains("`/` is in no cargo package"), "{errors}");
+    assert!(errors.contains("`/` is not in a cargo package"), "{errors}");
 }
 
 const HEAD: &str = "\

@@ -142,7 +142,7 @@ fn what_cannot_be_run_at_all_is_said_at_once() {
         assert!(String::from_utf8(output.stderr).unwrap().contains(reason), "{name}");
     };
     folder.file("robot.afg", "graph Robot { }\n");
-    refused("robot.afg", "is in no cargo package");
+    refused("robot.afg", "is not in a cargo package");
     package(&folder, "");
     refused("missing.afg", "cannot read `");
 }

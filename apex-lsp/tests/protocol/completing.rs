@@ -87,7 +87,7 @@ fn only_ports_that_fit() {
 #[test]
 fn arguments_and_units() {
     let mut client = Client::start();
-    assert_eq!(in_graph(&mut client, "scan -> JumpDistance(|)"), ["gap", "bridge"]);
+    assert_eq!(in_graph(&mut client, "scan -> JumpDistance(|)"), ["gap", "max_gap_beams"]);
     has(&in_graph(&mut client, "node r = RangeFilter(min = 5cm, |)"), &["max"]);
     lacks(&in_graph(&mut client, "node r = RangeFilter(min = 5cm, |)"), &["min"]);
     has(&in_graph(&mut client, "scan -> JumpDistance(gap = |)"), &["gap"]);
@@ -106,7 +106,7 @@ fn arguments_and_units() {
 fn parameters_as_ports() {
     let mut client = Client::start();
     let found = in_graph(&mut client, "gap -> jump.|");
-    has(&found, &["scan", "gap", "bridge"]);
+    has(&found, &["scan", "gap", "max_gap_beams"]);
     has(&in_graph(&mut client, "jump.|"), &["segments", "gap", "failed"]);
     let path = unsaved("parameters.afg");
     let graph = |statement: &str| {
