@@ -45,7 +45,7 @@ use parts::{Inner, Lamp};
 ///     total
 /// ```
 robot Robot(
-    /// Length of a step.
+    /// Distance to drive.
     step: f64[m] = 3m in 1..=5,
 ) {
     node inner = Inner();
@@ -66,7 +66,7 @@ test adds: Inner {
 const PARTS: &str = "\
 /// A part that stands in a robot.
 graph Inner {
-    /// Value to add.
+    /// Number to add.
     in   x: u64;
     slot go;
     slot clear;
