@@ -2,7 +2,7 @@
 
 use crate::project::{self, Checker};
 use apex_dsl::{
-    catalog::Signature,
+    catalog::{Signature, first_sentence, linkless},
     ide::{NodeType, ParamFacts, PortFacts, View},
     report::nearest,
     syntax::tree::PortKind,
@@ -148,7 +148,7 @@ impl Entry<'_> {
                 rate => format!("[{}; {rate}]", port.ty),
             };
             let open = if port.optional { " (optional)" } else { "" };
-            [port.kind.word().to_owned(), port.name.clone(), ty + open, plain(&sentence(&port.docs))]
+            [port.kind.word().to_owned(), port.name.clone(), ty + open, plain(&first_sentence(&port.docs))]
         };
         let param = |param: &ParamFacts| {
             let unit = param.unit.as_ref().map(|unit| format!("[{unit}]")).unwrap_or_default();
@@ -159,7 +159,7 @@ impl Entry<'_> {
             };
             let range = param.range.as_ref().map(|range| format!(" in {range}")).unwrap_or_default();
             let ty = format!("{}{unit}{default}{range}", param.ty);
-            ["param".to_owned(), param.name.clone(), ty, plain(&sentence(&param.docs))]
+            ["param".to_owned(), param.name.clone(), ty, plain(&first_sentence(&param.docs))]
         };
         ports.map(port).chain(self.params.iter().map(param)).collect()
     }
@@ -172,7 +172,7 @@ fn list(found: &[&Entry<'_>]) -> String {
     for group in found.chunk_by(|a, b| a.module == b.module) {
         let _ = writeln!(text, "{}{}", if text.is_empty() { "" } else { "\n" }, group[0].module);
         for entry in group {
-            let line = format!("  {:width$}  {}", entry.signature.name, plain(&sentence(&entry.signature.docs)));
+            let line = format!("  {:width$}  {}", entry.signature.name, plain(&first_sentence(&entry.signature.docs)));
             text += line.trim_end();
             text.push('\n');
         }
@@ -188,7 +188,7 @@ fn page(found: &[&Entry<'_>]) -> String {
         let _ = writeln!(text, "## {}\n\n| node | |\n|---|---|", group[0].module);
         let anchors: Vec<String> = group.iter().map(|entry| anchor(&entry.signature.name, &mut counts)).collect();
         for (entry, anchor) in group.iter().zip(&anchors) {
-            let docs = cell(&sentence(&entry.signature.docs));
+            let docs = cell(&first_sentence(&entry.signature.docs));
             let _ = writeln!(text, "| [`{}`](#{anchor}) | {docs} |", entry.signature.name);
         }
         text.push('\n');
@@ -199,7 +199,8 @@ fn page(found: &[&Entry<'_>]) -> String {
 
 fn section(entry: &Entry<'_>) -> String {
     let (module, name) = (&entry.module, &entry.signature.name);
-    let mut text = format!("### {name}\n\n`{module}::{name}`: {}\n\n", linkless(&sentence(&entry.signature.docs)));
+    let mut text =
+        format!("### {name}\n\n`{module}::{name}`: {}\n\n", linkless(&first_sentence(&entry.signature.docs)));
     let rows = entry.rows();
     if !rows.is_empty() {
         text += "| | name | type | |\n|---|---|---|---|\n";
@@ -219,34 +220,6 @@ fn anchor(name: &str, counts: &mut BTreeMap<String, usize>) -> String {
     if *count == 1 { name } else { format!("{name}-{}", *count - 1) }
 }
 
-/// First sentence of documentation, in one line. A period before a small letter or a number (`fig. 4.10`) does not end
-/// it.
-fn sentence(docs: &str) -> String {
-    let paragraph: Vec<&str> = docs.trim().lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
-    let paragraph = paragraph.join(" ");
-    let begins = |rest: &str| rest.chars().next().is_some_and(|c| !c.is_lowercase() && !c.is_numeric());
-    let end = paragraph.match_indices(". ").find(|(at, _)| begins(&paragraph[at + 2..])).map(|(at, _)| at + 1);
-    paragraph[..end.unwrap_or(paragraph.len())].to_owned()
-}
-
-/// Removes links to Rust's documentation: [`Scan`](path) becomes `Scan`.
-fn linkless(text: &str) -> String {
-    let mut rest = text;
-    let mut out = String::new();
-    while let Some((before, code)) = rest.split_once("[`") {
-        out += before;
-        let Some((code, after)) = code.split_once("`]") else {
-            return out + "[`" + code;
-        };
-        let _ = write!(out, "`{}`", code.rsplit("::").next().unwrap_or(code));
-        rest = match after.strip_prefix('(').and_then(|target| target.split_once(')')) {
-            Some((_, after)) => after,
-            None => after,
-        };
-    }
-    out + rest
-}
-
 /// Removes links and back quotes, for a terminal.
 fn plain(text: &str) -> String {
     linkless(text).replace('`', "")
@@ -262,18 +235,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_sentence_has_no_links() {
-        for (docs, expected) in [
-            (
-                "Sends a [`Scan`](crate::Scan) to\n[`flow::Hold`] (thesis fig. 4.10). More.\n\nMuch more.",
-                "Sends a `Scan` to `Hold` (thesis fig. 4.10).",
-            ),
-            ("No end", "No end"),
-            ("", ""),
-            ("Open [`end", "Open [`end"),
-        ] {
-            assert_eq!(linkless(&sentence(docs)), expected);
-        }
+    fn cells_have_no_markup() {
         assert_eq!(plain("`a` | [`B`]"), "a | B");
         assert_eq!(cell("`a` | b"), "`a` \\| b");
     }

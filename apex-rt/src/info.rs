@@ -3,8 +3,12 @@
 pub struct Info {
     /// Name of the graph or robot.
     pub name: &'static str,
+    /// Documentation of the graph in its source file.
+    pub docs: &'static str,
     /// All nodes in the order of the source file.
     pub nodes: &'static [NodeInfo],
+    /// The kinds of nodes: those that have the same node type and the same types of tokens are of one kind.
+    pub kinds: &'static [KindInfo],
     /// Full names of all nested graphs: `fast.avoid`.
     pub graphs: &'static [&'static str],
     /// All connections.
@@ -24,12 +28,50 @@ pub struct Info {
 pub struct NodeInfo {
     /// Full name of the instance, with the names of the nested graphs around it: `fast.planner`.
     pub name: &'static str,
-    /// The node type as written in the source file.
-    pub kind: &'static str,
+    /// Index of its kind in [`Info::kinds`].
+    pub kind: usize,
+    /// Place of its declaration: `robot.afg:8:17`.
+    pub place: &'static str,
     /// `true` if a ⊥ at this node must be passed on for an essential node downstream (thesis eq. 3.7).
     pub required: bool,
     /// `true` if a ⊥ at this node must be passed on for a join downstream (thesis eq. 3.8).
     pub siblings: bool,
+}
+
+/// A kind of nodes.
+#[derive(Debug)]
+pub struct KindInfo {
+    /// The node type as written in the source file, or the role of a node that the compiler adds: `input`, `delay`.
+    pub name: &'static str,
+    /// First sentence of the documentation of the node type.
+    pub docs: &'static str,
+    /// Its ports, without those of parameters, which [`Parameters::PARAMS`](crate::Parameters::PARAMS) has, and those
+    /// that every node has.
+    pub ports: &'static [PortInfo],
+}
+
+/// A port of a kind of nodes.
+#[derive(Debug)]
+pub struct PortInfo {
+    /// Name of the port.
+    pub name: &'static str,
+    /// Kind of the port.
+    pub kind: PortKind,
+    /// Type of its tokens.
+    pub ty: &'static str,
+}
+
+/// Kind of a port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PortKind {
+    /// Synchronous input.
+    Input,
+    /// Synchronous output.
+    Output,
+    /// Asynchronous input.
+    Slot,
+    /// Asynchronous output.
+    Event,
 }
 
 /// A connection of a compiled graph.
@@ -62,10 +104,31 @@ pub struct GroupInfo {
     pub hang: Option<core::time::Duration>,
 }
 
+impl Info {
+    /// Returns the kind of node `node`.
+    pub const fn kind(&self, node: usize) -> &'static KindInfo {
+        &self.kinds[self.nodes[node].kind]
+    }
+}
+
 impl NodeInfo {
     /// Returns a row of the table of nodes.
-    pub const fn new(name: &'static str, kind: &'static str, required: bool, siblings: bool) -> Self {
-        Self { name, kind, required, siblings }
+    pub const fn new(name: &'static str, kind: usize, place: &'static str, required: bool, siblings: bool) -> Self {
+        Self { name, kind, place, required, siblings }
+    }
+}
+
+impl KindInfo {
+    /// Returns a row of the table of kinds.
+    pub const fn new(name: &'static str, docs: &'static str, ports: &'static [PortInfo]) -> Self {
+        Self { name, docs, ports }
+    }
+}
+
+impl PortInfo {
+    /// Returns a row of a table of ports.
+    pub const fn new(name: &'static str, kind: PortKind, ty: &'static str) -> Self {
+        Self { name, kind, ty }
     }
 }
 

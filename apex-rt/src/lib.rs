@@ -28,6 +28,8 @@ pub mod profile;
 mod queue;
 #[cfg(feature = "record")]
 pub mod record;
+#[cfg(feature = "std")]
+mod remote;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
@@ -56,7 +58,7 @@ pub use event::Event;
 #[doc(hidden)]
 pub use event::event;
 pub use failure::{Failure, contain, contain_fallible};
-pub use info::{ConnectionInfo, GroupInfo, Info, NodeInfo};
+pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, PortInfo, PortKind};
 pub use list::List;
 pub use mailbox::Mailbox;
 #[doc(hidden)]
@@ -71,6 +73,8 @@ pub use params::Parameters;
 #[cfg(feature = "std")]
 pub use ports::{PortReceiver, PortSender, Ports};
 pub use queue::{Queue, Steps};
+#[cfg(feature = "std")]
+pub use remote::RemoteParams;
 #[cfg(feature = "std")]
 pub use run::drive_from;
 pub use run::{Next, Program, drive, drive_with, run};

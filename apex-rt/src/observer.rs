@@ -1,3 +1,4 @@
+use crate::{Next, Parameters, Time};
 use core::{
     fmt::{Debug, Display},
     time::Duration,
@@ -9,6 +10,19 @@ use core::{
 /// Nodes are given by their index in [`Info::nodes`](crate::Info::nodes), connections by their index in
 /// [`Info::connections`](crate::Info::connections).
 pub trait Observer {
+    /// Called before a reaction at `now`, on the thread that drives the program or one of its thread groups. `params`
+    /// are the parameters of this group, which may be set here.
+    #[inline(always)]
+    fn before_reaction(&mut self, now: Time, params: &mut impl Parameters) {
+        let _ = (now, params);
+    }
+
+    /// Called after a reaction.
+    #[inline(always)]
+    fn after_reaction(&mut self, next: Next) {
+        let _ = next;
+    }
+
     /// Called before node `node` fires.
     #[inline(always)]
     fn fired(&mut self, node: usize) {
@@ -82,6 +96,22 @@ pub trait Observer {
         let _ = claim;
     }
 
+    /// Returns `true` if the observer wants to see the tokens of channel `channel` (by its index in
+    /// [`Program::channels`](crate::Program::channels)): what one output or event of a node sends.
+    #[cfg(feature = "record")]
+    #[inline(always)]
+    fn wants(&self, channel: usize) -> bool {
+        let _ = channel;
+        false
+    }
+
+    /// Called with each token of a channel that the observer [wants](Self::wants). `codec` writes it as bytes; `None`
+    /// if its type cannot be recorded.
+    #[cfg(feature = "record")]
+    fn sent<T>(&mut self, channel: usize, codec: Option<crate::record::Codec<T>>, token: &T) {
+        let _ = (channel, codec, token);
+    }
+
     /// Returns the tap through which the program's tokens are recorded or replayed.
     #[cfg(feature = "record")]
     #[inline(always)]
@@ -115,6 +145,14 @@ macro_rules! pass_on {
 macro_rules! pass_on_others {
     ($self:ident, $($to:expr),+) => {
         #[inline(always)]
+        fn before_reaction(&mut $self, now: Time, params: &mut impl Parameters) {
+            $($to.before_reaction(now, params);)+
+        }
+        #[inline(always)]
+        fn after_reaction(&mut $self, next: Next) {
+            $($to.after_reaction(next);)+
+        }
+        #[inline(always)]
         fn activity(&mut $self, node: usize, active: bool) {
             $($to.activity(node, active);)+
         }
@@ -145,6 +183,17 @@ macro_rules! pass_on_others {
         }
         fn claim_failed(&mut $self, claim: usize) {
             $($to.claim_failed(claim);)+
+        }
+        #[cfg(feature = "record")]
+        #[inline(always)]
+        fn wants(&$self, channel: usize) -> bool {
+            false $(|| $to.wants(channel))+
+        }
+        #[cfg(feature = "record")]
+        fn sent<T>(&mut $self, channel: usize, codec: Option<crate::record::Codec<T>>, token: &T) {
+            $(if $to.wants(channel) {
+                $to.sent(channel, codec, token);
+            })+
         }
         #[cfg(feature = "record")]
         #[inline(always)]

@@ -1,7 +1,8 @@
 //! Ports of a running program for other threads.
 
 use crate::{
-    Clock, Mailbox, Program, Time,
+    Clock, Mailbox, Program, RemoteParams, Time,
+    remote::ServedRequests,
     run::Outside,
     switch::{Bell, Listens},
 };
@@ -19,7 +20,8 @@ pub struct Ports<P: Program>(pub(crate) Ways<P::Inputs, P::Events>);
 impl<P: Program> Ports<P> {
     /// Returns ports without senders and receivers.
     pub fn new() -> Self {
-        Self(Ways { inputs: vec![], events: vec![], outside: Arc::default(), kept: false })
+        let requests = ServedRequests::default();
+        Self(Ways { inputs: vec![], events: vec![], outside: Arc::default(), kept: false, requests })
     }
 
     /// Returns the sender for a graph-level input or slot: `ports.input(|inputs| &mut inputs.stop)`.
@@ -41,6 +43,11 @@ impl<P: Program> Ports<P> {
         let cell = Arc::new(Cell::default());
         self.0.events.push(Box::new(WayOut { cell: Arc::clone(&cell), port }));
         PortReceiver { cell, outside: Arc::clone(&self.0.outside) }
+    }
+
+    /// Returns access to the program's parameters. It does not keep a program running that waits for input.
+    pub fn params(&self) -> RemoteParams {
+        RemoteParams::new(Arc::clone(&self.0.requests.requests), P::PARAMS)
     }
 }
 
@@ -255,6 +262,8 @@ pub(crate) struct Ways<I, E> {
     outside: Arc<Others>,
     /// Value of [`Ways::is_open`], as of the last call of [`Ways::pass`].
     kept: bool,
+    /// Requests for the parameters.
+    pub requests: ServedRequests,
 }
 
 impl<I, E> Ways<I, E> {
@@ -289,6 +298,7 @@ impl<I, E> Drop for Ways<I, E> {
     fn drop(&mut self) {
         self.inputs.iter().for_each(|way| way.end());
         self.events.iter().for_each(|way| way.end());
+        self.requests.requests.end();
     }
 }
 
@@ -297,11 +307,15 @@ impl<P: Program> Outside<P> for Ways<P::Inputs, P::Events> {
         self.pass(program.mailboxes())
     }
 
+    fn serve(&mut self, program: &mut P) {
+        self.requests.serve(program);
+    }
+
     fn is_open(&self) -> bool {
         self.kept
     }
 
     fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool {
-        clock.wait(until, &|| self.rings())
+        clock.wait(until, &|| self.rings() || self.requests.are_new())
     }
 }

@@ -1,10 +1,12 @@
 #[cfg(feature = "std")]
 use crate::Ports;
 use crate::{
-    Clock, Info, Observer, Time,
+    Clock, Info, Observer, Parameters, Time,
     threads::{SingleGroup, Spawn, Wake},
 };
 use core::time::Duration;
+#[cfg(feature = "std")]
+use std::sync::Arc;
 
 /// Time of a program's next reaction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +36,7 @@ impl Next {
 }
 
 /// A compiled graph. `graph!` generates a struct that implements this trait.
-pub trait Program {
+pub trait Program: Parameters {
     /// Static description of the graph.
     const INFO: Info;
 
@@ -58,13 +60,6 @@ pub trait Program {
     #[cfg(feature = "record")]
     fn channels() -> std::vec::Vec<crate::record::Channel> {
         std::vec::Vec::new()
-    }
-
-    /// Records the parameters before the threads start. In a replay, compares them with the recorded ones.
-    #[cfg(feature = "record")]
-    #[doc(hidden)]
-    fn share_params(&mut self, tap: &mut crate::record::Tap) {
-        let _ = tap;
     }
 
     /// Calls `found` with each connection (by index) whose event is missing at a node that has other tokens. If nothing
@@ -132,11 +127,6 @@ impl<P: Program> Program for &mut P {
         P::channels()
     }
 
-    #[cfg(feature = "record")]
-    fn share_params(&mut self, tap: &mut crate::record::Tap) {
-        (**self).share_params(tap);
-    }
-
     fn is_active(&self, node: usize) -> bool {
         (**self).is_active(node)
     }
@@ -144,6 +134,14 @@ impl<P: Program> Program for &mut P {
     fn is_graph_active(&self, graph: usize) -> bool {
         (**self).is_graph_active(graph)
     }
+}
+
+/// Executes a reaction, and tells the observer before and after it.
+pub(crate) fn react<P: Program, O: Observer>(program: &mut P, now: Time, observer: &mut O) -> Next {
+    observer.before_reaction(now, program);
+    let next = program.react_with(now, observer);
+    observer.after_reaction(next);
+    next
 }
 
 /// Observer that measures the duration of a reaction by the clock that drives the program.
@@ -163,6 +161,9 @@ pub(crate) trait Outside<P> {
     /// Moves tokens into the program and out of it. Returns `true` if there were any.
     fn exchange(&mut self, program: &mut P) -> bool;
 
+    /// Serves requests for the program's parameters.
+    fn serve(&mut self, program: &mut P);
+
     /// Returns `true` if a program that only waits for input may still get some.
     fn is_open(&self) -> bool;
 
@@ -175,6 +176,8 @@ impl<P> Outside<P> for () {
     fn exchange(&mut self, _program: &mut P) -> bool {
         false
     }
+
+    fn serve(&mut self, _program: &mut P) {}
 
     fn is_open(&self) -> bool {
         false
@@ -247,8 +250,8 @@ pub(crate) fn pace_of_threads<P: Program, C: Clock>(clock: &C) -> Option<crate::
 /// Drives a program with ports on this thread.
 #[cfg(feature = "std")]
 pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(program: P, clock: C, observer: O, ports: Ports<P>) -> u8 {
-    let bell = ports.0.bell();
-    let _listens = bell.listen();
+    let (bell, requests) = (ports.0.bell(), Arc::clone(&ports.0.requests.requests));
+    let _listens = (bell.listen(), requests.listen());
     drive_beside(program, clock, observer, ports.0)
 }
 
@@ -268,7 +271,8 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
     loop {
         let now = clock.now();
         let stopwatch = Stopwatch { clock: &mut clock, start: now };
-        let next = program.react_with(now, &mut (&mut observer, stopwatch));
+        let next = react(&mut program, now, &mut (&mut observer, stopwatch));
+        outside.serve(&mut program);
         let came = outside.exchange(&mut program);
         let until = match next {
             Next::Exit(code) => return code,
@@ -305,10 +309,14 @@ mod tests {
     /// A program that records its calls.
     struct Asked(std::vec::Vec<&'static str>);
 
+    impl Parameters for Asked {}
+
     impl Program for Asked {
         const INFO: Info = Info {
             name: "Asked",
+            docs: "",
             nodes: &[],
+            kinds: &[],
             graphs: &[],
             connections: &[],
             clusters: &[],

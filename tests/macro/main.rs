@@ -3,6 +3,6 @@
 #[test]
 fn errors() {
     let cases = trybuild::TestCases::new();
-    cases.compile_fail("macro/fail/*.rs");
-    cases.pass("macro/pass/*.rs");
+    cases.compile_fail("fail/*.rs");
+    cases.pass("pass/*.rs");
 }

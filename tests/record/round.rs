@@ -2,7 +2,11 @@
 
 use crate::{Folder, record, repeat};
 use apex_macros::graph;
-use apex_rt::{Program, drive_with, prelude::*, record::replay};
+use apex_rt::{
+    Program, drive_with,
+    prelude::*,
+    record::{Channel, Channels, Codec, Role, replay},
+};
 use std::time::Duration;
 
 graph! {
@@ -116,6 +120,79 @@ fn a_run_with_chance_in_it_is_the_same_again() {
     assert_eq!(second.nodes().m.calls, 0, "a source that was recorded is not called");
 }
 
+/// Observer that keeps the tokens of some channels as text.
+struct Listener {
+    channels: Channels,
+    wanted: &'static [&'static str],
+    heard: Vec<(&'static str, String)>,
+}
+
+impl Observer for Listener {
+    fn wants(&self, channel: usize) -> bool {
+        self.wanted.contains(&self.channels[channel].name)
+    }
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        let Channel { name, show, .. } = self.channels[channel];
+        let mut bytes = vec![];
+        let codec = codec.expect("all of them can be recorded");
+        assert!((codec.write)(token, &mut bytes), "{name}");
+        self.heard.push((name, show(&bytes).expect("it was just written")));
+    }
+}
+
+#[test]
+fn an_observer_sees_the_tokens_of_any_port() {
+    let wanted = &["mean.out", "d.odd", "m.level", "diary.told", "slow.late"];
+    let mut listener = Listener { channels: Restless::channels(), wanted, heard: vec![] };
+    drive_with(Restless::new(), until(400), (Busy::default(), &mut listener));
+    let heard: Vec<(&str, usize)> =
+        wanted.iter().map(|name| (*name, listener.heard.iter().filter(|(other, _)| other == name).count())).collect();
+    assert!(heard.iter().all(|(_, count)| *count > 5), "{heard:?}");
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut replayed = Listener { channels: Restless::channels(), wanted, heard: vec![] };
+    record::<Restless>(&path, |tap| {
+        let mut listener = Listener { channels: Restless::channels(), wanted, heard: vec![] };
+        drive_with(Restless::new(), until(100), (&mut listener, (Busy::default(), tap)));
+        replayed.heard = listener.heard;
+    });
+    let before = std::mem::take(&mut replayed.heard);
+    let again = Shared(std::sync::Arc::new(std::sync::Mutex::new(replayed)));
+    assert!(replay(Restless::new(), &path, again.clone()).expect("a recording").is_same());
+    assert_eq!(again.0.lock().expect("no panic").heard, before, "a replay has all tokens, not only the recorded ones");
+}
+
+/// An observer that several can use.
+#[derive(Clone)]
+struct Shared(std::sync::Arc<std::sync::Mutex<Listener>>);
+
+impl Observer for Shared {
+    fn wants(&self, channel: usize) -> bool {
+        self.0.lock().expect("no panic").wants(channel)
+    }
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        self.0.lock().expect("no panic").sent(channel, codec, token);
+    }
+}
+
+#[test]
+fn a_program_describes_itself() {
+    let info = &Restless::INFO;
+    let m = info.nodes.iter().position(|node| node.name == "m").expect("there is one");
+    let kind = info.kind(m);
+    let place = info.nodes[m].place;
+    assert!(kind.name == "Moody" && place.starts_with("tests/record/round.rs:") && place.ends_with(":14"), "{place}");
+    let ports: Vec<String> =
+        kind.ports.iter().map(|port| format!("{:?} {}: {}", port.kind, port.name, port.ty)).collect();
+    assert_eq!(ports, ["Output level: u64", "Event alarm: u64", "Slot ask: u64", "Event answer: u64"]);
+    assert_eq!(info.docs.trim(), "Sources of all kinds.");
+    assert_eq!(
+        kind.docs,
+        "A device that writes its output in place, has an event, fails occasionally, and counts requests."
+    );
+    assert!(info.kinds.len() < info.nodes.len(), "nodes of one type share a kind");
+}
+
 #[test]
 fn maps_paths_and_twists_are_the_same_again() {
     let folder = Folder::new();
@@ -220,9 +297,12 @@ fn nothing_is_overwritten() {
 #[test]
 fn the_text_names_the_file() {
     assert_eq!(Restless::RECORD, Some("restless.mcap"));
-    let names: Vec<&str> = Restless::channels().iter().map(|c| c.name).collect();
+    let channels = Restless::channels();
+    let names: Vec<&str> = channels.iter().filter(|c| c.role != Role::Port).map(|c| c.name).collect();
     let expected = ["a.out", "b.out", "r.out", "d.reading", "d.odd", "m.level", "m.alarm", "m.answer", "m.failed"];
     assert_eq!(names[..9], expected);
     assert_eq!(names[9..], ["mean.out", "sum.out", "slow.late", "diary.told"]);
-    assert!(Restless::channels().iter().all(|c| c.schema.is_some()));
+    let others: Vec<&str> = channels.iter().filter(|c| c.role == Role::Port).map(|c| c.name).collect();
+    assert_eq!(others, ["same_1.out"], "they can be observed");
+    assert!(channels.iter().all(|c| c.schema.is_some()));
 }

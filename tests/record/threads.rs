@@ -273,6 +273,22 @@ fn on_threads<P: Program>(program: &mut P, path: &Path) {
     assert!(code == 0 && finished.dropped.is_empty() && finished.path == path, "{code} {finished:?}");
 }
 
+/// Changes the seeds of the nodes of its group before the third reaction, between which tokens come and go.
+#[derive(Default)]
+struct Reseed(u32);
+
+impl Observer for Reseed {
+    fn before_reaction(&mut self, _: Time, params: &mut impl Parameters) {
+        self.0 += 1;
+        if self.0 == 3 {
+            for name in ["arms.seed", "eyes.seed", "head.seed"] {
+                // It belongs to another group unless this succeeds.
+                let _ = params.set_param(name, 77);
+            }
+        }
+    }
+}
+
 fn crowd(path: &Path) -> Crowd {
     let mut program = Crowd::new();
     on_threads(&mut program, path);
@@ -401,6 +417,25 @@ fn tokens_that_do_not_come_any_more_are_not_waited_for() {
     let (again, mixed_again) = silent();
     assert_eq!(report.to_string(), again.to_string(), "also what differs is the same each time");
     assert_eq!(mixed, mixed_again, "{report}");
+}
+
+#[test]
+fn parameters_that_change_while_groups_run_change_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let pace = WallClock::new().pace().expect("it is the machine's clock");
+    let mut first = Crowd::new();
+    record_on_threads(&mut first, pace, &path, |_| Reseed::default()).expect("room for the file");
+    let mut second = Crowd::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && report.params.is_empty(), "{report}");
+    for name in ["arms.seed", "eyes.seed", "head.seed"] {
+        assert_eq!((first.param(name), second.param(name)), (Ok(77), Ok(77)), "{name}");
+    }
+    let mut other = Crowd::new();
+    other.set_param("eyes.seed", 5).expect("there is one");
+    let report = repeat(&mut other, &path);
+    assert_eq!(report.params, ["`eyes.seed` was 0 and is 5"], "{report}");
 }
 
 #[test]

@@ -2,5 +2,6 @@
 
 mod groups;
 mod real;
+mod remote;
 mod signals;
 mod waits;

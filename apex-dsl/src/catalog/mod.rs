@@ -3,6 +3,7 @@
 
 mod cfg;
 mod constants;
+mod docs;
 mod items;
 pub mod library;
 mod reach;
@@ -20,6 +21,7 @@ use std::{
 
 pub use cfg::Conditions;
 pub use constants::{Constant, is_path};
+pub use docs::{first_sentence, linkless};
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use reach::Site;
 pub use traits::Trait;

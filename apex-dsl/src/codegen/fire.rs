@@ -179,7 +179,7 @@ impl<'a> Emitter<'a> {
         let (take, fire) = (self.generator.take_activity(self.view, node), self.fire(node, block));
         // A delay has sent its token before it takes one.
         let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
-        let (heard, chosen) = (self.heard(node, block), self.chosen_outputs(node, block));
+        let (heard, chosen) = (self.heard(node, block), self.observed_outputs(node, block));
         quote! { #take #fire #heard #chosen #pass }
     }
 

@@ -11,6 +11,7 @@ mod deliver;
 mod dispatch;
 mod each;
 mod fire;
+mod info;
 mod listing;
 mod machine;
 mod memory;
@@ -51,6 +52,7 @@ use activity::ProgramView;
 use bugs::Bugs;
 use names::Names;
 use proc_macro2::TokenStream;
+use quote::quote;
 use std::collections::BTreeSet;
 use wiring::Wiring;
 
@@ -114,6 +116,8 @@ fn program(
         Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
         None => generator.program(graph, &program.analysis),
     };
+    let formats = channels.map(record::Channels::formats);
+    let code = quote! { #code #formats };
     let code = match &program.script {
         Some(script) => generator.test(graph, script, code),
         None => code,

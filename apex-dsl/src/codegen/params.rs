@@ -9,52 +9,71 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use syn::Ident;
 
-/// Description of the parameters of a program, one entry each.
+/// The parameters of a program.
 #[derive(Default)]
-struct Rows {
+pub struct ParamRows {
+    /// Rows of the table.
     table: Vec<TokenStream>,
-    visits: Vec<TokenStream>,
+    /// Calls of the visitor, each with the node beside which the parameter's node is kept.
+    visits: Vec<(NodeId, TokenStream)>,
 }
 
-impl Generator<'_> {
-    /// The implementation of `Parameters` for a program; `nodes` says where the nodes are kept that stand beside a
-    /// node.
-    pub fn parameters(&self, graph: &Graph, analysis: &Analysis, nodes: &dyn Fn(NodeId) -> TokenStream) -> TokenStream {
-        let name = super::types::ident(&graph.name);
-        let mut rows = Rows::default();
-        self.param_rows(graph, analysis, &nodes, &mut rows);
-        let Rows { table, visits } = rows;
+impl ParamRows {
+    /// The implementation of `Parameters` for the program `name`. `place` returns where a node is kept with those beside
+    /// it.
+    pub fn implementation(&self, name: &Ident, place: &dyn Fn(NodeId) -> TokenStream) -> TokenStream {
+        let table = &self.table;
+        let visit = self.visit(&|node| Some(place(node)));
         quote! {
             impl ::apex_rt::params::Parameters for #name {
                 const PARAMS: &'static [::apex_rt::params::ParamInfo] = &[#(#table),*];
-                fn visit_params<V: ::apex_rt::params::ParamVisitor>(&mut self, visitor: &mut V) {
-                    use ::apex_rt::params::{Known as _, Opaque as _};
-                    #(#visits)*
-                }
+                #visit
             }
         }
     }
 
-    fn param_rows(&self, graph: &Graph, analysis: &Analysis, nodes: &dyn Fn(NodeId) -> TokenStream, rows: &mut Rows) {
+    /// The function that visits the parameters of those nodes that have a `place`.
+    pub fn visit(&self, place: &dyn Fn(NodeId) -> Option<TokenStream>) -> TokenStream {
+        let places = self.visits.iter().filter_map(|(node, visit)| Some((place(*node)?, visit)));
+        let visits = places.map(|(place, visit)| quote! { let nodes = &mut #place; #visit });
+        quote! {
+            fn visit_params<V: ::apex_rt::params::ParamVisitor>(&mut self, visitor: &mut V) {
+                use ::apex_rt::params::{Known as _, Opaque as _};
+                #(#visits)*
+            }
+        }
+    }
+}
+
+impl Generator<'_> {
+    /// The parameters of a program.
+    pub fn parameters(&self, graph: &Graph, analysis: &Analysis) -> ParamRows {
+        let mut rows = ParamRows::default();
+        self.param_rows(graph, analysis, None, &mut rows);
+        rows
+    }
+
+    /// Adds the parameters of a graph. In the body of an `each`, `outer` is the node of the program that it belongs to.
+    fn param_rows(&self, graph: &Graph, analysis: &Analysis, outer: Option<NodeId>, rows: &mut ParamRows) {
         for (id, node) in graph.nodes.iter().enumerate() {
+            let owner = outer.unwrap_or(id);
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
                     let (path, place) = (self.node_path(graph, id).join("."), self.node_place(graph, id));
-                    let nodes = nodes(id);
                     for (param, declared) in self.catalog.signatures[library.signature].params.iter().enumerate() {
                         let row = rows.table.len();
                         rows.table.push(self.param_row(library, param, declared, &path));
-                        rows.visits.push(quote! {
-                            let nodes = &mut #nodes;
+                        let visit = quote! {
                             ::apex_rt::params::Probe::<_, #param>::new(&mut #place).visit(&Self::PARAMS[#row], visitor);
-                        });
+                        };
+                        rows.visits.push((owner, visit));
                     }
                 }
                 NodeKind::Each(each) => {
                     if let Some(body) = analysis.bodies.get(&id) {
-                        let around = nodes(id);
-                        self.inside(graph, id).param_rows(&each.body, body, &|_| around.clone(), rows);
+                        self.inside(graph, id).param_rows(&each.body, body, Some(owner), rows);
                     }
                 }
                 _ => {}

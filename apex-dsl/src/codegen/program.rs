@@ -1,20 +1,14 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
 use super::{
-    Generator,
-    activity::ProgramView,
-    names::unused,
-    state,
-    threads::{end_if_hung, group_info},
-    types::ident,
-    wiring::Wiring,
+    Generator, activity::ProgramView, names::unused, state, threads::group_info, types::ident, wiring::Wiring,
 };
 use crate::{
     analyse::{Analysis, Cluster},
     graph::{Graph, Library, NodeId, NodeKind, PortId, camel},
     syntax::tree::PortKind,
 };
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
@@ -97,7 +91,7 @@ impl Generator<'_> {
         // A single thread is only mentioned if something is said about it.
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
         let info = self.info(graph, analysis, &clusters, &groups);
-        let parameters = self.parameters(graph, analysis, &|_| quote!(self.nodes));
+        let parameters = self.parameters(graph, analysis).implementation(&name, &|_| quote!(self.nodes));
         let [inputs, _, events] = self.port_structs(graph);
         let mailboxes = mailboxes(&inputs.ty, &events.ty, &quote!(self));
         quote! {
@@ -124,7 +118,7 @@ impl Generator<'_> {
     /// Functions that react: `react_with` of `Program`, and, if the program is recorded, the function inside it.
     pub fn around(&self, graph: &Graph, react: TokenStream, ports: &TokenStream) -> (TokenStream, TokenStream) {
         match self.channels {
-            Some(_) => (react, self.recorded_react(graph, ports)),
+            Some(_) => (react, self.recorded_react(graph, Some(ports), &quote!(self.reaction(now, observer)))),
             None => (quote!(), react),
         }
     }
@@ -323,73 +317,6 @@ impl Generator<'_> {
             return quote!();
         }
         quote! { fn is_active(&self, node: usize) -> bool { self.state.active.has(node) } }
-    }
-
-    /// The table that describes a program. `clusters` has the numbers of their nodes.
-    pub fn info(
-        &self,
-        graph: &Graph,
-        analysis: &Analysis,
-        clusters: &[Vec<NodeId>],
-        groups: &[TokenStream],
-    ) -> TokenStream {
-        let name = &graph.name;
-        let (mut nodes, mut connections) = (vec![], vec![]);
-        self.rows(graph, analysis, "", &mut nodes, &mut connections);
-        let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
-        let end_if_hung = end_if_hung(graph);
-        let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
-        let clusters = clusters.iter().map(|nodes| {
-            let nodes = nodes.iter().copied().map(Literal::usize_unsuffixed);
-            quote!(&[#(#nodes),*])
-        });
-        quote! {
-            ::apex_rt::Info { name: #name, nodes: &[#(#nodes),*], graphs: &[#(#graphs),*], connections: &[#(#connections),*], clusters: &[#(#clusters),*], groups: &[#(#groups),*], end_if_hung: #end_if_hung, claims: &[#(#claims),*] }
-        }
-    }
-
-    fn rows(
-        &self,
-        graph: &Graph,
-        analysis: &Analysis,
-        prefix: &str,
-        nodes: &mut Vec<TokenStream>,
-        connections: &mut Vec<TokenStream>,
-    ) {
-        for (id, node) in graph.nodes.iter().enumerate() {
-            let (name, kind) = (format!("{prefix}{}", graph.path(id)), kind(self, node));
-            let c = analysis.characteristics[id];
-            let (required, siblings) = (c.required, c.siblings);
-            nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #required, #siblings)));
-        }
-        for c in &graph.connections {
-            let (from, to) =
-                (Literal::usize_unsuffixed(self.index(c.from.node)), Literal::usize_unsuffixed(self.index(c.to.node)));
-            let (output, input) = (&graph.port(c.from).name, &graph.port(c.to).name);
-            connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
-        }
-        for (id, node) in graph.nodes.iter().enumerate() {
-            if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
-                let prefix = format!("{prefix}{}.", graph.path(id));
-                self.inside(graph, id).rows(&each.body, body, &prefix, nodes, connections);
-            }
-        }
-    }
-}
-
-fn kind(generator: &Generator<'_>, node: &crate::graph::Node) -> String {
-    match &node.kind {
-        NodeKind::Library(library) => generator.catalog.signatures[library.signature].name.clone(),
-        NodeKind::Each(each) => format!("each {}", each.body.name),
-        NodeKind::Boundary(kind) => kind.word().to_owned(),
-        NodeKind::Delay(_) => "delay".to_owned(),
-        NodeKind::Relay => "relay".to_owned(),
-        NodeKind::Probe => "probe".to_owned(),
-        NodeKind::Start => "start".to_owned(),
-        NodeKind::Watchdog => "hung".to_owned(),
-        NodeKind::Exit(_) => "exit".to_owned(),
-        NodeKind::Reset => "reset".to_owned(),
-        NodeKind::Sender(_) | NodeKind::Receiver(_) => "cell".to_owned(),
     }
 }
 

@@ -17,7 +17,11 @@ use crate::{
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use std::collections::BTreeMap;
+use std::{
+    cell::RefCell,
+    collections::{BTreeMap, BTreeSet},
+};
+use syn::Ident;
 
 /// Role of a channel, named as in the runtime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,15 +30,18 @@ enum Role {
     Event,
     Source,
     Chosen,
+    Port,
 }
 
-/// The ports of a program that are recorded, each with the number of its channel.
+/// The ports of a program whose tokens can be recorded or observed, each with the number of its channel.
 #[derive(Debug, Default)]
 pub struct Channels {
     rows: Vec<(PortId, Role)>,
     /// The groups of threads, if there are several.
     groups: Vec<String>,
     numbers: BTreeMap<PortId, usize>,
+    /// Types of tokens that generated code has asked a codec for, each with its number.
+    types: RefCell<BTreeMap<String, (usize, TokenStream)>>,
 }
 
 impl Channels {
@@ -57,7 +64,29 @@ impl Channels {
         for end in graph.record.iter().flat_map(|record| &record.ports) {
             channels.add(*end, Role::Chosen);
         }
+        let is_node = |end: &PortId| matches!(graph.nodes[end.node].kind, NodeKind::Library(_) | NodeKind::Each(_));
+        let sending: BTreeSet<PortId> = graph.connections.iter().map(|c| c.from).filter(is_node).collect();
+        for end in sending {
+            channels.add(end, Role::Port);
+        }
         channels
+    }
+
+    /// The functions that return the codecs and formats of token types.
+    pub fn formats(&self) -> TokenStream {
+        let types = self.types.borrow();
+        let functions = types.values().map(|(number, ty)| {
+            let (codec, format) = (format_ident!("codec_{number}"), format_ident!("format_{number}"));
+            quote! { ::apex_rt::__format!(#codec, #format, #ty); }
+        });
+        quote! { #(#functions)* }
+    }
+
+    /// The number of a type of tokens.
+    fn type_number(&self, ty: &TokenStream) -> usize {
+        let mut types = self.types.borrow_mut();
+        let count = types.len();
+        types.entry(ty.to_string()).or_insert_with(|| (count, ty.clone())).0
     }
 
     fn add(&mut self, end: PortId, role: Role) {
@@ -106,58 +135,57 @@ impl Generator<'_> {
         self.channels?.number(end, role)
     }
 
+    /// The channel of a port, whatever its role.
+    fn any_channel(&self, end: PortId) -> Option<usize> {
+        let end = match self.part {
+            Some((_, part)) => part.node(end)?,
+            None => end,
+        };
+        self.channels?.numbers.get(&end).copied()
+    }
+
     /// Codec of the tokens of a port.
     fn codec(&self, graph: &Graph, end: PortId) -> TokenStream {
-        let ty = self.token_type(graph, end);
-        quote!(::apex_rt::__codec!(#ty))
+        let function = self.codec_function(graph, end);
+        quote!(#function())
+    }
+
+    /// The function that returns the codec of the tokens of a port.
+    fn codec_function(&self, graph: &Graph, end: PortId) -> Option<Ident> {
+        let number = self.channels?.type_number(&self.token_type(graph, end));
+        Some(format_ident!("codec_{number}"))
     }
 
     /// The table of channels, and the file of the `record` statement.
     pub fn recording(&self, graph: &Graph) -> TokenStream {
         let Some(channels) = self.channels else { return quote!() };
         let rows = channels.rows.iter().map(|(end, role)| {
-            let (name, node, ty) = (graph.end_name(*end), self.index(end.node), self.token_type(graph, *end));
+            let (name, node) = (graph.end_name(*end), self.index(end.node));
             let (group, role) = (channels.group(graph, end.node), ident(&format!("{role:?}")));
-            quote!(::apex_rt::__channel!(#name, #node, #group, #role, #ty))
+            let format = format_ident!("format_{}", channels.type_number(&self.token_type(graph, *end)));
+            quote!(::apex_rt::record::Channel::new(#name, #node, #group, ::apex_rt::record::Role::#role, #format()))
         });
         let file = graph.record.as_ref().map(|record| {
             let file = &record.file;
             quote! { const RECORD: ::core::option::Option<&'static str> = Some(#file); }
         });
-        let share = (!channels.groups.is_empty()).then(|| {
-            quote! { fn share_params(&mut self, tap: &mut ::apex_rt::record::Tap) { tap.set_params(self); } }
-        });
         quote! {
             #file
-            #share
             fn channels() -> ::apex_rt::record::Channels { ::apex_rt::record::Channels::from([#(#rows),*]) }
         }
     }
 
-    /// `react_with` of a program that can be recorded: around the reaction proper, what comes from outside between two
-    /// reactions. `ports` has the mailboxes.
-    pub fn recorded_react(&self, graph: &Graph, ports: &TokenStream) -> TokenStream {
-        let (before, after) = self.mailboxes(graph, ports);
-        let before = quote! { tap.begin(now); tap.set_params(self); #before };
-        let after = quote! { tap.keep_params(self); #after tap.end(); };
-        self.recorded_around(&before, &quote!(self.reaction(now, observer)), &after)
-    }
-
-    /// The same for a thread group that runs beside others. Only the main group has `ports`; parameters do not change
-    /// from outside while threads run.
-    pub fn recorded_group(&self, graph: &Graph, ports: Option<&TokenStream>, react: &TokenStream) -> TokenStream {
+    /// `react_with` of a program, or of a thread group that runs beside others. If the program can be recorded, the
+    /// changes from outside since the last reaction are recorded around `react`: parameters and, in the main group,
+    /// which has the mailboxes at `ports`, tokens.
+    pub fn recorded_react(&self, graph: &Graph, ports: Option<&TokenStream>, react: &TokenStream) -> TokenStream {
         let (before, after) = ports.map(|ports| self.mailboxes(graph, ports)).unwrap_or_default();
-        self.recorded_around(&quote! { tap.begin(now); #before }, react, &quote! { #after tap.end(); })
-    }
-
-    /// `react_with` with what is done before and after it, if the program can be recorded.
-    fn recorded_around(&self, before: &TokenStream, react: &TokenStream, after: &TokenStream) -> TokenStream {
         let body = match self.channels {
             None => quote!(#react),
             Some(_) => quote! {
-                if let Some(tap) = ::apex_rt::Observer::tap(observer) { #before }
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) { tap.begin(now); tap.set_params(self); #before }
                 let next = #react;
-                if let Some(tap) = ::apex_rt::Observer::tap(observer) { #after }
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) { tap.keep_params(self); #after tap.end(); }
                 next
             },
         };
@@ -183,7 +211,7 @@ impl Generator<'_> {
                     before.extend(quote! { tap.taken_out(#number, &mut #ports.events.#name); });
                     after.extend(quote! { tap.keep_mailbox(#number, #ports.events.#name.is_full()); });
                 }
-                Role::Source | Role::Chosen => {}
+                Role::Source | Role::Chosen | Role::Port => {}
             }
         }
         (before, after)
@@ -217,7 +245,7 @@ impl Generator<'_> {
                 let (name, codec) = (self.name(*end), self.codec(graph, *end));
                 (
                     quote! { state.#name = tap.take(#number, #codec); },
-                    quote! { tap.sent(#number, #codec, state.#name.as_ref()); },
+                    quote! { tap.source_sent(#number, #codec, state.#name.as_ref()); },
                 )
             })
             .unzip();
@@ -245,60 +273,57 @@ impl Generator<'_> {
                 let (codec, places) = (self.codec(graph, end), places(end));
                 (
                     quote! { for place in &mut #places { *place = tap.take(#number, #codec); } },
-                    quote! { for place in &#places { tap.sent(#number, #codec, place.as_ref()); } },
+                    quote! { for place in &#places { tap.source_sent(#number, #codec, place.as_ref()); } },
                 )
             })
             .unzip();
-        let chosen = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port }).filter_map(|end| {
-            let number = self.channel(end, Role::Chosen)?;
-            let (codec, places) = (self.codec(graph, end), places(end));
-            Some(quote! { for place in &#places { tap.token(#number, #codec, place.as_ref()); } })
-        });
-        let chosen: TokenStream = chosen.collect();
-        if takes.is_empty() && chosen.is_empty() {
-            return sends;
+        let outputs = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
+        let observed: TokenStream = outputs
+            .filter(|end| graph.port(*end).kind == PortKind::Output)
+            .filter_map(|end| {
+                let (places, observe) = (places(end), self.observe(graph, end, &quote!(place.as_ref()))?);
+                Some(quote! { for place in &#places { #observe } })
+            })
+            .collect();
+        if takes.is_empty() {
+            return quote! { #sends #observed };
         }
         let index = self.index(node);
-        let calls = if takes.is_empty() { quote!(false) } else { quote!(tap.calls(#index)) };
         quote! {
-            match ::apex_rt::Observer::tap(observer).map(|tap| (#calls, tap)) {
+            match ::apex_rt::Observer::tap(observer).map(|tap| (tap.calls(#index), tap)) {
                 Some((true, tap)) => { #takes }
                 _ => {
                     #sends
-                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sent #chosen }
+                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sent }
                 }
             }
+            #observed
         }
     }
 
-    /// An event that was chosen is recorded when it is sent.
-    pub fn chosen_event(&self, graph: &Graph, end: PortId) -> TokenStream {
-        let Some(number) = self.channel(end, Role::Chosen) else { return quote!() };
+    /// Shows the observer a token of a port.
+    fn observe(&self, graph: &Graph, end: PortId, token: &TokenStream) -> Option<TokenStream> {
+        let (number, codec) = (self.any_channel(end)?, self.codec_function(graph, end)?);
+        Some(quote! { ::apex_rt::record::sent(observer, #number, #codec, #token); })
+    }
+
+    /// Shows the observer the token of an event when it is sent.
+    pub fn observed_event(&self, graph: &Graph, end: PortId) -> TokenStream {
         if graph.port(end).kind != PortKind::Event {
             return quote!();
         }
-        let (name, codec) = (self.name(end), self.codec(graph, end));
-        quote! { if let Some(tap) = ::apex_rt::Observer::tap(observer) { tap.token(#number, #codec, state.#name.as_ref()); } }
+        let name = self.name(end);
+        self.observe(graph, end, &quote!(state.#name.as_ref())).unwrap_or_default()
     }
 }
 
 impl Emitter<'_> {
-    /// The outputs of a node that were chosen are recorded when it has fired.
-    pub fn chosen_outputs(&self, node: NodeId, block: BlockId) -> TokenStream {
+    /// Shows the observer the outputs of a node when it has fired.
+    pub fn observed_outputs(&self, node: NodeId, block: BlockId) -> TokenStream {
         let ends = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        let number = |end: PortId| self.generator.channel(end, Role::Chosen);
-        let tokens: TokenStream = ends
-            .filter(|end| self.graph.port(*end).kind == PortKind::Output)
-            .filter_map(|end| Some((end, number(end)?)))
-            .map(|(end, number)| {
-                let (codec, token) = (self.generator.codec(self.graph, end), self.option(end, block));
-                quote! { tap.token(#number, #codec, #token); }
-            })
-            .collect();
-        if tokens.is_empty() {
-            return tokens;
-        }
-        quote! { if let Some(tap) = ::apex_rt::Observer::tap(observer) { #tokens } }
+        ends.filter(|end| self.graph.port(*end).kind == PortKind::Output && self.plan.is_used(*end))
+            .filter_map(|end| self.generator.observe(self.graph, end, &self.option(end, block)))
+            .collect()
     }
 
     /// Tokens that a node sends. A replayed source is not called. `results` calls the node and binds its results to
@@ -335,7 +360,7 @@ impl Emitter<'_> {
         let (name, codec) = (generator.name(end), generator.codec(graph, end));
         let is_event = graph.port(end).kind == PortKind::Event;
         let token = if is_event { quote!(state.#name.as_ref()) } else { self.option(end, block) };
-        code.sends.push(quote! { tap.sent(#number, #codec, #token); });
+        code.sends.push(quote! { tap.source_sent(#number, #codec, #token); });
         let local = format_ident!("recorded_{number}");
         let always = !is_event && self.plan.storage(end) == Storage::Local;
         code.takes.push(match always {

@@ -44,7 +44,7 @@ impl Generator<'_> {
             let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
             let always: TokenStream = always.into_iter().map(|send| self.sent(view, send)).collect();
             let sent = self.all_sent(view, &sends);
-            let chosen = self.chosen_event(view.graph, port.end);
+            let chosen = self.observed_event(view.graph, port.end);
             if sent.is_empty() && chosen.is_empty() {
                 return always;
             }

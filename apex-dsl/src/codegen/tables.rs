@@ -228,7 +228,7 @@ impl Generator<'_> {
             .tokens
             .iter()
             .enumerate()
-            .map(|(number, end)| (number, self.chosen_event(view.graph, *end)))
+            .map(|(number, end)| (number, self.observed_event(view.graph, *end)))
             .filter(|(_, code)| !code.is_empty())
             .map(|(number, code)| quote! { #number => { #code } })
             .collect();

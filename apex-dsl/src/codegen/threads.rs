@@ -5,6 +5,7 @@ use super::{
     Generator, Names,
     activity::ProgramView,
     cells::cell_name,
+    params::ParamRows,
     program::{Field, around_text, mailboxes, node_structs, port_accessors},
     types::{duration, ident},
     wiring::Wiring,
@@ -37,6 +38,11 @@ impl Generator<'_> {
         let names: Vec<Names> = parts.map(|(part, number)| self.names.of_part(part, number, used)).collect();
         let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
         let all = Program { generator: self, graph, split, parts: (0..names.len()).map(of_part).collect() };
+        let place = |node: NodeId| {
+            let field = split.parts.iter().find(|part| part.group == graph.group(node)).map(part_name);
+            quote!(self.#field.nodes)
+        };
+        let params = self.parameters(graph, analysis);
         let mut code = quote!();
         let mut all_items = vec![];
         for (number, part) in split.parts.iter().enumerate() {
@@ -52,7 +58,7 @@ impl Generator<'_> {
             };
             let PartItems { is_active, is_graph_active, waiting, .. } = &part_items;
             let name = generator.program_name(&part.graph);
-            let handle = all.handle(number);
+            let handle = all.handle(number, &params);
             code.extend(quote! {
                 #items
                 impl #name { #react #is_active #is_graph_active #waiting }
@@ -61,8 +67,9 @@ impl Generator<'_> {
             all_items.push(part_items);
         }
         let (structs, program) = (all.structs(&all_items), all.program(analysis, &all_items));
+        let parameters = params.implementation(&all.name(), &place);
         let moved = self.moved_tokens(graph);
-        quote! { #code #structs #program #moved }
+        quote! { #code #structs #program #parameters #moved }
     }
 
     fn fields(&self, graph: &Graph, analysis: &Analysis) -> Fields {
@@ -112,7 +119,7 @@ impl Program<'_> {
     }
 
     /// Handle of a thread group for the thread that runs it: the part with its ends of cells.
-    fn handle(&self, number: usize) -> TokenStream {
+    fn handle(&self, number: usize, params: &ParamRows) -> TokenStream {
         let part = &self.split.parts[number];
         let (program, name) = (self.name(), self.part_struct(number));
         let [ends, handle] = self.handle_structs(number);
@@ -120,7 +127,8 @@ impl Program<'_> {
         let ports = quote!(self.part);
         let [inputs, _, events] = self.parts[number].port_structs(&part.graph);
         let mailboxes = mailboxes(&inputs.ty, &events.ty, &ports);
-        let react = self.generator.recorded_group(self.graph, (number == 0).then_some(&ports), &call);
+        let react = self.generator.recorded_react(self.graph, (number == 0).then_some(&ports), &call);
+        let visit = params.visit(&|node| (self.graph.group(node) == part.group).then(|| quote!(self.part.nodes)));
         let fields = self.ends(number).map(|(cell, sends)| {
             let ty = self.generator.token_type(self.graph, self.split.cells[cell].from);
             let (field, end) = (cell_name(cell), if sends { quote!(CellSender) } else { quote!(CellReceiver) });
@@ -129,6 +137,10 @@ impl Program<'_> {
         quote! {
             struct #ends<'a> { #(#fields)* life: ::core::marker::PhantomData<&'a ()> }
             struct #handle<'a, W> { part: &'a mut #name, ends: #ends<'a>, wake: W }
+            impl<W: ::apex_rt::threads::Wake> ::apex_rt::params::Parameters for #handle<'_, W> {
+                const PARAMS: &'static [::apex_rt::params::ParamInfo] = <#program as ::apex_rt::params::Parameters>::PARAMS;
+                #visit
+            }
             impl<W: ::apex_rt::threads::Wake> ::apex_rt::Program for #handle<'_, W> {
                 const INFO: ::apex_rt::Info = <#program as ::apex_rt::Program>::INFO;
                 #mailboxes
@@ -236,12 +248,6 @@ impl Program<'_> {
         let is_graph_active = any(&|v| &v.is_graph_active, quote!(is_graph_active(graph)));
         let waiting = fields.iter().zip(all_items).filter(|(_, v)| !v.waiting.is_empty()).map(|(field, _)| field);
         let info = self.info(analysis);
-        let place = |node: NodeId| {
-            let group = self.graph.group(node);
-            let field = parts.iter().find(|p| p.group == group).map(part_name);
-            quote!(self.#field.nodes)
-        };
-        let parameters = self.generator.parameters(self.graph, analysis, &place);
         let name_of_reaction = self.generator.reaction();
         let react = quote! {
                 fn #name_of_reaction<O: ::apex_rt::Observer>(&mut self, now: ::apex_rt::Time, observer: &mut O) -> ::apex_rt::Next {
@@ -301,7 +307,6 @@ impl Program<'_> {
                 fn is_graph_active(&self, graph: usize) -> bool { #is_graph_active }
                 fn waiting(&self, mut found: impl FnMut(usize)) { #(self.#waiting.waiting(&mut found);)* }
             }
-            #parameters
         }
     }
 

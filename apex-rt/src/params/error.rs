@@ -34,7 +34,7 @@ pub enum Rejection {
 }
 
 /// Reason why a parameter could not be read or set.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamError {
     /// There is no parameter of this name.
     Unknown {
@@ -48,6 +48,8 @@ pub enum ParamError {
         /// Reason for the refusal.
         refusal: Rejection,
     },
+    /// The program, which ran on another thread, has ended.
+    Ended,
 }
 
 impl Rejection {
@@ -94,6 +96,7 @@ impl fmt::Display for ParamError {
                 f.write_str("there is no parameter of this name; `PARAMS` of the program lists all")
             }
             Self::Refused { param, refusal } => refusal.say(param, None, f),
+            Self::Ended => f.write_str("the program has ended"),
         }
     }
 }

@@ -23,6 +23,8 @@ pub use probe::{Known, Opaque, Probe};
 #[cfg(feature = "params")]
 pub use run::run_with_files;
 #[cfg(feature = "params")]
+pub(crate) use text::with_text;
+#[cfg(feature = "params")]
 pub use text::{LoadError, Problem, load, not_saved, save, set_text};
 pub use value::{GivenList, IntoParam, ParamRef, ParamValue};
 
@@ -105,13 +107,16 @@ pub trait ParamVisitor {
     fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>);
 }
 
-/// The parameters of a compiled graph.
+/// The parameters of a compiled graph, or of one of its thread groups.
 pub trait Parameters {
-    /// All parameters of all struct nodes, in the order of the source file.
-    const PARAMS: &'static [ParamInfo];
+    /// All parameters of all struct nodes of the graph, in the order of the source file.
+    const PARAMS: &'static [ParamInfo] = &[];
 
-    /// Passes all parameters to `visitor`, in the order of [`Parameters::PARAMS`].
-    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V);
+    /// Passes the parameters to `visitor`, in the order of [`Parameters::PARAMS`]; of a thread group, those of its
+    /// nodes.
+    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+        let _ = visitor;
+    }
 
     /// Returns the value of the parameter `name`.
     ///
@@ -130,6 +135,23 @@ pub trait Parameters {
     fn set_param(&mut self, name: &str, value: impl IntoParam) -> Result<(), ParamError> {
         at::<Self, ()>(self, name, &mut |access| access.set(value.give()))
     }
+}
+
+impl<P: Parameters> Parameters for &mut P {
+    const PARAMS: &'static [ParamInfo] = P::PARAMS;
+
+    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+        (**self).visit_params(visitor);
+    }
+}
+
+/// Returns the parameter `name` of `params`.
+///
+/// # Errors
+/// There is none of this name.
+pub(crate) fn find(params: &'static [ParamInfo], name: &str) -> Result<&'static ParamInfo, ParamError> {
+    let unknown = || ParamError::Unknown { nearest: error::nearest(name, params.iter().map(|p| p.name)) };
+    params.iter().find(|param| param.name == name).ok_or_else(unknown)
 }
 
 /// Operation on a parameter.
@@ -152,8 +174,8 @@ impl<T> ParamVisitor for At<'_, T> {
 }
 
 fn at<P: Parameters + ?Sized, T>(program: &mut P, name: &str, act: Act<'_, T>) -> Result<T, ParamError> {
+    let param = find(P::PARAMS, name)?;
     let mut at = At { name, act, result: None };
     program.visit_params(&mut at);
-    at.result
-        .unwrap_or_else(|| Err(ParamError::Unknown { nearest: error::nearest(name, P::PARAMS.iter().map(|p| p.name)) }))
+    at.result.unwrap_or(Err(ParamError::Refused { param, refusal: Rejection::Opaque }))
 }

@@ -109,9 +109,14 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
 /// # Errors
 /// The errors of [`Parameters::set_param`]. A `value` that is not valid TOML is refused as one of the wrong kind.
 pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
-    match DeValue::parse(value) {
-        Ok(value) => program.set_param(name, given(value.get_ref())),
-        Err(_) => program.set_param(name, ParamRef::Other("something that is not a TOML value")),
+    with_text(value, |value| program.set_param(name, value))
+}
+
+/// Calls `act` with a value as written in TOML.
+pub(crate) fn with_text<T>(text: &str, act: impl FnOnce(ParamRef<'_>) -> T) -> T {
+    match DeValue::parse(text) {
+        Ok(value) => act(given(value.get_ref())),
+        Err(_) => act(ParamRef::Other("something that is not a TOML value")),
     }
 }
 

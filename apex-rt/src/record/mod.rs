@@ -28,7 +28,7 @@ pub use run::replay;
 pub(crate) use run::{RunMode, drive};
 pub use tap::Tap;
 #[doc(hidden)]
-pub use tap::looked;
+pub use tap::{looked, sent};
 pub use threads::record_on_threads;
 #[doc(hidden)]
 pub use tokens::tokens;
@@ -44,9 +44,11 @@ pub enum Role {
     Source,
     /// Tokens of a port in a `record` statement, for comparison.
     Chosen,
+    /// Tokens of another port. They are not recorded.
+    Port,
 }
 
-/// Channel of a recording: the tokens of one port.
+/// The tokens of one port, as recordings and observers see them.
 #[derive(Debug, Clone, Copy)]
 pub struct Channel {
     /// Name of the port and its node: `laser.scan`.
@@ -60,6 +62,22 @@ pub struct Channel {
     /// Schema of its tokens; `None` if they cannot be recorded.
     pub schema: Option<Schema>,
     /// Converts a recorded token to readable text; `None` if it cannot be read.
+    pub show: fn(&[u8]) -> Option<String>,
+}
+
+impl Channel {
+    /// Returns a row of the table of channels.
+    #[doc(hidden)]
+    pub const fn new(name: &'static str, node: usize, group: usize, role: Role, format: Format) -> Self {
+        Self { name, node, group, role, schema: format.schema, show: format.show }
+    }
+}
+
+/// Schema of the tokens of a type, and the function that shows a recorded one.
+#[doc(hidden)]
+#[derive(Debug, Clone, Copy)]
+pub struct Format {
+    pub schema: Option<Schema>,
     pub show: fn(&[u8]) -> Option<String>,
 }
 
@@ -77,22 +95,23 @@ macro_rules! __codec {
     }};
 }
 
-/// Makes a row of the table of channels, for generated code.
+/// Defines the functions that return the codec and the format of a type of tokens, for generated code.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __channel {
-    ($name:literal, $node:literal, $group:literal, $role:ident, $ty:ty) => {
-        $crate::record::Channel {
-            name: $name,
-            node: $node,
-            group: $group,
-            role: $crate::record::Role::$role,
-            schema: $crate::__codec!($ty).map(|codec| codec.schema),
-            show: |bytes| {
-                use $crate::testing::{ByDebug as _, ByType as _};
-                let token = ($crate::__codec!($ty)?.read)(bytes)?;
-                Some((&$crate::testing::Shown(&token)).shown())
-            },
+macro_rules! __format {
+    ($codec:ident, $format:ident, $ty:ty) => {
+        fn $codec() -> ::core::option::Option<$crate::record::Codec<$ty>> {
+            $crate::__codec!($ty)
+        }
+        fn $format() -> $crate::record::Format {
+            $crate::record::Format {
+                schema: $codec().map(|codec| codec.schema),
+                show: |bytes| {
+                    use $crate::testing::{ByDebug as _, ByType as _};
+                    let token = ($codec()?.read)(bytes)?;
+                    Some((&$crate::testing::Shown(&token)).shown())
+                },
+            }
         }
     };
 }

@@ -1,5 +1,5 @@
 use super::{
-    Channel, Codec, Message as _,
+    Channel, Codec, Message as _, Role,
     cdr::Writer,
     sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS, free},
 };
@@ -110,7 +110,8 @@ impl Recorder {
         left_out: impl Fn(&Channel) -> bool,
     ) -> io::Result<Self> {
         let (info, mut channels) = (const { &P::INFO }, P::channels());
-        let (mut out, kept): (Vec<_>, Vec<_>) = channels.iter_mut().partition(|channel| left_out(channel));
+        let is_out = |channel: &Channel| channel.role == Role::Port || left_out(channel);
+        let (mut out, kept): (Vec<_>, Vec<_>) = channels.iter_mut().partition(|channel| is_out(channel));
         if let Some(message) = why_useless(&kept) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
@@ -183,6 +184,10 @@ impl Recorder {
         let dropped: Vec<(String, u64)> = lost.map(|(name, count)| (name.to_owned(), count)).collect();
         sink.finish(&mut near, &dropped)?;
         Ok(Finished { path, dropped })
+    }
+
+    pub(super) fn role(&self, channel: usize) -> Role {
+        self.channels[channel].role
     }
 
     pub(super) fn begin(&mut self, now: Time) {
@@ -380,10 +385,12 @@ impl ParamVisitor for Changes<'_> {
         bits(access.get(), &mut now);
         if !self.skip(&now) {
             let (value, changed) = (access.get().to_string(), !self.first);
+            let group = self.recorder.group.unwrap_or(0);
             self.recorder.own(PARAMETER, |message| {
                 message.text(info.name);
                 message.text(&value);
                 changed.write(message);
+                message.u32(group);
             });
         }
     }

@@ -221,7 +221,7 @@ impl Replay {
                     self.report.compared.push(Compared::new(channel.name));
                     continue;
                 }
-                (_, true) => {}
+                (Role::Port, _) | (_, true) => {}
                 (_, false) => missing.push(channel),
             }
         }
@@ -321,9 +321,12 @@ impl Replay {
                 }
             }
             Meaning::Parameter => {
-                if let (Some(name), Some(value)) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned))
+                let (name, value) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned));
+                let changed = bool::read(&mut fields).unwrap_or(true);
+                if let (Some(name), Some(value)) = (name, value)
+                    && self.is_own(fields.u32().unwrap_or(0))
                 {
-                    self.reaction.params.push((name, value, bool::read(&mut fields).unwrap_or(true)));
+                    self.reaction.params.push((name, value, changed));
                 }
             }
             Meaning::Taken => self.reaction.taken.extend(fields.text().map(str::to_owned)),
@@ -354,6 +357,10 @@ impl Replay {
         self.report.cut = self.source.cut.take();
         self.report.dropped = mem::take(&mut self.source.dropped);
         self.report
+    }
+
+    pub(super) fn role(&self, channel: usize) -> Role {
+        self.channels[channel].role
     }
 
     pub(super) fn begin(&mut self) {

@@ -92,8 +92,9 @@ impl Report {
             if all.dropped.is_empty() {
                 all.dropped = report.dropped;
             }
+            all.params.extend(report.params);
             if group == 0 {
-                (all.gone, all.params) = (report.gone, report.params);
+                all.gone = report.gone;
             }
         }
         let place = |name: &str| channels.iter().position(|c| c.name == name);
@@ -138,7 +139,7 @@ impl Display for Report {
             let why = match role {
                 Role::Source => "is not in the recording: its node runs as usual",
                 Role::Mailbox | Role::Event => "is not in the recording: it receives no tokens",
-                Role::Chosen => "is not in the recording: nothing to compare it with",
+                Role::Chosen | Role::Port => "is not in the recording: nothing to compare it with",
             };
             writeln!(f, "`{name}` {why}")?;
         }

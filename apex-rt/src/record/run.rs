@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     Clock, Observer, Ports, Program, StdErr, UntilStopped,
-    run::{drive_ports, pace_of_threads},
+    run::{drive_ports, pace_of_threads, react},
 };
 use std::{
     env, io,
@@ -101,7 +101,7 @@ pub fn replay<P: Program>(
         let Tap::Replay(replay) = &mut tap else { unreachable!("it was made so") };
         let next = replay.next_reaction().map_err(|error| ReplayError::File(path.to_owned(), error))?;
         let Some(now) = next else { break };
-        program.react_with(now, &mut (&mut observer, &mut tap));
+        react(&mut program, now, &mut (&mut observer, &mut tap));
     }
     let Tap::Replay(replay) = tap else { unreachable!("it was made so") };
     something(replay.finish(), path)

@@ -45,7 +45,7 @@ pub const FIRST: usize = 6;
 pub const OWN: [(&str, Schema); FIRST] = [
     ("apex/reaction", own("apex_msgs/msg/Reaction", "uint32 group\nint64 nanoseconds")),
     ("apex/elapsed", own("apex_msgs/msg/Elapsed", "uint64 nanoseconds\nuint32 group")),
-    ("apex/parameter", own("apex_msgs/msg/Parameter", "string name\nstring value\nbool changed")),
+    ("apex/parameter", own("apex_msgs/msg/Parameter", "string name\nstring value\nbool changed\nuint32 group")),
     ("apex/taken", own("apex_msgs/msg/Taken", "string event")),
     ("apex/looked", own("apex_msgs/msg/Looked", "uint32 group\nuint32 look")),
     ("apex/ended", own("apex_msgs/msg/Ended", "uint32 group")),

@@ -1,4 +1,4 @@
-use super::{Codec, Recorder, Replay};
+use super::{Codec, Recorder, Replay, Role};
 use crate::{Mailbox, Observer, Parameters, Time};
 use core::time::Duration;
 
@@ -17,6 +17,21 @@ pub enum Tap {
 impl Observer for Tap {
     fn tap(&mut self) -> Option<&mut Tap> {
         Some(self)
+    }
+
+    /// Ports of the `record` statement are recorded, or compared with a recording.
+    fn wants(&self, channel: usize) -> bool {
+        match self {
+            Self::Record(recorder) => recorder.role(channel) == Role::Chosen,
+            Self::Replay(replay) => replay.role(channel) == Role::Chosen,
+        }
+    }
+
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        match self {
+            Self::Record(recorder) => recorder.token(channel, codec, token),
+            Self::Replay(replay) => replay.compare(channel, codec, token),
+        }
     }
 }
 
@@ -107,7 +122,7 @@ impl Tap {
     }
 
     /// Records the token that a source sent at a port. Called after the source.
-    pub fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: Option<&T>) {
+    pub fn source_sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: Option<&T>) {
         if let (Self::Record(recorder), Some(token)) = (self, token) {
             recorder.token(channel, codec, token);
         }
@@ -130,15 +145,6 @@ impl Tap {
         }
     }
 
-    /// Records a token of a selected port, or compares it with the recorded one.
-    pub fn token<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: Option<&T>) {
-        let Some(token) = token else { return };
-        match self {
-            Self::Record(recorder) => recorder.token(channel, codec, token),
-            Self::Replay(replay) => replay.compare(channel, codec, token),
-        }
-    }
-
     /// Records the time since the beginning of the reaction, or returns the recorded one.
     pub fn elapsed(&mut self, elapsed: Duration) -> Duration {
         match self {
@@ -156,5 +162,16 @@ pub fn looked<O: Observer>(observer: &mut O, finds: impl Fn() -> bool) -> bool {
     match observer.tap() {
         Some(tap) => tap.looked(finds),
         None => finds(),
+    }
+}
+
+/// Shows the observer a token that a port sends, for generated code.
+#[doc(hidden)]
+#[inline(always)]
+pub fn sent<T, O: Observer>(observer: &mut O, channel: usize, codec: fn() -> Option<Codec<T>>, token: Option<&T>) {
+    if let Some(token) = token
+        && observer.wants(channel)
+    {
+        observer.sent(channel, codec(), token);
     }
 }

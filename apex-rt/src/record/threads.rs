@@ -10,6 +10,7 @@ use super::{
 use crate::{
     CellSender, Observer, Ports, Program,
     ports::Ways,
+    run::react,
     threads::{CellMessage, Group, Pace, Spawn, Wake, drive_from_threads},
 };
 use std::{
@@ -45,11 +46,7 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
     // A single group is recorded like a program without groups; it may have settings that need a thread.
     let several = P::INFO.groups.len() > 1;
     let groups = if several { const { P::INFO.groups } } else { &[] };
-    let mut tap = Tap::Record(Recorder::of_threads::<P>(path, groups)?);
-    if several {
-        program.share_params(&mut tap);
-    }
-    let Tap::Record(recorder) = tap else { unreachable!("it was made so") };
+    let recorder = Recorder::of_threads::<P>(path, groups)?;
     let tap = |group| Tap::Record(recorder.beside(several.then_some(group)));
     let code = drive_from_threads(program, pace, ways, |group| (observer(group), tap(group)));
     Ok((code, recorder.finish()?))
@@ -77,10 +74,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
     }
     let waits = Arc::new(ReplayBarrier::new(groups.len()));
     let open = |group| Replay::of_group::<P>(path, group, Arc::clone(&waits)).map(Tap::Replay);
-    let mut taps = (0..groups.len()).map(open).collect::<Result<Vec<Tap>, ReplayError>>()?;
-    if let Some(main) = taps.first_mut() {
-        program.share_params(main);
-    }
+    let taps = (0..groups.len()).map(open).collect::<Result<Vec<Tap>, ReplayError>>()?;
     let reports = scope(|scope| {
         let taps = taps.into_iter().map(Some).collect();
         let mut repeat = Repeat { scope, observer, waits: &waits, taps, hung: vec![], threads: vec![], main: None };
@@ -163,7 +157,7 @@ impl<G: Group, O: Observer> Part<'_, G, O> {
             for (_, hung) in &mut self.hung {
                 hung.put(|parcel| parcel.token = Some(()));
             }
-            self.part.react_with(now, &mut (&mut self.observer, &mut self.tap));
+            react(&mut self.part, now, &mut (&mut self.observer, &mut self.tap));
         }
         let Tap::Replay(replay) = self.tap else { unreachable!("it was made so") };
         let report = replay.finish();

@@ -7,7 +7,10 @@ use super::{
     watch::{Heartbeat, StopSignal, WatchdogObserver, Watched, watch},
 };
 use crate::{
-    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways, run::Stopwatch,
+    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock,
+    ports::Ways,
+    remote::ServedRequests,
+    run::{Stopwatch, react},
 };
 use std::{
     panic::resume_unwind,
@@ -44,6 +47,8 @@ struct Run {
     off: StopSignal,
     /// `true` if there is a core for each group, so that busy waiting takes none from other groups.
     has_cores: bool,
+    /// Requests for parameters, of which no group has seen any.
+    requests: ServedRequests,
 }
 
 /// Duration of the run of all groups.
@@ -128,7 +133,8 @@ fn run_groups<P: Program, O: Observer + Send>(
     let sleep = Shared::new((0..groups).map(|_| Sleeping::default()));
     let has_cores = thread::available_parallelism().is_ok_and(|cores| cores.get() >= groups);
     let pulses = (0..groups).map(|_| Heartbeat::default()).collect();
-    let run = Run { info, sleep, time, code: AtomicU8::new(0), pulses, off: StopSignal::default(), has_cores };
+    let (code, off, requests) = (AtomicU8::new(0), StopSignal::default(), ways.requests.clone());
+    let run = Run { info, sleep, time, code, pulses, off, has_cores, requests };
     let panicked = thread::scope(|scope| {
         let mut spawner = Spawner { scope, run: &run, observer, ways: Some(ways), hung: vec![], threads: vec![] };
         program.on_threads(&run, &mut spawner);
@@ -234,8 +240,9 @@ impl Run {
             Timing::Paced(pace) => {
                 let _stops = pace.stopped.map(Switch::listen);
                 let bell = ways.as_ref().map(Ways::bell);
-                let _listens = bell.as_ref().map(|bell| bell.listen());
-                self.drive(Member { group, pace, ways, held: false }, part, observer);
+                let _listens = (bell.as_ref().map(|bell| bell.listen()), self.requests.requests.listen());
+                let requests = self.requests.clone();
+                self.drive(Member { group, pace, ways, held: false, requests }, part, observer);
             }
             Timing::Once(now) => self.react(group, part, observer, now),
         }
@@ -252,7 +259,8 @@ impl Run {
             }
             let now = clock.now();
             let stopwatch = Stopwatch { clock: &mut clock, start: now };
-            let next = part.react_with(now, &mut (&mut observer, stopwatch));
+            let next = react(&mut part, now, &mut (&mut observer, stopwatch));
+            member.requests.serve(&mut part);
             let came = member.exchange(&mut part, &self.sleep);
             match next {
                 Next::Exit(code) => self.end(code),
@@ -294,7 +302,10 @@ impl Run {
         let mut begins = true;
         while !self.sleep.is_stopped() {
             self.sleep.begin(group);
-            match part.react_part(now, begins, &mut observer) {
+            observer.before_reaction(now, &mut part);
+            let next = part.react_part(now, begins, &mut observer);
+            observer.after_reaction(next);
+            match next {
                 Next::Exit(code) => self.end(code),
                 _ => self.idle(group, &|| false),
             }
@@ -333,6 +344,8 @@ struct Member<I, E> {
     ways: Option<Ways<I, E>>,
     /// `true` if other threads may still use the ports, which keeps the program from ending.
     held: bool,
+    /// Requests for the parameters of the group.
+    requests: ServedRequests,
 }
 
 impl<I, E> Member<I, E> {
@@ -349,8 +362,8 @@ impl<I, E> Member<I, E> {
         came
     }
 
-    /// Returns `true` if there may be tokens to move.
+    /// Returns `true` if there may be tokens to move, or there are requests to serve.
     fn rings(&self) -> bool {
-        self.ways.as_ref().is_some_and(Ways::rings)
+        self.requests.are_new() || self.ways.as_ref().is_some_and(Ways::rings)
     }
 }

@@ -9,7 +9,10 @@ mod settings;
 #[cfg(feature = "std")]
 mod watch;
 
-use crate::{Observer, Program, Time};
+use crate::{
+    Observer, Parameters, Program, Time,
+    params::{ParamInfo, ParamVisitor},
+};
 use core::cell::Cell;
 
 #[cfg(feature = "std")]
@@ -114,6 +117,14 @@ pub trait Spawn<'a, I, E> {
 /// A program with a single group.
 #[derive(Debug)]
 pub struct SingleGroup<'a, P>(pub &'a mut P);
+
+impl<P: Program> Parameters for SingleGroup<'_, P> {
+    const PARAMS: &'static [ParamInfo] = P::PARAMS;
+
+    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+        self.0.visit_params(visitor);
+    }
+}
 
 impl<P: Program> Program for SingleGroup<'_, P> {
     const INFO: crate::Info = P::INFO;

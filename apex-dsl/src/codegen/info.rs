@@ -1,0 +1,132 @@
+//! The table that describes a program.
+
+use super::{Generator, threads::end_if_hung};
+use crate::{
+    analyse::Analysis,
+    catalog::{first_sentence, linkless},
+    graph::{Graph, Node, NodeId, NodeKind},
+    syntax::tree::PortKind,
+};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use std::collections::BTreeMap;
+
+/// Rows of the tables of a program.
+#[derive(Default)]
+struct Rows {
+    nodes: Vec<TokenStream>,
+    connections: Vec<TokenStream>,
+    /// Rows of the kinds, each with its number.
+    kinds: BTreeMap<String, (usize, TokenStream)>,
+}
+
+impl Rows {
+    /// The number of a kind of nodes.
+    fn kind(&mut self, row: TokenStream) -> Literal {
+        let count = self.kinds.len();
+        Literal::usize_unsuffixed(self.kinds.entry(row.to_string()).or_insert((count, row)).0)
+    }
+}
+
+impl Generator<'_> {
+    /// The table that describes a program. `clusters` has the numbers of their nodes.
+    pub fn info(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        clusters: &[Vec<NodeId>],
+        groups: &[TokenStream],
+    ) -> TokenStream {
+        let (name, docs) = (&graph.name, &graph.docs);
+        let mut rows = Rows::default();
+        self.rows(graph, analysis, "", &mut rows);
+        let Rows { nodes, connections, kinds } = rows;
+        let mut kinds: Vec<(usize, TokenStream)> = kinds.into_values().collect();
+        kinds.sort_by_key(|(number, _)| *number);
+        let kinds = kinds.into_iter().map(|(_, row)| row);
+        let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
+        let end_if_hung = end_if_hung(graph);
+        let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
+        let clusters = clusters.iter().map(|nodes| {
+            let nodes = nodes.iter().copied().map(Literal::usize_unsuffixed);
+            quote!(&[#(#nodes),*])
+        });
+        quote! {
+            ::apex_rt::Info {
+                name: #name,
+                docs: #docs,
+                nodes: &[#(#nodes),*],
+                kinds: &[#(#kinds),*],
+                graphs: &[#(#graphs),*],
+                connections: &[#(#connections),*],
+                clusters: &[#(#clusters),*],
+                groups: &[#(#groups),*],
+                end_if_hung: #end_if_hung,
+                claims: &[#(#claims),*],
+            }
+        }
+    }
+
+    fn rows(&self, graph: &Graph, analysis: &Analysis, prefix: &str, rows: &mut Rows) {
+        for (id, node) in graph.nodes.iter().enumerate() {
+            let (name, kind) = (format!("{prefix}{}", graph.path(id)), rows.kind(self.kind_row(node)));
+            let (c, place) = (analysis.characteristics[id], self.position(node.span));
+            let (required, siblings) = (c.required, c.siblings);
+            rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)));
+        }
+        for c in &graph.connections {
+            let (from, to) =
+                (Literal::usize_unsuffixed(self.index(c.from.node)), Literal::usize_unsuffixed(self.index(c.to.node)));
+            let (output, input) = (&graph.port(c.from).name, &graph.port(c.to).name);
+            rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
+        }
+        for (id, node) in graph.nodes.iter().enumerate() {
+            if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
+                let prefix = format!("{prefix}{}.", graph.path(id));
+                self.inside(graph, id).rows(&each.body, body, &prefix, rows);
+            }
+        }
+    }
+
+    /// The row of a node's kind.
+    fn kind_row(&self, node: &Node) -> TokenStream {
+        let (name, docs) = self.kind(node);
+        let own = node.ports.iter().filter(|port| port.parameter.is_none() && port.standard.is_none());
+        let ports = own.map(|port| {
+            let (name, ty) = (&port.name, port.ty.to_string());
+            let kind = match port.kind {
+                PortKind::Input => quote!(Input),
+                PortKind::Output => quote!(Output),
+                PortKind::Slot => quote!(Slot),
+                PortKind::Event => quote!(Event),
+            };
+            quote!(::apex_rt::PortInfo::new(#name, ::apex_rt::PortKind::#kind, #ty))
+        });
+        quote!(::apex_rt::KindInfo::new(#name, #docs, &[#(#ports),*]))
+    }
+
+    /// Name of a node's kind, and the first sentence of its documentation.
+    fn kind(&self, node: &Node) -> (String, String) {
+        match &node.kind {
+            NodeKind::Library(library) => {
+                let signature = &self.catalog.signatures[library.signature];
+                (signature.name.clone(), short(&signature.docs))
+            }
+            NodeKind::Each(each) => (format!("each {}", each.body.name), short(&each.body.docs)),
+            NodeKind::Boundary(kind) => (kind.word().to_owned(), String::new()),
+            NodeKind::Delay(_) => ("delay".to_owned(), String::new()),
+            NodeKind::Relay => ("relay".to_owned(), String::new()),
+            NodeKind::Probe => ("probe".to_owned(), String::new()),
+            NodeKind::Start => ("start".to_owned(), String::new()),
+            NodeKind::Watchdog => ("hung".to_owned(), String::new()),
+            NodeKind::Exit(_) => ("exit".to_owned(), String::new()),
+            NodeKind::Reset => ("reset".to_owned(), String::new()),
+            NodeKind::Sender(_) | NodeKind::Receiver(_) => ("cell".to_owned(), String::new()),
+        }
+    }
+}
+
+/// First sentence of documentation, as plain text.
+fn short(docs: &str) -> String {
+    linkless(&first_sentence(docs))
+}
