@@ -14,6 +14,8 @@ mod dispatch;
 mod event;
 mod failure;
 mod info;
+#[cfg(any(feature = "profile", feature = "record"))]
+mod instruments;
 mod list;
 mod mailbox;
 mod node;

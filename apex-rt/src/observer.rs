@@ -122,6 +122,8 @@ pub trait Observer {
 
 impl Observer for () {}
 
+impl<T> Observer for core::marker::PhantomData<T> {}
+
 /// Implements all methods by calling those of other observers.
 macro_rules! pass_on {
     ($self:ident, $($to:expr),+) => {

@@ -1,7 +1,11 @@
 //! Profiles: the durations of all firings and calls of slots, as a table by node and as a trace for Perfetto and Chrome
 //! (`ui.perfetto.dev`, `chrome://tracing`). The trace shows active nodes in another colour.
 
-use crate::{Clock, Info, Observer, Ports, Program, StdErr, UntilStopped, run::drive_groups};
+use crate::{
+    Clock, Info, Observer, Ports, Program, StdErr, UntilStopped,
+    instruments::{Instruments, Tapped},
+    run::drive_groups,
+};
 use hdrhistogram::Histogram;
 use std::{
     fmt::Write as _,
@@ -174,7 +178,8 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>,
             return 2;
         }
     };
-    let observer = |group| (StdErr(info), Profile::of_group(&profile, group));
+    let observer =
+        |group| -> Instruments<'_> { (StdErr(info), (Some(Profile::of_group(&profile, group)), Tapped::default())) };
     let code = drive_groups(program, UntilStopped::ctrl_c_if_free(clock), ports, observer);
     let mut profile = profile.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Err(error) = profile.finish() {
@@ -210,5 +215,28 @@ impl Observer for Measures<'_> {
     }
     fn activity(&mut self, node: usize, active: bool) {
         self.with(|profile| profile.active[node] = active);
+    }
+}
+
+impl Observer for Option<Measures<'_>> {
+    fn fired(&mut self, node: usize) {
+        if let Some(measures) = self {
+            measures.fired(node);
+        }
+    }
+    fn handled(&mut self, connection: usize) {
+        if let Some(measures) = self {
+            measures.handled(connection);
+        }
+    }
+    fn finished(&mut self, node: usize) {
+        if let Some(measures) = self {
+            measures.finished(node);
+        }
+    }
+    fn activity(&mut self, node: usize, active: bool) {
+        if let Some(measures) = self {
+            measures.activity(node, active);
+        }
     }
 }

@@ -87,10 +87,13 @@ impl RemoteParams {
     }
 }
 
+/// Operation on a parameter; `None` if its type is not a [`ParamValue`].
+type Act = Box<dyn FnOnce(Option<&mut dyn Access>) + Send>;
+
 /// A request of another thread. If it is dropped unserved, that thread learns that the program has ended.
 struct Request {
     name: &'static str,
-    act: Box<dyn FnOnce(Option<&mut dyn Access>) + Send>,
+    act: Act,
 }
 
 /// Requests that wait for the groups of a program.

@@ -136,23 +136,27 @@ impl<P: Program> Program for &mut P {
     }
 }
 
-/// Executes a reaction, and tells the observer before and after it.
-pub(crate) fn react<P: Program, O: Observer>(program: &mut P, now: Time, observer: &mut O) -> Next {
+/// Executes a reaction, and tells the observer before and after it. `elapsed` returns the duration of the reaction so
+/// far.
+pub(crate) fn react<P: Program, O: Observer>(
+    program: &mut P,
+    now: Time,
+    observer: &mut O,
+    elapsed: &mut dyn FnMut() -> Duration,
+) -> Next {
     observer.before_reaction(now, program);
-    let next = program.react_with(now, observer);
+    let next = program.react_with(now, &mut (&mut *observer, Stopwatch(elapsed)));
     observer.after_reaction(next);
     next
 }
 
-/// Observer that measures the duration of a reaction by the clock that drives the program.
-pub struct Stopwatch<'a, C> {
-    pub clock: &'a mut C,
-    pub start: Time,
-}
+/// Observer that measures the duration of a reaction. Its type does not depend on the clock, and that of all runs with
+/// one type of observer is the same: the program is compiled once for them.
+struct Stopwatch<'a>(&'a mut dyn FnMut() -> Duration);
 
-impl<C: Clock> Observer for Stopwatch<'_, C> {
+impl Observer for Stopwatch<'_> {
     fn elapsed(&mut self) -> Duration {
-        self.clock.now().since(self.start)
+        (self.0)()
     }
 }
 
@@ -215,14 +219,9 @@ pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
 /// of other threads would come at no defined time.
 #[cfg(feature = "std")]
 pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -> u8 {
-    #[cfg(feature = "profile")]
-    if let Some(path) = std::env::var_os("APEX_PROFILE") {
-        return crate::profile::drive(program, clock, ports, path.as_ref());
-    }
-    #[cfg(feature = "record")]
-    if let Some(wish) = crate::record::RunMode::of::<P>() {
-        return crate::record::drive(program, clock, ports, &wish);
-    }
+    #[cfg(any(feature = "profile", feature = "record"))]
+    return crate::instruments::drive(program, clock, ports);
+    #[cfg(not(any(feature = "profile", feature = "record")))]
     drive_groups(program, clock, ports, |_| crate::StdErr(const { &P::INFO }))
 }
 
@@ -237,7 +236,7 @@ pub(crate) fn drive_groups<P: Program, C: Clock, O: Observer + Send>(
 ) -> u8 {
     match pace_of_threads::<P, C>(&clock) {
         Some(pace) => crate::threads::drive_from_threads(&mut program, pace, ports.0, observer),
-        None => drive_ports(program, clock, observer(0), ports),
+        None => drive_ports(program, clock, &mut observer(0), ports),
     }
 }
 
@@ -249,7 +248,12 @@ pub(crate) fn pace_of_threads<P: Program, C: Clock>(clock: &C) -> Option<crate::
 
 /// Drives a program with ports on this thread.
 #[cfg(feature = "std")]
-pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(program: P, clock: C, observer: O, ports: Ports<P>) -> u8 {
+pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(
+    program: P,
+    clock: C,
+    observer: &mut O,
+    ports: Ports<P>,
+) -> u8 {
     let (bell, requests) = (ports.0.bell(), Arc::clone(&ports.0.requests.requests));
     let _listens = (bell.listen(), requests.listen());
     drive_beside(program, clock, observer, ports.0)
@@ -257,21 +261,20 @@ pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(program: P, clock: 
 
 /// Drives a program as [`drive`] does, with an observer. Nothing is then written to standard error, unless
 /// [`StdErr`](crate::StdErr) is a part of the observer.
-pub fn drive_with<P: Program, C: Clock, O: Observer>(program: P, clock: C, observer: O) -> u8 {
-    drive_beside(program, clock, observer, ())
+pub fn drive_with<P: Program, C: Clock, O: Observer>(program: P, clock: C, mut observer: O) -> u8 {
+    drive_beside(program, clock, &mut observer, ())
 }
 
 fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
     mut program: P,
     mut clock: C,
-    mut observer: O,
+    observer: &mut O,
     mut outside: W,
 ) -> u8 {
     outside.exchange(&mut program);
     loop {
         let now = clock.now();
-        let stopwatch = Stopwatch { clock: &mut clock, start: now };
-        let next = react(&mut program, now, &mut (&mut observer, stopwatch));
+        let next = react(&mut program, now, observer, &mut || clock.now().since(now));
         outside.serve(&mut program);
         let came = outside.exchange(&mut program);
         let until = match next {

@@ -7,16 +7,18 @@ mod parameters;
 #[allow(dead_code)]
 mod parts;
 mod ports;
+mod remote;
 mod watching;
 
 /// Sources of the programs, in the order of the page.
-pub const BLOCKS: [&str; 7] = [
+pub const BLOCKS: [&str; 8] = [
     include_str!("embedding/first.rs"),
     include_str!("embedding/own_loop.rs"),
     include_str!("embedding/driven.rs"),
     include_str!("embedding/ports.rs"),
     include_str!("embedding/parts.rs"),
     include_str!("embedding/parameters.rs"),
+    include_str!("embedding/remote.rs"),
     include_str!("embedding/watching.rs"),
 ];
 
@@ -28,5 +30,6 @@ pub fn main() {
     ports::main();
     parts::main();
     parameters::main();
+    remote::main();
     watching::main();
 }

@@ -88,7 +88,7 @@ graph! {
     }
 }
 
-/// What another thread does with a program that multiplies.
+/// Acts as another thread that uses a program that multiplies.
 fn tune(numbers: &PortSender<i64>, products: &PortReceiver<i64>, params: &RemoteParams) {
     let product = |number| {
         numbers.send(number).expect("the program waits");

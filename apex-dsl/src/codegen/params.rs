@@ -21,8 +21,8 @@ pub struct ParamRows {
 }
 
 impl ParamRows {
-    /// The implementation of `Parameters` for the program `name`. `place` returns where a node is kept with those beside
-    /// it.
+    /// The implementation of `Parameters` for the program `name`. `place` returns where a node is kept with those
+    /// beside it.
     pub fn implementation(&self, name: &Ident, place: &dyn Fn(NodeId) -> TokenStream) -> TokenStream {
         let table = &self.table;
         let visit = self.visit(&|node| Some(place(node)));

@@ -346,7 +346,7 @@ impl Replay {
     }
 
     /// Reads the rest of the file, and returns the report.
-    pub(super) fn finish(mut self) -> Report {
+    pub(super) fn finish(&mut self) -> Report {
         // The rest may be damaged: a group that waits for a token of a group that was cut off ends before it is read.
         while let Some(more) = self.source.next().transpose() {
             if let Err(error) = more {
@@ -356,7 +356,7 @@ impl Replay {
         }
         self.report.cut = self.source.cut.take();
         self.report.dropped = mem::take(&mut self.source.dropped);
-        self.report
+        mem::take(&mut self.report)
     }
 
     pub(super) fn role(&self, channel: usize) -> Role {

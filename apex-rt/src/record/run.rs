@@ -6,8 +6,10 @@ use super::{
 };
 use crate::{
     Clock, Observer, Ports, Program, StdErr, UntilStopped,
+    instruments::{Instruments, Measured},
     run::{drive_ports, pace_of_threads, react},
 };
+use core::time::Duration;
 use std::{
     env, io,
     path::{Path, PathBuf},
@@ -37,13 +39,13 @@ impl RunMode {
 }
 
 /// Drives a program and records it, or replays a recording of it. Returns the exit code.
-pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, wish: &RunMode) -> u8 {
-    match wish {
+pub(crate) fn drive<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, mode: &RunMode) -> u8 {
+    match mode {
         RunMode::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
             eprintln!("error: cannot record to `{}`: {error}", path.display());
             2
         }),
-        RunMode::Replay(path) => match replay(program, path, StdErr(const { &P::INFO })) {
+        RunMode::Replay(path) => match replay_with(&mut program, path, instruments::<P>) {
             Ok(report) => {
                 print!("{report}");
                 u8::from(!report.is_same() || !report.is_whole())
@@ -56,10 +58,15 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>,
     }
 }
 
+/// Returns the observers of a run that is recorded or replayed by `tap`.
+fn instruments<P: Program>(tap: Tap) -> Instruments<'static> {
+    (StdErr(const { &P::INFO }), (Measured::default(), Some(tap)))
+}
+
 fn record<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, path: &Path) -> io::Result<u8> {
     let clock = UntilStopped::ctrl_c_if_free(clock);
     let (code, finished) = match pace_of_threads::<P, _>(&clock) {
-        Some(pace) => record_from_threads(&mut program, pace, ports.0, path, |_| StdErr(const { &P::INFO }))?,
+        Some(pace) => record_from_threads(&mut program, pace, ports.0, path, |_, tap| instruments::<P>(tap))?,
         None => record_in_turn(program, clock, ports, path)?,
     };
     eprintln!("recorded to `{}`", finished.path.display());
@@ -77,9 +84,9 @@ fn record_in_turn<P: Program, C: Clock>(
     path: &Path,
 ) -> io::Result<(u8, Finished)> {
     let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
-    let mut tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
-    let code = drive_ports(program, clock, (StdErr(const { &P::INFO }), &mut tap), ports);
-    let Tap::Record(recorder) = tap else { unreachable!("it was made so") };
+    let mut observer = instruments::<P>(Tap::Record(Recorder::to_file::<P>(path, when_full)?));
+    let code = drive_ports(program, clock, &mut observer, ports);
+    let (_, (_, Some(Tap::Record(recorder)))) = observer else { unreachable!("it was made so") };
     Ok((code, recorder.finish()?))
 }
 
@@ -91,20 +98,38 @@ fn record_in_turn<P: Program, C: Clock>(
 pub fn replay<P: Program>(
     mut program: P,
     path: &Path,
-    mut observer: impl Observer + Send + Clone,
+    observer: impl Observer + Send + Clone,
+) -> Result<Report, ReplayError> {
+    replay_with(&mut program, path, |tap| (observer.clone(), tap))
+}
+
+/// Repeats a run with the observers that `observer` returns.
+fn replay_with<P: Program, O: Observer + Send>(
+    program: &mut P,
+    path: &Path,
+    observer: impl Fn(Tap) -> O,
 ) -> Result<Report, ReplayError> {
     if let Some(threads) = recorded_threads(path)? {
-        return replay_on_threads(&mut program, path, &threads, &observer);
+        return replay_on_threads(program, path, &threads, observer);
     }
-    let mut tap = Tap::Replay(Replay::open::<P>(path)?);
-    loop {
-        let Tap::Replay(replay) = &mut tap else { unreachable!("it was made so") };
-        let next = replay.next_reaction().map_err(|error| ReplayError::File(path.to_owned(), error))?;
-        let Some(now) = next else { break };
-        react(&mut program, now, &mut (&mut observer, &mut tap));
+    let report = repeat(program, &mut observer(Tap::Replay(Replay::open::<P>(path)?)), || {});
+    something(report.map_err(|error| ReplayError::File(path.to_owned(), error))?, path)
+}
+
+/// Repeats all reactions of a program or of a thread group, and calls `before` before each. The tap of the observer has
+/// their recording.
+pub(super) fn repeat<P: Program, O: Observer>(
+    program: &mut P,
+    observer: &mut O,
+    mut before: impl FnMut(),
+) -> io::Result<Report> {
+    while let Some(Tap::Replay(replay)) = observer.tap()
+        && let Some(now) = replay.next_reaction()?
+    {
+        before();
+        react(program, now, observer, &mut || Duration::ZERO);
     }
-    let Tap::Replay(replay) = tap else { unreachable!("it was made so") };
-    something(replay.finish(), path)
+    Ok(observer.tap().map(Tap::report).unwrap_or_default())
 }
 
 /// Returns the report if it has at least one reaction.

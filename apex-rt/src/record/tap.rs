@@ -1,4 +1,4 @@
-use super::{Codec, Recorder, Replay, Role};
+use super::{Codec, Recorder, Replay, Report, Role};
 use crate::{Mailbox, Observer, Parameters, Time};
 use core::time::Duration;
 
@@ -35,8 +35,33 @@ impl Observer for Tap {
     }
 }
 
+/// A run that may be recorded.
+impl Observer for Option<Tap> {
+    fn tap(&mut self) -> Option<&mut Tap> {
+        self.as_mut()
+    }
+
+    fn wants(&self, channel: usize) -> bool {
+        self.as_ref().is_some_and(|tap| tap.wants(channel))
+    }
+
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        if let Some(tap) = self {
+            tap.sent(channel, codec, token);
+        }
+    }
+}
+
 #[doc(hidden)]
 impl Tap {
+    /// Ends a replay, and returns its report.
+    pub fn report(&mut self) -> Report {
+        match self {
+            Self::Record(_) => Report::default(),
+            Self::Replay(replay) => replay.finish(),
+        }
+    }
+
     /// Begins a reaction at `now`.
     pub fn begin(&mut self, now: Time) {
         match self {

@@ -10,8 +10,7 @@ use super::{
 use crate::{
     CellSender, Observer, Ports, Program,
     ports::Ways,
-    run::react,
-    threads::{CellMessage, Group, Pace, Spawn, Wake, drive_from_threads},
+    threads::{CellMessage, Group, Pace, Spawn, Wake, WatchdogObserver, drive_from_threads},
 };
 use std::{
     io, mem,
@@ -32,7 +31,7 @@ pub fn record_on_threads<P: Program, O: Observer + Send>(
     path: &Path,
     observer: impl Fn(usize) -> O,
 ) -> io::Result<(u8, Finished)> {
-    record_from_threads(program, pace, Ports::<P>::new().0, path, observer)
+    record_from_threads(program, pace, Ports::<P>::new().0, path, |group, tap| (observer(group), tap))
 }
 
 /// Records a program as [`record_on_threads`] does, with ports for other threads.
@@ -41,14 +40,14 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
     pace: Pace,
     ways: Ways<P::Inputs, P::Events>,
     path: &Path,
-    observer: impl Fn(usize) -> O,
+    observer: impl Fn(usize, Tap) -> O,
 ) -> io::Result<(u8, Finished)> {
     // A single group is recorded like a program without groups; it may have settings that need a thread.
     let several = P::INFO.groups.len() > 1;
     let groups = if several { const { P::INFO.groups } } else { &[] };
     let recorder = Recorder::of_threads::<P>(path, groups)?;
     let tap = |group| Tap::Record(recorder.beside(several.then_some(group)));
-    let code = drive_from_threads(program, pace, ways, |group| (observer(group), tap(group)));
+    let code = drive_from_threads(program, pace, ways, |group| observer(group, tap(group)));
     Ok((code, recorder.finish()?))
 }
 
@@ -60,12 +59,12 @@ pub(super) fn recorded_threads(path: &Path) -> Result<Option<String>, ReplayErro
     Ok(source.threads)
 }
 
-/// Replays a recording of the groups `recorded`, each on a thread of its own.
-pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
+/// Replays a recording of the groups `recorded`, each on a thread of its own with the observer that `observer` returns.
+pub(super) fn replay_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     path: &Path,
     recorded: &str,
-    observer: &O,
+    observer: impl Fn(Tap) -> O,
 ) -> Result<Report, ReplayError> {
     let groups = const { P::INFO.groups };
     if recorder::names(groups) != recorded {
@@ -75,9 +74,12 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send + Clone>(
     let waits = Arc::new(ReplayBarrier::new(groups.len()));
     let open = |group| Replay::of_group::<P>(path, group, Arc::clone(&waits)).map(Tap::Replay);
     let taps = (0..groups.len()).map(open).collect::<Result<Vec<Tap>, ReplayError>>()?;
+    let info = const { &P::INFO };
+    // Nothing watches over a replay, but its observers are of the same type as those of a run.
+    let watched = |tap| WatchdogObserver { observer: observer(tap), pulse: None, info };
     let reports = scope(|scope| {
-        let taps = taps.into_iter().map(Some).collect();
-        let mut repeat = Repeat { scope, observer, waits: &waits, taps, hung: vec![], threads: vec![], main: None };
+        let observers = taps.into_iter().map(watched).map(Some).collect();
+        let mut repeat = Repeat { scope, waits: &waits, observers, hung: vec![], threads: vec![], main: None };
         program.on_threads(Nobody, &mut repeat);
         let others =
             repeat.threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
@@ -101,27 +103,26 @@ type Hung<'a> = CellSender<'a, CellMessage<()>>;
 /// Runner that repeats the recorded run of each group.
 struct Repeat<'scope, 'env, O> {
     scope: &'scope Scope<'scope, 'env>,
-    observer: &'env O,
     waits: &'env ReplayBarrier,
-    /// Recording of each group, until the group starts.
-    taps: Vec<Option<Tap>>,
+    /// Observer of each group, with its recording, until the group starts.
+    observers: Vec<Option<O>>,
     hung: Vec<(usize, Hung<'env>)>,
     threads: Vec<ScopedJoinHandle<'scope, io::Result<Report>>>,
     main: Option<io::Result<Report>>,
 }
 
-impl<'env, O: Observer + Send + Clone> Repeat<'_, 'env, O> {
+impl<'env, O: Observer> Repeat<'_, 'env, O> {
     /// Returns the parts of the repetition of a group.
     fn part<G: Group>(&mut self, group: usize, part: G) -> Option<Part<'env, G, O>> {
-        let tap = self.taps.get_mut(group)?.take()?;
+        let observer = self.observers.get_mut(group)?.take()?;
         let all = mem::take(&mut self.hung);
         let (own, others) = all.into_iter().partition(|(of, _)| *of == group);
         self.hung = others;
-        Some(Part { group, part, tap, hung: own, observer: self.observer.clone(), waits: self.waits })
+        Some(Part { group, part, hung: own, observer, waits: self.waits })
     }
 }
 
-impl<'env, O: Observer + Send + Clone + 'env, I, E> Spawn<'env, I, E> for Repeat<'_, 'env, O> {
+impl<'env, O: Observer + Send + 'env, I, E> Spawn<'env, I, E> for Repeat<'_, 'env, O> {
     fn spawn<G: Group + Send + 'env>(&mut self, group: usize, part: G) {
         if let Some(part) = self.part(group, part) {
             self.threads.push(self.scope.spawn(move || part.repeat()));
@@ -140,7 +141,6 @@ impl<'env, O: Observer + Send + Clone + 'env, I, E> Spawn<'env, I, E> for Repeat
 struct Part<'a, G, O> {
     group: usize,
     part: G,
-    tap: Tap,
     hung: Vec<(usize, Hung<'a>)>,
     observer: O,
     waits: &'a ReplayBarrier,
@@ -149,18 +149,14 @@ struct Part<'a, G, O> {
 impl<G: Group, O: Observer> Part<'_, G, O> {
     fn repeat(mut self) -> io::Result<Report> {
         let mut ends = Ends { waits: self.waits, group: self.group, cut: false };
-        loop {
-            let Tap::Replay(replay) = &mut self.tap else { unreachable!("it was made so") };
-            let Some(now) = replay.next_reaction()? else { break };
-            // The time at which a hanging node was noticed is recorded by the checks of cells, so that the report may
-            // come early.
+        // The time at which a hanging node was noticed is recorded by the checks of cells, so that the report may come
+        // early.
+        let report_hung = || {
             for (_, hung) in &mut self.hung {
                 hung.put(|parcel| parcel.token = Some(()));
             }
-            react(&mut self.part, now, &mut (&mut self.observer, &mut self.tap));
-        }
-        let Tap::Replay(replay) = self.tap else { unreachable!("it was made so") };
-        let report = replay.finish();
+        };
+        let report = run::repeat(&mut self.part, &mut self.observer, report_hung)?;
         ends.cut = report.cut.is_some();
         Ok(report)
     }

@@ -7,10 +7,8 @@ use super::{
     watch::{Heartbeat, StopSignal, WatchdogObserver, Watched, watch},
 };
 use crate::{
-    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock,
-    ports::Ways,
-    remote::ServedRequests,
-    run::{Stopwatch, react},
+    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways,
+    remote::ServedRequests, run::react,
 };
 use std::{
     panic::resume_unwind,
@@ -258,8 +256,7 @@ impl Run {
                 self.off.stir();
             }
             let now = clock.now();
-            let stopwatch = Stopwatch { clock: &mut clock, start: now };
-            let next = react(&mut part, now, &mut (&mut observer, stopwatch));
+            let next = react(&mut part, now, &mut observer, &mut || clock.now().since(now));
             member.requests.serve(&mut part);
             let came = member.exchange(&mut part, &self.sleep);
             match next {
