@@ -1,7 +1,7 @@
 //! Report of the compiler's decisions, as text and as JSON.
 
 use crate::{
-    analyse::{Analysis, Block, Step},
+    analyse::{Analysis, Block, Run, Step},
     catalog::Catalog,
     claims::Decided,
     codegen::{Storage, storage},
@@ -155,8 +155,10 @@ fn steps(text: &mut String, graph: &Graph, analysis: &Analysis, block: &Block, i
     for step in &block.steps {
         match step {
             Step::Fire(node) => {
-                let times = analysis.repetitions[*node];
-                let times = if times == 1 { String::new() } else { format!(" × {times}") };
+                let _ = writeln!(text, "{pad}{}", graph.path(*node));
+            }
+            Step::Repeat(Run { node, from, to }) => {
+                let times = if to - from == 1 { String::new() } else { format!(" × {}", to - from) };
                 let _ = writeln!(text, "{pad}{}{times}", graph.path(*node));
             }
             Step::Block(inner) => {
@@ -281,6 +283,7 @@ fn object(graph: &Graph, analysis: &Analysis, decided: &Decided, catalog: &Catal
 fn step_list(graph: &Graph, block: &Block) -> Value {
     let steps = block.steps.iter().map(|step| match step {
         Step::Fire(node) => json!(graph.path(*node)),
+        Step::Repeat(Run { node, from, to }) => json!({ "node": graph.path(*node), "times": to - from }),
         Step::Block(inner) => json!({ "if": inner.opens.iter().map(|end| graph.end_name(*end)).collect::<Vec<_>>(), "then": step_list(graph, inner) }),
     });
     steps.collect()

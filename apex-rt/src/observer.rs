@@ -97,19 +97,21 @@ pub trait Observer {
     }
 
     /// Returns `true` if the observer wants to see the tokens of channel `channel` (by its index in
-    /// [`Program::channels`](crate::Program::channels)): what one output or event of a node sends.
+    /// [`Program::channels`](crate::Program::channels)): what one output or event of a node sends. By default it wants
+    /// what its [tap](Self::tap) wants.
     #[cfg(feature = "record")]
     #[inline(always)]
-    fn wants(&self, channel: usize) -> bool {
-        let _ = channel;
-        false
+    fn wants(&mut self, channel: usize) -> bool {
+        self.tap().is_some_and(|tap| tap.wants(channel))
     }
 
     /// Called with each token of a channel that the observer [wants](Self::wants). `codec` writes it as bytes; `None`
     /// if its type cannot be recorded.
     #[cfg(feature = "record")]
     fn sent<T>(&mut self, channel: usize, codec: Option<crate::record::Codec<T>>, token: &T) {
-        let _ = (channel, codec, token);
+        if let Some(tap) = self.tap() {
+            tap.sent(channel, codec, token);
+        }
     }
 
     /// Returns the tap through which the program's tokens are recorded or replayed.
@@ -188,7 +190,7 @@ macro_rules! pass_on_others {
         }
         #[cfg(feature = "record")]
         #[inline(always)]
-        fn wants(&$self, channel: usize) -> bool {
+        fn wants(&mut $self, channel: usize) -> bool {
             false $(|| $to.wants(channel))+
         }
         #[cfg(feature = "record")]

@@ -1,6 +1,7 @@
 //! Several tokens per firing (Lee 1987): balance, ⊥ among the tokens, delays, loops.
 
 use apex_macros::graph;
+use apex_rt::prelude::*;
 use apex_tests::react;
 
 graph!("rates.afg");
@@ -94,4 +95,80 @@ fn what_was_written_before_a_failure_is_not_sent() {
 #[test]
 fn a_delayed_node_without_a_taker_runs() {
     react(&mut Unused::new(), 2);
+}
+
+#[test]
+fn lists_come_once_per_token() {
+    let mut program = Listed::new();
+    react(&mut program, 2);
+    // 0 0 0 | 0 1 2 | 0 10 20 | 0 11 22
+    assert_eq!(program.nodes().k.seen, [vec![0, 0, 0], vec![0, 2], vec![0, 10, 20], vec![0, 22]]);
+}
+
+#[test]
+fn the_body_of_an_each_may_have_rates() {
+    let mut program = Within::new();
+    react(&mut program, 3);
+    assert_eq!(program.nodes().k.seen, [vec![1, 1, 1], vec![1, 21, 41], vec![1, 41, 81]]);
+}
+
+#[test]
+fn parameters_come_with_each_token() {
+    let mut program = Tuned::new();
+    let log = react(&mut program, 2);
+    // 0·0 + 1·1; 10·10 and a gain of 11, which is refused
+    assert_eq!(program.nodes().k.seen, [Some(1), None]);
+    assert_eq!(program.nodes().l.seen, [1, 20], "the gain of the struct stays at 10");
+    assert_eq!(program.nodes().g.seen, [0, 1, 10, 10]);
+    assert_eq!(log.count("k"), 2);
+}
+
+#[test]
+fn a_delay_may_be_shorter_than_an_iteration() {
+    let mut program = Short::new();
+    react(&mut program, 3);
+    // 5 0 | 1 10 | 11 20
+    assert_eq!(program.nodes().k.seen, [5, 11, 31]);
+}
+
+#[test]
+fn the_nodes_of_a_loop_take_turns() {
+    let mut program = Turns::new();
+    react(&mut program, 2);
+    // 100 0+100 | 1+100 10+101, and 11+111 waits
+    assert_eq!(program.nodes().k.seen, [200, 212]);
+}
+
+#[test]
+fn nodes_that_fire_once_have_events() {
+    let mut program = Evented::new();
+    react(&mut program, 2);
+    let nodes = program.nodes();
+    assert_eq!([&nodes.k.seen, &nodes.l.seen, &nodes.m.seen], [&[0, 1], &[1, 21], &[1, 21]]);
+}
+
+#[test]
+fn another_timer_meets_an_iteration() {
+    let mut program = Paced::new();
+    for ms in [0, 10, 20, 30, 60] {
+        program.react(Time::from_millis(ms));
+    }
+    assert_eq!(program.nodes().k.seen, [1, 21 + 1, 41 + 2]);
+}
+
+#[test]
+fn activity_passes_a_node_that_fires_once() {
+    let mut program = Awake::new();
+    react(&mut program, 3);
+    assert_eq!(program.nodes().k.seen, [1], "the gate is active once");
+    assert_eq!(apex_tests::active(&program), "k");
+}
+
+#[test]
+fn a_node_that_fires_twice_is_switched_off() {
+    let mut program = Switched::new();
+    react(&mut program, 1);
+    assert_eq!(program.inputs().off.put(()), Ok(()));
+    react(&mut program, 2);
+    assert_eq!(program.nodes().k.seen, [Some(0), Some(10), None, None, None, None]);
 }

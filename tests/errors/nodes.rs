@@ -111,6 +111,12 @@ pub fn halve(x: &[u64; 2]) -> u64 {
     x[0] + x[1]
 }
 
+/// Sends two tokens per firing.
+#[node]
+pub fn twice(x: &u64) -> [u64; 2] {
+    [*x, *x]
+}
+
 /// Takes so many tokens that no iteration is possible.
 #[node]
 pub fn thin(x: &[u64; 100000]) -> u64 {

@@ -128,7 +128,7 @@ struct Listener {
 }
 
 impl Observer for Listener {
-    fn wants(&self, channel: usize) -> bool {
+    fn wants(&mut self, channel: usize) -> bool {
         self.wanted.contains(&self.channels[channel].name)
     }
     fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
@@ -167,7 +167,7 @@ fn an_observer_sees_the_tokens_of_any_port() {
 struct Shared(std::sync::Arc<std::sync::Mutex<Listener>>);
 
 impl Observer for Shared {
-    fn wants(&self, channel: usize) -> bool {
+    fn wants(&mut self, channel: usize) -> bool {
         self.0.lock().expect("no panic").wants(channel)
     }
     fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {

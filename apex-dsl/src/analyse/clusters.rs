@@ -85,7 +85,7 @@ pub struct Cluster {
 }
 
 impl Cluster {
-    /// Nodes in the order in which they fire.
+    /// Nodes in the order in which they fire for the first time.
     pub fn schedule(&self) -> Vec<NodeId> {
         let mut order = vec![];
         let mut blocks: Vec<std::slice::Iter<'_, Step>> = vec![self.block.steps.iter()];
@@ -93,10 +93,17 @@ impl Cluster {
             match steps.next() {
                 Some(Step::Fire(node)) => order.push(*node),
                 Some(Step::Block(inner)) => blocks.push(inner.steps.iter()),
+                Some(Step::Repeat(run)) if run.from == 0 => order.push(run.node),
+                Some(Step::Repeat(_)) => {}
                 None => drop(blocks.pop()),
             }
         }
         order
+    }
+
+    /// Returns `true` if the cluster is in a region with several rates.
+    pub fn is_multirate(&self) -> bool {
+        matches!(self.block.steps.first(), Some(Step::Repeat(_)))
     }
 
     /// Returns `true` if the cluster needs no dispatcher: it fires once per reaction, exchanges no synchronous

@@ -22,6 +22,7 @@ mod clocks;
 mod clusters;
 mod delivery;
 mod demand_driven;
+mod iteration;
 mod live;
 mod order;
 mod rates;
@@ -44,8 +45,8 @@ pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, Guard};
 pub use delivery::{Delivery, at_start, ordered};
 pub use order::{Loops, circles, events_on_circles};
-pub use rates::{has_rates, is_multirate};
-pub use schedule::{Block, Step};
+pub use rates::has_rates;
+pub use schedule::{Block, Run, Step};
 pub use stamps::Stamps;
 
 /// Results of the analysis of a graph.
@@ -191,7 +192,13 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         bodies,
     };
     for cluster in 0..analysis.clusters.len() {
-        let block = schedule::schedule(graph, &analysis.links, &analysis, cluster);
+        let block = if rates::is_multirate(graph, &analysis, cluster) {
+            let nodes = &analysis.clusters[cluster].nodes;
+            let runs = iteration::runs(graph, &analysis.links, &analysis.repetitions, nodes, diagnostics)?;
+            Block { opens: vec![], steps: runs.into_iter().map(Step::Repeat).collect() }
+        } else {
+            schedule::schedule(graph, &analysis.links, &analysis, cluster)
+        };
         analysis.clusters[cluster].block = block;
         let order = analysis.clusters[cluster].schedule();
         analysis.clusters[cluster].sends =

@@ -142,7 +142,7 @@ fn contradiction(
 }
 
 /// Returns `true` if a node in the region of a cluster has rates (see [`has_rates`]).
-pub fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
+pub(super) fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
     let region = analysis.clusters[cluster].region;
     (0..graph.nodes.len()).any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
 }

@@ -32,6 +32,19 @@ pub enum Step {
     Fire(NodeId),
     /// Steps that are done only if more tokens are present.
     Block(Block),
+    /// A node of a region with several rates fires several times, each time if its tokens are present.
+    Repeat(Run),
+}
+
+/// Consecutive firings of a node in one iteration of a region with several rates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// The node.
+    pub node: NodeId,
+    /// Number of the first firing.
+    pub from: u64,
+    /// Number after that of the last firing.
+    pub to: u64,
 }
 
 /// An open block.

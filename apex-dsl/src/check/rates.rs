@@ -2,13 +2,13 @@
 
 use crate::{
     analyse::{Analysis, has_rates},
-    graph::{Graph, NodeId, NodeKind, PortId},
+    graph::{Connection, Graph, NodeId, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
 use std::collections::BTreeSet;
 
-/// Reports everything in regions with several rates for which no code can be generated, also in the bodies of a graph.
+/// Reports connections and ports that would have to hold several tokens of an iteration, also in the bodies of a graph.
 pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     check_regions(graph, analysis, diagnostics);
     for (id, node) in graph.nodes.iter().enumerate() {
@@ -21,53 +21,55 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
 fn check_regions(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     let regions: BTreeSet<usize> =
         (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(|n| analysis.regions[n]).collect();
-    for (index, cluster) in analysis.clusters.iter().enumerate().filter(|(_, c)| regions.contains(&c.region)) {
-        let first = cluster.nodes.iter().min().copied().unwrap_or(0);
-        if !cluster.upstream.is_empty() || !cluster.downstream.is_empty() {
-            let message =
-                "all nodes of a region with several rates must fire together: only one source can have its own timer";
-            diagnostics.push(Diagnostic::error("rates", graph.nodes[first].span, message));
+    for cluster in analysis.clusters.iter().filter(|c| regions.contains(&c.region)) {
+        for &node in cluster.nodes.iter().filter(|node| analysis.repetitions[**node] > 1) {
+            check_boundary(graph, analysis.repetitions[node], node, diagnostics);
         }
-        for &node in &analysis.clusters[index].nodes {
-            let n = &graph.nodes[node];
-            let count = analysis.repetitions[node];
-            let message = match &n.kind {
-                NodeKind::Boundary(PortKind::Input) if count > 1 && !graph.is_body => {
-                    format!("one iteration would take {count} tokens from the input `{}`, which holds one", n.name)
-                }
-                _ if graph
-                    .connections
-                    .iter()
-                    .any(|c| (c.active || !graph.is_synchronous(c)) && (c.from.node == node || c.to.node == node)) =>
-                {
-                    format!(
-                        "`{}` is in a region with several rates, where events, slots and `=>` cannot be connected",
-                        n.name
-                    )
-                }
-                NodeKind::Each(_) => {
-                    format!("`{}` is in a region with several rates, where `each` is not allowed", n.name)
-                }
-                NodeKind::Boundary(_) if graph.is_body => "the body of an `each` cannot have several rates".to_owned(),
-                NodeKind::Delay(initial) if (initial.len() as u64) < count => {
-                    format!(
-                        "a delay in a region with several rates must hold at least the tokens of one iteration: {count}, not {}",
-                        initial.len()
-                    )
-                }
-                NodeKind::Library(_)
-                    if n.ports.iter().any(|p| p.parameter.is_some() && is_connected(graph, node, p.parameter)) =>
-                {
-                    format!("parameters of `{}` cannot be connected in a region with several rates", n.name)
-                }
-                _ => continue,
-            };
-            diagnostics.push(Diagnostic::error("rates", n.span, message));
+    }
+    for connection in &graph.connections {
+        let is_meant = |end: PortId| regions.contains(&analysis.regions[end.node]);
+        if is_meant(connection.from) || is_meant(connection.to) {
+            check_connection(graph, analysis, connection, diagnostics);
         }
     }
 }
 
-fn is_connected(graph: &Graph, node: NodeId, parameter: Option<usize>) -> bool {
-    let at = |end: PortId| end.node == node && graph.port(end).parameter == parameter;
-    graph.connections.iter().any(|c| at(c.from) || at(c.to))
+/// Reports a port of the graph that would have to hold several tokens.
+fn check_boundary(graph: &Graph, count: u64, node: NodeId, diagnostics: &mut Diagnostics) {
+    let n = &graph.nodes[node];
+    let message = match &n.kind {
+        NodeKind::Boundary(PortKind::Input) if !graph.is_body => {
+            format!("one iteration would take {count} tokens from the input `{}`, which holds one", n.name)
+        }
+        NodeKind::Boundary(_) if graph.is_body => {
+            format!("one element of an `each` would have {count} tokens at `{}`, which holds one", n.name)
+        }
+        _ => return,
+    };
+    diagnostics.push(Diagnostic::error("rates", n.span, message));
+}
+
+/// Reports a connection that holds one token where an iteration sends or takes several. The tokens of an iteration have
+/// room only between nodes that fire together.
+fn check_connection(graph: &Graph, analysis: &Analysis, c: &Connection, diagnostics: &mut Diagnostics) {
+    let tokens = |end: PortId| match graph.port(end).kind {
+        PortKind::Slot => 1,
+        _ => analysis.repetitions[end.node] * graph.port(end).rate as u64,
+    };
+    let is_synchronous = graph.is_synchronous(c);
+    let apart = is_synchronous && analysis.cluster_of[c.from.node] != analysis.cluster_of[c.to.node];
+    let (several, does) = match (tokens(c.from), tokens(c.to)) {
+        (1, 1) => return,
+        (1, _) => (c.to, "takes"),
+        _ => (c.from, "sends"),
+    };
+    let why = match () {
+        () if apart => "a connection to nodes with another timer holds one token",
+        () if !is_synchronous => "a connection with an event or a slot holds one token",
+        () if c.active => "`=>` passes activity on with one token",
+        () => return,
+    };
+    let name = graph.end_name(several);
+    let message = format!("`{name}` {does} {} tokens in one iteration, but {why}", tokens(several));
+    diagnostics.push(Diagnostic::error("rates", c.span, message));
 }

@@ -1,7 +1,7 @@
 //! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
 
 use super::{Generator, activity::ProgramView, fire::Emitter, types::ident};
-use crate::analyse::{Guard, MANY, is_multirate};
+use crate::analyse::{Guard, MANY};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -94,14 +94,8 @@ impl Generator<'_> {
             false => quote! { state.timers[#timer].advance(); },
         });
         let advances: TokenStream = advances.collect();
-        if is_multirate(view.graph, view.analysis, cluster) {
-            let stamp = self.stamp_of_firing(view, cluster);
-            let code = self.rates(view.graph, view.analysis, view.links, cluster);
-            quote! { #advances #stamp #code }
-        } else {
-            let code = Emitter::new(self, view, cluster).program_cluster();
-            quote! { #advances #code }
-        }
+        let code = Emitter::new(self, view, cluster).program_cluster();
+        quote! { #advances #code }
     }
 }
 

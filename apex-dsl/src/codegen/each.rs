@@ -32,16 +32,13 @@ impl Emitter<'_> {
             if Some(port) == each.list {
                 item = inside;
             } else if p.optional || self.incoming(PortId { node, port }).is_some() {
-                let token = self.incoming(PortId { node, port }).map(|from| match p.optional {
-                    true => self.option(from, block),
-                    false => self.reference(from, block),
-                });
+                let to = PortId { node, port };
+                let token = if p.optional { self.arriving(to, block) } else { self.arrived(to, block) };
                 let token = token.unwrap_or_else(|| quote!(None));
                 bindings.extend(quote! { let #inside = #token; });
             }
         }
-        let from = each.list.and_then(|port| self.incoming(PortId { node, port }));
-        let Some(list) = from.map(|from| self.reference(from, block)) else {
+        let Some(list) = each.list.and_then(|port| self.arrived(PortId { node, port }, block)) else {
             return self.generator.bug(self.graph.nodes[node].span, "nothing leads to the list of an `each`");
         };
         let results: Vec<(syn::Ident, TokenStream, bool)> = self.graph.nodes[node]
@@ -119,6 +116,7 @@ fn result(clusters: &[Emitter<'_>], output: NodeId) -> (TokenStream, bool) {
         Storage::Argument => (emitter.generator.clone(emitter.graph, from, &quote!(#name)), false),
         Storage::MaybeArgument => (emitter.generator.cloned(emitter.graph, from, &quote!(#name)), true),
         Storage::Buffer => (emitter.generator.cloned(emitter.graph, from, &quote!(state.#name.get())), true),
+        Storage::Array => (quote!(#name[0].take()), true),
         _ if emitter.plan.is_plain(from) => (quote!(#name), false),
         _ => (quote!(#name), true),
     }

@@ -14,7 +14,8 @@ use crate::{
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
+use syn::Ident;
 
 /// Writes the code of one cluster.
 pub struct Emitter<'a> {
@@ -60,7 +61,9 @@ impl<'a> Emitter<'a> {
     /// Tokens that wait in the program are taken when the cluster starts.
     fn read_first(&self, node: NodeId) -> TokenStream {
         let sends = self.graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output);
-        let Some(end) = sends.map(|port| PortId { node, port }) else { return quote!() };
+        let Some(end) = sends.map(|port| PortId { node, port }).filter(|_| !self.plan.is_multirate) else {
+            return quote!();
+        };
         let name = self.generator.name(end);
         match self.graph.nodes[node].kind {
             NodeKind::Delay(_) => {
@@ -89,10 +92,16 @@ impl<'a> Emitter<'a> {
         ends.sort_unstable();
         ends.dedup();
         let stores = ends.into_iter().filter(|end| self.plan.storage(*end) != Storage::Buffer).map(|end| {
-            let (name, token) = (self.generator.name(end), self.option(end, 0));
+            let name = self.generator.name(end);
+            let token = match self.plan.storage(end) {
+                // The only one of an iteration.
+                Storage::Array => quote!(#name[0].as_ref()),
+                _ => self.option(end, 0),
+            };
             self.generator.store(self.graph, end, &quote!(state.#name), &token)
         });
-        quote! { #(#stores)* }
+        let hold = self.hold_iteration(node);
+        quote! { #(#stores)* #hold }
     }
 
     fn block(&self, block: &Block, next: &mut BlockId) -> TokenStream {
@@ -102,10 +111,15 @@ impl<'a> Emitter<'a> {
             let name = self.generator.name(end);
             match self.plan.storage(end) {
                 Storage::Buffer => quote! { state.#name.clear(); },
+                Storage::Array => self.array(end),
                 _ => quote! { let mut #name = None; },
             }
         });
         let hoisted: TokenStream = hoisted.collect();
+        if self.plan.is_multirate {
+            let iteration = self.iteration(block);
+            return quote! { #hoisted #iteration };
+        }
         let steps: TokenStream = block
             .steps
             .iter()
@@ -116,6 +130,7 @@ impl<'a> Emitter<'a> {
                     let body = self.block(inner, next);
                     quote! { if let #test { #body } }
                 }
+                Step::Repeat(_) => quote!(),
             })
             .collect();
         quote! { #hoisted #steps }
@@ -154,14 +169,41 @@ impl<'a> Emitter<'a> {
             Storage::Buffer => quote!(state.#name.get()),
             Storage::Outside => quote!(state.#name.as_ref()),
             Storage::MaybeArgument => quote!(#name),
+            Storage::Array => {
+                let place = self.place_in_array(end);
+                quote!(#name[#place].as_ref())
+            }
             _ if self.plan.is_plain(end) => quote!(Some(&#name)),
             _ => quote!(#name.as_ref()),
         }
     }
 
-    /// A copy of a token, as `Option<T>`.
-    fn cloned(&self, end: PortId, block: BlockId) -> TokenStream {
-        self.generator.cloned(self.graph, end, &self.option(end, block))
+    /// The token that arrives at an input, as `Option<&T>`; `None` if nothing is connected.
+    pub fn arriving(&self, to: PortId, block: BlockId) -> Option<TokenStream> {
+        let from = self.incoming(to)?;
+        Some(match self.plan.storage(from) {
+            Storage::Array => self.arriving_in_iteration(to, from),
+            _ => self.option(from, block),
+        })
+    }
+
+    /// The token that has arrived at an input for certain, as `&T`.
+    pub fn arrived(&self, to: PortId, block: BlockId) -> Option<TokenStream> {
+        let from = self.incoming(to)?;
+        match self.plan.is_multirate {
+            true => Some(self.tested(to).into_token_stream()),
+            false => Some(self.reference(from, block)),
+        }
+    }
+
+    /// Name of a token whose presence the firing of its node tests.
+    pub fn tested(&self, to: PortId) -> Ident {
+        ident(&format!("token_{}", self.graph.port(to).name))
+    }
+
+    /// A copy of the token that arrives at an input, as `Option<T>`.
+    fn copied(&self, to: PortId, block: BlockId) -> Option<TokenStream> {
+        Some(self.generator.cloned(self.graph, self.incoming(to)?, &self.arriving(to, block)?))
     }
 
     /// A token that is there, as `&T`.
@@ -175,7 +217,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// A node fires: its tokens' activity counts before, and its own goes with what it sends.
-    fn step(&self, node: NodeId, block: BlockId) -> TokenStream {
+    pub fn step(&self, node: NodeId, block: BlockId) -> TokenStream {
         let (take, fire) = (self.generator.take_activity(self.view, node), self.fire(node, block));
         // A delay has sent its token before it takes one.
         let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
@@ -216,26 +258,25 @@ impl<'a> Emitter<'a> {
             NodeKind::Library(library) => self.fire_library(node, library, block),
             NodeKind::Each(each) => {
                 let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.graph, node));
-                quote! { #fire #late }
+                let copies = self.copies(node);
+                quote! { #fire #copies #late }
             }
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                let token = self.incoming(PortId { node, port: 0 }).map(|from| self.cloned(from, block));
-                let token = token.unwrap_or_else(|| quote!(None));
+                let token = self.copied(PortId { node, port: 0 }, block).unwrap_or_else(|| quote!(None));
                 let activity = self.generator.hold_activity(self.view, node);
                 quote! { state.#held.put(#token); #activity }
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
-                let from = self.incoming(PortId { node, port: 0 });
-                let store = from.map(|from| {
-                    let token = self.option(from, block);
-                    self.generator.store(self.graph, from, &quote!(outputs.#port), &token)
-                });
+                let to = PortId { node, port: 0 };
+                let arrives = self.incoming(to).zip(self.arriving(to, block));
+                let store =
+                    arrives.map(|(from, token)| self.generator.store(self.graph, from, &quote!(outputs.#port), &token));
                 store.unwrap_or_default()
             }
             NodeKind::Relay => {
-                let token = self.incoming(PortId { node, port: 0 }).map(|from| self.cloned(from, block));
+                let token = self.copied(PortId { node, port: 0 }, block);
                 let out = PortId { node, port: 1 };
                 // Nothing may ever come, which then says nothing of the type.
                 let token = token.unwrap_or_else(|| {
@@ -245,9 +286,9 @@ impl<'a> Emitter<'a> {
                 self.bind(out, token, true)
             }
             NodeKind::Probe => {
-                let from = self.incoming(PortId { node, port: 0 });
-                from.map(|from| self.generator.see(self.graph, node, from, &self.option(from, block)))
-                    .unwrap_or_default()
+                let to = PortId { node, port: 0 };
+                let arrives = self.incoming(to).zip(self.arriving(to, block));
+                arrives.map(|(from, token)| self.generator.see(self.graph, node, from, &token)).unwrap_or_default()
             }
             _ => quote!(),
         }
@@ -283,7 +324,8 @@ impl<'a> Emitter<'a> {
         let call = self.with_checked_params(node, library, signature, call, block);
         let call = if told { self.told(node, signature, call, block) } else { call };
         let results = self.results(node, library, signature, call, told);
-        let results = self.recorded(node, block, results, processed);
+        let copies = self.copies(node);
+        let results = self.recorded(node, block, quote! { #results #copies }, processed);
         let outputs = self.param_outputs(node, library, signature, block);
         let late = self.generator.check_late(self.graph, node);
         let code = quote! { observer.fired(#index); #params #results #outputs #late observer.finished(#index); };
@@ -314,16 +356,13 @@ impl<'a> Emitter<'a> {
                         let name = self.generator.name(end);
                         quote!(state.#name.begin())
                     }
-                    PortKind::Input if p.optional => match self.incoming(end) {
-                        Some(from) => self.judged(end, self.option(from, block), true),
+                    PortKind::Input if p.optional => match self.arriving(end, block) {
+                        Some(token) => self.judged(end, token, true),
                         None => quote!(None),
                     },
-                    PortKind::Input => match self.incoming(end) {
-                        Some(_) if told => {
-                            let name = ident(&format!("token_{}", p.name));
-                            quote!(#name)
-                        }
-                        Some(from) => self.judged(end, self.reference(from, block), false),
+                    PortKind::Input => match self.arrived(end, block) {
+                        Some(_) if told => self.tested(end).into_token_stream(),
+                        Some(token) => self.judged(end, token, false),
                         None => quote!(),
                     },
                     PortKind::Event | PortKind::Slot => self.generator.event(self.view, end),
@@ -334,10 +373,7 @@ impl<'a> Emitter<'a> {
                     let name = format_ident!("param_{param}");
                     quote!(#name)
                 }
-                Some(from) => {
-                    let token = self.reference(from, block);
-                    self.generator.clone(self.graph, from, &token)
-                }
+                Some(to) => self.clone_of_arrived(to, block),
                 None => self.generator.argument(self.graph, node, library, param),
             },
         }
@@ -359,13 +395,18 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The token that arrives at a parameter port.
+    /// The input of a parameter, if a token arrives at it.
     fn param_source(&self, node: NodeId, param: usize) -> Option<PortId> {
-        let port = self.graph.nodes[node]
-            .ports
-            .iter()
-            .position(|p| p.parameter == Some(param) && p.kind == PortKind::Input)?;
-        self.incoming(PortId { node, port })
+        let ports = &self.graph.nodes[node].ports;
+        let port = ports.iter().position(|p| p.parameter == Some(param) && p.kind == PortKind::Input)?;
+        let to = PortId { node, port };
+        self.incoming(to).map(|_| to)
+    }
+
+    /// A copy of the token that has arrived at an input, as `T`.
+    fn clone_of_arrived(&self, to: PortId, block: BlockId) -> TokenStream {
+        let arrived = self.incoming(to).zip(self.arrived(to, block));
+        arrived.map(|(from, token)| self.generator.clone(self.graph, from, &token)).unwrap_or_default()
     }
 
     /// Tokens at parameter ports of a struct node are put into its fields first.
@@ -375,7 +416,7 @@ impl<'a> Emitter<'a> {
         }
         let (index, place) = (self.generator.index(node), self.generator.node_place(self.graph, node));
         let sets = (0..signature.params.len()).filter_map(|param| {
-            let (token, name) = (self.option(self.param_source(node, param)?, block), &signature.params[param].name);
+            let (token, name) = (self.arriving(self.param_source(node, param)?, block)?, &signature.params[param].name);
             Some(quote! { if let Some(value) = #token { ::apex_rt::set_param::<#param, _, _>(&mut #place, value, #index, #name, observer); } })
         });
         sets.collect()
@@ -398,12 +439,8 @@ impl<'a> Emitter<'a> {
             .filter(|p| signature.params[*p].range.is_some() && self.param_source(node, *p).is_some())
             .collect();
         checked.iter().rev().enumerate().fold(call, |call, (depth, param)| {
-            let Some(from) = self.param_source(node, *param) else { return call };
-            let (token, name, node_type) = (
-                self.reference(from, block),
-                &signature.params[*param].name,
-                self.generator.node_type(self.graph, library),
-            );
+            let token = self.param_source(node, *param).and_then(|to| self.arrived(to, block));
+            let (name, node_type) = (&signature.params[*param].name, self.generator.node_type(self.graph, library));
             let local = format_ident!("param_{param}");
             let check = quote!(::apex_rt::checked_param::<#param, #node_type, _>(#token, #index, #name, observer));
             let flat = depth > 0 || signature.returns.maybe || signature.returns.fallible;
@@ -413,15 +450,14 @@ impl<'a> Emitter<'a> {
 
     /// A node that wants to be told of ⊥ is called in one way or the other.
     fn told(&self, node: NodeId, signature: &Signature, call: TokenStream, block: BlockId) -> TokenStream {
-        let mandatory: Vec<(PortId, &str)> = signature
+        let (names, tokens): (Vec<Ident>, Vec<TokenStream>) = signature
             .ports
             .iter()
             .enumerate()
             .filter(|(_, p)| p.kind == PortKind::Input && !p.optional)
-            .filter_map(|(port, p)| Some((self.incoming(PortId { node, port })?, p.name.as_str())))
-            .collect();
-        let names = mandatory.iter().map(|(_, name)| ident(&format!("token_{name}")));
-        let tokens = mandatory.iter().map(|(from, _)| self.option(*from, block));
+            .map(|(port, _)| PortId { node, port })
+            .filter_map(|to| Some((self.tested(to), self.arriving(to, block)?)))
+            .unzip();
         let place = self.generator.node_place(self.graph, node);
         let method = ident(signature.no_message.as_deref().unwrap_or_default());
         let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });
@@ -450,7 +486,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn buffers(&self, node: NodeId) -> Vec<syn::Ident> {
+    pub fn buffers(&self, node: NodeId) -> Vec<Ident> {
         let ports = 0..self.graph.nodes[node].ports.len();
         ports
             .map(|port| PortId { node, port })
@@ -519,6 +555,9 @@ impl<'a> Emitter<'a> {
     /// by reference in the rest of its own block; not what a node that may be disabled sends.
     fn bind(&self, end: PortId, value: TokenStream, optional: bool) -> TokenStream {
         let name = self.generator.name(end);
+        if self.plan.storage(end) == Storage::Array {
+            return self.put_in_array(end, value, optional);
+        }
         match (self.plan.is_hoisted(end), optional) {
             (false, _) => quote! { let #name = #value; },
             (true, true) => quote! { #name = #value; },
@@ -560,10 +599,7 @@ impl<'a> Emitter<'a> {
         let binds = ends.map(|(end, param)| {
             let value = if signature.is_function {
                 match self.param_source(node, param) {
-                    Some(from) => {
-                        let token = self.reference(from, block);
-                        self.generator.clone(self.graph, from, &token)
-                    }
+                    Some(to) => self.clone_of_arrived(to, block),
                     None => {
                         let (ty, constant) = (
                             to_rust(&signature.params[param].ty, self.generator.catalog),

@@ -8,7 +8,7 @@ use super::{
     wiring::{Flag, Port, Slot, Timeout},
 };
 use crate::{
-    analyse::{Block, Step},
+    analyse::{Block, Run, Step},
     catalog::Catalog,
     graph::NodeId,
     program::Program,
@@ -82,10 +82,11 @@ impl Generator<'_> {
         for step in &block.steps {
             match step {
                 Step::Fire(node) => {
-                    let times = match view.analysis.repetitions.get(*node) {
-                        Some(&count) if count > 1 => format!(", {count} times"),
-                        _ => String::new(),
-                    };
+                    lines.add(depth, &format!("fire {}", view.graph.path(*node)));
+                    self.list_ports(lines, view, *node, depth + 1, |_| true);
+                }
+                Step::Repeat(Run { node, from, to }) => {
+                    let times = if to - from == 1 { String::new() } else { format!(", {} times", to - from) };
                     lines.add(depth, &format!("fire {}{times}", view.graph.path(*node)));
                     self.list_ports(lines, view, *node, depth + 1, |_| true);
                 }

@@ -24,6 +24,8 @@ pub enum Storage {
     MaybeArgument,
     /// An `Option` in the program's state, which another cluster left there.
     Outside,
+    /// `Option`s in a local array, one for each token of an iteration with several rates.
+    Array,
 }
 
 /// A block of a cluster, by number; 0 is the outermost.
@@ -41,6 +43,8 @@ pub struct Plan {
     storage: BTreeMap<PortId, Storage>,
     /// Tokens of nodes that can be disabled: they are declared outside the test of that.
     gated: BTreeSet<PortId>,
+    /// `true` if the cluster is in a region with several rates.
+    pub is_multirate: bool,
 }
 
 /// Returns `true` if a node writes its token in place.
@@ -77,6 +81,7 @@ impl Plan {
             tests: vec![],
             storage: BTreeMap::new(),
             gated: BTreeSet::new(),
+            is_multirate: analysis.clusters[cluster].is_multirate(),
         };
         let mut fires = vec![];
         plan.number(&analysis.clusters[cluster].block, 0, &mut fires);
@@ -95,7 +100,9 @@ impl Plan {
             }
         }
         for end in plan.home.keys() {
-            plan.storage.insert(*end, storage(graph, catalog, *end));
+            let single = storage(graph, catalog, *end);
+            let is_argument = matches!(single, Storage::Argument | Storage::MaybeArgument);
+            plan.storage.insert(*end, if plan.is_multirate && !is_argument { Storage::Array } else { single });
         }
         plan.gated = plan.home.keys().copied().filter(|end| graph.nodes[end.node].can_be_disabled()).collect();
         let mut uses: Vec<(PortId, BlockId, bool)> = vec![];
@@ -104,7 +111,9 @@ impl Plan {
             for &index in &links.inputs[node] {
                 let c = &graph.connections[index];
                 let writes = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
-                uses.push((c.from, block, is_mandatory(graph, c.to) && !told && !writes));
+                // With several rates each firing tests its own tokens.
+                let tests = is_mandatory(graph, c.to) && !told && !writes && !plan.is_multirate;
+                uses.push((c.from, block, tests));
                 if analysis.cluster_of[c.from.node] != cluster || !graph.is_synchronous(c) {
                     let buffer = is_buffer(graph, catalog, c.from);
                     plan.storage.insert(c.from, if buffer { Storage::Buffer } else { Storage::Outside });
@@ -146,6 +155,7 @@ impl Plan {
             match step {
                 Step::Fire(node) => fires.push((*node, id)),
                 Step::Block(inner) => self.number(inner, id, fires),
+                Step::Repeat(run) => fires.push((run.node, id)),
             }
         }
     }
@@ -165,6 +175,9 @@ impl Plan {
 
     /// Returns `true` if a local must be declared as an `Option` before the block that creates it.
     pub fn is_hoisted(&self, end: PortId) -> bool {
+        if self.storage(end) == Storage::Array {
+            return self.is_used(end);
+        }
         let moves = |declared: &BlockId| self.home.get(&end).is_some_and(|home| declared != home);
         self.declared.get(&end).is_some_and(|declared| moves(declared) || self.gated.contains(&end))
     }

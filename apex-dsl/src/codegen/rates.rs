@@ -1,219 +1,181 @@
-//! A region whose nodes fire at different rates: one iteration fires every node as often as the balance equations
-//! say, through buffers of exactly the size that an iteration needs.
+//! Clusters of regions with several rates: in one iteration every node fires as often as the balance equations say. The
+//! tokens of an iteration are in arrays, and the code of a node runs in a loop over its firings, by number `i`.
 
 use super::{
-    Generator,
-    types::{ident, path},
+    fire::Emitter,
+    plan::{Storage, is_buffer},
 };
 use crate::{
-    analyse::{Analysis, Links, handles_absence},
-    catalog::{ArgSig, Signature},
-    graph::{Graph, Library, NodeId, NodeKind, PortId},
+    analyse::{Block, Run, Step, handles_absence, is_mandatory},
+    graph::{NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
+use std::collections::BTreeMap;
+use syn::Ident;
 
-impl Generator<'_> {
-    /// The code of a cluster with several rates.
-    pub fn rates(&self, graph: &Graph, analysis: &Analysis, links: &Links, cluster: usize) -> TokenStream {
-        let nodes = &analysis.clusters[cluster].nodes;
-        let buffers = nodes.iter().flat_map(|&node| {
-            let count = analysis.repetitions[node] as usize;
-            let outputs = graph.nodes[node]
-                .ports
-                .iter()
-                .enumerate()
-                .filter(|(_, p)| p.kind == PortKind::Output && p.parameter.is_none());
-            outputs
-                .filter(move |(port, _)| links.out_of[node].iter().any(|c| graph.connections[*c].from.port == *port))
-                .map(move |(port, p)| {
-                    let (name, size) = (self.name(PortId { node, port }), count * p.rate);
-                    quote! { let mut #name = ::core::array::from_fn::<_, #size, _>(|_| None); }
-                })
-        });
-        let reads = nodes.iter().map(|&node| self.read(graph, analysis, node));
-        let fires = nodes.iter().map(|&node| self.fire_at_rate(graph, analysis, links, node));
-        quote! { #(#buffers)* #(#reads)* #(#fires)* }
+impl Emitter<'_> {
+    /// Declares the array of an output.
+    pub fn array(&self, end: PortId) -> TokenStream {
+        let (name, size) = (self.generator.name(end), self.count(end.node) * self.graph.port(end).rate);
+        quote! { let mut #name = ::core::array::from_fn::<_, #size, _>(|_| None); }
     }
 
-    fn read(&self, graph: &Graph, analysis: &Analysis, node: NodeId) -> TokenStream {
-        let n = &graph.nodes[node];
-        match n.kind {
-            NodeKind::Delay(_) => {
-                let (name, held) = (self.name(PortId { node, port: 1 }), self.held(node));
-                let count = analysis.repetitions[node] as usize;
-                let is_used = !analysis.links.out_of[node].is_empty();
-                let keep = if is_used { quote!(#name[i] =) } else { quote!(let _ =) };
-                quote! { for i in 0..#count { #keep state.#held.take_at(i); } }
-            }
-            NodeKind::Boundary(PortKind::Input) => {
-                let (name, port) = (self.name(PortId { node, port: 0 }), ident(&n.name));
-                quote! { #name[0] = inputs.#port.take(); }
-            }
-            _ => quote!(),
+    /// Number of firings in one iteration.
+    fn count(&self, node: NodeId) -> usize {
+        self.analysis.repetitions[node] as usize
+    }
+
+    /// Index of the first token that firing `i` sends.
+    pub fn place_in_array(&self, end: PortId) -> TokenStream {
+        match self.graph.port(end).rate {
+            1 => quote!(i),
+            rate => quote!(i * #rate),
         }
     }
 
-    fn fire_at_rate(&self, graph: &Graph, analysis: &Analysis, links: &Links, node: NodeId) -> TokenStream {
-        let count = analysis.repetitions[node] as usize;
-        let from = |port: usize| {
-            links.into[node].iter().map(|c| &graph.connections[*c]).find(|c| c.to.port == port).map(|c| c.from)
-        };
-        match &graph.nodes[node].kind {
+    /// The token that arrives at an input in firing `i`, or the array of tokens, as `Option<&T>`.
+    pub fn arriving_in_iteration(&self, to: PortId, from: PortId) -> TokenStream {
+        let name = self.generator.name(from);
+        if self.is_batched(to) {
+            let (rate, copy) = (self.graph.port(to).rate, self.generator.copier(self.graph, from));
+            return quote!(::apex_rt::gather::<_, #rate>(&#name, i, #copy).as_ref());
+        }
+        quote!(#name[i].as_ref())
+    }
+
+    /// Puts the value that firing `i` sends into the array of the output. It may be ⊥ if it is `optional`.
+    pub fn put_in_array(&self, end: PortId, value: TokenStream, optional: bool) -> TokenStream {
+        let name = self.generator.name(end);
+        match (self.is_batched(end), optional) {
+            (true, true) => quote! { if let Some(batch) = #value { ::apex_rt::spread(&mut #name, i, batch); } },
+            (true, false) => quote! { ::apex_rt::spread(&mut #name, i, #value); },
+            (false, true) => quote! { #name[i] = #value; },
+            (false, false) => quote! { #name[i] = Some(#value); },
+        }
+    }
+
+    /// Returns `true` if a port takes or sends an array of tokens at once.
+    fn is_batched(&self, end: PortId) -> bool {
+        match &self.graph.nodes[end.node].kind {
             NodeKind::Library(library) => {
-                let signature = &self.catalog.signatures[library.signature];
-                let code = self.call_at_rate(graph, links, node, library, signature, &from);
-                let late = self.check_late(graph, node);
-                quote! { for i in 0..#count { #code } #late }
+                let signature = &self.generator.catalog.signatures[library.signature];
+                signature.ports.get(end.port).is_some() && signature.is_batched(end.port)
             }
-            NodeKind::Delay(_) => {
-                let (held, Some(from)) = (self.held(node), from(0)) else {
-                    return self.bug(graph.nodes[node].span, "nothing leads to the delay");
-                };
-                let name = self.name(from);
-                let token = self.cloned(graph, from, &quote!(#name[i].as_ref()));
-                quote! { for i in 0..#count { state.#held.put(#token); } }
-            }
-            NodeKind::Boundary(PortKind::Output) => {
-                let (port, Some(from)) = (ident(&graph.nodes[node].name), from(0)) else {
-                    return self.bug(graph.nodes[node].span, "nothing leads to the output");
-                };
-                let name = self.name(from);
-                let store = self.store(graph, from, &quote!(outputs.#port), &quote!(#name[i].as_ref()));
-                quote! { for i in 0..#count { #store } }
-            }
-            NodeKind::Probe => {
-                let Some(end) = from(0) else { return quote!() };
-                let name = self.name(end);
-                let see = self.see(graph, node, end, &quote!(#name[i].as_ref()));
-                quote! { for i in 0..#count { #see } }
-            }
-            _ => quote!(),
+            _ => false,
         }
     }
 
-    /// One firing: tests its tokens, calls the node, and puts what it sends into the buffers.
-    fn call_at_rate(
-        &self,
-        graph: &Graph,
-        links: &Links,
-        node: NodeId,
-        library: &Library,
-        signature: &Signature,
-        from: &dyn Fn(usize) -> Option<PortId>,
-    ) -> TokenStream {
-        let Some(args) = &signature.process else { return quote!() };
-        let index = self.index(node);
-        let (mut names, mut tokens) = (vec![], vec![]);
-        let args: Vec<TokenStream> = args
-            .iter()
-            .map(|arg| match *arg {
-                ArgSig::Ctx => quote!(ctx),
-                ArgSig::Param(param) => self.param_value(graph, library, param),
-                ArgSig::Port(port) => {
-                    let p = &signature.ports[port];
-                    match (p.kind, from(port)) {
-                        (PortKind::Input, Some(end)) if p.optional => {
-                            let from = self.name(end);
-                            quote!(#from[i].as_ref())
-                        }
-                        (PortKind::Input, None) => quote!(None),
-                        (PortKind::Input, Some(end)) => {
-                            let from = self.name(end);
-                            let (name, rate) = (format_ident!("token_{}", p.name), p.rate);
-                            let batched = signature.is_batched(port);
-                            tokens.push(if batched {
-                                let copy = self.copier(graph, end);
-                                quote!(&::apex_rt::gather::<_, #rate>(&#from, i, #copy))
-                            } else {
-                                quote!(#from[i].as_ref())
-                            });
-                            names.push(name.clone());
-                            quote!(#name)
-                        }
-                        (PortKind::Output, _) => {
-                            let name = self.name(PortId { node, port });
-                            quote!(state.#name.begin())
-                        }
-                        _ => quote!(::apex_rt::Event::unconnected()),
-                    }
-                }
-            })
-            .collect();
-        let call = if signature.is_function {
-            let function = path(&signature.path);
-            quote!(#function(#(#args),*))
-        } else {
-            let place = self.node_place(graph, node);
-            quote!(#place.process(#(#args),*))
-        };
-        let sends = self.sends_at_rate(graph, links, node, library, call);
-        let sends = self.recorded_at_rate(graph, node, sends);
-        let told = if handles_absence(graph, self.catalog, node) {
-            let (place, method) =
-                (self.node_place(graph, node), ident(signature.no_message.as_deref().unwrap_or_default()));
-            quote! { else { observer.fired(#index); #place.#method(); observer.finished(#index); } }
-        } else {
-            quote!()
-        };
-        match names.as_slice() {
-            [] => quote! { observer.fired(#index); #sends observer.finished(#index); },
-            _ => {
-                quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { observer.fired(#index); #sends observer.finished(#index); } #told }
-            }
-        }
+    /// Copies what a node has written in place in firing `i`.
+    pub fn copies(&self, node: NodeId) -> TokenStream {
+        let ends = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
+        let written = ends.filter(|end| {
+            self.graph.port(*end).kind == PortKind::Output
+                && self.plan.is_used(*end)
+                && self.plan.storage(*end) == Storage::Array
+                && is_buffer(self.graph, self.generator.catalog, *end)
+        });
+        let copies = written.map(|end| {
+            let name = self.generator.name(end);
+            let token = self.generator.cloned(self.graph, end, &quote!(state.#name.get()));
+            self.put_in_array(end, token, true)
+        });
+        copies.collect()
     }
 
-    fn sends_at_rate(
-        &self,
-        graph: &Graph,
-        links: &Links,
-        node: NodeId,
-        library: &Library,
-        call: TokenStream,
-    ) -> TokenStream {
-        let signature = &self.catalog.signatures[library.signature];
-        let returns = signature.returns;
-        let failing = returns.fallible || graph.nodes[node].is_contained();
-        let call = if failing { self.contained(graph, node, library, call, returns.fallible) } else { call };
-        let value = match (failing, returns.maybe) {
-            (true, true) => quote!(#call.flatten()),
-            (true, false) | (false, true) => call.clone(),
-            (false, false) => quote!(Some(#call)),
-        };
-        // What a node wrote in place before it failed counts for nothing.
-        let written = (0..signature.ports.len()).map(|port| PortId { node, port });
-        let written = written.filter(|end| failing && super::plan::is_buffer(graph, self.catalog, *end));
-        let clears: Vec<_> = written.map(|end| self.name(end)).collect();
-        let clear = (!clears.is_empty()).then(|| quote! { if sent.is_none() { #(state.#clears.clear();)* } });
-        let used = |port: &usize| links.out_of[node].iter().any(|c| graph.connections[*c].from.port == *port);
-        let outputs = (0..signature.ports.len()).filter(|p| signature.ports[*p].kind == PortKind::Output).filter(used);
-        let mut puts = quote!();
-        for port in outputs {
-            let (name, p) = (self.name(PortId { node, port }), &signature.ports[port]);
-            let token = if super::plan::is_buffer(graph, self.catalog, PortId { node, port }) {
-                self.cloned(graph, PortId { node, port }, &quote!(state.#name.get()))
-            } else if let Some((_, field)) = &p.field {
-                let field = ident(field);
-                if p.field_is_option {
-                    quote!(sent.as_ref().and_then(|sent| sent.#field.clone()))
-                } else {
-                    quote!(sent.as_ref().map(|sent| sent.#field.clone()))
-                }
-            } else {
-                quote!(sent)
-            };
-            puts.extend(if signature.is_batched(port) {
-                quote! { if let Some(tokens) = #token { ::apex_rt::spread(&mut #name, i, tokens); } }
-            } else {
-                quote! { #name[i] = #token; }
+    /// All firings of an iteration. If nodes take turns, these are rows of a table.
+    pub fn iteration(&self, block: &Block) -> TokenStream {
+        let runs = block.steps.iter().filter_map(|step| match step {
+            Step::Repeat(run) => Some(*run),
+            Step::Fire(_) | Step::Block(_) => None,
+        });
+        let runs: Vec<Run> = runs.collect();
+        let mut arms: BTreeMap<NodeId, usize> = BTreeMap::new();
+        for run in &runs {
+            let count = arms.len();
+            arms.entry(run.node).or_insert(count);
+        }
+        if arms.len() == runs.len() {
+            let loops = runs.iter().map(|Run { node, from, to }| {
+                let (from, to, firing) = (*from as usize, *to as usize, self.firing(*node));
+                quote! { for i in #from..#to { #firing } }
             });
+            return loops.collect();
         }
-        if returns.value || failing {
-            quote! { let sent = #value; #clear #puts }
-        } else {
-            quote! { #call; #puts }
+        let turns = runs.iter().map(|Run { node, from, to }| {
+            let (arm, from, to) = (arms[node], *from as usize, *to as usize);
+            quote!((#arm, #from, #to))
+        });
+        let count = runs.len();
+        let firings = arms.iter().map(|(node, arm)| {
+            let firing = self.firing(*node);
+            quote! { #arm => { #firing } }
+        });
+        quote! {
+            const TURNS: [(usize, usize, usize); #count] = [#(#turns),*];
+            for (turn, begin, end) in TURNS {
+                for i in begin..end {
+                    match turn { #(#firings)* _ => {} }
+                }
+            }
         }
+    }
+
+    /// Firing `i` of a node, if its tokens are present.
+    fn firing(&self, node: NodeId) -> TokenStream {
+        let (graph, own) = (self.graph, PortId { node, port: 0 });
+        match &graph.nodes[node].kind {
+            NodeKind::Delay(initial) => return self.delayed(node, initial.len()),
+            NodeKind::Boundary(PortKind::Input) if !graph.is_body => {
+                let (name, port) = (self.generator.name(own), super::types::ident(&graph.nodes[node].name));
+                return quote! { #name[i] = inputs.#port.take(); };
+            }
+            _ => {}
+        }
+        let step = self.step(node, 0);
+        let tests = !handles_absence(graph, self.generator.catalog, node)
+            && matches!(graph.nodes[node].kind, NodeKind::Library(_) | NodeKind::Each(_));
+        let mandatory = (0..graph.nodes[node].ports.len())
+            .map(|port| PortId { node, port })
+            .filter(|to| tests && graph.port(*to).kind == PortKind::Input && is_mandatory(graph, *to));
+        let (names, tokens): (Vec<Ident>, Vec<TokenStream>) =
+            mandatory.filter_map(|to| Some((self.tested(to), self.arriving(to, 0)?))).unzip();
+        match names.as_slice() {
+            [] => step,
+            _ => quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { #step } },
+        }
+    }
+
+    /// Token `i` of a delay: first those that it holds, then the first ones of this iteration.
+    fn delayed(&self, node: NodeId, holds: usize) -> TokenStream {
+        let out = PortId { node, port: 1 };
+        if !self.plan.is_used(out) {
+            return quote!();
+        }
+        let (name, held) = (self.generator.name(out), self.generator.held(node));
+        let from = self.incoming(PortId { node, port: 0 });
+        let newer = from.filter(|_| holds < self.count(node)).map(|from| {
+            let source = self.generator.name(from);
+            self.generator.cloned(self.graph, from, &quote!(#source[i - #holds].as_ref()))
+        });
+        match newer {
+            None => quote! { #name[i] = state.#held.take_at(i); },
+            Some(newer) => quote! { #name[i] = if i < #holds { state.#held.take_at(i) } else { #newer }; },
+        }
+    }
+
+    /// Puts the tokens of the iteration into a delay when all nodes have fired. Those that it sent already go through
+    /// it.
+    pub fn hold_iteration(&self, node: NodeId) -> TokenStream {
+        if !self.plan.is_multirate || !self.graph.nodes[node].is_delay() {
+            return quote!();
+        }
+        let to = PortId { node, port: 0 };
+        let (held, count) = (self.generator.held(node), self.count(node));
+        let token = self.incoming(to).zip(self.arriving(to, 0));
+        let token = token.map(|(from, token)| self.generator.cloned(self.graph, from, &token));
+        let token = token.unwrap_or_else(|| quote!(None));
+        quote! { for i in 0..#count { state.#held.put(#token); } }
     }
 }

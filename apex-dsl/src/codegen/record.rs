@@ -260,34 +260,27 @@ impl Generator<'_> {
         }
     }
 
-    /// Tokens that a node of a region with several rates sends in its firing number `i`, in arrays.
-    pub fn recorded_at_rate(&self, graph: &Graph, node: NodeId, sends: TokenStream) -> TokenStream {
-        let places = |end: PortId| {
-            let (name, rate) = (self.name(end), graph.port(end).rate);
-            quote!(#name[i * #rate..(i + 1) * #rate])
-        };
-        let (takes, sent): (TokenStream, TokenStream) = self
-            .sources(graph, node)
-            .into_iter()
-            .map(|(end, number)| {
-                let (codec, places) = (self.codec(graph, end), places(end));
-                (
-                    quote! { for place in &mut #places { *place = tap.take(#number, #codec); } },
-                    quote! { for place in &#places { tap.source_sent(#number, #codec, place.as_ref()); } },
-                )
-            })
-            .unzip();
-        let outputs = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        let observed: TokenStream = outputs
-            .filter(|end| graph.port(*end).kind == PortKind::Output)
-            .filter_map(|end| {
-                let (places, observe) = (places(end), self.observe(graph, end, &quote!(place.as_ref()))?);
-                Some(quote! { for place in &#places { #observe } })
-            })
-            .collect();
-        if takes.is_empty() {
-            return quote! { #sends #observed };
-        }
+    /// Tokens that a source in a region with several rates sends in its firing number `i`, in arrays.
+    fn recorded_at_rate(
+        &self,
+        graph: &Graph,
+        node: NodeId,
+        ports: &[(PortId, usize)],
+        sends: &TokenStream,
+    ) -> TokenStream {
+        let parts = ports.iter().map(|(end, number)| {
+            let (codec, name, rate) = (self.codec(graph, *end), self.name(*end), graph.port(*end).rate);
+            if graph.port(*end).kind == PortKind::Event {
+                let take = quote! { state.#name = tap.take(#number, #codec); };
+                return (take, quote! { tap.source_sent(#number, #codec, state.#name.as_ref()); });
+            }
+            let places = quote!(#name[i * #rate..(i + 1) * #rate]);
+            (
+                quote! { for place in &mut #places { *place = tap.take(#number, #codec); } },
+                quote! { for place in &#places { tap.source_sent(#number, #codec, place.as_ref()); } },
+            )
+        });
+        let (takes, sent): (TokenStream, TokenStream) = parts.unzip();
         let index = self.index(node);
         quote! {
             match ::apex_rt::Observer::tap(observer).map(|tap| (tap.calls(#index), tap)) {
@@ -297,7 +290,6 @@ impl Generator<'_> {
                     if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sent }
                 }
             }
-            #observed
         }
     }
 
@@ -322,7 +314,14 @@ impl Emitter<'_> {
     pub fn observed_outputs(&self, node: NodeId, block: BlockId) -> TokenStream {
         let ends = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         ends.filter(|end| self.graph.port(*end).kind == PortKind::Output && self.plan.is_used(*end))
-            .filter_map(|end| self.generator.observe(self.graph, end, &self.option(end, block)))
+            .filter_map(|end| {
+                if self.plan.storage(end) != Storage::Array {
+                    return self.generator.observe(self.graph, end, &self.option(end, block));
+                }
+                let observe = self.generator.observe(self.graph, end, &quote!(place.as_ref()))?;
+                let (name, rate) = (self.generator.name(end), self.graph.port(end).rate);
+                Some(quote! { for place in &#name[i * #rate..(i + 1) * #rate] { #observe } })
+            })
             .collect()
     }
 
@@ -332,6 +331,9 @@ impl Emitter<'_> {
         let ports = self.generator.sources(self.graph, node);
         if ports.is_empty() {
             return results;
+        }
+        if self.plan.is_multirate {
+            return self.generator.recorded_at_rate(self.graph, node, &ports, &results);
         }
         let index = self.generator.index(node);
         let mut code = Recorded::default();

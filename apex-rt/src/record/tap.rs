@@ -20,7 +20,7 @@ impl Observer for Tap {
     }
 
     /// Ports of the `record` statement are recorded, or compared with a recording.
-    fn wants(&self, channel: usize) -> bool {
+    fn wants(&mut self, channel: usize) -> bool {
         match self {
             Self::Record(recorder) => recorder.role(channel) == Role::Chosen,
             Self::Replay(replay) => replay.role(channel) == Role::Chosen,
@@ -39,16 +39,6 @@ impl Observer for Tap {
 impl Observer for Option<Tap> {
     fn tap(&mut self) -> Option<&mut Tap> {
         self.as_mut()
-    }
-
-    fn wants(&self, channel: usize) -> bool {
-        self.as_ref().is_some_and(|tap| tap.wants(channel))
-    }
-
-    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        if let Some(tap) = self {
-            tap.sent(channel, codec, token);
-        }
     }
 }
 
