@@ -5,6 +5,8 @@ pub struct Info {
     pub name: &'static str,
     /// Documentation of the graph in its source file.
     pub docs: &'static str,
+    /// Paths of the source files.
+    pub files: &'static [&'static str],
     /// All nodes in the order of the source file.
     pub nodes: &'static [NodeInfo],
     /// The kinds of nodes: those that have the same node type and the same types of tokens are of one kind.
@@ -30,12 +32,23 @@ pub struct NodeInfo {
     pub name: &'static str,
     /// Index of its kind in [`Info::kinds`].
     pub kind: usize,
-    /// Place of its declaration: `robot.afg:8:17`.
-    pub place: &'static str,
+    /// Place of its declaration.
+    pub place: Place,
     /// `true` if a ⊥ at this node must be passed on for an essential node downstream (thesis eq. 3.7).
     pub required: bool,
     /// `true` if a ⊥ at this node must be passed on for a join downstream (thesis eq. 3.8).
     pub siblings: bool,
+}
+
+/// A place in the source files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Index of the file in [`Info::files`].
+    pub file: usize,
+    /// Line, from 1.
+    pub line: u32,
+    /// Column, from 1.
+    pub column: u32,
 }
 
 /// A kind of nodes.
@@ -112,9 +125,10 @@ impl Info {
 }
 
 impl NodeInfo {
-    /// Returns a row of the table of nodes.
-    pub const fn new(name: &'static str, kind: usize, place: &'static str, required: bool, siblings: bool) -> Self {
-        Self { name, kind, place, required, siblings }
+    /// Returns a row of the table of nodes. `place` has file, line and column.
+    pub const fn new(name: &'static str, kind: usize, place: [u32; 3], required: bool, siblings: bool) -> Self {
+        let [file, line, column] = place;
+        Self { name, kind, place: Place { file: file as usize, line, column }, required, siblings }
     }
 }
 

@@ -60,7 +60,7 @@ pub use event::Event;
 #[doc(hidden)]
 pub use event::event;
 pub use failure::{Failure, contain, contain_fallible};
-pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, PortInfo, PortKind};
+pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, Place, PortInfo, PortKind};
 pub use list::List;
 pub use mailbox::Mailbox;
 #[doc(hidden)]

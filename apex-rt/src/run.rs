@@ -318,6 +318,7 @@ mod tests {
         const INFO: Info = Info {
             name: "Asked",
             docs: "",
+            files: &[],
             nodes: &[],
             kinds: &[],
             graphs: &[],

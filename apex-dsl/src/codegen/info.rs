@@ -5,6 +5,7 @@ use crate::{
     analyse::Analysis,
     catalog::{first_sentence, linkless},
     graph::{Graph, Node, NodeId, NodeKind},
+    source::{FileId, Span},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -18,6 +19,8 @@ struct Rows {
     connections: Vec<TokenStream>,
     /// Rows of the kinds, each with its number.
     kinds: BTreeMap<String, (usize, TokenStream)>,
+    /// The source files of the nodes.
+    files: Vec<FileId>,
 }
 
 impl Rows {
@@ -40,7 +43,8 @@ impl Generator<'_> {
         let (name, docs) = (&graph.name, &graph.docs);
         let mut rows = Rows::default();
         self.rows(graph, analysis, "", &mut rows);
-        let Rows { nodes, connections, kinds } = rows;
+        let Rows { nodes, connections, kinds, files } = rows;
+        let files = files.iter().map(|file| self.sources.get(*file).path.display().to_string());
         let mut kinds: Vec<(usize, TokenStream)> = kinds.into_values().collect();
         kinds.sort_by_key(|(number, _)| *number);
         let kinds = kinds.into_iter().map(|(_, row)| row);
@@ -55,6 +59,7 @@ impl Generator<'_> {
             ::apex_rt::Info {
                 name: #name,
                 docs: #docs,
+                files: &[#(#files),*],
                 nodes: &[#(#nodes),*],
                 kinds: &[#(#kinds),*],
                 graphs: &[#(#graphs),*],
@@ -70,7 +75,7 @@ impl Generator<'_> {
     fn rows(&self, graph: &Graph, analysis: &Analysis, prefix: &str, rows: &mut Rows) {
         for (id, node) in graph.nodes.iter().enumerate() {
             let (name, kind) = (format!("{prefix}{}", graph.path(id)), rows.kind(self.kind_row(node)));
-            let (c, place) = (analysis.characteristics[id], self.position(node.span));
+            let (c, place) = (analysis.characteristics[id], self.place_row(node.span, &mut rows.files));
             let (required, siblings) = (c.required, c.siblings);
             rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)));
         }
@@ -86,6 +91,17 @@ impl Generator<'_> {
                 self.inside(graph, id).rows(&each.body, body, &prefix, rows);
             }
         }
+    }
+
+    /// Index of a place's file in `files`, line, and column.
+    fn place_row(&self, span: Span, files: &mut Vec<FileId>) -> TokenStream {
+        let file = files.iter().position(|file| *file == span.file).unwrap_or_else(|| {
+            files.push(span.file);
+            files.len() - 1
+        });
+        let (line, column) = self.sources.line_column(span.file, span.start);
+        let numbers = [file, line, column].map(Literal::usize_unsuffixed);
+        quote!([#(#numbers),*])
     }
 
     /// The row of a node's kind.

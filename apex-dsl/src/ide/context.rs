@@ -1,7 +1,8 @@
 //! Recognition of the context at a place from the tokens before it.
 
-use super::lex::{Token, TokenKind, tokens_before, unit_start};
+use super::lex::tokens_before;
 use crate::syntax::MAX_DEPTH;
+use crate::syntax::tokens::{Token, TokenKind, unit_start};
 
 /// One end of a connection, as written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,7 +100,7 @@ pub fn context(text: &str, offset: usize) -> (Context, usize) {
     }
     let last = tokens.last().copied().filter(|t| t.start + t.text.len() == offset);
     match last {
-        Some(Token { kind: TokenKind::Keyword, start, .. }) => {
+        Some(Token { kind: TokenKind::Word, start, .. }) => {
             tokens.pop();
             (at_word(&tokens), start)
         }
@@ -132,7 +133,7 @@ fn depth(tokens: &[Token<'_>]) -> usize {
 }
 
 fn is(token: Option<&Token<'_>>, text: &str) -> bool {
-    token.is_some_and(|t| t.text == text && t.kind != TokenKind::Text)
+    token.is_some_and(|t| t.text == text && !matches!(t.kind, TokenKind::Text { .. }))
 }
 
 /// The context of a word behind these tokens.
@@ -201,7 +202,7 @@ fn opener(tokens: &[Token<'_>]) -> Option<usize> {
 }
 
 fn starts_item(tokens: &[Token<'_>], at: usize) -> bool {
-    let named = tokens.get(at + 1).is_none_or(|t| t.kind == TokenKind::Keyword);
+    let named = tokens.get(at + 1).is_none_or(|t| t.kind == TokenKind::Word);
     named && (at == 0 || matches!(tokens[at - 1].text, ";" | "}"))
 }
 
@@ -265,7 +266,7 @@ fn header(tokens: &[Token<'_>], open: usize) -> usize {
 fn in_graph(written: &[Token<'_>]) -> Context {
     let Some(last) = written.last() else { return Context::Statement };
     match (written[0].text, written) {
-        ("in" | "out" | "slot" | "event", [_, name, rest @ ..]) if name.kind == TokenKind::Keyword => typed(rest),
+        ("in" | "out" | "slot" | "event", [_, name, rest @ ..]) if name.kind == TokenKind::Word => typed(rest),
         ("in" | "out" | "slot" | "event", [_]) => Context::Nothing,
         ("node", [_]) | ("node", [_, _]) => Context::Nothing,
         ("node", [_, _, equals]) if equals.text == "=" => Context::Constructor(false),
@@ -348,7 +349,7 @@ fn arrow_before(tokens: &[Token<'_>]) -> Option<PortId> {
 fn reference_before(tokens: &[Token<'_>]) -> (Vec<String>, usize) {
     let mut parts = vec![];
     let mut at = tokens.len();
-    while at > 0 && tokens[at - 1].kind == TokenKind::Keyword {
+    while at > 0 && tokens[at - 1].kind == TokenKind::Word {
         parts.push(tokens[at - 1].text.to_owned());
         at -= 1;
         if at == 0 || tokens[at - 1].text != "." {
@@ -367,7 +368,7 @@ fn end_before(tokens: &[Token<'_>]) -> Option<PortId> {
     while end.first().is_some_and(|t| t.text == "[") {
         end = &end[1..];
     }
-    let words = end.iter().take_while(|t| t.kind == TokenKind::Keyword || matches!(t.text, "." | "::"));
+    let words = end.iter().take_while(|t| t.kind == TokenKind::Word || matches!(t.text, "." | "::"));
     let (mut parts, mut in_place) = (vec![], false);
     for token in words.clone() {
         match token.text {
@@ -388,7 +389,7 @@ fn in_parens(tokens: &[Token<'_>], open: usize) -> Context {
     let before = &tokens[..open];
     let header = &tokens[header(tokens, open)..open];
     let inside = &tokens[open + 1..];
-    let word = before.last().filter(|t| t.kind == TokenKind::Keyword).map(|t| t.text);
+    let word = before.last().filter(|t| t.kind == TokenKind::Word).map(|t| t.text);
     match (header.first().map(|t| t.text), header.len(), word) {
         (Some("graph" | "robot"), 2, _) => return in_parameters(inside),
         (Some("claim"), 2, _) => return Context::Name(Named::Node, None),
@@ -436,7 +437,7 @@ fn nested(tokens: &[Token<'_>], open: usize) -> Context {
 fn in_arguments(of: Vec<String>, inside: &[Token<'_>]) -> Context {
     let start = last_comma(inside);
     let given = |tokens: &[Token<'_>]| -> Vec<String> {
-        let names = tokens.windows(2).filter(|w| w[0].kind == TokenKind::Keyword && w[1].text == "=");
+        let names = tokens.windows(2).filter(|w| w[0].kind == TokenKind::Word && w[1].text == "=");
         names.map(|w| w[0].text.to_owned()).collect()
     };
     match &inside[start..] {
@@ -486,9 +487,7 @@ fn in_brackets(tokens: &[Token<'_>], open: usize) -> Context {
         Context::Type if begins => Context::Type,
         Context::Value(of, param) => Context::Value(of, param),
         Context::Expression => Context::Expression,
-        Context::Nothing
-            if inside.is_empty() && tokens[..open].last().is_some_and(|t| t.kind == TokenKind::Keyword) =>
-        {
+        Context::Nothing if inside.is_empty() && tokens[..open].last().is_some_and(|t| t.kind == TokenKind::Word) => {
             Context::Unit(Quantity::Any)
         }
         _ => Context::Nothing,

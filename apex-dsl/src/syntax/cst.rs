@@ -1,6 +1,10 @@
 //! The concrete syntax of a source file: all its tokens and comments, under the rules of the grammar.
 
-use super::{Rule, prescan::Lexical};
+use super::{
+    Rule,
+    prescan::Lexical,
+    tokens::{TokenKind, tokens},
+};
 use pest::iterators::Pair;
 use std::ops::Range;
 
@@ -113,19 +117,9 @@ impl Shape<'_> {
     }
 
     fn signs(&mut self, range: Range<usize>, kids: &mut Vec<Child>) {
-        let mut at = range.start;
-        while at < range.end {
-            let rest = &self.blanked[at..range.end];
-            let length = match rest.as_bytes() {
-                [b' ' | b'\t' | b'\r' | b'\n', ..] => {
-                    at += 1;
-                    continue;
-                }
-                [b'-' | b'=', b'>', ..] | [b':', b':', ..] => 2,
-                _ => 1,
-            };
-            kids.push(self.token(at, length));
-            at += length;
+        let between = tokens(&self.blanked[range.clone()]).filter(|token| token.kind != TokenKind::Blank);
+        for token in between {
+            kids.push(self.token(range.start + token.start, token.text.len()));
         }
     }
 

@@ -8,6 +8,7 @@ mod mistakes;
 mod prescan;
 mod repair;
 mod syntax_errors;
+pub(crate) mod tokens;
 pub mod tree;
 
 use crate::{

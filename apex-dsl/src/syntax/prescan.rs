@@ -1,7 +1,10 @@
 //! The first pass over a source file, which relieves the grammar. Reports characters without a meaning, and brackets
 //! that do not match or nest too deeply. Replaces comments by blanks.
 
-use super::characters::{self, Foreign};
+use super::{
+    characters::{self, Foreign},
+    tokens::{Token, TokenKind, token},
+};
 use crate::{
     report::{Diagnostic, Diagnostics},
     source::{FileId, Span},
@@ -34,7 +37,7 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
     }
     let mut scanner = Scanner {
         file,
-        bytes: text.as_bytes(),
+        text,
         at: if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 },
         open: vec![],
         angles: 0,
@@ -44,7 +47,7 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
         long_string: None,
         failed: false,
     };
-    scanner.run(text, diagnostics);
+    scanner.run(diagnostics);
     scanner.foreign.report(diagnostics);
     let failed = scanner.failed;
     let comments = scanner.comments;
@@ -69,7 +72,8 @@ pub fn scan(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<L
 
 struct Scanner<'a> {
     file: FileId,
-    bytes: &'a [u8],
+    text: &'a str,
+    /// End of the last token.
     at: usize,
     open: Vec<(u8, usize)>,
     angles: usize,
@@ -83,50 +87,49 @@ struct Scanner<'a> {
 }
 
 impl Scanner<'_> {
-    fn run(&mut self, text: &str, diagnostics: &mut Diagnostics) {
-        while let Some(&byte) = self.bytes.get(self.at) {
-            let start = self.at;
-            match byte {
-                b'/' if self.starts("//") => self.line_comment(),
-                b'/' if self.starts("/*") => self.block_comment(diagnostics),
-                b'"' => self.string(diagnostics),
-                b'(' | b'[' | b'{' => self.opening(byte, diagnostics),
-                b')' | b']' | b'}' => self.closing(byte, diagnostics),
-                b'-' | b'=' if self.bytes.get(start + 1) == Some(&b'>') => self.at += 2,
-                b'<' => {
-                    self.angles += 1;
-                    self.at += 1;
-                    if self.angles > MAX_DEPTH {
-                        self.too_deep(start, diagnostics);
-                    }
-                }
-                b'>' => {
-                    self.angles = self.angles.saturating_sub(1);
-                    self.at += 1;
-                }
-                b';' => {
-                    self.angles = 0;
-                    self.statement_ends(text, diagnostics);
-                    self.at += 1;
-                }
-                b' ' | b'\t' | b'\r' | b'\n' | b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' => self.at += 1,
-                b'_' | b',' | b':' | b'.' | b'=' | b'-' | b'+' | b'*' | b'/' | b'%' | b'!' | b'&' | b'|' | b'^' => {
-                    self.at += 1
-                }
-                _ => self.unknown(text, diagnostics),
-            }
-            if self.failed && self.at >= self.bytes.len() {
-                return;
-            }
+    fn run(&mut self, diagnostics: &mut Diagnostics) {
+        while let Some(token) = token(self.text, self.at) {
+            self.at = token.end();
+            self.token(token, diagnostics);
         }
         if !self.failed && !self.open.is_empty() {
-            self.never_closed(text, diagnostics);
+            self.never_closed(diagnostics);
+        }
+    }
+
+    fn token(&mut self, token: Token<'_>, diagnostics: &mut Diagnostics) {
+        match token.kind {
+            TokenKind::Blank | TokenKind::Word | TokenKind::Number => {}
+            TokenKind::LineComment => self.line_comment(token),
+            TokenKind::BlockComment { closed, depth } => self.block_comment(token, closed, depth, diagnostics),
+            TokenKind::Text { closed } => self.string(token, closed, diagnostics),
+            TokenKind::Open => self.opening(token, diagnostics),
+            TokenKind::Close => self.closing(token, diagnostics),
+            TokenKind::Sign => self.sign(token, diagnostics),
+            TokenKind::Unknown => self.unknown(token.start, diagnostics),
+        }
+    }
+
+    fn sign(&mut self, token: Token<'_>, diagnostics: &mut Diagnostics) {
+        match token.text {
+            "<" => {
+                self.angles += 1;
+                if self.angles > MAX_DEPTH {
+                    self.too_deep(token.start, diagnostics);
+                }
+            }
+            ">" => self.angles = self.angles.saturating_sub(1),
+            ";" => {
+                self.angles = 0;
+                self.statement_ends(token.start, diagnostics);
+            }
+            _ => {}
         }
     }
 
     /// Reports a bracket that is open at the end. If an item begins inside an open brace, that brace is reported.
-    fn never_closed(&mut self, text: &str, diagnostics: &mut Diagnostics) {
-        let Some(&(bracket, at)) = self.open.last() else { return };
+    fn never_closed(&mut self, diagnostics: &mut Diagnostics) {
+        let (text, Some(&(bracket, at))) = (self.text, self.open.last()) else { return };
         let never = |bracket: u8, at: usize| {
             let span = Span::new(self.file, at, at + 1);
             Diagnostic::error("unclosed", span, format!("this `{}` is never closed", bracket as char))
@@ -156,12 +159,12 @@ impl Scanner<'_> {
     }
 
     /// Reports parentheses that are open at the end of a statement, which must be outside.
-    fn statement_ends(&mut self, text: &str, diagnostics: &mut Diagnostics) {
+    fn statement_ends(&mut self, end_of_statement: usize, diagnostics: &mut Diagnostics) {
         while let Some((b'(', at)) = self.open.last().copied() {
             self.open.pop();
             let span = Span::new(self.file, at, at + 1);
             // Parentheses do not contain arrows either, so that they should be closed before the first one.
-            let inside = &text[at..self.at];
+            let inside = &self.text[at..end_of_statement];
             let end = [inside.find("->"), inside.find("=>")].into_iter().flatten().min().unwrap_or(inside.len());
             let end = at + inside[..end].trim_end().len();
             let here = Span::new(self.file, end, end);
@@ -169,10 +172,6 @@ impl Scanner<'_> {
             let inner = self.open.last().is_some_and(|(bracket, _)| *bracket == b'(');
             self.fail(diagnostics, if inner { error } else { error.fix("close it", here, ")") });
         }
-    }
-
-    fn starts(&self, with: &str) -> bool {
-        self.bytes[self.at..].starts_with(with.as_bytes())
     }
 
     fn fail(&mut self, diagnostics: &mut Diagnostics, diagnostic: Diagnostic) {
@@ -183,7 +182,7 @@ impl Scanner<'_> {
     /// Reports an error after which nothing can be understood.
     fn give_up(&mut self, diagnostics: &mut Diagnostics, diagnostic: Diagnostic) {
         self.fail(diagnostics, diagnostic);
-        self.at = self.bytes.len();
+        self.at = self.text.len();
     }
 
     fn too_deep(&mut self, at: usize, diagnostics: &mut Diagnostics) {
@@ -191,73 +190,52 @@ impl Scanner<'_> {
         self.give_up(diagnostics, Diagnostic::error("too-deep", Span::new(self.file, at, at + 1), message));
     }
 
-    fn line_comment(&mut self) {
-        let start = self.at;
-        let is_doc = (self.starts("///") && !self.starts("////")) || self.starts("//!");
-        self.at = self.bytes[start..].iter().position(|&b| b == b'\n').map_or(self.bytes.len(), |n| start + n);
+    fn line_comment(&mut self, token: Token<'_>) {
+        let is_doc =
+            (token.text.starts_with("///") && !token.text.starts_with("////")) || token.text.starts_with("//!");
         if !is_doc {
-            self.comments.push(Span::new(self.file, start, self.at));
+            self.comments.push(Span::new(self.file, token.start, token.end()));
         }
     }
 
-    fn block_comment(&mut self, diagnostics: &mut Diagnostics) {
-        let start = self.at;
-        let mut depth = 0;
-        while self.at < self.bytes.len() {
-            if self.starts("/*") {
-                depth += 1;
-                self.at += 2;
-                if depth > MAX_DEPTH {
-                    return self.too_deep(start, diagnostics);
-                }
-            } else if self.starts("*/") {
-                depth -= 1;
-                self.at += 2;
-                if depth == 0 {
-                    return self.comments.push(Span::new(self.file, start, self.at));
-                }
-            } else {
-                self.at += 1;
-            }
+    fn block_comment(&mut self, token: Token<'_>, closed: bool, depth: usize, diagnostics: &mut Diagnostics) {
+        if depth > MAX_DEPTH {
+            return self.too_deep(token.start, diagnostics);
         }
-        let span = Span::new(self.file, start, start + 2);
+        if closed {
+            return self.comments.push(Span::new(self.file, token.start, token.end()));
+        }
+        let span = Span::new(self.file, token.start, token.start + 2);
         self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this comment is never closed"));
     }
 
-    fn string(&mut self, diagnostics: &mut Diagnostics) {
-        let start = self.at;
-        self.at += 1;
-        while let Some(&byte) = self.bytes.get(self.at) {
-            self.at += if byte == b'\\' { 2 } else { 1 };
-            if byte == b'\n' {
-                self.long_string.get_or_insert(start);
-            }
-            if byte == b'"' {
-                return;
-            }
+    fn string(&mut self, token: Token<'_>, closed: bool, diagnostics: &mut Diagnostics) {
+        if token.text.contains('\n') {
+            self.long_string.get_or_insert(token.start);
+        }
+        if closed {
+            return;
         }
         // An unclosed string swaps the beginnings and ends of all later ones: the first long one is the culprit.
-        let start = self.long_string.unwrap_or(start);
+        let start = self.long_string.unwrap_or(token.start);
         let span = Span::new(self.file, start, start + 1);
         self.give_up(diagnostics, Diagnostic::error("unclosed", span, "this string is never closed"));
     }
 
-    fn opening(&mut self, byte: u8, diagnostics: &mut Diagnostics) {
-        self.open.push((byte, self.at));
+    fn opening(&mut self, token: Token<'_>, diagnostics: &mut Diagnostics) {
+        self.open.push((token.text.as_bytes()[0], token.start));
         if self.open.len() > MAX_DEPTH {
-            return self.too_deep(self.at, diagnostics);
+            self.too_deep(token.start, diagnostics);
         }
-        self.at += 1;
     }
 
-    fn closing(&mut self, byte: u8, diagnostics: &mut Diagnostics) {
-        let span = Span::new(self.file, self.at, self.at + 1);
+    fn closing(&mut self, token: Token<'_>, diagnostics: &mut Diagnostics) {
+        let (byte, span) = (token.text.as_bytes()[0], Span::new(self.file, token.start, token.end()));
         let matching = match byte {
             b')' => b'(',
             b']' => b'[',
             _ => b'{',
         };
-        self.at += 1;
         match self.open.pop() {
             Some((open, _)) if open == matching => {}
             Some((open, at)) => {
@@ -278,17 +256,15 @@ impl Scanner<'_> {
         }
     }
 
-    fn unknown(&mut self, text: &str, diagnostics: &mut Diagnostics) {
-        let Some(char) = text[self.at..].chars().next() else { return };
-        if let Some(word) = characters::foreign_word(text, self.at) {
+    fn unknown(&mut self, start: usize, diagnostics: &mut Diagnostics) {
+        if let Some(word) = characters::foreign_word(self.text, start) {
             self.at = word.end;
             self.failed = true;
-            return self.foreign.add(&text[word.clone()], Span::new(self.file, word.start, word.end));
+            return self.foreign.add(&self.text[word.clone()], Span::new(self.file, word.start, word.end));
         }
-        let span = Span::new(self.file, self.at, self.at + char.len_utf8());
-        self.at = span.end as usize;
+        let Some(char) = self.text[start..].chars().next() else { return };
         self.unknown += 1;
-        let diagnostic = characters::unknown(char, span);
+        let diagnostic = characters::unknown(char, Span::new(self.file, start, self.at));
         if self.unknown >= MAX_UNKNOWN {
             self.give_up(diagnostics, diagnostic.note("more follow: is this an `.afg` file?"));
         } else {

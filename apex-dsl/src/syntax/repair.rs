@@ -1,6 +1,9 @@
 //! Repair of unfinished text for editors: makes it parsable without moving the rest.
 
-use super::prescan::{self, MAX_BYTES, MAX_DEPTH};
+use super::{
+    prescan::{self, MAX_BYTES, MAX_DEPTH},
+    tokens::{Token, TokenKind, token},
+};
 use crate::{report::Diagnostics, source::FileId};
 
 /// Keywords that begin an item.
@@ -46,6 +49,7 @@ pub fn edits(text: &str, repaired: &str) -> Vec<usize> {
 struct Repairer<'a> {
     text: &'a str,
     bytes: Vec<u8>,
+    /// Offset of the next token.
     at: usize,
     /// The open brackets, with their places.
     open: Vec<(u8, usize)>,
@@ -59,42 +63,24 @@ struct Repairer<'a> {
 
 impl Repairer<'_> {
     fn run(&mut self) {
-        while let Some(&byte) = self.bytes.get(self.at) {
-            let start = self.at;
-            match byte {
-                b' ' | b'\t' | b'\r' | b'\n' => {
-                    self.at += 1;
-                    continue;
-                }
-                b'/' if self.rest().starts_with("//") => {
-                    self.at = self.end_of_line();
+        while let Some(token) = token(self.text, self.at) {
+            self.at = token.end();
+            match token.kind {
+                TokenKind::Blank => continue,
+                TokenKind::LineComment => {
                     self.ends_in_comment = self.at == self.text.len();
                     continue;
                 }
-                b'/' if self.rest().starts_with("/*") => self.block_comment(),
-                b'"' => self.string(),
-                b'(' | b'[' | b'{' => self.opening(byte),
-                b')' | b']' | b'}' => self.closing(byte),
-                b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' | b'_' => self.word(),
-                b'-' | b'=' if self.bytes.get(start + 1) == Some(&b'>') => self.at += 2,
-                b'<' if self.angles >= MAX_DEPTH => self.blank(1),
-                b'<' => {
-                    self.angles += 1;
-                    self.at += 1;
-                }
-                b'>' => {
-                    self.angles = self.angles.saturating_sub(1);
-                    self.at += 1;
-                }
-                b';' => {
-                    self.angles = 0;
-                    self.drop_until_brace();
-                    self.at += 1;
-                }
-                b',' | b':' | b'.' | b'=' | b'-' | b'+' | b'*' | b'/' | b'%' | b'!' | b'&' | b'|' | b'^' => {
-                    self.at += 1
-                }
-                _ => self.blank(self.rest().chars().next().map_or(1, char::len_utf8)),
+                TokenKind::BlockComment { closed: true, depth } if depth <= MAX_DEPTH => {}
+                TokenKind::BlockComment { .. } => self.blank(token.start, 2),
+                // The string is probably unfinished: its quote becomes a blank.
+                TokenKind::Text { .. } if !token.ends_in_line() => self.blank(token.start, 1),
+                TokenKind::Text { .. } | TokenKind::Number => {}
+                TokenKind::Word => self.word(token),
+                TokenKind::Open => self.opening(token),
+                TokenKind::Close => self.closing(token),
+                TokenKind::Sign => self.sign(token),
+                TokenKind::Unknown => self.blank(token.start, token.text.len()),
             }
             self.solid = self.at;
         }
@@ -110,66 +96,35 @@ impl Repairer<'_> {
         }
     }
 
-    fn rest(&self) -> &str {
-        self.text.get(self.at..).unwrap_or_default()
+    /// Replaces `count` bytes at `start` by blanks, and goes on behind them.
+    fn blank(&mut self, start: usize, count: usize) {
+        self.at = start + count;
+        self.bytes[start..self.at].fill(b' ');
     }
 
-    fn end_of_line(&self) -> usize {
-        self.rest().find('\n').map_or(self.text.len(), |n| self.at + n)
-    }
-
-    /// Replaces the next `count` bytes by blanks.
-    fn blank(&mut self, count: usize) {
-        self.bytes[self.at..self.at + count].fill(b' ');
-        self.at += count;
-    }
-
-    fn block_comment(&mut self) {
-        let (mut depth, mut at) = (0, self.at);
-        while at < self.text.len() {
-            let rest = &self.bytes[at..];
-            match () {
-                () if rest.starts_with(b"/*") && depth == MAX_DEPTH => break,
-                () if rest.starts_with(b"/*") => (depth, at) = (depth + 1, at + 2),
-                () if rest.starts_with(b"*/") => (depth, at) = (depth - 1, at + 2),
-                () => at += 1,
+    fn sign(&mut self, token: Token<'_>) {
+        match token.text {
+            "<" if self.angles >= MAX_DEPTH => self.blank(token.start, 1),
+            "<" => self.angles += 1,
+            ">" => self.angles = self.angles.saturating_sub(1),
+            ";" => {
+                self.angles = 0;
+                self.drop_until_brace();
             }
-            if depth == 0 {
-                self.at = at;
-                return;
-            }
-        }
-        self.blank(2);
-    }
-
-    /// Skips a string. The quote of one that does not end in its line becomes a blank: the string is probably
-    /// unfinished.
-    fn string(&mut self) {
-        let (mut escaped, mut length) = (false, None);
-        let line = self.text.as_bytes()[self.at + 1..].iter().take_while(|byte| **byte != b'\n');
-        for (i, byte) in line.enumerate() {
-            if *byte == b'"' && !escaped {
-                length = Some(i);
-                break;
-            }
-            escaped = *byte == b'\\' && !escaped;
-        }
-        match length {
-            Some(length) => self.at += length + 2,
-            None => self.blank(1),
+            _ => {}
         }
     }
 
-    fn opening(&mut self, byte: u8) {
+    fn opening(&mut self, token: Token<'_>) {
         if self.open.len() >= MAX_DEPTH {
-            return self.blank(1);
+            return self.blank(token.start, 1);
         }
-        self.open.push((byte, self.at));
-        self.at += 1;
+        self.open.push((token.text.as_bytes()[0], token.start));
     }
 
     /// Closes the matching bracket and drops the open ones inside it. Without a match the bracket itself is dropped.
-    fn closing(&mut self, byte: u8) {
+    fn closing(&mut self, token: Token<'_>) {
+        let byte = token.text.as_bytes()[0];
         let partner = match byte {
             b')' => b'(',
             b']' => b'[',
@@ -179,12 +134,11 @@ impl Repairer<'_> {
         let found = self.open.iter().rposition(is_partner);
         let Some(found) = found.filter(|f| byte == b'}' || self.open[*f..].iter().all(|(open, _)| *open != b'{'))
         else {
-            return self.blank(1);
+            return self.blank(token.start, 1);
         };
         for (_, at) in self.open.split_off(found).into_iter().skip(1) {
             self.bytes[at] = b' ';
         }
-        self.at += 1;
     }
 
     /// Drops the brackets that are open at the end of a statement.
@@ -197,23 +151,21 @@ impl Repairer<'_> {
         }
     }
 
-    fn word(&mut self) {
-        let rest = self.rest();
-        let length = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
-        let begins_line = self.at == 0 || self.text.as_bytes()[self.at - 1] == b'\n';
-        let named = rest[length..].trim_start().starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        if begins_line && named && ITEMS.contains(&&rest[..length]) {
-            self.close_items();
+    fn word(&mut self, token: Token<'_>) {
+        let begins_line = token.start == 0 || self.text.as_bytes()[token.start - 1] == b'\n';
+        let behind = self.text[token.end()..].trim_start();
+        let named = behind.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        if begins_line && named && ITEMS.contains(&token.text) {
+            self.close_items(token.start);
         }
-        self.at += length;
     }
 
     /// Closes the items that are open where another one begins, in the blanks before it, as far as there is room.
-    fn close_items(&mut self) {
+    fn close_items(&mut self, next: usize) {
         while let Some((bracket, at)) = self.open.pop() {
             let closer = self.closer(at);
             let room = self.bytes[self.solid..].iter().take_while(|b| b.is_ascii_whitespace()).count();
-            if bracket == b'{' && self.solid + closer.len() <= self.at && closer.len() <= room {
+            if bracket == b'{' && self.solid + closer.len() <= next && closer.len() <= room {
                 self.bytes[self.solid..self.solid + closer.len()].copy_from_slice(closer);
                 self.solid += closer.len();
             } else {
