@@ -502,13 +502,13 @@ impl Catalog {
         matches!(self.tree.defs[def].kind, ItemKind::Type(_) | ItemKind::Alias(_))
     }
 
-    /// Smallest and largest number of type arguments of a type.
-    pub fn arguments(&self, def: DefId) -> (usize, usize) {
+    /// Smallest and largest number of type arguments of a type; `None` for a generic alias, whose parameters are not
+    /// known.
+    pub fn arguments(&self, def: DefId) -> Option<(usize, usize)> {
         match &self.tree.defs[def].kind {
-            ItemKind::Type(ty) => ty.arguments,
-            ItemKind::Alias(Some(_)) => (0, 0),
-            // The parameters of a generic alias are not known.
-            _ => (0, usize::MAX),
+            ItemKind::Type(ty) => Some(ty.arguments),
+            ItemKind::Alias(Some(_)) => Some((0, 0)),
+            _ => None,
         }
     }
 

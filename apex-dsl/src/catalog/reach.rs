@@ -1,6 +1,6 @@
 //! Place of the generated code, and the items that it can reach from there.
 
-use super::{Catalog, Crates, DefId, ModuleId, Tree};
+use super::{Catalog, Crates, DefId, ItemKind, ModuleId, Tree};
 use std::path::{Path, PathBuf};
 
 /// Place of the generated code.
@@ -61,6 +61,15 @@ impl Catalog {
         for (def, signature) in places {
             self.signatures[signature].path = self.paths.get(&def).cloned().unwrap_or_default();
         }
+    }
+
+    /// Place of the type that `name` means in the module of the generated code, if that names one explicitly. A second
+    /// type of this name cannot be defined there.
+    pub fn type_at_site(&self, name: &str) -> Option<(PathBuf, usize)> {
+        let site = self.site?;
+        let is_type = |def: &DefId| !matches!(self.tree.defs[*def].kind, ItemKind::Constant(_));
+        let found = self.tree.named_in(site, name).into_iter().find(is_type)?;
+        Some(self.place(found))
     }
 
     /// Modules that call `graph!` with the source file `file`. The name in the call is relative to the folder of the

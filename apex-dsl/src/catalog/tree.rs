@@ -284,6 +284,17 @@ impl Tree {
         walk.found.into_iter().collect()
     }
 
+    /// Definitions that `module` itself contains or imports under this name, without those of glob imports.
+    pub fn named_in(&self, module: ModuleId, name: &str) -> Vec<DefId> {
+        let entries = self.modules[module].names.get(name).into_iter().flatten();
+        let defs = entries.flat_map(|entry| match &entry.target {
+            Target::Def(def) => vec![*def],
+            Target::Import(path) => self.resolve(module, path),
+            Target::Module(_) => vec![],
+        });
+        defs.collect()
+    }
+
     /// Full path of a name that `module` imports from a crate that is not scanned.
     pub fn external(&self, module: ModuleId, path: &[String]) -> Option<String> {
         let [first, rest @ ..] = path else { return None };

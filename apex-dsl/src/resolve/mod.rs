@@ -158,7 +158,7 @@ fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagno
         let message = format!("`{}` is the name of a crate, which would be hidden in Rust", name.text);
         diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("choose another name"));
     }
-    let has_parts = |graph: &&GraphItem| graph.nodes.iter().any(|node| matches!(node.body, NodeBody::HandedIn(..)));
+    taken_names(graphs(), file, catalog, diagnostics);
     let by_name = |name: &'_ Ident| name.text.clone();
     let parts: BTreeMap<String, &Ident> =
         graphs().filter(has_parts).map(|graph| (by_name(&graph.name), &graph.name)).collect();
@@ -176,6 +176,34 @@ fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagno
             diagnostics.push(error.note("give one of the two another name"));
         }
     }
+}
+
+/// Reports graphs and machines one of whose Rust types would have the name of a type of the module that calls `graph!`.
+fn taken_names<'a>(
+    graphs: impl Iterator<Item = &'a GraphItem> + Clone,
+    file: &'a File,
+    catalog: &Catalog,
+    diagnostics: &mut Diagnostics,
+) {
+    let machines = file.machines.iter().map(|machine| &machine.name);
+    let own = graphs.clone().map(|graph| &graph.name).chain(machines.clone()).map(|name| (name, name.text.clone()));
+    let parts = graphs.filter(has_parts).map(|graph| (&graph.name, format!("{}Parts", graph.name.text)));
+    let states = machines.map(|name| (name, format!("{}State", name.text)));
+    for (name, generated) in own.chain(parts).chain(states) {
+        let Some((file, line)) = catalog.type_at_site(&generated) else { continue };
+        let message = format!("`{generated}` is already a type where the Rust code is generated");
+        let note = format!("declared or imported at {}:{line}", file.display());
+        let why = match generated == name.text {
+            true => "choose another name, or call `graph!` in a module of its own".to_owned(),
+            false => format!("`{}` has a Rust type of this name beside it; choose another name", name.text),
+        };
+        diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note(note).note(why));
+    }
+}
+
+/// Returns `true` if a graph has nodes that are made in Rust.
+fn has_parts(graph: &&GraphItem) -> bool {
+    graph.nodes.iter().any(|node| matches!(node.body, NodeBody::HandedIn(..)))
 }
 
 /// The names of all graphs and nodes of which the graphs in a source file contain instances.

@@ -148,7 +148,9 @@ impl Checker<'_> {
     }
 
     fn definition(&mut self, def: crate::catalog::DefId, path: &PathExpr, args: &[TypeExpr]) {
-        self.count(path, args.len(), self.catalog.arguments(def));
+        if let Some(count) = self.catalog.arguments(def) {
+            self.count(path, args.len(), count);
+        }
         let is_number = |ty: &TypeExpr| matches!(ty.kind, TypeKind::Const(_));
         for (_, arg) in args.iter().enumerate().filter(|(i, arg)| is_number(arg) && !self.catalog.takes_number(def, *i))
         {

@@ -25,7 +25,7 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
         catalog,
         group_of: (0..whole.nodes.len()).map(of_node).collect(),
         drafts: groups.iter().map(|group| Draft::new(whole, group)).collect(),
-        placed: vec![NodeId::MAX; whole.nodes.len()],
+        placed: vec![None; whole.nodes.len()],
         cells: vec![],
         shared: BTreeMap::new(),
         ends: BTreeMap::new(),
@@ -106,8 +106,8 @@ struct Splitter<'a> {
     /// The group of each node; `None` for the watchdog.
     group_of: Vec<Option<usize>>,
     drafts: Vec<Draft>,
-    /// The number of each node in its part.
-    placed: Vec<NodeId>,
+    /// The number of each node in its part, once it has been placed.
+    placed: Vec<Option<NodeId>>,
     cells: Vec<Cell>,
     /// The connections that share each cell.
     shared: BTreeMap<Way, Vec<usize>>,
@@ -131,21 +131,22 @@ impl Splitter<'_> {
     fn place_nodes(&mut self) {
         for (id, node) in self.whole.nodes.iter().enumerate() {
             if let Some(group) = self.group_of[id] {
-                self.placed[id] = self.drafts[group].add(node.clone(), Origin::Node(id));
+                self.placed[id] = Some(self.drafts[group].add(node.clone(), Origin::Node(id)));
             }
         }
     }
 
-    fn place(&self, end: PortId) -> PortId {
-        PortId { node: self.placed[end.node], port: end.port }
+    /// A port in the part of its node; `None` for the watchdog, which is in no part.
+    fn place(&self, end: PortId) -> Option<PortId> {
+        Some(PortId { node: self.placed[end.node]?, port: end.port })
     }
 
     fn place_connection(&mut self, index: usize) {
         let c = &self.whole.connections[index];
-        let (sender, Some(receiver)) = (self.group_of[c.from.node], self.group_of[c.to.node]) else { return };
-        let to = self.place(c.to);
-        if sender == Some(receiver) {
-            let connection = Connection { from: self.place(c.from), to, ..c.clone() };
+        let (Some(receiver), Some(to)) = (self.group_of[c.to.node], self.place(c.to)) else { return };
+        let sender = self.group_of[c.from.node];
+        if let Some(from) = self.place(c.from).filter(|_| sender == Some(receiver)) {
+            let connection = Connection { from, to, ..c.clone() };
             self.drafts[receiver].connect(connection, Some(index));
             return;
         }
@@ -197,8 +198,7 @@ impl Splitter<'_> {
         let (from, to) = (end(NodeKind::Sender(far), input), end(NodeKind::Receiver(far), output));
         let giver = self.drafts[receiver].add(to, Origin::Token(first.from));
         self.ends.insert(way, giver);
-        let Some(sender) = sender else { return giver };
-        let from_end = self.place(first.from);
+        let (Some(sender), Some(from_end)) = (sender, self.place(first.from)) else { return giver };
         let draft = &mut self.drafts[sender];
         let mut connection = Connection { from: from_end, crossings: leaving, active, ..first.clone() };
         if keeps_missing && !connection.crossings.is_empty() {
