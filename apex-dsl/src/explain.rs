@@ -88,7 +88,7 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
             };
             let _ = writeln!(text, "{pad}  {steps}");
         }
-        steps(text, graph, analysis, &cluster.block, indent + 2);
+        steps(text, graph, &cluster.block, indent + 2);
     }
     if graph.connections.iter().any(|c| !graph.is_synchronous(c)) {
         let _ = writeln!(text, "{pad}asynchronous connections");
@@ -150,7 +150,7 @@ fn shortened(names: &[String]) -> String {
     if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }
 }
 
-fn steps(text: &mut String, graph: &Graph, analysis: &Analysis, block: &Block, indent: usize) {
+fn steps(text: &mut String, graph: &Graph, block: &Block, indent: usize) {
     let pad = "  ".repeat(indent);
     for step in &block.steps {
         match step {
@@ -164,7 +164,7 @@ fn steps(text: &mut String, graph: &Graph, analysis: &Analysis, block: &Block, i
             Step::Block(inner) => {
                 let tokens: Vec<String> = inner.opens.iter().map(|end| graph.end_name(*end)).collect();
                 let _ = writeln!(text, "{pad}if {}", tokens.join(" and "));
-                steps(text, graph, analysis, inner, indent + 1);
+                steps(text, graph, inner, indent + 1);
             }
         }
     }
