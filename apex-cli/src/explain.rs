@@ -56,10 +56,10 @@ fn code(code: &str) -> Result<ExitCode, String> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// First sentence of a page.
-fn first_sentence(page: &str) -> &str {
-    let text = page.split("\n\n").nth(1).unwrap_or_default().trim_end();
-    text.split_once(". ").map_or(text.trim_end_matches('.'), |(first, _)| first)
+/// First sentence of a page, in one line.
+fn first_sentence(page: &str) -> String {
+    let text = page.split_once("\n\n").map_or("", |(_, text)| text);
+    apex_dsl::catalog::first_sentence(text).trim_end_matches('.').to_owned()
 }
 
 /// Prints each program of a source file as Rust is generated from it.
