@@ -22,6 +22,7 @@ mod plan;
 mod program;
 mod rates;
 mod record;
+mod results;
 mod slots;
 mod stamps;
 mod state;
