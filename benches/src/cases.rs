@@ -33,7 +33,7 @@ const fn information(name: &'static str, apex: Run, hand: Run) -> Case {
 }
 
 /// All graphs.
-pub const CASES: [Case; 25] = [
+pub const CASES: [Case; 28] = [
     case("chain3", graphs::chain3, hand::chain3, SYNCHRONOUS),
     case("chain10", graphs::chain10, hand::chain10, SYNCHRONOUS),
     case("chain100", graphs::chain100, hand::chain100, SYNCHRONOUS),
@@ -56,6 +56,9 @@ pub const CASES: [Case; 25] = [
     case("timer10", graphs::timer10, hand::timer10, DISPATCHED),
     case("timers2", graphs::timers2, hand::timers2, DISPATCHED),
     case("timers3", graphs::timers3, hand::timers3, DISPATCHED),
+    case("4kB-value", graphs::frames_by_value, hand::frames_by_value, SYNCHRONOUS),
+    case("4kB-out", graphs::frames_by_out, hand::frames_in_place, SYNCHRONOUS),
+    case("4kB-event", graphs::frames_by_event, hand::frames_by_value, SYNCHRONOUS),
     case("silent10", graphs::silent10, hand::silent10, SYNCHRONOUS),
     case("silent100", graphs::silent100, hand::silent100, SYNCHRONOUS),
     case("silent1000", graphs::silent1000, hand::silent1000, SYNCHRONOUS),

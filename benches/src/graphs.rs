@@ -27,6 +27,7 @@ graph!("graphs/mpse8.afg");
 graph!("graphs/fsm16.afg");
 graph!("graphs/fsm16nodes.afg");
 graph!("graphs/mixed1000.afg");
+graph!("graphs/frames.afg");
 
 /// Times of `ticks` ticks.
 pub(crate) fn milliseconds(ticks: u64) -> impl Iterator<Item = Time> {
@@ -55,7 +56,8 @@ runs! { sink =>
     diamond8: Diamond8, diamond64: Diamond64,
     bot100: Bot100, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image,
     timer10: Timer10, timers2: Timers2, timers3: Timers3,
-    mpse8: Mpse8, fsm16: Fsm16, fsm16_nodes: StateRing
+    mpse8: Mpse8, fsm16: Fsm16, fsm16_nodes: StateRing,
+    frames_by_value: FramesByValue, frames_by_out: FramesByOut, frames_by_event: FramesByEvent
 }
 
 runs! { a => pingpong1: PingPong1 }

@@ -6,6 +6,7 @@
 pub(crate) mod mixed1000;
 
 use crate::{
+    frames::{Frame, FrameSink, Frames, tint},
     graphs::milliseconds,
     image::{Camera, Gray, Labels, blur, components, gray, threshold},
     nodes::{
@@ -219,6 +220,33 @@ pub fn timers3(ticks: u64) -> u64 {
             sink.process(&add(&add(&x, &y), &z));
             tokens = [None; 3];
         }
+    }
+    sink.checksum()
+}
+
+/// Messages of 4 kB in local variables.
+#[inline(never)]
+pub fn frames_by_value(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Frames::default(), FrameSink::default());
+    for _ in 0..ticks {
+        let frame = source.process();
+        let frame = tint(&frame, 1);
+        sink.process(&tint(&frame, 2));
+    }
+    sink.checksum()
+}
+
+/// Messages of 4 kB in three buffers.
+#[inline(never)]
+pub fn frames_in_place(ticks: u64) -> u64 {
+    let mut sink = FrameSink::default();
+    let mut buffers: [Frame; 3] = Default::default();
+    for tick in 1..=ticks {
+        let [first, second, third] = &mut buffers;
+        first.fill(black_box(tick));
+        second.tint_from(first, 1);
+        third.tint_from(second, 2);
+        sink.process(third);
     }
     sink.checksum()
 }

@@ -1,6 +1,7 @@
 //! Compiled graphs and the same work written by hand: same node functions, same optimisation barriers, same checksums.
 
 mod cases;
+pub mod frames;
 pub mod graphs;
 pub mod hand;
 pub mod image;

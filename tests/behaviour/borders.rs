@@ -271,3 +271,16 @@ fn ev_11_an_endless_loop_lets_nothing_else_in() {
     react(&mut program, 1);
     assert!((300..=334).contains(&(program.nodes().b.seen.len() - before)), "the token is still on its way");
 }
+
+#[test]
+fn a_source_does_not_wait_for_what_holds_back_a_loop_beside_it() {
+    let mut program = HeldAround::new();
+    react(&mut program, 3);
+    let nodes = program.nodes();
+    assert_eq!((nodes.k.seen.as_slice(), nodes.j.seen.as_slice()), (&[0, 1][..], &[(0, 0)][..]));
+    assert_eq!(program.inputs().n.put(9), Ok(()));
+    react(&mut program, 3);
+    let nodes = program.nodes();
+    assert_eq!((nodes.x.seen.as_slice(), nodes.j.seen.as_slice()), (&[(0, 9)][..], &[(0, 0), (1, 0)][..]));
+    assert_eq!(nodes.k.seen, [0, 1, 2], "it may fire once more");
+}

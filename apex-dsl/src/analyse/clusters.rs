@@ -355,16 +355,24 @@ enum HeldBack {
 fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<HeldBack>> {
     let guards = |guards: &BTreeSet<usize>| guards.iter().copied().map(HeldBack::Guard).collect();
     let mut holding: Vec<BTreeSet<HeldBack>> = above.iter().map(guards).collect();
-    for &node in view.order.iter().rev() {
-        if view.sends_what_stays(node) {
-            holding[node].insert(HeldBack::Sender(node));
+    // Loops with delays lead upstream: all nodes are visited until nothing changes.
+    loop {
+        let mut changed = false;
+        for &node in view.order.iter().rev() {
+            let before = holding[node].len();
+            if view.sends_what_stays(node) {
+                holding[node].insert(HeldBack::Sender(node));
+            }
+            for &c in &view.links.out_of[node] {
+                let next = holding[view.graph.connections[c].to.node].clone();
+                holding[node].extend(next);
+            }
+            changed |= holding[node].len() > before;
         }
-        for &c in &view.links.out_of[node] {
-            let next = holding[view.graph.connections[c].to.node].clone();
-            holding[node].extend(next);
+        if !changed {
+            return holding;
         }
     }
-    holding
 }
 
 /// Nodes that fire once per reaction: sources without a period, and delays on loops that nothing feeds. Without a guard
