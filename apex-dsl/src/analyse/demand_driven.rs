@@ -8,10 +8,13 @@
 //!
 //! Several consumers must agree. With guards {1} and {1, 2}, the source fires under guard 1, and the second consumer
 //! waits for guard 2 with the token. With guards {1} and {2} neither is right, and the source fires once per reaction.
+//!
+//! The tokens at a boundary of a nested graph are taken together, so that the nodes behind it that take other tokens
+//! count as consumers, too: a source that waited for an event which one of them sends would wait for ever.
 
 use super::clusters::{Guard, View};
-use crate::graph::{NodeId, NodeKind};
-use std::collections::BTreeSet;
+use crate::graph::{Crossing, NodeId, NodeKind};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Connected nodes without any guards upstream, and the nodes that take their tokens.
 #[derive(Debug)]
@@ -37,11 +40,12 @@ impl DemandDriven {
 /// holds the guards upstream of each node.
 pub fn demand_driven(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<DemandDriven> {
     let is_free = |node: &NodeId| above[*node].is_empty() && view.fires(*node);
+    let behind = behind(view);
     let mut seen: BTreeSet<NodeId> = BTreeSet::new();
     let mut found = vec![];
     for node in (0..view.graph.nodes.len()).filter(is_free) {
         if !seen.contains(&node) {
-            let together = together(view, node, &is_free);
+            let together = together(view, &behind, node, &is_free);
             seen.extend(&together.nodes);
             if !together.consumers.is_empty() && together.nodes.iter().all(|n| is_unnoticed(view, *n)) {
                 found.push(together);
@@ -51,8 +55,21 @@ pub fn demand_driven(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<DemandDr
     found
 }
 
+/// Nodes that take the tokens of each boundary.
+type Behind = BTreeMap<Crossing, BTreeSet<NodeId>>;
+
+fn behind(view: &View<'_>) -> Behind {
+    let mut behind = Behind::new();
+    for c in view.links.out_of.iter().flatten().map(|c| &view.graph.connections[*c]) {
+        for crossing in &c.crossings {
+            behind.entry(*crossing).or_default().insert(c.to.node);
+        }
+    }
+    behind
+}
+
 /// Group of all free nodes that are connected with `node`.
-fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -> DemandDriven {
+fn together(view: &View<'_>, behind: &Behind, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -> DemandDriven {
     let mut group = DemandDriven { nodes: BTreeSet::new(), consumers: BTreeSet::new() };
     let mut ends = vec![node];
     while let Some(node) = ends.pop() {
@@ -62,12 +79,14 @@ fn together(view: &View<'_>, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -
         // Nodes upstream of a free node are free, too: guards are passed downstream.
         let from = view.links.into[node].iter().map(|c| view.graph.connections[*c].from.node);
         ends.extend(from);
-        for &c in &view.links.out_of[node] {
-            let to = view.graph.connections[c].to.node;
-            if is_free(&to) {
-                ends.push(to);
-            } else if view.fires(to) {
-                group.consumers.insert(to);
+        for c in view.links.out_of[node].iter().map(|c| &view.graph.connections[*c]) {
+            let beside = c.crossings.iter().filter_map(|crossing| behind.get(crossing)).flatten().copied();
+            for to in beside.chain([c.to.node]) {
+                if is_free(&to) {
+                    ends.push(to);
+                } else if view.fires(to) {
+                    group.consumers.insert(to);
+                }
             }
         }
     }
