@@ -10,7 +10,7 @@
 //! waits for guard 2 with the token. With guards {1} and {2} neither is right, and the source fires once per reaction.
 //!
 //! The tokens at a boundary of a nested graph are taken together, so that the nodes behind it that take other tokens
-//! count as consumers, too: a source that waited for an event which one of them sends would wait for ever.
+//! count as consumers, too: a source that waited for an event which one of them sends would wait forever.
 
 use super::clusters::{Guard, View};
 use crate::graph::{Crossing, NodeId, NodeKind};
