@@ -47,7 +47,7 @@ impl<P: Program> Ports<P> {
 
     /// Returns access to the program's parameters. It does not keep a program running that waits for input.
     pub fn params(&self) -> RemoteParams {
-        RemoteParams::new(Arc::clone(&self.0.requests.requests), P::PARAMS)
+        RemoteParams::new(Arc::clone(&self.0.requests.shared), P::PARAMS)
     }
 }
 
@@ -298,7 +298,7 @@ impl<I, E> Drop for Ways<I, E> {
     fn drop(&mut self) {
         self.inputs.iter().for_each(|way| way.end());
         self.events.iter().for_each(|way| way.end());
-        self.requests.requests.end();
+        self.requests.shared.end();
     }
 }
 

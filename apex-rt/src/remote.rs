@@ -37,7 +37,7 @@ impl RemoteParams {
     /// Returns the value of the parameter `name`.
     ///
     /// # Errors
-    /// There is no such parameter, it is of another type, or the program has ended.
+    /// A parameter that does not exist or is of another type, or a program that has ended.
     pub fn get<T: ParamValue + Send + 'static>(&self, name: &str) -> Result<T, ParamError> {
         self.ask(name, |access| T::take(access.get()))
     }
@@ -45,7 +45,7 @@ impl RemoteParams {
     /// Sets the parameter `name` to `value`, in SI units, as [`Parameters::set_param`] does.
     ///
     /// # Errors
-    /// There is no such parameter, it is of another type, the value is out of its range, or the program has ended. The
+    /// A parameter that does not exist or is of another type, a value out of its range, or a program that has ended. The
     /// parameter keeps its value.
     pub fn set(&self, name: &str, value: impl IntoParam + Send + 'static) -> Result<(), ParamError> {
         self.ask(name, move |access| access.set(value.give()))
@@ -143,7 +143,7 @@ impl Requests {
 /// A thread group's view of the requests.
 #[derive(Clone, Default)]
 pub(crate) struct ServedRequests {
-    pub requests: Arc<Requests>,
+    pub shared: Arc<Requests>,
     /// Number of requests that the group has looked at.
     seen: usize,
 }
@@ -151,14 +151,14 @@ pub(crate) struct ServedRequests {
 impl ServedRequests {
     /// Returns `true` if there are requests that the group has not looked at.
     pub fn are_new(&self) -> bool {
-        self.requests.count.load(Ordering::Acquire) != self.seen
+        self.shared.count.load(Ordering::Acquire) != self.seen
     }
 
     /// Serves the requests for the parameters of `part`: those of the program, or of one of its thread groups.
     pub fn serve<P: Parameters>(&mut self, part: &mut P) {
         if self.are_new() {
-            self.seen = self.requests.count.load(Ordering::Acquire);
-            part.visit_params(&mut Server(&mut self.requests.waiting().requests));
+            self.seen = self.shared.count.load(Ordering::Acquire);
+            part.visit_params(&mut Server(&mut self.shared.waiting().requests));
         }
     }
 }

@@ -254,7 +254,7 @@ pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(
     observer: &mut O,
     ports: Ports<P>,
 ) -> u8 {
-    let (bell, requests) = (ports.0.bell(), Arc::clone(&ports.0.requests.requests));
+    let (bell, requests) = (ports.0.bell(), Arc::clone(&ports.0.requests.shared));
     let _listens = (bell.listen(), requests.listen());
     drive_beside(program, clock, observer, ports.0)
 }

@@ -74,6 +74,11 @@ pub fn label(image: &Image, scan: &Scan) -> Image {
 }
 
 #[node]
+pub fn show_all(list: &Vec<u64>) {
+    let _ = list;
+}
+
+#[node]
 pub fn show(x: &u64) {
     let _ = x;
 }

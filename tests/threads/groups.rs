@@ -34,7 +34,7 @@ fn an_event_is_answered_by_another_thread() {
     assert_eq!(program.nodes().heard.seen, [5, 10, 15]);
 }
 
-/// Asks until there is no room, then takes all answers.
+/// Sends requests until the queue is full, then takes all answers.
 macro_rules! flood {
     ($program:expr) => {{
         let mut program = $program;

@@ -71,7 +71,7 @@ fn behind(view: &View<'_>) -> Behind {
 /// Group of all free nodes that are connected with `node`.
 fn together(view: &View<'_>, behind: &Behind, node: NodeId, is_free: &impl Fn(&NodeId) -> bool) -> DemandDriven {
     let mut group = DemandDriven { nodes: BTreeSet::new(), consumers: BTreeSet::new() };
-    let mut ends = vec![node];
+    let (mut ends, mut crossed) = (vec![node], BTreeSet::new());
     while let Some(node) = ends.pop() {
         if !group.nodes.insert(node) {
             continue;
@@ -80,7 +80,8 @@ fn together(view: &View<'_>, behind: &Behind, node: NodeId, is_free: &impl Fn(&N
         let from = view.links.into[node].iter().map(|c| view.graph.connections[*c].from.node);
         ends.extend(from);
         for c in view.links.out_of[node].iter().map(|c| &view.graph.connections[*c]) {
-            let beside = c.crossings.iter().filter_map(|crossing| behind.get(crossing)).flatten().copied();
+            let new = c.crossings.iter().filter(|crossing| crossed.insert(**crossing));
+            let beside = new.filter_map(|crossing| behind.get(crossing)).flatten().copied();
             for to in beside.chain([c.to.node]) {
                 if is_free(&to) {
                     ends.push(to);

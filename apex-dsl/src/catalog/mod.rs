@@ -7,6 +7,7 @@ mod docs;
 mod items;
 pub mod library;
 mod reach;
+mod signature;
 mod traits;
 mod tree;
 mod ty;
@@ -24,6 +25,7 @@ pub use constants::{Constant, is_path};
 pub use docs::{first_sentence, linkless};
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use reach::Site;
+pub use signature::{ArgSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig};
 pub use traits::Trait;
 pub use tree::{DefId, ModuleId, Need};
 pub use ty::Ty;
@@ -73,139 +75,6 @@ pub trait RustFiles: World {
     fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
         self.read(path).map(|text| read_items(&text).into())
     }
-}
-
-/// Number of a node signature.
-pub type SignatureId = usize;
-
-/// Signature of a node type, as declared by `#[node]` or by a state machine.
-#[derive(Debug, Clone, Default)]
-pub struct Signature {
-    /// Name of the node type.
-    pub name: String,
-    /// Documentation.
-    pub docs: String,
-    /// File of the declaration.
-    pub file: PathBuf,
-    /// Line of its name, from 1.
-    pub line: usize,
-    /// Path by which generated code reaches it.
-    pub path: Vec<String>,
-    /// `true` for a function, `false` for a struct.
-    pub is_function: bool,
-    /// Names of type parameters and constants.
-    pub generics: Vec<String>,
-    /// Bounds of its type parameters, as written.
-    pub bounds: Vec<String>,
-    /// `true` if firings depend on earlier ones.
-    pub stateful: bool,
-    /// Types of its state.
-    pub state: Vec<Type>,
-    /// Parameters.
-    pub params: Vec<ParamSig>,
-    /// Ports: inputs, outputs, slots, events, in the order of the signature.
-    pub ports: Vec<PortSig>,
-    /// Arguments of `process`; `None` if it has none.
-    pub process: Option<Vec<ArgSig>>,
-    /// Returned value of `process`.
-    pub returns: ReturnSig,
-    /// Method that is called instead of `process` when a mandatory input holds ⊥.
-    pub no_message: Option<String>,
-    /// Slots.
-    pub slots: Vec<SlotSig>,
-    /// Method that is called when the node becomes active.
-    pub on_activate: Option<String>,
-    /// Method that is called when the node becomes inactive.
-    pub on_deactivate: Option<String>,
-    /// `true` if its tokens take activity away instead of passing it on.
-    pub deactivates: bool,
-    /// Part of the Rust libraries that the node needs, and the reason.
-    pub needs: Option<(Need, String)>,
-}
-
-/// A slot of a node type.
-#[derive(Debug, Clone)]
-pub struct SlotSig {
-    /// Port, by its number in [`Signature::ports`].
-    pub port: usize,
-    /// Method that is called.
-    pub method: String,
-    /// Arguments. The port of the slot stands for the token.
-    pub args: Vec<ArgSig>,
-    /// `true` for a `Result`: the method may fail.
-    pub fallible: bool,
-}
-
-impl Signature {
-    /// Returns `true` if the tokens of a firing at this port are in an array.
-    pub fn is_batched(&self, port: usize) -> bool {
-        self.ports[port].rate > 1
-    }
-}
-
-/// A parameter of a node type.
-#[derive(Debug, Clone)]
-pub struct ParamSig {
-    /// Name.
-    pub name: String,
-    /// Documentation.
-    pub docs: String,
-    /// Type of the value.
-    pub ty: Type,
-    /// Unit of plain numbers.
-    pub unit: Option<String>,
-    /// Value of instances without an argument for it.
-    pub default: Option<DefaultValue>,
-    /// Smallest and largest value, and `true` if the largest is included.
-    pub range: Option<(Option<f64>, Option<f64>, bool)>,
-}
-
-/// A port of a node type.
-#[derive(Debug, Clone)]
-pub struct PortSig {
-    /// Name.
-    pub name: String,
-    /// Kind.
-    pub kind: crate::syntax::tree::PortKind,
-    /// Type of one token.
-    pub ty: Type,
-    /// Tokens per firing.
-    pub rate: usize,
-    /// For an input: ⊥ reaches the node as `None`. For an output: it may be ⊥ although the node fired.
-    pub optional: bool,
-    /// Number among the ports of its kind: in generated code the token type is `Input<index>`, `Output<index>`,
-    /// `Slot<index>` or `Trigger<index>` of the node. All fields of a struct of outputs have the same number.
-    pub index: usize,
-    /// Field of a `#[derive(Outputs)]` struct: its number and name.
-    pub field: Option<(usize, String)>,
-    /// `true` if this field is an `Option`.
-    pub field_is_option: bool,
-    /// Documentation.
-    pub docs: String,
-}
-
-/// An argument of `process` or of a slot: the port, the context or the parameter that it stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ArgSig {
-    /// A port, by its number in [`Signature::ports`].
-    Port(usize),
-    /// `&Ctx`
-    Ctx,
-    /// A parameter, by number.
-    Param(usize),
-}
-
-/// Returned value of `process`.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct ReturnSig {
-    /// `true` if there is a value.
-    pub value: bool,
-    /// `true` for an `Option`.
-    pub maybe: bool,
-    /// `true` for a `Result`.
-    pub fallible: bool,
-    /// `true` for a struct of outputs.
-    pub several: bool,
 }
 
 /// All node signatures and types that a graph can refer to.

@@ -201,9 +201,15 @@ impl<'a> Emitter<'a> {
         ident(&format!("token_{}", self.graph.port(to).name))
     }
 
+    /// The token that arrives at an input, as `Option<&T>`, with its origin.
+    fn arrival(&self, to: PortId, block: BlockId) -> Option<(PortId, TokenStream)> {
+        Some((self.incoming(to)?, self.arriving(to, block)?))
+    }
+
     /// A copy of the token that arrives at an input, as `Option<T>`.
-    fn copied(&self, to: PortId, block: BlockId) -> Option<TokenStream> {
-        Some(self.generator.cloned(self.graph, self.incoming(to)?, &self.arriving(to, block)?))
+    pub fn copied(&self, to: PortId, block: BlockId) -> Option<TokenStream> {
+        let (from, token) = self.arrival(to, block)?;
+        Some(self.generator.cloned(self.graph, from, &token))
     }
 
     /// A token that is there, as `&T`.
@@ -221,8 +227,8 @@ impl<'a> Emitter<'a> {
         let (take, fire) = (self.generator.take_activity(self.view, node), self.fire(node, block));
         // A delay has sent its token before it takes one.
         let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
-        let (heard, chosen) = (self.heard(node, block), self.observed_outputs(node, block));
-        quote! { #take #fire #heard #chosen #pass }
+        let (heard, observed) = (self.heard(node, block), self.observed_outputs(node, block));
+        quote! { #take #fire #heard #observed #pass }
     }
 
     /// A source whose silence is watched has sent something.
@@ -269,11 +275,10 @@ impl<'a> Emitter<'a> {
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
-                let to = PortId { node, port: 0 };
-                let arrives = self.incoming(to).zip(self.arriving(to, block));
-                let store =
-                    arrives.map(|(from, token)| self.generator.store(self.graph, from, &quote!(outputs.#port), &token));
-                store.unwrap_or_default()
+                match self.arrival(PortId { node, port: 0 }, block) {
+                    Some((from, token)) => self.generator.store(self.graph, from, &quote!(outputs.#port), &token),
+                    None => quote!(),
+                }
             }
             NodeKind::Relay => {
                 let token = self.copied(PortId { node, port: 0 }, block);
@@ -285,11 +290,10 @@ impl<'a> Emitter<'a> {
                 });
                 self.bind(out, token, true)
             }
-            NodeKind::Probe => {
-                let to = PortId { node, port: 0 };
-                let arrives = self.incoming(to).zip(self.arriving(to, block));
-                arrives.map(|(from, token)| self.generator.see(self.graph, node, from, &token)).unwrap_or_default()
-            }
+            NodeKind::Probe => match self.arrival(PortId { node, port: 0 }, block) {
+                Some((from, token)) => self.generator.see(self.graph, node, from, &token),
+                None => quote!(),
+            },
             _ => quote!(),
         }
     }
@@ -405,8 +409,10 @@ impl<'a> Emitter<'a> {
 
     /// A copy of the token that has arrived at an input, as `T`.
     pub fn clone_of_arrived(&self, to: PortId, block: BlockId) -> TokenStream {
-        let arrived = self.incoming(to).zip(self.arrived(to, block));
-        arrived.map(|(from, token)| self.generator.clone(self.graph, from, &token)).unwrap_or_default()
+        match self.incoming(to).zip(self.arrived(to, block)) {
+            Some((from, token)) => self.generator.clone(self.graph, from, &token),
+            None => self.generator.bug(self.graph.nodes[to.node].span, "a parameter that waits for a token has none"),
+        }
     }
 
     /// Tokens at parameter ports of a struct node are put into its fields first.
@@ -439,7 +445,8 @@ impl<'a> Emitter<'a> {
             .filter(|p| signature.params[*p].range.is_some() && self.param_source(node, *p).is_some())
             .collect();
         checked.iter().rev().enumerate().fold(call, |call, (depth, param)| {
-            let token = self.param_source(node, *param).and_then(|to| self.arrived(to, block));
+            let arrived = self.param_source(node, *param).and_then(|to| self.arrived(to, block));
+            let Some(token) = arrived else { return call };
             let (name, node_type) = (&signature.params[*param].name, self.generator.node_type(self.graph, library));
             let local = format_ident!("param_{param}");
             let check = quote!(::apex_rt::checked_param::<#param, #node_type, _>(#token, #index, #name, observer));

@@ -1,6 +1,6 @@
 //! The table that describes a program.
 
-use super::{Generator, threads::end_if_hung};
+use super::{Generator, distinct::Distinct, threads::end_if_hung};
 use crate::{
     analyse::Analysis,
     catalog::{first_sentence, linkless},
@@ -10,25 +10,15 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use std::collections::BTreeMap;
 
 /// Rows of the tables of a program.
 #[derive(Default)]
 struct Rows {
     nodes: Vec<TokenStream>,
     connections: Vec<TokenStream>,
-    /// Rows of the kinds, each with its number.
-    kinds: BTreeMap<String, (usize, TokenStream)>,
+    kinds: Distinct,
     /// The source files of the nodes.
     files: Vec<FileId>,
-}
-
-impl Rows {
-    /// The number of a kind of nodes.
-    fn kind(&mut self, row: TokenStream) -> Literal {
-        let count = self.kinds.len();
-        Literal::usize_unsuffixed(self.kinds.entry(row.to_string()).or_insert((count, row)).0)
-    }
 }
 
 impl Generator<'_> {
@@ -45,9 +35,7 @@ impl Generator<'_> {
         self.rows(graph, analysis, "", &mut rows);
         let Rows { nodes, connections, kinds, files } = rows;
         let files = files.iter().map(|file| self.sources.get(*file).path.display().to_string());
-        let mut kinds: Vec<(usize, TokenStream)> = kinds.into_values().collect();
-        kinds.sort_by_key(|(number, _)| *number);
-        let kinds = kinds.into_iter().map(|(_, row)| row);
+        let kinds = kinds.rows();
         let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
         let end_if_hung = end_if_hung(graph);
         let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
@@ -74,7 +62,8 @@ impl Generator<'_> {
 
     fn rows(&self, graph: &Graph, analysis: &Analysis, prefix: &str, rows: &mut Rows) {
         for (id, node) in graph.nodes.iter().enumerate() {
-            let (name, kind) = (format!("{prefix}{}", graph.path(id)), rows.kind(self.kind_row(node)));
+            let name = format!("{prefix}{}", graph.path(id));
+            let kind = Literal::usize_unsuffixed(rows.kinds.number(self.kind_row(node)));
             let (c, place) = (analysis.characteristics[id], self.place_row(node.span, &mut rows.files));
             let (required, siblings) = (c.required, c.siblings);
             rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)));
@@ -123,22 +112,23 @@ impl Generator<'_> {
 
     /// Name of a node's kind, and the first sentence of its documentation.
     fn kind(&self, node: &Node) -> (String, String) {
-        match &node.kind {
+        let role = match &node.kind {
             NodeKind::Library(library) => {
                 let signature = &self.catalog.signatures[library.signature];
-                (signature.name.clone(), short(&signature.docs))
+                return (signature.name.clone(), short(&signature.docs));
             }
-            NodeKind::Each(each) => (format!("each {}", each.body.name), short(&each.body.docs)),
-            NodeKind::Boundary(kind) => (kind.word().to_owned(), String::new()),
-            NodeKind::Delay(_) => ("delay".to_owned(), String::new()),
-            NodeKind::Relay => ("relay".to_owned(), String::new()),
-            NodeKind::Probe => ("probe".to_owned(), String::new()),
-            NodeKind::Start => ("start".to_owned(), String::new()),
-            NodeKind::Watchdog => ("hung".to_owned(), String::new()),
-            NodeKind::Exit(_) => ("exit".to_owned(), String::new()),
-            NodeKind::Reset => ("reset".to_owned(), String::new()),
-            NodeKind::Sender(_) | NodeKind::Receiver(_) => ("cell".to_owned(), String::new()),
-        }
+            NodeKind::Each(each) => return (format!("each {}", each.body.name), short(&each.body.docs)),
+            NodeKind::Boundary(kind) => kind.word(),
+            NodeKind::Delay(_) => "delay",
+            NodeKind::Relay => "relay",
+            NodeKind::Probe => "probe",
+            NodeKind::Start => "start",
+            NodeKind::Watchdog => "hung",
+            NodeKind::Exit(_) => "exit",
+            NodeKind::Reset => "reset",
+            NodeKind::Sender(_) | NodeKind::Receiver(_) => "cell",
+        };
+        (role.to_owned(), String::new())
     }
 }
 

@@ -9,6 +9,7 @@ mod clusters;
 mod condition;
 mod deliver;
 mod dispatch;
+mod distinct;
 mod each;
 mod fire;
 mod info;

@@ -173,9 +173,7 @@ impl Emitter<'_> {
         }
         let to = PortId { node, port: 0 };
         let (held, count) = (self.generator.held(node), self.count(node));
-        let token = self.incoming(to).zip(self.arriving(to, 0));
-        let token = token.map(|(from, token)| self.generator.cloned(self.graph, from, &token));
-        let token = token.unwrap_or_else(|| quote!(None));
+        let token = self.copied(to, 0).unwrap_or_else(|| quote!(None));
         quote! { for i in 0..#count { state.#held.put(#token); } }
     }
 }

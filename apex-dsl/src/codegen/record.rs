@@ -3,6 +3,7 @@
 
 use super::{
     Generator,
+    distinct::Distinct,
     fire::Emitter,
     plan::{BlockId, Storage, is_buffer},
     program::boundaries,
@@ -40,8 +41,8 @@ pub struct Channels {
     /// The groups of threads, if there are several.
     groups: Vec<String>,
     numbers: BTreeMap<PortId, usize>,
-    /// Types of tokens that generated code has asked a codec for, each with its number.
-    types: RefCell<BTreeMap<String, (usize, TokenStream)>>,
+    /// Types of tokens that generated code has asked a codec for.
+    types: RefCell<Distinct>,
 }
 
 impl Channels {
@@ -75,7 +76,7 @@ impl Channels {
     /// The functions that return the codecs and formats of token types.
     pub fn formats(&self) -> TokenStream {
         let types = self.types.borrow();
-        let functions = types.values().map(|(number, ty)| {
+        let functions = types.rows().iter().enumerate().map(|(number, ty)| {
             let (codec, format) = (format_ident!("codec_{number}"), format_ident!("format_{number}"));
             quote! { ::apex_rt::__format!(#codec, #format, #ty); }
         });
@@ -83,10 +84,8 @@ impl Channels {
     }
 
     /// The number of a type of tokens.
-    fn type_number(&self, ty: &TokenStream) -> usize {
-        let mut types = self.types.borrow_mut();
-        let count = types.len();
-        types.entry(ty.to_string()).or_insert_with(|| (count, ty.clone())).0
+    fn type_number(&self, ty: TokenStream) -> usize {
+        self.types.borrow_mut().number(ty)
     }
 
     fn add(&mut self, end: PortId, role: Role) {
@@ -100,10 +99,6 @@ impl Channels {
     fn group(&self, graph: &Graph, node: NodeId) -> usize {
         let group = graph.group(node);
         self.groups.iter().position(|g| g == group).unwrap_or(0)
-    }
-
-    fn number(&self, end: PortId, role: Role) -> Option<usize> {
-        self.numbers.get(&end).copied().filter(|number| self.rows[*number].1 == role)
     }
 }
 
@@ -126,22 +121,15 @@ fn source_ports<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl It
 }
 
 impl Generator<'_> {
-    /// The channel of a port, if it has this role.
-    fn channel(&self, end: PortId, role: Role) -> Option<usize> {
+    /// The channel of a port, and its role.
+    fn channel(&self, end: PortId) -> Option<(usize, Role)> {
         let end = match self.part {
             Some((_, part)) => part.node(end)?,
             None => end,
         };
-        self.channels?.number(end, role)
-    }
-
-    /// The channel of a port, whatever its role.
-    fn any_channel(&self, end: PortId) -> Option<usize> {
-        let end = match self.part {
-            Some((_, part)) => part.node(end)?,
-            None => end,
-        };
-        self.channels?.numbers.get(&end).copied()
+        let channels = self.channels?;
+        let number = *channels.numbers.get(&end)?;
+        Some((number, channels.rows[number].1))
     }
 
     /// Codec of the tokens of a port.
@@ -152,7 +140,7 @@ impl Generator<'_> {
 
     /// The function that returns the codec of the tokens of a port.
     fn codec_function(&self, graph: &Graph, end: PortId) -> Option<Ident> {
-        let number = self.channels?.type_number(&self.token_type(graph, end));
+        let number = self.channels?.type_number(self.token_type(graph, end));
         Some(format_ident!("codec_{number}"))
     }
 
@@ -162,7 +150,7 @@ impl Generator<'_> {
         let rows = channels.rows.iter().map(|(end, role)| {
             let (name, node) = (graph.end_name(*end), self.index(end.node));
             let (group, role) = (channels.group(graph, end.node), ident(&format!("{role:?}")));
-            let format = format_ident!("format_{}", channels.type_number(&self.token_type(graph, *end)));
+            let format = format_ident!("format_{}", channels.type_number(self.token_type(graph, *end)));
             quote!(::apex_rt::record::Channel::new(#name, #node, #group, ::apex_rt::record::Role::#role, #format()))
         });
         let file = graph.record.as_ref().map(|record| {
@@ -228,8 +216,8 @@ impl Generator<'_> {
     /// The number of a source's port, of those that are recorded.
     fn sources(&self, graph: &Graph, node: NodeId) -> Vec<(PortId, usize)> {
         let ends = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        let number = |end: PortId| self.channel(end, Role::Source);
-        ends.filter_map(|end| Some((end, number(end)?))).collect()
+        let number = |end: PortId| self.channel(end).filter(|(_, role)| *role == Role::Source);
+        ends.filter_map(|end| Some((end, number(end)?.0))).collect()
     }
 
     /// A call of a slot: a source that is recorded is not called again, its events come from the recording.
@@ -238,17 +226,29 @@ impl Generator<'_> {
         if ports.is_empty() {
             return call;
         }
-        let index = self.index(node);
         let events = ports.iter().filter(|(end, _)| graph.port(*end).kind == PortKind::Event);
-        let (takes, sends): (TokenStream, TokenStream) = events
-            .map(|(end, number)| {
-                let (name, codec) = (self.name(*end), self.codec(graph, *end));
-                (
-                    quote! { state.#name = tap.take(#number, #codec); },
-                    quote! { tap.source_sent(#number, #codec, state.#name.as_ref()); },
-                )
-            })
-            .unzip();
+        let (takes, sends) = events.map(|(end, number)| self.recorded_event(graph, *end, *number)).unzip();
+        self.taken_or_called(node, &takes, &call, &sends)
+    }
+
+    /// The token of an event of a source, from the recording and to it.
+    fn recorded_event(&self, graph: &Graph, end: PortId, number: usize) -> (TokenStream, TokenStream) {
+        let (name, codec) = (self.name(end), self.codec(graph, end));
+        (
+            quote! { state.#name = tap.take(#number, #codec); },
+            quote! { tap.source_sent(#number, #codec, state.#name.as_ref()); },
+        )
+    }
+
+    /// Takes the tokens of a source from the recording, or calls it and records what it sends.
+    fn taken_or_called(
+        &self,
+        node: NodeId,
+        takes: &TokenStream,
+        call: &TokenStream,
+        sends: &TokenStream,
+    ) -> TokenStream {
+        let index = self.index(node);
         quote! {
             match ::apex_rt::Observer::tap(observer).map(|tap| (tap.calls(#index), tap)) {
                 Some((true, tap)) => { #takes }
@@ -260,19 +260,20 @@ impl Generator<'_> {
         }
     }
 
-    /// Tokens that a source in a region with several rates sends in its firing number `i`, in arrays.
+    /// Tokens that a source in a region with several rates sends in its firing number `i`, in arrays. `results` calls
+    /// it; `processed` is what is triggered before.
     fn recorded_at_rate(
         &self,
         graph: &Graph,
         node: NodeId,
         ports: &[(PortId, usize)],
-        sends: &TokenStream,
+        results: &TokenStream,
+        processed: &TokenStream,
     ) -> TokenStream {
         let parts = ports.iter().map(|(end, number)| {
             let (codec, name, rate) = (self.codec(graph, *end), self.name(*end), graph.port(*end).rate);
             if graph.port(*end).kind == PortKind::Event {
-                let take = quote! { state.#name = tap.take(#number, #codec); };
-                return (take, quote! { tap.source_sent(#number, #codec, state.#name.as_ref()); });
+                return self.recorded_event(graph, *end, *number);
             }
             let places = quote!(#name[i * #rate..(i + 1) * #rate]);
             (
@@ -280,32 +281,23 @@ impl Generator<'_> {
                 quote! { for place in &#places { tap.source_sent(#number, #codec, place.as_ref()); } },
             )
         });
-        let (takes, sent): (TokenStream, TokenStream) = parts.unzip();
-        let index = self.index(node);
-        quote! {
-            match ::apex_rt::Observer::tap(observer).map(|tap| (tap.calls(#index), tap)) {
-                Some((true, tap)) => { #takes }
-                _ => {
-                    #sends
-                    if let Some(tap) = ::apex_rt::Observer::tap(observer) { #sent }
-                }
-            }
-        }
+        let (takes, sends): (TokenStream, TokenStream) = parts.unzip();
+        self.taken_or_called(node, &quote!(#processed #takes), results, &sends)
     }
 
     /// Shows the observer a token of a port.
     fn observe(&self, graph: &Graph, end: PortId, token: &TokenStream) -> Option<TokenStream> {
-        let (number, codec) = (self.any_channel(end)?, self.codec_function(graph, end)?);
+        let (number, codec) = (self.channel(end)?.0, self.codec_function(graph, end)?);
         Some(quote! { ::apex_rt::record::sent(observer, #number, #codec, #token); })
     }
 
     /// Shows the observer the token of an event when it is sent.
-    pub fn observed_event(&self, graph: &Graph, end: PortId) -> TokenStream {
+    pub fn observed_event(&self, graph: &Graph, end: PortId) -> Option<TokenStream> {
         if graph.port(end).kind != PortKind::Event {
-            return quote!();
+            return None;
         }
         let name = self.name(end);
-        self.observe(graph, end, &quote!(state.#name.as_ref())).unwrap_or_default()
+        self.observe(graph, end, &quote!(state.#name.as_ref()))
     }
 }
 
@@ -333,7 +325,7 @@ impl Emitter<'_> {
             return results;
         }
         if self.plan.is_multirate {
-            return self.generator.recorded_at_rate(self.graph, node, &ports, &results);
+            return self.generator.recorded_at_rate(self.graph, node, &ports, &results, &processed);
         }
         let index = self.generator.index(node);
         let mut code = Recorded::default();

@@ -98,7 +98,7 @@ impl Emitter<'_> {
 
     fn bind_fields(&self, outputs: &[(PortId, Option<&str>, bool)], value: TokenStream, optional: bool) -> TokenStream {
         let fields = outputs.iter().map(|(end, field, port_optional)| {
-            let field = ident(field.unwrap_or_default());
+            let field = field.map_or_else(|| self.generator.nameless("the field of an output"), ident);
             let field_is_option = self.field_is_option(*end);
             let value = match (optional, field_is_option) {
                 (false, _) => quote!(results.#field),

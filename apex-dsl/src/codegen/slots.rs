@@ -44,12 +44,12 @@ impl Generator<'_> {
             let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
             let always: TokenStream = always.into_iter().map(|send| self.sent(view, send)).collect();
             let sent = self.all_sent(view, &sends);
-            let chosen = self.observed_event(view.graph, port.end);
-            if sent.is_empty() && chosen.is_empty() {
+            let observed = self.observed_event(view.graph, port.end);
+            if sent.is_empty() && observed.is_none() {
                 return always;
             }
             let present = self.waits(view.graph, port.end);
-            quote! { #always if #present { #chosen #sent } }
+            quote! { #always if #present { #observed #sent } }
         });
         ports.collect()
     }

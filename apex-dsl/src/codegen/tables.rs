@@ -200,8 +200,8 @@ impl Generator<'_> {
         let stamped = any(&|port| port.sends.iter().any(|send| stamps::number(view, send.connection).is_some()));
         let stamps =
             stamped.then(|| quote! { for stamp in port.stamps { self.state.stamps[*stamp as usize] = ctx.stamp(); } });
-        let chosen = self.chosen_function(view, ports);
-        let choose = (!chosen.is_empty()).then(|| quote! { self.chosen(port.token, observer); });
+        let observed = self.observed_function(view, ports);
+        let observe = observed.is_some().then(|| quote! { self.observed(port.token, observer); });
         quote! {
             /// Sends the events that a node has triggered. Its activity goes with the first over an active connection.
             fn leave<O: ::apex_rt::Observer>(
@@ -215,33 +215,30 @@ impl Generator<'_> {
                     if Self::token(&mut self.state, port.token).is_there() { #takes_away #passes }
                 }
                 for port in &Self::PORTS[first..end] {
-                    if Self::token(&mut self.state, port.token).is_there() { #choose #queue #bits #stamps }
+                    if Self::token(&mut self.state, port.token).is_there() { #observe #queue #bits #stamps }
                 }
             }
-            #chosen
+            #observed
         }
     }
 
-    /// The function that records chosen events.
-    fn chosen_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> TokenStream {
+    /// The function that shows the observer an event.
+    fn observed_function(&self, view: ProgramView<'_>, ports: &Ports<'_>) -> Option<TokenStream> {
         let arms: Vec<TokenStream> = ports
             .tokens
             .iter()
             .enumerate()
-            .map(|(number, end)| (number, self.observed_event(view.graph, *end)))
-            .filter(|(_, code)| !code.is_empty())
+            .filter_map(|(number, end)| Some((number, self.observed_event(view.graph, *end)?)))
             .map(|(number, code)| quote! { #number => { #code } })
             .collect();
-        if arms.is_empty() {
-            return quote!();
-        }
-        quote! {
-            /// Records events that were chosen.
-            fn chosen<O: ::apex_rt::Observer>(&mut self, token: usize, observer: &mut O) {
+        let function = quote! {
+            /// Shows the observer an event that is sent.
+            fn observed<O: ::apex_rt::Observer>(&mut self, token: usize, observer: &mut O) {
                 let Self { state, .. } = self;
                 match token { #(#arms)* _ => {} }
             }
-        }
+        };
+        (!arms.is_empty()).then_some(function)
     }
 
     /// The function that takes the token for a slot and does all that follows at once.

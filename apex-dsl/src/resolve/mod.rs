@@ -158,38 +158,24 @@ fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagno
         let message = format!("`{}` is the name of a crate, which would be hidden in Rust", name.text);
         diagnostics.push(Diagnostic::error("duplicate-name", name.span, message).note("choose another name"));
     }
-    taken_names(graphs(), file, catalog, diagnostics);
-    let by_name = |name: &'_ Ident| name.text.clone();
-    let parts: BTreeMap<String, &Ident> =
-        graphs().filter(has_parts).map(|graph| (by_name(&graph.name), &graph.name)).collect();
-    let states: BTreeMap<String, &Ident> = file.machines.iter().map(|m| (by_name(&m.name), &m.name)).collect();
+    let parts = graphs().filter(has_parts).map(|graph| (format!("{}Parts", graph.name.text), &graph.name));
+    let states = file.machines.iter().map(|machine| (format!("{}State", machine.name.text), &machine.name));
+    let beside: BTreeMap<String, &Ident> = parts.chain(states).collect();
     for name in made() {
-        let of = |owners: &BTreeMap<String, &'_ Ident>, suffix: &str| {
-            name.text
-                .strip_suffix(suffix)
-                .and_then(|owner| owners.get(owner))
-                .map(|owner| (owner.text.clone(), owner.span))
-        };
-        if let Some((owner, span)) = of(&parts, "Parts").or_else(|| of(&states, "State")) {
-            let message = format!("`{}` is the name of a Rust type that is generated for `{owner}`", name.text);
-            let error = Diagnostic::error("duplicate-name", name.span, message).also(span, "this one");
+        if let Some(owner) = beside.get(&name.text) {
+            let message = format!("`{}` is the name of a Rust type that is generated for `{}`", name.text, owner.text);
+            let error = Diagnostic::error("duplicate-name", name.span, message).also(owner.span, "this one");
             diagnostics.push(error.note("give one of the two another name"));
         }
     }
+    let own = made().map(|name| (name.text.clone(), name));
+    taken_names(own.chain(beside), catalog, diagnostics);
 }
 
-/// Reports graphs and machines one of whose Rust types would have the name of a type of the module that calls `graph!`.
-fn taken_names<'a>(
-    graphs: impl Iterator<Item = &'a GraphItem> + Clone,
-    file: &'a File,
-    catalog: &Catalog,
-    diagnostics: &mut Diagnostics,
-) {
-    let machines = file.machines.iter().map(|machine| &machine.name);
-    let own = graphs.clone().map(|graph| &graph.name).chain(machines.clone()).map(|name| (name, name.text.clone()));
-    let parts = graphs.filter(has_parts).map(|graph| (&graph.name, format!("{}Parts", graph.name.text)));
-    let states = machines.map(|name| (name, format!("{}State", name.text)));
-    for (name, generated) in own.chain(parts).chain(states) {
+/// Reports generated Rust types, each with the name of its graph or machine, that have the name of a type of the module
+/// that calls `graph!`.
+fn taken_names<'a>(types: impl Iterator<Item = (String, &'a Ident)>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    for (generated, name) in types {
         let Some((file, line)) = catalog.type_at_site(&generated) else { continue };
         let message = format!("`{generated}` is already a type where the Rust code is generated");
         let note = format!("declared or imported at {}:{line}", file.display());

@@ -121,7 +121,7 @@ pub trait Parameters {
     /// Returns the value of the parameter `name`.
     ///
     /// # Errors
-    /// There is no such parameter, or it is of another type.
+    /// A parameter that does not exist or is of another type.
     fn param<T: ParamValue>(&mut self, name: &str) -> Result<T, ParamError> {
         at::<Self, T>(self, name, &mut |access| T::take(access.get()))
     }
@@ -130,7 +130,7 @@ pub trait Parameters {
     /// [`Duration`](core::time::Duration) or a number of seconds.
     ///
     /// # Errors
-    /// There is no such parameter, it is of another type, or the value is out of its range. Tokens at the port of the
+    /// A parameter that does not exist or is of another type, or a value out of its range. Tokens at the port of the
     /// parameter are checked in the same way. The parameter keeps its value.
     fn set_param(&mut self, name: &str, value: impl IntoParam) -> Result<(), ParamError> {
         at::<Self, ()>(self, name, &mut |access| access.set(value.give()))

@@ -238,7 +238,7 @@ impl Run {
             Timing::Paced(pace) => {
                 let _stops = pace.stopped.map(Switch::listen);
                 let bell = ways.as_ref().map(Ways::bell);
-                let _listens = (bell.as_ref().map(|bell| bell.listen()), self.requests.requests.listen());
+                let _listens = (bell.as_ref().map(|bell| bell.listen()), self.requests.shared.listen());
                 let requests = self.requests.clone();
                 self.drive(Member { group, pace, ways, held: false, requests }, part, observer);
             }

@@ -145,8 +145,9 @@ impl Diary {
     }
 
     #[slot]
-    fn late(&mut self) {
+    fn late(&mut self, told: Event<String>) {
         self.entries.push("late".to_owned());
+        told.emit("late".to_owned());
     }
 
     #[slot]
