@@ -47,8 +47,10 @@ pub fn capabilities(encoding: Encoding) -> ServerCapabilities {
     };
     // Besides words, these characters trigger a completion.
     let triggers = [".", ":", "(", ">", "=", " "].map(str::to_owned).to_vec();
-    let actions =
-        CodeActionOptions { code_action_kinds: Some(vec![CodeActionKind::QUICKFIX]), ..CodeActionOptions::default() };
+    let actions = CodeActionOptions {
+        code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::REFACTOR_REWRITE]),
+        ..CodeActionOptions::default()
+    };
     ServerCapabilities {
         position_encoding: Some(encoding.kind()),
         text_document_sync: Some(TextDocumentSyncCapability::Options(sync)),

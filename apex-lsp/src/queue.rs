@@ -79,7 +79,7 @@ impl Queue {
         let mut state = self.state();
         let late: Vec<RequestId> = state.due.iter().filter(|(_, due)| **due <= now).map(|(id, _)| id.clone()).collect();
         let reason = "the server is busy with another request; try again later";
-        late.into_iter().map(|id| state.refuse(id, ErrorCode::ServerCancelled, reason)).collect()
+        state.refuse(late, ErrorCode::ServerCancelled, reason)
     }
 
     /// Waits for the next task. With `quiet`, returns `Task::Quiet` after this time without a message. Returns `None`
@@ -141,8 +141,7 @@ impl State {
     fn cancel(&mut self, params: &Value) -> Vec<Response> {
         let id = params.get("id").and_then(|id| serde_json::from_value::<RequestId>(id.clone()).ok());
         let Some(id) = id.filter(|id| self.due.contains_key(id)) else { return vec![] };
-        self.waiting.retain(|message| !matches!(message, Message::Request(r) if r.id == id));
-        vec![self.refuse(id, ErrorCode::RequestCanceled, "cancelled")]
+        self.refuse(vec![id], ErrorCode::RequestCanceled, "cancelled")
     }
 
     /// Answers to the requests about a changed text that are still in the queue: their positions refer to the old text.
@@ -156,15 +155,15 @@ impl State {
             Message::Request(request) if is_stale(request) => Some(request.id.clone()),
             _ => None,
         });
-        let stale: Vec<RequestId> = stale.collect();
-        self.waiting.retain(|message| !matches!(message, Message::Request(r) if stale.contains(&r.id)));
-        let reason = "the file has changed since the request";
-        stale.into_iter().map(|id| self.refuse(id, ErrorCode::ContentModified, reason)).collect()
+        let stale = stale.collect();
+        self.refuse(stale, ErrorCode::ContentModified, "the file has changed since the request")
     }
 
-    fn refuse(&mut self, id: RequestId, code: ErrorCode, reason: &str) -> Response {
-        self.due.remove(&id);
-        refused(id, code, reason.to_owned())
+    /// Takes requests out of the queue and returns their answers.
+    fn refuse(&mut self, ids: Vec<RequestId>, code: ErrorCode, reason: &str) -> Vec<Response> {
+        self.waiting.retain(|message| !matches!(message, Message::Request(r) if ids.contains(&r.id)));
+        self.due.retain(|id, _| !ids.contains(id));
+        ids.into_iter().map(|id| refused(id, code, reason.to_owned())).collect()
     }
 }
 
@@ -248,7 +247,9 @@ mod tests {
         assert!(queue.overdue(now).is_empty());
         assert_eq!(codes(queue.overdue(at(1))), [(2.into(), -32802)]);
         assert_eq!(queue.next_due(), Some(at(2)));
-        assert!(queue.wants(&1.into()) && !queue.wants(&2.into()));
+        // What was answered is not answered again.
+        assert_eq!(codes(queue.put(changed("file:///a.afg"), now)), [(1.into(), -32801)]);
+        assert!(!queue.wants(&1.into()) && !queue.wants(&2.into()));
         assert_eq!(queue.next_due(), None);
     }
 

@@ -45,8 +45,8 @@ impl RemoteParams {
     /// Sets the parameter `name` to `value`, in SI units, as [`Parameters::set_param`] does.
     ///
     /// # Errors
-    /// A parameter that does not exist or is of another type, a value out of its range, or a program that has ended. The
-    /// parameter keeps its value.
+    /// A parameter that does not exist or is of another type, a value out of its range, or a program that has ended.
+    /// The parameter keeps its value.
     pub fn set(&self, name: &str, value: impl IntoParam + Send + 'static) -> Result<(), ParamError> {
         self.ask(name, move |access| access.set(value.give()))
     }

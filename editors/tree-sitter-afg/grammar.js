@@ -83,8 +83,9 @@ module.exports = grammar({
     setting: ($) => seq(field('name', $.identifier), '=', field('value', $.expression)),
     connection: ($) => seq($._end, repeat1(seq($.arrow, $._end)), ';'),
     arrow: () => choice('->', '=>'),
-    _end: ($) => choice($.list, $.instance, $.reference),
+    _end: ($) => choice($.list, $.instance, $.all_ports, $.reference),
     list: ($) => seq('[', list($._end), ']'),
+    all_ports: ($) => seq(choice('in', 'out', $.identifier), '.', '*'),
     reference: ($) => seq($.identifier, repeat(seq('.', field('port', $.identifier)))),
 
     instance: ($) => seq(field('type', $.path), optional($.type_arguments), $.arguments, repeat($.modifier)),

@@ -5,6 +5,7 @@ mod accept;
 mod active;
 mod activity;
 mod borders;
+mod by_name;
 mod claims;
 mod dataflow;
 mod each;

@@ -260,7 +260,11 @@ fn cell(statement: &Node) -> usize {
         node_stmt => has(colon).or_else(|| has(ident)),
         entry_exit => has(hook_kw),
         transition if has(guard).is_none() => has(ident),
-        chain_stmt if nodes(&statement.kids).next().is_some_and(|head| only(head).rule == port_ref) => Some(1),
+        chain_stmt
+            if nodes(&statement.kids).next().is_some_and(|head| matches!(only(head).rule, port_ref | all_ports)) =>
+        {
+            Some(1)
+        }
         _ => None,
     };
     end.unwrap_or(0)

@@ -204,7 +204,7 @@ fn sole_value(expr: &Node) -> Option<&Node> {
 fn is_short(element: &Node) -> bool {
     match element.rule {
         Rule::param => false,
-        Rule::endpoint => only(element).rule == Rule::port_ref,
+        Rule::endpoint => matches!(only(element).rule, Rule::port_ref | Rule::all_ports),
         _ => !holds_list(element),
     }
 }

@@ -68,6 +68,12 @@ impl Completion {
     }
 }
 
+/// `*` behind a dot.
+fn each_port() -> Completion {
+    let docs = "Connects each port with the port of the same name at the other end, which is followed by `.*`, too.";
+    Completion::new("*", CompletionKind::Port, "each port, by name", docs)
+}
+
 /// The source files beside the first one: their names, and the names of their graphs and state machines.
 pub type Siblings<'a> = dyn Fn() -> Vec<(String, Vec<String>)> + 'a;
 
@@ -267,6 +273,10 @@ impl Completer<'_> {
         let graph = if named == Named::Tested { self.tested().or(self.graph) } else { self.graph };
         let (Some(mut id), PortId::Reference(parts)) = (graph, of) else { return vec![] };
         let Some((name, outer)) = parts.split_last() else { return vec![] };
+        let is_own = outer.is_empty() && matches!(name.as_str(), "in" | "out");
+        if is_own || other.is_some_and(PortId::is_each_port) {
+            return vec![each_port()];
+        }
         for name in outer {
             let made = self.position(id, name).and_then(|i| self.view.made_of(id, i).0);
             let Some(NodeType::Graph(inside)) = made else { return vec![] };
@@ -290,6 +300,9 @@ impl Completer<'_> {
             Some(NodeType::Graph(_)) => found.extend(standard_ports(named, types.as_deref(), Standard::is_shared)),
             Some(_) => found.extend(standard_ports(named, types.as_deref(), |_| true)),
             None => {}
+        }
+        if outer.is_empty() && named == Named::Sends {
+            found.push(each_port());
         }
         found
     }

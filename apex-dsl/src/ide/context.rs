@@ -13,6 +13,13 @@ pub enum PortId {
     InPlace(Vec<String>),
 }
 
+impl PortId {
+    /// Returns `true` for `in.*`, `out.*` or `node.*`.
+    pub fn is_each_port(&self) -> bool {
+        matches!(self, Self::Reference(parts) if parts.last().is_some_and(|part| part == "*"))
+    }
+}
+
 /// Role of a node or port that is named.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
@@ -368,7 +375,7 @@ fn end_before(tokens: &[Token<'_>]) -> Option<PortId> {
     while end.first().is_some_and(|t| t.text == "[") {
         end = &end[1..];
     }
-    let words = end.iter().take_while(|t| t.kind == TokenKind::Word || matches!(t.text, "." | "::"));
+    let words = end.iter().take_while(|t| t.kind == TokenKind::Word || matches!(t.text, "." | "::" | "*"));
     let (mut parts, mut in_place) = (vec![], false);
     for token in words.clone() {
         match token.text {
@@ -479,7 +486,7 @@ fn in_brackets(tokens: &[Token<'_>], open: usize) -> Context {
         Context::Statement if begins => Context::Name(Named::Sends, None),
         Context::Name(..) | Context::Statement if is(inside.last(), ".") => {
             let (of, _) = reference_before(&inside[..inside.len() - 1]);
-            let other = arrow_before(&tokens[..open]);
+            let other = arrow_before(&tokens[header(tokens, open)..open]);
             let named = if other.is_some() { Named::Takes } else { Named::Sends };
             Context::Port(PortId::Reference(of), named, other)
         }

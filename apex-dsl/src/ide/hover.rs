@@ -60,12 +60,7 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
 }
 
 /// Description of a connection: its ends and types, and the manner in which tokens travel.
-pub fn describe_link(view: &View<'_>, link: &Link) -> String {
-    let end = |side: &crate::resolve::Side| {
-        let written = view.sources.text(side.span).split('(').next().unwrap_or_default().to_owned();
-        let is_named = written == side.port || written.ends_with(&format!(".{}", side.port));
-        if is_named { written } else { format!("{written}.{}", side.port) }
-    };
+pub fn describe_link(link: &Link) -> String {
     let what = match (link.flow(), link.from.kind) {
         (Flow::Synchronous, _) => "one token per iteration, a value or ⊥",
         (Flow::ToSlot, PortKind::Output) => "one call for each value, none for ⊥",
@@ -74,7 +69,7 @@ pub fn describe_link(view: &View<'_>, link: &Link) -> String {
     };
     let activity = if link.active { "; lets activity pass" } else { "" };
     let arrow = if link.active { "=>" } else { "->" };
-    let declaration = format!("{} {arrow} {}", end(&link.from), end(&link.to));
+    let declaration = format!("{} {arrow} {}", link.from.name, link.to.name);
     let types = format!("`{}` → `{}`", link.from.ty, link.to.ty);
     page(&declaration, &format!("{}: {what}{activity}\n\n{types}", flow_word(link)))
 }

@@ -9,7 +9,7 @@ use crate::{
         keywords::{KeywordPosition, words_at},
         tree::{
             Action, Arg, Endpoint, Expr, ExprKind, File, FsmItem, GraphItem, Ident, Instance, Modifier, ModifierKind,
-            NodeBody, PathExpr, PortRef, StateItem, TestItem, TestStep, TypeExpr, TypeKind, Use,
+            NodeBody, PathExpr, PortRef, PortsOf, StateItem, TestItem, TestStep, TypeExpr, TypeKind, Use,
         },
     },
 };
@@ -217,6 +217,13 @@ impl<'a> Walker<'a, '_> {
     fn endpoint(&mut self, id: GraphId, end: &Endpoint) {
         match end {
             Endpoint::Port(reference) => self.reference(id, reference),
+            Endpoint::All(all) => {
+                if let PortsOf::Node(name) = &all.of
+                    && let Some(definition) = self.declared.graphs[&id].get(name.text.as_str()).copied()
+                {
+                    self.used(name, definition);
+                }
+            }
             Endpoint::Instance(instance) => self.instance(Some(id), instance),
             Endpoint::List(ends, _) => ends.iter().for_each(|end| self.endpoint(id, end)),
         }

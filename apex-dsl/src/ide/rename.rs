@@ -21,6 +21,7 @@ pub fn rename(
 ) -> Result<Vec<Span>, String> {
     let old = may_rename(view, definition)?;
     check_name(definition, name)?;
+    check_connected_by_name(view, definition, &old.text)?;
     let uses: Vec<Span> = occurrences.iter().filter(|o| o.definition == definition).map(|o| o.span).collect();
     check_clash(view, &uses, definition, name)?;
     // Uses through an import with a name of its own keep that name.
@@ -52,6 +53,13 @@ fn check_name(definition: Definition, name: &str) -> Result<(), String> {
         return Err(format!("`{name}` is predefined in every graph and would be hidden"));
     }
     Ok(())
+}
+
+/// Fails if the name of a port decides what it is connected with.
+fn check_connected_by_name(view: &View<'_>, definition: Definition, old: &str) -> Result<(), String> {
+    let is_port = matches!(definition, Definition::Port(..));
+    let decides = view.links.iter().any(|link| is_port && link.by_name && link.to.port() == old);
+    clash(decides, format!("`.*` connects `{old}` by its name; write these connections out first"))
 }
 
 fn check_clash(view: &View<'_>, uses: &[Span], definition: Definition, name: &str) -> Result<(), String> {

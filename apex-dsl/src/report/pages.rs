@@ -38,6 +38,7 @@ pages! {
     "no-process"
     "no-state"
     "not-replaced"
+    "nothing-matched"
     "open-input"
     "open-output"
     "out-of-range"
@@ -73,6 +74,7 @@ pages! {
     "wrong-record"
     "wrong-unit"
     "wrong-value"
+    "wrong-wildcard"
 }
 
 /// The page about a code.

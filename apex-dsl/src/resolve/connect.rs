@@ -1,6 +1,7 @@
 //! Connections as written: the choice of ports that are not named, and the comparison of their types.
 
 use super::{
+    by_name::All,
     instance::{Body, Builder},
     link::{Link, Side},
 };
@@ -9,7 +10,7 @@ use crate::{
     graph::{Node, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Standard, Wire, WireEnd},
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef},
+    syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef, PortsOf},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -99,6 +100,11 @@ impl Table {
         self.symbols.get(name).map(|(symbol, span)| (symbol, *span))
     }
 
+    /// The ports of the graph itself, seen from inside, in order of their names.
+    pub fn own_ports(&self) -> impl Iterator<Item = &Candidate> {
+        self.symbols.values().filter_map(|(symbol, _)| if let Symbol::Own(port) = symbol { Some(port) } else { None })
+    }
+
     /// All names.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.symbols.keys().map(String::as_str)
@@ -128,7 +134,7 @@ pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str
             }
         }
         Endpoint::List(ends, _) => ends.iter().for_each(|e| named_ports(e, names)),
-        Endpoint::Instance(_) => {}
+        Endpoint::All(_) | Endpoint::Instance(_) => {}
     }
 }
 
@@ -148,6 +154,32 @@ fn own(kind: &NodeKind) -> bool {
     matches!(kind, NodeKind::Start | NodeKind::Watchdog | NodeKind::Reset | NodeKind::Exit(_))
 }
 
+/// An end of a connection: one port of `symbol`.
+#[derive(Debug, Clone)]
+pub struct End {
+    /// The meaning of its name, narrowed to a port if one is named.
+    pub symbol: Symbol,
+    /// The name as text: `node`, `node.port` or a port of the graph.
+    pub text: String,
+    /// The place of the name.
+    pub span: Span,
+}
+
+/// Manner in which a connection is made.
+pub struct Made {
+    /// `true` if its ends carry different types, which has been reported.
+    pub differs: bool,
+    /// `true` if `.*` stands at its ends.
+    pub by_name: bool,
+}
+
+/// Meaning of an end of a chain.
+#[derive(Debug, Clone)]
+enum Meaning {
+    One(End),
+    All(All),
+}
+
 /// An endpoint of a connection: the ports that it may stand for, and its place.
 struct EndpointCandidates {
     candidates: Vec<Candidate>,
@@ -161,7 +193,7 @@ struct EndpointCandidates {
 impl Builder<'_> {
     /// Resolves all chains of a graph body.
     pub fn chains(&mut self, body: &Body<'_>, table: &Table) {
-        let mut in_place = 0;
+        let (mut in_place, mut by_name, first) = (0, vec![], self.wires.len());
         for chain in &body.item.chains {
             // Ends that name nothing count, too.
             if self
@@ -171,18 +203,25 @@ impl Builder<'_> {
                 return;
             }
             // A node that is written in place is made once, although it is an end of two arrows.
-            let symbols: Vec<Vec<Option<(Symbol, String, Span)>>> =
+            let ends: Vec<Vec<Option<Meaning>>> =
                 chain.ends.iter().map(|end| self.endpoint(body, table, end, &mut in_place)).collect();
             for (i, arrow) in chain.arrows.iter().enumerate() {
-                if symbols[i].iter().any(Option::is_none) {
-                    symbols[i + 1].iter().flatten().for_each(|to| self.suppress(&to.0));
+                if ends[i].iter().any(Option::is_none) {
+                    ends[i + 1].iter().flatten().for_each(|to| self.suppress_end(to));
                 }
                 let is_port = |end: &Endpoint| matches!(end, Endpoint::Port(_));
                 let open =
                     [i == 0 && is_port(&chain.ends[0]), i + 2 == chain.ends.len() && is_port(&chain.ends[i + 1])];
-                for from in symbols[i].iter().flatten() {
-                    for to in symbols[i + 1].iter().flatten() {
-                        self.connect(body, from, to, arrow, open);
+                for from in ends[i].iter().flatten() {
+                    for to in ends[i + 1].iter().flatten() {
+                        match (from, to) {
+                            (Meaning::One(from), Meaning::One(to)) => self.connect(body, from, to, arrow, open),
+                            (Meaning::All(from), Meaning::All(to)) => by_name.push((from.clone(), to.clone(), *arrow)),
+                            (Meaning::One(one), Meaning::All(all)) | (Meaning::All(all), Meaning::One(one)) => {
+                                self.one_sided(one, all);
+                                self.suppress_end(to);
+                            }
+                        }
                         if self.is_exhausted() {
                             return;
                         }
@@ -193,20 +232,21 @@ impl Builder<'_> {
                 return;
             }
         }
+        self.connect_by_name(&by_name, first);
     }
 
-    /// Meanings of one end of a chain: symbol (narrowed to a port if one is named), name and span. `None` stands for an
-    /// error.
+    /// Meanings of one end of a chain. `None` stands for an error.
     fn endpoint(
         &mut self,
         body: &Body<'_>,
         table: &Table,
         end: &Endpoint,
         in_place: &mut usize,
-    ) -> Vec<Option<(Symbol, String, Span)>> {
+    ) -> Vec<Option<Meaning>> {
         match end {
             Endpoint::List(ends, _) => ends.iter().flat_map(|end| self.endpoint(body, table, end, in_place)).collect(),
-            Endpoint::Port(reference) => vec![self.reference(body, table, reference)],
+            Endpoint::Port(reference) => vec![self.reference(body, table, reference).map(Meaning::One)],
+            Endpoint::All(all) => vec![self.all_ports(body, table, all).map(Meaning::All)],
             Endpoint::Instance(instance) => {
                 *in_place += 1;
                 let word = instance.path.segments.last().map_or("node", |s| s.text.as_str());
@@ -216,18 +256,19 @@ impl Builder<'_> {
                 }
                 let name = Ident { text, span: instance.path.span };
                 let symbol = self.instance(body, &name, instance, "");
-                vec![symbol.map(|symbol| (symbol, instance.path.text(), instance.path.span))]
+                let end = |symbol| End { symbol, text: instance.path.text(), span: instance.path.span };
+                vec![symbol.map(end).map(Meaning::One)]
             }
         }
     }
 
-    fn reference(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef) -> Option<(Symbol, String, Span)> {
+    fn reference(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef) -> Option<End> {
         let first = reference.parts.first()?;
-        let text = reference.text();
+        let end = |symbol| End { symbol, text: reference.text(), span: reference.span };
         let Some((symbol, _)) = table.symbols.get(&first.text) else {
             if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
                 let node = self.own_node(body, first, kind)?;
-                return Some((Symbol::of_node(node, &self.nodes[node]), text, reference.span));
+                return Some(end(Symbol::of_node(node, &self.nodes[node])));
             }
             self.unknown_name(body, table, first);
             return None;
@@ -238,7 +279,7 @@ impl Builder<'_> {
             Symbol::Own(_) => {}
         }
         match (symbol, &reference.parts[1..]) {
-            (symbol, []) => Some((symbol.clone(), text, reference.span)),
+            (symbol, []) => Some(end(symbol.clone())),
             (Symbol::Ports(owner, ports), [port]) => {
                 let mut named: Vec<Candidate> = ports.iter().filter(|p| p.name == port.text).cloned().collect();
                 if named.is_empty() {
@@ -249,7 +290,7 @@ impl Builder<'_> {
                     self.suppress(symbol);
                     return None;
                 }
-                Some((Symbol::Ports(*owner, named), text, reference.span))
+                Some(end(Symbol::Ports(*owner, named)))
             }
             (_, rest) => {
                 let message = if matches!(symbol, Symbol::Own(_)) {
@@ -327,17 +368,17 @@ impl Builder<'_> {
 
     /// Handles `start => node`: the node is initially active, and no token is sent. Returns `false` for any other
     /// connection, and for a node with a slot for the token, which is sent as by any other event then.
-    fn starts_active(&mut self, body: &Body<'_>, from: &Symbol, to: &(Symbol, String, Span), arrow: &Arrow) -> bool {
-        let (Symbol::Ports(_, from), Symbol::Ports(_, to_ports)) = (from, &to.0) else { return false };
+    fn starts_active(&mut self, body: &Body<'_>, from: &End, to: &End, arrow: &Arrow) -> bool {
+        let (Symbol::Ports(_, from), Symbol::Ports(_, to_ports)) = (&from.symbol, &to.symbol) else { return false };
         let is_start = from
             .iter()
             .any(|c| matches!(c.place, WireEnd::Port(end) if matches!(self.nodes[end.node].kind, NodeKind::Start)));
         // The type of a generic slot is determined by its other connections, if there are any.
         let takes = |c: &Candidate| {
-            let decided = matches!(c.ty, Type::Param(_)) && is_fed(body.item, &to.1);
+            let decided = matches!(c.ty, Type::Param(_)) && is_fed(body.item, &to.text);
             c.kind == PortKind::Slot && !decided && c.ty.compare(&Type::unit()) != Match::Different
         };
-        if !is_start || !arrow.active || to.1.contains('.') || to_ports.iter().any(takes) {
+        if !is_start || !arrow.active || to.text.contains('.') || to_ports.iter().any(takes) {
             return false;
         }
         match to_ports.first().map(|c| c.place) {
@@ -351,39 +392,47 @@ impl Builder<'_> {
 
     /// Connects two ends of a chain. `open` is `true` for each end where a port can be named: a node that is written in
     /// place has no name, and a port that is named inside a chain would be used by the next arrow, too.
-    fn connect(
-        &mut self,
-        body: &Body<'_>,
-        from: &(Symbol, String, Span),
-        to: &(Symbol, String, Span),
-        arrow: &Arrow,
-        open: [bool; 2],
-    ) {
+    pub fn connect(&mut self, body: &Body<'_>, from: &End, to: &End, arrow: &Arrow, open: [bool; 2]) {
         let ends = |symbol: &Symbol| if let Symbol::Ports(_, ports) = symbol { ports.len() } else { 1 };
-        if self.look(ends(&from.0) + ends(&to.0), arrow.span).is_none() {
+        if self.look(ends(&from.symbol) + ends(&to.symbol), arrow.span).is_none() {
             return;
         }
-        if self.starts_active(body, &from.0, to, arrow) {
+        if self.starts_active(body, from, to, arrow) {
             return;
         }
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other end; so do types.
-        let Some((source, target)) = self.choose(sources, targets, open) else { return self.suppress(&to.0) };
+        let Some((source, target)) = self.choose(sources, targets, open) else { return self.suppress(&to.symbol) };
         let differs = source.ty.compare(&target.ty) == Match::Different;
         if differs {
-            self.mismatch(from, to, &source, &target, arrow.span);
+            // All connections of a list of ends have the same arrow.
+            let error = self.mismatch((from, &source), (to, &target), arrow.span);
+            self.diagnostics.push_once(error);
         }
-        self.wires.push(Wire { from: source.place, to: target.place, active: arrow.active, differs, span: arrow.span });
-        self.note(arrow, (from.2, source), (to.2, target));
+        self.wire((from, &source), (to, &target), arrow, Made { differs, by_name: false });
     }
 
-    /// Records a connection of the outermost graph if a list for them was given.
-    fn note(&mut self, arrow: &Arrow, from: (Span, Candidate), to: (Span, Candidate)) {
+    /// Adds a connection, also to the list of those of the outermost graph if it is wanted.
+    pub fn wire(&mut self, from: (&End, &Candidate), to: (&End, &Candidate), arrow: &Arrow, made: Made) {
+        let (source, target) = (from.1.place, to.1.place);
+        let (active, span) = (arrow.active, arrow.span);
+        self.wires.push(Wire { from: source, to: target, active, differs: made.differs, span });
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
-        let side = |(span, port): (Span, Candidate)| Side { span, port: port.name, kind: port.kind, ty: port.ty };
-        links.push(Link { arrow: arrow.span, active: arrow.active, from: side(from), to: side(to) });
+        let side = |(end, port): (&End, &Candidate)| {
+            let is_named = end.text == port.name || end.text.contains('.');
+            let name = if is_named { end.text.clone() } else { format!("{}.{}", end.text, port.name) };
+            Side { name, kind: port.kind, ty: port.ty.clone() }
+        };
+        links.push(Link { arrow: span, active, by_name: made.by_name, from: side(from), to: side(to) });
+    }
+
+    fn suppress_end(&mut self, to: &Meaning) {
+        match to {
+            Meaning::One(end) => self.suppress(&end.symbol),
+            Meaning::All(all) => self.suppressed.extend(all.takes().map(|port| port.place)),
+        }
     }
 
     /// Suppresses errors about a missing connection to `to`: it could not be made, which has been reported.
@@ -480,24 +529,21 @@ impl Builder<'_> {
         self.diagnostics.push(error);
     }
 
-    fn mismatch(
-        &mut self,
-        from: &(Symbol, String, Span),
-        to: &(Symbol, String, Span),
-        source: &Candidate,
-        target: &Candidate,
+    /// The error for ends with different types.
+    pub fn mismatch(
+        &self,
+        (from, source): (&End, &Candidate),
+        (to, target): (&End, &Candidate),
         span: Span,
-    ) {
-        let (a, b) = (self.describe(source, &from.1), self.describe(target, &to.1));
+    ) -> Diagnostic {
+        let (a, b) = (self.describe(source, &from.text), self.describe(target, &to.text));
         let message = format!("{a} sends `{}`, but {b} takes `{}`", source.ty, target.ty);
-        let error = Diagnostic::error("type-mismatch", span, message)
-            .also(from.2, format!("sends `{}`", source.ty))
-            .also(to.2, format!("takes `{}`", target.ty))
+        Diagnostic::error("type-mismatch", span, message)
+            .also(from.span, format!("sends `{}`", source.ty))
+            .also(to.span, format!("takes `{}`", target.ty))
             .note(self.declared(source, &a))
             .note(self.declared(target, &b))
-            .note("types are not converted implicitly: insert a node that converts the token");
-        // All connections of a list of ends have the same arrow.
-        self.diagnostics.push_once(error);
+            .note("types are not converted implicitly: insert a node that converts the token")
     }
 
     fn describe(&self, candidate: &Candidate, written: &str) -> String {
@@ -531,6 +577,7 @@ fn is_fed(graph: &GraphItem, name: &str) -> bool {
     fn names(end: &Endpoint, name: &str) -> bool {
         match end {
             Endpoint::Port(reference) => reference.parts.first().is_some_and(|first| first.text == name),
+            Endpoint::All(all) => matches!(&all.of, PortsOf::Node(node) if node.text == name),
             Endpoint::List(ends, _) => ends.iter().any(|end| names(end, name)),
             Endpoint::Instance(_) => false,
         }
@@ -541,7 +588,8 @@ fn is_fed(graph: &GraphItem, name: &str) -> bool {
 
 /// The ports that an endpoint may stand for, among those that send or those that take. Parameters count only if they
 /// are named.
-fn meant((symbol, name, span): &(Symbol, String, Span), sends: bool) -> EndpointCandidates {
+fn meant(end: &End, sends: bool) -> EndpointCandidates {
+    let End { symbol, text: name, span } = end;
     let explicit = name.contains('.');
     let candidates = match symbol {
         Symbol::Own(candidate) if candidate.kind.sends() == sends => vec![candidate.clone()],

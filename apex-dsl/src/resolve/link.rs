@@ -9,6 +9,8 @@ pub struct Link {
     pub arrow: Span,
     /// `true` for `=>`, on which activity passes.
     pub active: bool,
+    /// `true` if `.*` stands at its ends.
+    pub by_name: bool,
     /// Origin of the tokens.
     pub from: Side,
     /// Destination of the tokens.
@@ -18,14 +20,19 @@ pub struct Link {
 /// An end of a connection.
 #[derive(Debug, Clone)]
 pub struct Side {
-    /// The text of the endpoint.
-    pub span: Span,
-    /// Name of the port that is meant.
-    pub port: String,
+    /// The port that is meant, as it would be named in the graph: `node.port`, or a port of the graph.
+    pub name: String,
     /// Kind of the port, seen from the arrow.
     pub kind: PortKind,
     /// Type of the tokens, as far as it is declared.
     pub ty: Type,
+}
+
+impl Side {
+    /// Name of the port alone.
+    pub fn port(&self) -> &str {
+        self.name.rsplit('.').next().unwrap_or(&self.name)
+    }
 }
 
 impl Link {

@@ -2,6 +2,7 @@
 //! and nested graphs.
 
 mod args;
+mod by_name;
 mod claims;
 pub mod condition;
 mod connect;

@@ -85,8 +85,7 @@ impl Builder<'_> {
         if !self.unknown.insert((body.id, word.text.clone())) {
             return;
         }
-        let references = body.item.references();
-        let firsts: Vec<&Ident> = references.iter().filter_map(|reference| reference.parts.first()).collect();
+        let firsts = body.item.names();
         let mut uses: Vec<Span> = firsts.iter().filter(|first| first.text == word.text).map(|i| i.span).collect();
         uses.sort_unstable();
         let near = nearest_within(&word.text, table.names(), 2);

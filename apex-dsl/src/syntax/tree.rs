@@ -277,7 +277,7 @@ impl GraphItem {
         fn add<'a>(end: &'a Endpoint, found: &mut Vec<&'a Endpoint>) {
             match end {
                 Endpoint::List(ends, _) => ends.iter().for_each(|end| add(end, found)),
-                Endpoint::Port(_) | Endpoint::Instance(_) => found.push(end),
+                Endpoint::Port(_) | Endpoint::All(_) | Endpoint::Instance(_) => found.push(end),
             }
         }
         let mut found = vec![];
@@ -292,6 +292,15 @@ impl GraphItem {
             _ => None,
         });
         of_chains.chain(self.claims.iter().flat_map(|claim| &claim.of)).collect()
+    }
+
+    /// The names of nodes and ports with which its ends and claims begin.
+    pub fn names(&self) -> Vec<&Ident> {
+        let before_all = self.ends().into_iter().filter_map(|end| match end {
+            Endpoint::All(AllPorts { of: PortsOf::Node(name), .. }) => Some(name),
+            _ => None,
+        });
+        self.references().into_iter().filter_map(|reference| reference.parts.first()).chain(before_all).collect()
     }
 
     /// The thread groups that its instances name.
@@ -462,6 +471,14 @@ pub struct Chain {
     pub arrows: Vec<Arrow>,
 }
 
+impl Chain {
+    /// From its first end to its last one.
+    pub fn span(&self) -> Span {
+        let (first, last) = (self.ends[0].span(), self.ends[self.ends.len() - 1].span());
+        first.to(last)
+    }
+}
+
 /// `->` or `=>`
 #[derive(Debug, Clone, Copy)]
 pub struct Arrow {
@@ -476,10 +493,44 @@ pub struct Arrow {
 pub enum Endpoint {
     /// `node`, `node.port` or the name of a port of the graph.
     Port(PortRef),
+    /// `in.*`, `out.*`, `node.*`
+    All(AllPorts),
     /// A node written in place.
     Instance(Box<Instance>),
     /// `[a, b]`
     List(Vec<Endpoint>, Span),
+}
+
+impl Endpoint {
+    /// The whole endpoint.
+    pub const fn span(&self) -> Span {
+        match self {
+            Self::Port(reference) => reference.span,
+            Self::All(all) => all.span,
+            Self::Instance(instance) => instance.span,
+            Self::List(_, span) => *span,
+        }
+    }
+}
+
+/// `in.*`, `out.*`, `node.*`: each port, for a connection with the port of the same name at the other end.
+#[derive(Debug)]
+pub struct AllPorts {
+    /// Owner of the ports.
+    pub of: PortsOf,
+    /// The whole endpoint.
+    pub span: Span,
+}
+
+/// Owner of the ports for which `.*` stands.
+#[derive(Debug)]
+pub enum PortsOf {
+    /// The graph itself: its inputs and slots.
+    In,
+    /// The graph itself: its outputs and events.
+    Out,
+    /// A node or nested graph.
+    Node(Ident),
 }
 
 /// `node`, `node.port`

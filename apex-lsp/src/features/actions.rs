@@ -1,7 +1,7 @@
-//! Code actions that fix errors.
+//! Code actions: fixes of errors, and connections by name written out.
 
 use super::{Ready, diagnostics::diagnostic};
-use apex_dsl::{fix, report::Fix};
+use apex_dsl::{fix, ide, report::Fix};
 use lsp_types::{CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit};
 use std::collections::HashMap;
 
@@ -46,5 +46,23 @@ pub fn actions(ready: &Ready<'_>, range: Range) -> Vec<Offered> {
             actions.push(Offered { action, certain });
         }
     }
+    actions.extend(written_out(ready, range));
     actions
+}
+
+/// Actions that replace `.*` by the names of the ports.
+fn written_out(ready: &Ready<'_>, range: Range) -> Vec<Offered> {
+    let (start, end) = (ready.offset(range.start) as u32, ready.offset(range.end) as u32);
+    let offer = |written: ide::WrittenOut| {
+        let location = ready.analysis.report.places.location(written.chain)?;
+        let edit = TextEdit::new(location.range, written.text);
+        let action = CodeAction {
+            title: "write out the connections by name".to_owned(),
+            kind: Some(CodeActionKind::REFACTOR_REWRITE),
+            edit: Some(WorkspaceEdit::new(HashMap::from([(location.uri, vec![edit])]))),
+            ..CodeAction::default()
+        };
+        Some(Offered { action, certain: None })
+    };
+    ide::written_out(&ready.view(), start, end).into_iter().filter_map(offer).collect()
 }

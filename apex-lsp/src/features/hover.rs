@@ -24,6 +24,6 @@ fn arrow(ready: &Ready<'_>, offset: usize) -> Option<(String, lsp_types::Range)>
     let here = |s: apex_dsl::source::Span| s.start as usize <= offset && offset <= s.end as usize;
     let links: Vec<_> = view.links.iter().filter(|l| here(l.arrow)).collect();
     let first = links.first()?;
-    let pages: Vec<String> = links.iter().map(|l| ide::describe_link(&view, l)).collect();
+    let pages: Vec<String> = links.iter().map(|l| ide::describe_link(l)).collect();
     Some((pages.join("\n\n---\n\n"), ready.analysis.names.places.range(first.arrow)))
 }

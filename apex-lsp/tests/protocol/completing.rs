@@ -76,7 +76,11 @@ fn only_ports_that_fit() {
         assert_eq!(found[0], "fast");
     }
     assert_eq!(at("speed -> inner.|"), ["a", "c"]);
-    assert_eq!(at("inner.|"), ["d", "failed"]);
+    assert_eq!(at("inner.|"), ["d", "failed", "*"]);
+    // By name.
+    assert_eq!(at("in.|"), ["*"]);
+    assert_eq!(at("in.* -> inner.|"), ["*"]);
+    assert_eq!(at("in.* -> [one.*, inner.|"), ["*"]);
     assert_eq!(at("inner.d -> inner.|"), ["b"]);
     // Only one of its ports fits, so its name is enough.
     has(&at("inner -> |"), &["inner"]);

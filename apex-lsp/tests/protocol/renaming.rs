@@ -19,6 +19,14 @@ graph Twice {
     node two = Find(gap = 1m);
     input -> [one, two.scan];
 }
+graph Same {
+    in   alike: Scan;
+    out  equal: Segments;
+    node find = Inside();
+    in.* -> find.*;
+    find.* -> out.*;
+}
+graph Inside { in alike: Scan; out equal: Segments; node one = Find(); alike -> one -> equal; }
 fsm Door { slot go; event ring; state shut { on go => open -> ring; } state open { on go => shut; } }
 test finds: Find { expect active(jump); }
 ";
@@ -92,6 +100,8 @@ fn refusals_say_why() {
         (("shut", 0), "open", "`Door` already has a state `open`"),
         (("JumpDistance", 1), "Jump", "this is declared in Rust; rename it there"),
         (("f32", 0), "f64", "there is no name here"),
+        (("alike", 0), "like", "`.*` connects `alike` by its name; write these connections out first"),
+        (("equal", 1), "like", "`.*` connects `equal` by its name; write these connections out first"),
     ] {
         let found = rename(&mut client, &path, TEXT, (word, n), name);
         assert_eq!(found, Err(reason.to_owned()), "{word} → {name}");

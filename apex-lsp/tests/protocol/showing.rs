@@ -119,6 +119,48 @@ fn the_kinds_of_connections() {
 }
 
 #[test]
+fn connections_by_name() {
+    let mut client = Client::start();
+    let path = unsaved("by_name.afg");
+    let text = "graph Inner { in a: f64; slot b; in k: f64; out d: f64; a -> d; }
+graph A {
+    in a: f64;
+    slot b;
+    in k: f64;
+    out d: f64;
+    node one = Inner();
+    node two = Inner();
+    in.* -> [one.*, two.*];
+    k -> two.a;
+    one.* -> out.*;
+}
+";
+    client.open(&path, text);
+    let line =
+        |line: u32| json!({ "start": { "line": line, "character": 4 }, "end": { "line": line, "character": 40 } });
+    let params = json!({ "textDocument": { "uri": uri(&path) }, "range": line(8) });
+    let hints = client.ask("textDocument/inlayHint", params).unwrap();
+    assert_eq!(hints[0]["label"], "sync/event/sync/event/sync: a, b, k");
+    let hover = client.ask_at(&path, json!({ "line": 8, "character": 10 }), "hover", json!({})).unwrap();
+    let shown = hover["contents"]["value"].as_str().unwrap();
+    assert!(shown.starts_with("```afg\na -> one.a\n") && shown.contains("\nb -> two.b\n"), "{shown}");
+    let node = client.ask_at(&path, json!({ "line": 8, "character": 14 }), "hover", json!({})).unwrap();
+    assert!(node["contents"]["value"].as_str().unwrap().starts_with("```afg\nnode one\n"), "{node}");
+    let mut written = |at: u32| {
+        let params =
+            json!({ "textDocument": { "uri": uri(&path) }, "range": line(at), "context": { "diagnostics": [] } });
+        let found = client.ask("textDocument/codeAction", params).unwrap();
+        let action = found.as_array().unwrap().iter().find(|action| action["kind"] == "refactor.rewrite").cloned();
+        action.map(|action| action["edit"]["changes"][uri(&path)][0]["newText"].as_str().unwrap().to_owned())
+    };
+    let all = "a -> one.a;\n    b -> [one.b, two.b];\n    k -> [one.k, two.k]";
+    assert_eq!(written(8).as_deref(), Some(all));
+    assert_eq!(written(9), None);
+    assert_eq!(written(10).as_deref(), Some("one.d -> d"));
+    assert!(client.stop());
+}
+
+#[test]
 fn fixes() {
     let mut client = Client::start();
     let path = unsaved("fixing.afg");

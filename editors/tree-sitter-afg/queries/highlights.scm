@@ -26,6 +26,9 @@
 
 (reference (identifier) @variable)
 (reference port: (identifier) @property)
+(all_ports (identifier) @variable)
+(all_ports ["in" "out"] @variable.builtin)
+(all_ports "*" @property)
 (path (identifier) @variable)
 (type (path (identifier) @type))
 (use (path (identifier) @type))

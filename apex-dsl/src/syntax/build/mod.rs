@@ -314,8 +314,17 @@ impl<'a> Builder<'a> {
         Some(match inner.as_rule() {
             Rule::list => Endpoint::List(inner.into_inner().filter_map(|p| self.endpoint(p)).collect(), span),
             Rule::instance => Endpoint::Instance(Box::new(self.instance(inner))),
+            Rule::all_ports => Endpoint::All(AllPorts { of: self.ports_of(inner.into_inner().next()?), span }),
             _ => Endpoint::Port(self.port_ref(inner)),
         })
+    }
+
+    fn ports_of(&self, pair: Pair<'_, Rule>) -> PortsOf {
+        match (pair.as_rule(), pair.as_str()) {
+            (Rule::own_side, "in") => PortsOf::In,
+            (Rule::own_side, _) => PortsOf::Out,
+            _ => PortsOf::Node(self.ident(&pair)),
+        }
     }
 
     fn port_ref(&self, pair: Pair<'_, Rule>) -> PortRef {
