@@ -32,6 +32,11 @@ impl Span {
         Self { end: other.end.max(self.end), ..self }
     }
 
+    /// Returns `true` if `other` is in `self`.
+    pub fn contains(self, other: Self) -> bool {
+        self.file == other.file && self.start <= other.start && other.end <= self.end
+    }
+
     /// The empty span behind `self`.
     pub fn after(self) -> Self {
         Self { start: self.end, ..self }

@@ -37,6 +37,7 @@ module.exports = grammar({
         field('name', $.identifier),
         optional($.generics),
         optional($.parameters),
+        optional(seq('=', field('base', $.path))),
         '{',
         repeat($._statement),
         '}',

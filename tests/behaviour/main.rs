@@ -30,3 +30,4 @@ mod reported;
 mod scale;
 mod scripts;
 mod timing;
+mod variants;

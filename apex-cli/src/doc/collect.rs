@@ -100,14 +100,14 @@ impl Checked<'_> {
         let programs = self.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
         let graph = programs.chain(self.parts).find(|graph| graph.span == item.name.span);
         let written = self.written(item);
-        for node in written.iter().filter_map(|written| self.made_of(id, written)) {
+        for node in written.iter().filter_map(|written| self.made_of(written)) {
             if let NodeType::Rust(signature) = node {
                 nodes.entry(self.key(node)).or_insert_with(|| self.rust(signature));
             }
         }
         Item {
             pictures: graph.map(|graph| self.pictures(graph)).unwrap_or_default(),
-            nodes: written.iter().map(|written| self.used(id, written)).collect(),
+            nodes: written.iter().map(|written| self.used(written)).collect(),
             claims: item.claims.iter().map(|claim| self.claim(claim.span)).collect(),
             code: Some(self.source(item.extent)),
             ..self.item(NodeType::Graph(id), if item.robot { "robot" } else { "graph" })
@@ -187,17 +187,17 @@ impl Checked<'_> {
         }
     }
 
-    fn made_of(&self, graph: GraphId, written: &Written<'_>) -> Option<NodeType> {
-        self.view.node_type(graph.file, written.path?)
+    fn made_of(&self, written: &Written<'_>) -> Option<NodeType> {
+        self.view.node_type(written.path?)
     }
 
-    fn used(&self, graph: GraphId, written: &Written<'_>) -> Use {
+    fn used(&self, written: &Written<'_>) -> Use {
         let argument = |arg: &Arg| arg.name.as_ref().map_or(arg.value.span, |name| name.span.to(arg.value.span));
         let given = written.args.iter().map(argument).chain(written.modifiers.iter().map(|m| m.span));
         Use {
             name: written.name.map(str::to_owned),
             ty: written.ty.clone(),
-            of: self.made_of(graph, written).map(|node| self.key(node)),
+            of: self.made_of(written).map(|node| self.key(node)),
             handed_in: written.handed_in,
             given: given.map(|span| one_line(self.view.sources.text(span))).collect(),
             docs: written.docs.to_owned(),
@@ -219,7 +219,7 @@ impl Checked<'_> {
         let tests = self.view.texts.files[0].1.tests.iter().map(|test| Test {
             name: test.name.text.clone(),
             graph: test.graph.text(),
-            of: self.view.node_type(0, &test.graph).map(|node| self.key(node)),
+            of: self.view.node_type(&test.graph).map(|node| self.key(node)),
             docs: test.docs.clone(),
             code: self.source(test.extent),
         });

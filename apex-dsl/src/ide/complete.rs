@@ -265,7 +265,7 @@ impl Completer<'_> {
     fn node_type(&self, path: &[String]) -> Option<NodeType> {
         let span = Span::new(self.view.texts.file_id(0), self.offset, self.offset);
         let segments = path.iter().map(|text| Ident { text: text.clone(), span }).collect();
-        self.view.node_type(0, &PathExpr { segments, span })
+        self.view.node_type(&PathExpr { segments, span })
     }
 
     /// The ports that may follow `node.`.
@@ -320,7 +320,7 @@ impl Completer<'_> {
     fn tested(&self) -> Option<GraphId> {
         let around = |s: Span| s.start as usize <= self.offset && self.offset <= s.end as usize;
         let test = self.view.texts.files[0].1.tests.iter().find(|t| around(t.extent))?;
-        match self.view.node_type(0, &test.graph)? {
+        match self.view.node_type(&test.graph)? {
             NodeType::Graph(id) => Some(id),
             _ => None,
         }

@@ -122,8 +122,9 @@ impl<'a> View<'a> {
         &self.texts.files[id.file].1.machines[id.machine]
     }
 
-    /// The node type that the path of an instance in source file `file` names.
-    pub fn node_type(&self, file: usize, path: &PathExpr) -> Option<NodeType> {
+    /// The node type that the path of an instance names.
+    pub fn node_type(&self, path: &PathExpr) -> Option<NodeType> {
+        let file = self.texts.file_of(path.span);
         if let [name] = path.segments.as_slice() {
             match self.texts.names(file).get(&name.text) {
                 Some(Resolution::Graph(id)) => return Some(NodeType::Graph(*id)),
@@ -131,7 +132,7 @@ impl<'a> View<'a> {
                 _ => {}
             }
         }
-        match self.catalog.nodes(&self.texts.full_path(file, path)).as_slice() {
+        match self.catalog.nodes(&self.texts.full_path(path)).as_slice() {
             [one] => Some(self.of_signature(*one)),
             _ => None,
         }
@@ -148,9 +149,9 @@ impl<'a> View<'a> {
     /// The node type of a named node, and its instance if it is written as one.
     pub fn made_of(&self, graph: GraphId, node: usize) -> (Option<NodeType>, Option<&'a Instance>) {
         match &self.texts.graph(graph).nodes[node].body {
-            NodeBody::Instance(instance) => (self.node_type(graph.file, &instance.path), Some(instance)),
+            NodeBody::Instance(instance) => (self.node_type(&instance.path), Some(instance)),
             NodeBody::HandedIn(ty, _) => match &ty.kind {
-                TypeKind::Path(path, _) => (self.node_type(graph.file, path), None),
+                TypeKind::Path(path, _) => (self.node_type(path), None),
                 _ => (None, None),
             },
         }
@@ -179,9 +180,9 @@ impl<'a> View<'a> {
         match node {
             NodeType::Graph(id) => {
                 let item = self.texts.graph(id);
-                self.declared_ports(node, id.file, &item.ports, &generics(item))
+                self.declared_ports(node, &item.ports, &generics(item))
             }
-            NodeType::Machine(id) => self.declared_ports(node, id.file, &self.machine(id).ports, &[]),
+            NodeType::Machine(id) => self.declared_ports(node, &self.machine(id).ports, &[]),
             NodeType::Rust(id) => {
                 let ports = self.catalog.signatures[id].ports.iter().enumerate();
                 let facts = ports.map(|(i, p)| PortFacts {
@@ -198,9 +199,9 @@ impl<'a> View<'a> {
         }
     }
 
-    fn declared_ports(&self, node: NodeType, file: usize, ports: &[PortItem], generics: &[String]) -> Vec<PortFacts> {
+    fn declared_ports(&self, node: NodeType, ports: &[PortItem], generics: &[String]) -> Vec<PortFacts> {
         let ty = |port: &PortItem| match &port.ty {
-            Some(ty) => self.catalog.type_in_text(&self.texts.ty(file, ty), generics),
+            Some(ty) => self.catalog.type_in_text(&self.texts.ty(ty), generics),
             None => Type::unit(),
         };
         let facts = ports.iter().enumerate().map(|(i, port)| PortFacts {

@@ -65,14 +65,10 @@ impl<'a> Declared<'a> {
         let (mut graphs, mut params) = (BTreeMap::new(), BTreeMap::new());
         let (mut ports, mut states) = (BTreeMap::new(), BTreeMap::new());
         for (file, (_, tree)) in view.texts.files.iter().enumerate() {
-            for (graph, item) in tree.graphs.iter().enumerate() {
+            for graph in 0..tree.graphs.len() {
                 let id = GraphId { file, graph };
-                let node = NodeType::Graph(id);
-                let all = item.ports.iter().enumerate().map(|(i, p)| (&p.name, Definition::Port(node, i)));
-                let nodes = item.nodes.iter().enumerate().map(|(i, n)| (&n.name, Definition::Instance(id, i)));
-                graphs.insert(id, first_of_each(all.chain(nodes)));
-                let all = item.params.iter().enumerate();
-                params.insert(id, first_of_each(all.map(|(i, p)| (&p.name, Definition::Param(node, i)))));
+                graphs.insert(id, of_graph(view, id));
+                params.insert(id, params_of(view, id));
             }
             for (machine, item) in tree.machines.iter().enumerate() {
                 let id = MachineId { file, machine };
@@ -87,13 +83,38 @@ impl<'a> Declared<'a> {
     }
 }
 
+/// The names in a graph. Those that a variant has from its base mean the same there, also where it exchanges a node.
+fn of_graph<'a>(view: &View<'a>, id: GraphId) -> Names<'a> {
+    let (item, node) = (view.texts.graph(id), NodeType::Graph(id));
+    let mut names = base(view, id).map(|base| of_graph(view, base)).unwrap_or_default();
+    let ports = item.ports.iter().enumerate().map(|(i, p)| (&p.name, Definition::Port(node, i)));
+    let nodes = item.nodes.iter().enumerate().map(|(i, n)| (&n.name, Definition::Instance(id, i)));
+    add_first_of_each(&mut names, ports.chain(nodes));
+    names
+}
+
+fn params_of<'a>(view: &View<'a>, id: GraphId) -> Names<'a> {
+    let mut names = base(view, id).map(|base| params_of(view, base)).unwrap_or_default();
+    let params = view.texts.graph(id).params.iter().enumerate();
+    add_first_of_each(&mut names, params.map(|(i, p)| (&p.name, Definition::Param(NodeType::Graph(id), i))));
+    names
+}
+
+fn base(view: &View<'_>, id: GraphId) -> Option<GraphId> {
+    view.texts.variant(id)?.base
+}
+
 /// The meaning of each name. Of two declarations the first one counts.
 fn first_of_each<'a>(declared: impl Iterator<Item = (&'a Ident, Definition)>) -> Names<'a> {
     let mut names = BTreeMap::new();
+    add_first_of_each(&mut names, declared);
+    names
+}
+
+fn add_first_of_each<'a>(names: &mut Names<'a>, declared: impl Iterator<Item = (&'a Ident, Definition)>) {
     for (name, definition) in declared {
         names.entry(name.text.as_str()).or_insert(definition);
     }
-    names
 }
 
 struct Walker<'a, 'b> {
@@ -116,8 +137,8 @@ impl<'a> Walker<'a, '_> {
 
     /// The node type that the path of an instance names.
     fn made(&mut self, path: &PathExpr) -> Option<NodeType> {
-        let (view, file) = (self.view, self.file);
-        *self.made.entry(path.text()).or_insert_with(|| view.node_type(file, path))
+        let view = self.view;
+        *self.made.entry(path.text()).or_insert_with(|| view.node_type(path))
     }
 
     /// The node type of a node of a graph, which may be in another source file.
@@ -178,22 +199,28 @@ impl<'a> Walker<'a, '_> {
         for (i, name) in item.generics.iter().enumerate() {
             self.declares(name, Definition::Generic(id, i));
         }
+        if let Some(path) = &item.base
+            && let Some(made) = self.made(path)
+        {
+            path.segments.last().iter().for_each(|name| self.used(name, Definition::Node(made)));
+        }
+        let declared = self.declared;
         for (i, param) in item.params.iter().enumerate() {
-            self.declares(&param.name, Definition::Param(this, i));
+            self.declares_in(id, &declared.params[&id], &param.name, Definition::Param(this, i));
             self.ty(Some(id), &param.ty);
             let range = param.range.iter().flat_map(|r| [&r.low, &r.high]);
             param.default.iter().chain(range).for_each(|expr| self.expr(Some(id), expr));
         }
         for (i, port) in item.ports.iter().enumerate() {
-            self.declares(&port.name, Definition::Port(this, i));
+            self.declares_in(id, &declared.graphs[&id], &port.name, Definition::Port(this, i));
             port.ty.iter().for_each(|ty| self.ty(Some(id), ty));
         }
         for (i, node) in item.nodes.iter().enumerate() {
-            self.declares(&node.name, Definition::Instance(id, i));
+            self.declares_in(id, &declared.graphs[&id], &node.name, Definition::Instance(id, i));
             match &node.body {
                 NodeBody::Instance(instance) => self.instance(Some(id), instance),
                 NodeBody::HandedIn(ty, modifiers) => {
-                    let made = self.made_of(id, i);
+                    let made = if let TypeKind::Path(path, _) = &ty.kind { self.made(path) } else { None };
                     self.handed_in(id, ty, made);
                     self.modifiers(Some(id), made, modifiers);
                 }
@@ -202,6 +229,24 @@ impl<'a> Walker<'a, '_> {
         item.chains.iter().flat_map(|c| &c.ends).for_each(|end| self.endpoint(id, end));
         item.claims.iter().flat_map(|c| &c.of).for_each(|of| self.reference(id, of));
         item.records.iter().flat_map(|r| &r.ports).for_each(|port| self.reference(id, port));
+    }
+
+    /// A declaration in a graph. In a variant it may exchange what its base declares, and is a use of that then.
+    fn declares_in(&mut self, id: GraphId, names: &Names<'a>, name: &Ident, definition: Definition) {
+        if self.view.texts.variant(id).is_none() {
+            return self.declares(name, definition);
+        }
+        let Some(definition) = names.get(name.text.as_str()).copied() else { return };
+        match definition {
+            Definition::Instance(of, _)
+            | Definition::Port(NodeType::Graph(of), _)
+            | Definition::Param(NodeType::Graph(of), _)
+                if of != id =>
+            {
+                self.used(name, definition);
+            }
+            _ => self.declares(name, definition),
+        }
     }
 
     fn handed_in(&mut self, id: GraphId, ty: &TypeExpr, made: Option<NodeType>) {
@@ -349,7 +394,7 @@ impl<'a> Walker<'a, '_> {
                 if let (Some(id), Some(i), [_]) = (around, generic, path.segments.as_slice()) {
                     return self.used(last, Definition::Generic(id, i));
                 }
-                let full = self.view.texts.full_path(self.file, path);
+                let full = self.view.texts.full_path(path);
                 let definition = self.view.catalog.types(&full).first().map(|def| Definition::Type(*def));
                 definition.iter().for_each(|d| self.used(last, *d));
             }

@@ -109,7 +109,7 @@ fn item_clash(view: &View<'_>, at: Span, name: &str) -> Result<(), String> {
     clash(view.texts.names(file).contains_key(name), format!("`{name}` already has a meaning in {path}"))?;
     let word = Ident { text: name.to_owned(), span: at };
     let path = PathExpr { segments: vec![word], span: at };
-    clash(view.node_type(file, &path).is_some(), format!("there is already a node `{name}`, which would be hidden"))
+    clash(view.node_type(&path).is_some(), format!("there is already a node `{name}`, which would be hidden"))
 }
 
 fn clash(clashes: bool, reason: String) -> Result<(), String> {

@@ -86,6 +86,18 @@ impl Diagnostic {
         self
     }
 
+    /// Moves the message to `span`, where its cause is. Fixes at its former place would not remove the cause.
+    #[must_use]
+    pub fn moved_to(mut self, span: Span) -> Self {
+        if self.primary.span != span {
+            let primary = std::mem::replace(&mut self.primary, Label { span, text: String::new() });
+            let text = if primary.text.is_empty() { "needed here".to_owned() } else { primary.text };
+            self.secondary.insert(0, Label { span: primary.span, text });
+            self.fixes.clear();
+        }
+        self
+    }
+
     /// Adds a note.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {

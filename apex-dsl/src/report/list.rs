@@ -21,6 +21,8 @@ pub struct Diagnostics {
     items: Items,
     /// Names of the nested graphs that are being instantiated, outermost first.
     open: Vec<String>,
+    /// The place to which messages are moved.
+    anchor: Option<Span>,
 }
 
 /// A message with the instances that it is about; an empty path stands for the source file itself.
@@ -41,6 +43,11 @@ impl Diagnostics {
         self.open.push(name.to_owned());
     }
 
+    /// Moves messages to this place from now on, if there is one. Returns the place until now.
+    pub fn anchor(&mut self, place: Option<Span>) -> Option<Span> {
+        std::mem::replace(&mut self.anchor, place)
+    }
+
     /// Leaves the nested graph that was entered last.
     pub fn leave(&mut self) {
         self.open.pop();
@@ -48,7 +55,8 @@ impl Diagnostics {
 
     /// Adds a message, unless it may be a consequence of an earlier one. Messages about the same place in several
     /// instances become one.
-    pub fn push(&mut self, mut diagnostic: Diagnostic) {
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        let mut diagnostic = self.anchored(diagnostic);
         if diagnostic.instance.is_empty() {
             diagnostic.instance = self.open.join(".");
         }
@@ -68,6 +76,10 @@ impl Diagnostics {
         }
     }
 
+    fn anchored(&self, diagnostic: Diagnostic) -> Diagnostic {
+        if let Some(anchor) = self.anchor { diagnostic.moved_to(anchor) } else { diagnostic }
+    }
+
     /// The message with the same code at the same place. Its wording may differ only if it is about another instance.
     fn same(&self, new: &Diagnostic) -> Option<usize> {
         let is_here = |old: &Diagnostic| old.code == new.code && old.primary.span == new.primary.span;
@@ -82,6 +94,7 @@ impl Diagnostics {
 
     /// Adds a message unless there is one with the same code at the same place.
     pub fn push_once(&mut self, diagnostic: Diagnostic) {
+        let diagnostic = self.anchored(diagnostic);
         let same = |entry: &Entry| {
             entry.diagnostic.code == diagnostic.code && entry.diagnostic.primary.span == diagnostic.primary.span
         };
@@ -97,9 +110,8 @@ impl Diagnostics {
 
     /// Returns `true` if there is an error at this place or inside it.
     pub fn has_errors_in(&self, place: Span) -> bool {
-        let is_inside = |span: Span| span.file == place.file && place.start <= span.start && span.end <= place.end;
         let errors = self.list.iter().map(|entry| &entry.diagnostic).filter(|d| d.severity == Severity::Error);
-        errors.into_iter().any(|error| is_inside(error.primary.span))
+        errors.into_iter().any(|error| place.contains(error.primary.span))
     }
 
     /// Returns `true` if further errors are only counted, so that checks may stop.

@@ -42,6 +42,11 @@ impl All {
         self.ports.iter().filter(|port| !port.kind.sends())
     }
 
+    /// Name of the node or nested graph.
+    fn node(&self) -> Option<&str> {
+        if let PortOwner::Other(name, _) = &self.owner { Some(name) } else { None }
+    }
+
     /// One of the ports, as if the graph named it here.
     fn end(&self, port: &Candidate) -> End {
         let (symbol, text) = match &self.owner {
@@ -94,7 +99,7 @@ impl Builder<'_> {
 
     /// Makes the connections by name of a graph body, whose wires begin at `first`. Ports to which a connection leads
     /// that names them are left out.
-    pub fn connect_by_name(&mut self, arrows: &[(All, All, Arrow)], first: usize) {
+    pub fn connect_by_name(&mut self, body: &Body<'_>, arrows: &[(All, All, Arrow)], first: usize) {
         if arrows.is_empty() {
             return;
         }
@@ -107,16 +112,21 @@ impl Builder<'_> {
                 self.activity_by_name(arrow, to);
                 continue;
             }
-            let sources: BTreeMap<&str, &Candidate> = from.sends().map(|port| (port.name.as_str(), port)).collect();
-            let pairs = to.takes().filter_map(|target| Some((*sources.get(target.name.as_str())?, target)));
-            let pairs: Vec<(&Candidate, &Candidate)> = pairs.collect();
-            if pairs.is_empty() {
-                self.nothing_matched(from, to, arrow);
-            }
-            for (source, target) in pairs {
-                if !named.contains(&target.place) && !self.suppressed.contains(&target.place) {
-                    self.connect_pair((&from.end(source), source), (&to.end(target), target), arrow);
-                }
+            let exchange = [from, to].into_iter().find_map(|all| self.exchange(body, all.node()?, arrow.span));
+            self.at_exchange(exchange, |this| this.connect_all(from, to, arrow, &named));
+        }
+    }
+
+    fn connect_all(&mut self, from: &All, to: &All, arrow: &Arrow, named: &BTreeSet<WireEnd>) {
+        let sources: BTreeMap<&str, &Candidate> = from.sends().map(|port| (port.name.as_str(), port)).collect();
+        let pairs = to.takes().filter_map(|target| Some((*sources.get(target.name.as_str())?, target)));
+        let pairs: Vec<(&Candidate, &Candidate)> = pairs.collect();
+        if pairs.is_empty() {
+            self.nothing_matched(from, to, arrow);
+        }
+        for (source, target) in pairs {
+            if !named.contains(&target.place) && !self.suppressed.contains(&target.place) {
+                self.connect_pair((&from.end(source), source), (&to.end(target), target), arrow);
             }
         }
     }

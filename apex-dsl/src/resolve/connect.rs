@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{Node, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Standard, Wire, WireEnd},
+    graph::{self, Node, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Standard, Wire, WireEnd},
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef, PortsOf},
@@ -173,6 +173,13 @@ pub struct Made {
     pub by_name: bool,
 }
 
+impl End {
+    /// Name of the node, or of the port of the graph.
+    fn node(&self) -> &str {
+        self.text.split('.').next().unwrap_or(&self.text)
+    }
+}
+
 /// Meaning of an end of a chain.
 #[derive(Debug, Clone)]
 enum Meaning {
@@ -215,7 +222,11 @@ impl Builder<'_> {
                 for from in ends[i].iter().flatten() {
                     for to in ends[i + 1].iter().flatten() {
                         match (from, to) {
-                            (Meaning::One(from), Meaning::One(to)) => self.connect(body, from, to, arrow, open),
+                            (Meaning::One(from), Meaning::One(to)) => {
+                                let exchange =
+                                    [from, to].into_iter().find_map(|end| self.exchange(body, end.node(), arrow.span));
+                                self.at_exchange(exchange, |this| this.connect(body, from, to, arrow, open));
+                            }
                             (Meaning::All(from), Meaning::All(to)) => by_name.push((from.clone(), to.clone(), *arrow)),
                             (Meaning::One(one), Meaning::All(all)) | (Meaning::All(all), Meaning::One(one)) => {
                                 self.one_sided(one, all);
@@ -232,7 +243,28 @@ impl Builder<'_> {
                 return;
             }
         }
-        self.connect_by_name(&by_name, first);
+        self.connect_by_name(body, &by_name, first);
+    }
+
+    /// Place of the node that stands for `name` in a statement at `at`, if a variant or a test has exchanged it: there
+    /// is the cause of a connection that does not fit.
+    pub fn exchange(&self, body: &Body<'_>, name: &str, at: Span) -> Option<Span> {
+        if !self.replaced.is_empty() {
+            let path = graph::path(&self.scopes, body.scope, Some(name));
+            if let Some(instance) = self.replaced.get(&path) {
+                return Some(instance.span);
+            }
+        }
+        let variant = self.texts.variant(body.id)?;
+        variant.exchanged.get(name).copied().filter(|_| !body.item.extent.contains(at))
+    }
+
+    /// Calls `act`, whose messages are moved to the place of an exchange if there is one.
+    pub fn at_exchange<T>(&mut self, exchange: Option<Span>, act: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.diagnostics.anchor(exchange);
+        let result = act(self);
+        self.diagnostics.anchor(before);
+        result
     }
 
     /// Meanings of one end of a chain. `None` stands for an error.
@@ -286,7 +318,8 @@ impl Builder<'_> {
                     named.extend(self.standard_port(*owner, port));
                 }
                 if named.is_empty() {
-                    self.unknown_port(body, (first, port), symbol);
+                    let exchange = self.exchange(body, &first.text, reference.span);
+                    self.at_exchange(exchange, |this| this.unknown_port(body, (first, port), symbol));
                     self.suppress(symbol);
                     return None;
                 }

@@ -181,7 +181,7 @@ impl<'a> Builder<'a> {
                     .note("replace it by a node that is a driver, or write `graph` instead of `robot`"),
             );
         }
-        let threads = self.threads(id, &values, item);
+        let threads = self.threads(&values, item);
         if self.budget.exceeded {
             return None;
         }
@@ -277,9 +277,8 @@ impl<'a> Builder<'a> {
 
     /// A type as written in the source file of graph `id`.
     pub fn ty(&self, id: GraphId, ty: &TypeExpr) -> Type {
-        let graph = self.texts.files[id.file].1.graphs.get(id.graph);
-        let generics: Vec<String> = graph.iter().flat_map(|graph| &graph.generics).map(|g| g.text.clone()).collect();
-        self.catalog.type_in_text(&self.texts.ty(id.file, ty), &generics)
+        let generics: Vec<String> = self.texts.graph(id).generics.iter().map(|g| g.text.clone()).collect();
+        self.catalog.type_in_text(&self.texts.ty(ty), &generics)
     }
 
     /// Expands a graph body: first its nodes, then its connections.
@@ -313,15 +312,14 @@ impl<'a> Builder<'a> {
     fn replace(&mut self, body: &Body<'_>, node: &crate::syntax::tree::NodeItem) -> Option<Symbol> {
         let path = graph::path(&self.scopes, body.scope, Some(&node.name.text));
         let instance = *self.replaced.get(&path)?;
-        let id = GraphId { file: 0, ..body.id };
         let fed = body.fed.clone();
-        let inside = Body { id, values: BTreeMap::new(), origins: Origins::new(), fed, ..*body };
+        let inside = Body { values: BTreeMap::new(), origins: Origins::new(), fed, ..*body };
         self.instance(&inside, &node.name, instance, &node.docs)
     }
 
     /// An instance of a node or graph.
     pub fn instance(&mut self, body: &Body<'_>, name: &Ident, instance: &Instance, docs: &str) -> Option<Symbol> {
-        let made = match self.texts.made(body.id.file, &instance.path, self.catalog) {
+        let made = match self.texts.made(&instance.path, self.catalog) {
             Ok(made) => made,
             Err(error) => {
                 error.into_iter().for_each(|error| self.diagnostics.push(*error));
@@ -354,7 +352,7 @@ impl<'a> Builder<'a> {
     fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
         let params = self.param_types(id);
         let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
         let scope = Names { params: &body.values, constant: &constant };
         args::of_graph_inside(
             &self.texts.graph(id).name,
@@ -380,7 +378,7 @@ impl<'a> Builder<'a> {
             return None;
         }
         let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
         let scope = Names { params: &body.values, constant: &constant };
         let fed = |param: &str| body.fed.contains(&(name.text.as_str(), param));
         let at = instance.span;
@@ -434,7 +432,7 @@ impl<'a> Builder<'a> {
                 let resolved = self.ty(body.id, ty);
                 match &resolved {
                     Type::Param(_) => TypeArg::Open,
-                    _ => TypeArg::Verbatim(resolved, self.texts.ty(body.id.file, ty).to_string()),
+                    _ => TypeArg::Verbatim(resolved, self.texts.ty(ty).to_string()),
                 }
             })
             .collect()
@@ -458,7 +456,7 @@ impl<'a> Builder<'a> {
         };
         let instance =
             Instance { path: path.clone(), types: types.clone(), args: vec![], modifiers: vec![], span: ty.span };
-        let made = self.texts.made(body.id.file, path, self.catalog);
+        let made = self.texts.made(path, self.catalog);
         match made {
             Ok(Constructor::Node(id)) if !self.catalog.signatures[id].is_function => {
                 let signature = &self.catalog.signatures[id];
@@ -468,7 +466,7 @@ impl<'a> Builder<'a> {
                 let docs = if docs.is_empty() { &signature.docs } else { docs };
                 let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
                 let texts = self.texts;
-                let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+                let constant = |path: &PathExpr| texts.constant(path, self.catalog);
                 let scope = Names { params: &body.values, constant: &constant };
                 self.nodes[node].modifiers = args::modifiers(modifiers, &scope, &body.origins, self.diagnostics);
                 Some(Symbol::of_node(node, &self.nodes[node]))

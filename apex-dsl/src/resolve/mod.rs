@@ -19,6 +19,7 @@ mod threads;
 mod types;
 mod unknown;
 pub mod value;
+mod variants;
 mod wrap;
 
 use crate::{
@@ -95,7 +96,7 @@ pub fn resolve(
         let group = if is_nested { &mut nested } else { &mut graphs };
         group.extend(resolved);
     }
-    generated_names(&texts.files[0].1, &used, catalog, diagnostics);
+    generated_names(&texts, &used, catalog, diagnostics);
     let mut tests = vec![];
     test_names(&texts.files[0].1, diagnostics);
     for test in &texts.files[0].1.tests {
@@ -103,7 +104,8 @@ pub fn resolve(
             break;
         }
         // A port without a certain name can be neither fed nor expected.
-        let graph = texts.files[0].1.graphs.iter().find(|graph| test.graph.text() == graph.name.text);
+        let of_file = (0..texts.files[0].1.graphs.len()).map(|graph| texts.graph(GraphId { file: 0, graph }));
+        let graph = of_file.into_iter().find(|graph| test.graph.text() == graph.name.text);
         let mut ports = graph.into_iter().flat_map(|graph| &graph.ports);
         if ports.any(|port| diagnostics.has_errors_in(port.name.span)) {
             continue;
@@ -147,8 +149,10 @@ const OF_RUST: [&str; 38] = [
 
 /// Reports graphs and machines whose names are taken in Rust: by Rust itself, or by a type that belongs to another
 /// item.
-fn generated_names(file: &File, used: &BTreeSet<&str>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
-    let graphs = || file.graphs.iter().filter(|graph| !used.contains(graph.name.text.as_str()));
+fn generated_names(texts: &SourceSet, used: &BTreeSet<&str>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    let file = &texts.files[0].1;
+    let all = || (0..file.graphs.len()).map(|graph| texts.graph(GraphId { file: 0, graph }));
+    let graphs = || all().filter(|graph| !used.contains(graph.name.text.as_str()));
     let made = || graphs().map(|g| &g.name).chain(file.machines.iter().map(|m| &m.name));
     for name in made().filter(|name| OF_RUST.contains(&name.text.as_str()) || PRIMITIVES.contains(&name.text.as_str()))
     {

@@ -18,6 +18,7 @@ use std::{
 use super::{
     unknown::{Known, everywhere, unknown},
     value::Scope,
+    variants::{self, Variant},
 };
 
 /// Largest number of source files of a program.
@@ -41,6 +42,7 @@ pub struct SourceSet {
     pub machines: Machines,
     /// The catalog nodes of the state machines in each source file.
     machine_nodes: Vec<Vec<SignatureId>>,
+    variants: BTreeMap<GraphId, Variant>,
     unreadable: BTreeSet<PathBuf>,
     /// The names in each source file with no meaning or several meanings, which has been reported.
     unclear: Vec<BTreeSet<String>>,
@@ -76,8 +78,8 @@ impl SourceSet {
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let (files, names, machine_nodes, unclear) = (vec![], vec![], vec![], vec![]);
-        let machines = Machines::new();
-        let mut texts = Self { files, names, machines, machine_nodes, unreadable: BTreeSet::new(), unclear };
+        let (machines, variants, unreadable) = (Machines::new(), BTreeMap::new(), BTreeSet::new());
+        let mut texts = Self { files, names, machines, machine_nodes, variants, unreadable, unclear };
         texts.parse(root, &sources.get(root).text.clone(), diagnostics);
         let mut at = 0;
         while at < texts.files.len() {
@@ -99,6 +101,7 @@ impl SourceSet {
         for file in 0..texts.files.len() {
             texts.resolve_machines(file, catalog, sources, diagnostics);
         }
+        texts.variants = variants::variants(&texts, catalog, diagnostics);
         texts
     }
 
@@ -118,10 +121,10 @@ impl SourceSet {
         let mut machines = vec![];
         let (file_id, tree) = &self.files[file];
         for (item, &signature) in tree.machines.iter().zip(&self.machine_nodes[file]) {
-            let constant = |path: &PathExpr| self.constant(file, path, catalog);
+            let constant = |path: &PathExpr| self.constant(path, catalog);
             let scope = Scope { params: &BTreeMap::new(), constant: &constant };
             let ty = |port: &PortItem| match &port.ty {
-                Some(ty) => catalog.type_in_text(&self.ty(file, ty), &[]),
+                Some(ty) => catalog.type_in_text(&self.ty(ty), &[]),
                 None => Type::unit(),
             };
             if let Some(machine) = super::machine::resolve(item, &ty, &scope, diagnostics) {
@@ -280,9 +283,19 @@ impl SourceSet {
         self.files.iter().any(|(_, file)| file.broken)
     }
 
-    /// The graph with this number.
+    /// The graph with this number, with all statements of a variant.
     pub fn graph(&self, id: GraphId) -> &GraphItem {
+        self.variants.get(&id).map_or_else(|| self.written(id), |variant| &variant.item)
+    }
+
+    /// The graph with this number as written: a variant without the statements of its base.
+    pub fn written(&self, id: GraphId) -> &GraphItem {
         &self.files[id.file].1.graphs[id.graph]
+    }
+
+    /// The variant with this number, if the graph is one.
+    pub fn variant(&self, id: GraphId) -> Option<&Variant> {
+        self.variants.get(&id)
     }
 
     /// The names that source file `file` declares and imports, except those inside its graphs.
@@ -310,8 +323,14 @@ impl SourceSet {
         self.files[file].0
     }
 
-    /// A path in source file `file`, with its first segment replaced by its import.
-    pub fn full_path(&self, file: usize, path: &PathExpr) -> Vec<String> {
+    /// Index of the source file in which a path or type is written. Names have their meaning there.
+    pub fn file_of(&self, span: Span) -> usize {
+        self.files.iter().position(|(id, _)| *id == span.file).unwrap_or(0)
+    }
+
+    /// A path with its first segment replaced by its import.
+    pub fn full_path(&self, path: &PathExpr) -> Vec<String> {
+        let file = self.file_of(path.span);
         let words: Vec<String> = path.segments.iter().map(|s| s.text.clone()).collect();
         match words.first().and_then(|first| self.names[file].get(first)) {
             Some(Resolution::Rust(full)) => full.iter().chain(&words[1..]).cloned().collect(),
@@ -319,21 +338,18 @@ impl SourceSet {
         }
     }
 
-    /// Returns `true` if the meaning of a path in source file `file` is unclear, which has been reported.
-    pub fn is_unclear(&self, file: usize, path: &PathExpr) -> bool {
+    /// Returns `true` if the meaning of a path is unclear, which has been reported.
+    pub fn is_unclear(&self, path: &PathExpr) -> bool {
+        let file = self.file_of(path.span);
         path.segments.first().is_some_and(|first| self.unclear[file].contains(&first.text))
     }
 
     /// The constructor that the path of an instance names. The error is `None` if the reason has been reported.
-    pub fn made(
-        &self,
-        file: usize,
-        path: &PathExpr,
-        catalog: &Catalog,
-    ) -> Result<Constructor, Option<Box<Diagnostic>>> {
-        if self.is_unclear(file, path) {
+    pub fn made(&self, path: &PathExpr, catalog: &Catalog) -> Result<Constructor, Option<Box<Diagnostic>>> {
+        if self.is_unclear(path) {
             return Err(None);
         }
+        let file = self.file_of(path.span);
         if let [name] = path.segments.as_slice() {
             match self.names[file].get(&name.text) {
                 Some(Resolution::Graph(id)) => return Ok(Constructor::Graph(*id)),
@@ -341,7 +357,7 @@ impl SourceSet {
                 _ => {}
             }
         }
-        let full = self.full_path(file, path);
+        let full = self.full_path(path);
         match catalog.nodes(&full).as_slice() {
             [one] if catalog.signatures[*one].path.is_empty() => {
                 Err(Some(Box::new(hidden_node(path, &catalog.signatures[*one]))))
@@ -451,26 +467,26 @@ impl SourceSet {
     fn paths(&self, file: usize) -> impl Iterator<Item = &PathExpr> {
         let tree = &self.files[file].1;
         let of_instances = tree.graphs.iter().flat_map(|graph| graph.instances()).map(|instance| &instance.path);
-        of_instances.chain(tree.tests.iter().map(|test| &test.graph))
+        let of_variants = tree.graphs.iter().filter_map(|graph| graph.base.as_ref());
+        of_instances.chain(of_variants).chain(tree.tests.iter().map(|test| &test.graph))
     }
 
-    /// A type as written in a source file, for the catalog and for generated code.
-    pub fn ty(&self, file: usize, ty: &TypeExpr) -> Ty {
+    /// A type as written, for the catalog and for generated code.
+    pub fn ty(&self, ty: &TypeExpr) -> Ty {
         match &ty.kind {
-            TypeKind::Path(path, args) => {
-                Ty::Path(self.full_path(file, path), args.iter().map(|a| self.ty(file, a)).collect())
-            }
-            TypeKind::Array(element, len) => Ty::Array(Box::new(self.ty(file, element)), len.clone()),
-            TypeKind::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.ty(file, p)).collect()),
+            TypeKind::Path(path, args) => Ty::Path(self.full_path(path), args.iter().map(|a| self.ty(a)).collect()),
+            TypeKind::Array(element, len) => Ty::Array(Box::new(self.ty(element)), len.clone()),
+            TypeKind::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.ty(p)).collect()),
             TypeKind::Const(number) => Ty::Other(number.clone()),
         }
     }
 
     /// The constant of Rust that a path names; `None` for a name of the source file itself.
-    pub fn constant(&self, file: usize, path: &PathExpr, catalog: &Catalog) -> Option<Constant> {
+    pub fn constant(&self, path: &PathExpr, catalog: &Catalog) -> Option<Constant> {
+        let file = self.file_of(path.span);
         let known =
             path.segments.first().is_some_and(|s| matches!(self.names[file].get(&s.text), Some(Resolution::Rust(_))));
-        (known || path.segments.len() > 1).then(|| catalog.constant(&self.full_path(file, path)))
+        (known || path.segments.len() > 1).then(|| catalog.constant(&self.full_path(path)))
     }
 }
 

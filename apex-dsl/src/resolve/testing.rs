@@ -27,7 +27,7 @@ pub fn test(
     budget: &mut super::Budget,
     diagnostics: &mut Diagnostics,
 ) -> Option<(Graph, Script)> {
-    let id = match texts.made(0, &item.graph, catalog) {
+    let id = match texts.made(&item.graph, catalog) {
         Ok(Constructor::Graph(id)) => id,
         Ok(Constructor::Node(_)) => {
             let message = format!("`{}` is a node, but a test runs a graph", item.graph.text());
@@ -50,7 +50,7 @@ pub fn test(
         diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
         return None;
     }
-    let constant = |path: &PathExpr| texts.constant(0, path, catalog);
+    let constant = |path: &PathExpr| texts.constant(path, catalog);
     let scope = Scope { params: &BTreeMap::new(), constant: &constant };
     let values = arguments(texts, catalog, item, id, &scope, diagnostics);
     let mut builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
@@ -75,8 +75,7 @@ fn arguments(
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Value> {
     let graph = texts.graph(id);
-    let params: Vec<_> =
-        graph.params.iter().map(|p| (p, catalog.type_in_text(&texts.ty(id.file, &p.ty), &[]))).collect();
+    let params: Vec<_> = graph.params.iter().map(|p| (p, catalog.type_in_text(&texts.ty(&p.ty), &[]))).collect();
     args::of_graph(&graph.name, &params, Some((&item.args, scope)), item.span, diagnostics)
 }
 

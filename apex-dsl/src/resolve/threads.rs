@@ -2,7 +2,7 @@
 
 use super::{
     instance::Builder,
-    names::{GraphId, suggest},
+    names::suggest,
     value::{Evaluated, Scope as Names, evaluate},
 };
 use crate::{
@@ -18,7 +18,7 @@ const SETTINGS: [&str; 5] = ["cores", "priority", "policy", "rights", "hang"];
 
 impl Builder<'_> {
     /// The settings of the threads of a program.
-    pub fn threads(&mut self, id: GraphId, values: &BTreeMap<String, Value>, item: &GraphItem) -> Vec<ThreadSettings> {
+    pub fn threads(&mut self, values: &BTreeMap<String, Value>, item: &GraphItem) -> Vec<ThreadSettings> {
         let mut found: Vec<ThreadSettings> = vec![];
         for thread in &item.threads {
             if !item.robot {
@@ -29,7 +29,7 @@ impl Builder<'_> {
             self.check_group(thread, item, found.iter().any(|t| t.group == thread.name.text));
             let mut settings = ThreadSettings { group: thread.name.text.clone(), ..ThreadSettings::default() };
             for (name, value) in &thread.settings {
-                if let Err(error) = self.set(id, values, &mut settings, name, value) {
+                if let Err(error) = self.set(values, &mut settings, name, value) {
                     self.diagnostics.push(*error);
                 }
             }
@@ -80,14 +80,13 @@ impl Builder<'_> {
 
     fn set(
         &mut self,
-        id: GraphId,
         values: &BTreeMap<String, Value>,
         settings: &mut ThreadSettings,
         name: &Ident,
         value: &Expr,
     ) -> Evaluated<()> {
         let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(id.file, path, self.catalog);
+        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
         let scope = Names { params: values, constant: &constant };
         match name.text.as_str() {
             "cores" => match evaluate(value, &scope)? {

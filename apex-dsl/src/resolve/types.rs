@@ -1,6 +1,6 @@
 //! Checks of the types in source files: each is examined once, however often the graph around it is used.
 
-use super::names::{SourceSet, suggest};
+use super::names::{GraphId, SourceSet, suggest};
 use crate::{
     catalog::{Catalog, DURATION, PRIMITIVES, STD, is_path, library},
     report::{Diagnostic, Diagnostics},
@@ -15,8 +15,9 @@ pub fn check(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics
     for file in 0..texts.files.len() {
         let tree = &texts.files[file].1;
         let mut missing = BTreeSet::new();
-        for graph in &tree.graphs {
-            let generics: Vec<&str> = graph.generics.iter().map(|g| g.text.as_str()).collect();
+        for (number, graph) in tree.graphs.iter().enumerate() {
+            let whole = texts.graph(GraphId { file, graph: number });
+            let generics: Vec<&str> = whole.generics.iter().map(|g| g.text.as_str()).collect();
             let mut checker = Checker { texts, catalog, file, generics, missing: &mut missing, diagnostics };
             checker.graph(graph);
         }
@@ -107,10 +108,10 @@ impl Checker<'_> {
 
     fn path(&mut self, path: &PathExpr, args: &[TypeExpr]) {
         let given = args.len();
-        if self.texts.is_unclear(self.file, path) {
+        if self.texts.is_unclear(path) {
             return;
         }
-        let full = self.texts.full_path(self.file, path);
+        let full = self.texts.full_path(path);
         let is_generic = |name: &String| self.generics.contains(&name.as_str());
         if !is_path(&full) {
             return self.unknown(path, &full);

@@ -155,7 +155,7 @@ impl Builder<'_> {
             return Some(symbol);
         };
         let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(body.id.file, path, self.catalog);
+        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
         let scope = Names { params: &body.values, constant: &constant };
         let initial = match expr.as_ref().map(|e| evaluate(e, &scope)) {
             None => vec![None],

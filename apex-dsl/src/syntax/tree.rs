@@ -44,7 +44,7 @@ pub struct Use {
 }
 
 /// `graph` or `robot`.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct GraphItem {
     /// `///` lines.
     pub docs: String,
@@ -56,6 +56,8 @@ pub struct GraphItem {
     pub generics: Vec<Ident>,
     /// Parameters.
     pub params: Vec<ParamItem>,
+    /// The graph that this one is a variant of.
+    pub base: Option<PathExpr>,
     /// Ports.
     pub ports: Vec<PortItem>,
     /// Nodes with a name.
@@ -73,7 +75,7 @@ pub struct GraphItem {
 }
 
 /// A parameter of a graph.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ParamItem {
     /// `///` lines.
     pub docs: String,
@@ -90,7 +92,7 @@ pub struct ParamItem {
 }
 
 /// `low..high` or `low..=high`.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct RangeExpr {
     /// Smallest value.
     pub low: Expr,
@@ -153,7 +155,7 @@ impl PortKind {
 }
 
 /// A port of a graph.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct PortItem {
     /// `///` lines.
     pub docs: String,
@@ -166,7 +168,7 @@ pub struct PortItem {
 }
 
 /// `node name = …;`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct NodeItem {
     /// `///` lines.
     pub docs: String,
@@ -177,7 +179,7 @@ pub struct NodeItem {
 }
 
 /// Construction of a node.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum NodeBody {
     /// `= Type(…)`
     Instance(Instance),
@@ -186,7 +188,7 @@ pub enum NodeBody {
 }
 
 /// `Type<…>(name = value, …) modifiers`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Instance {
     /// Node or graph.
     pub path: PathExpr,
@@ -217,7 +219,7 @@ impl PathExpr {
 }
 
 /// `name = value`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Arg {
     /// The parameter; `None` is an error that is reported where the arguments are checked.
     pub name: Option<Ident>,
@@ -226,7 +228,7 @@ pub struct Arg {
 }
 
 /// A modifier of an instance.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Modifier {
     /// Kind of the modifier.
     pub kind: ModifierKind,
@@ -235,7 +237,7 @@ pub struct Modifier {
 }
 
 /// Kind of a modifier.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum ModifierKind {
     /// `every 20ms`
     Every(Expr),
@@ -463,7 +465,7 @@ pub struct Condition {
 }
 
 /// `a -> b => c;`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Chain {
     /// The ends, in order.
     pub ends: Vec<Endpoint>,
@@ -489,7 +491,7 @@ pub struct Arrow {
 }
 
 /// One end of a connection.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum Endpoint {
     /// `node`, `node.port` or the name of a port of the graph.
     Port(PortRef),
@@ -514,7 +516,7 @@ impl Endpoint {
 }
 
 /// `in.*`, `out.*`, `node.*`: each port, for a connection with the port of the same name at the other end.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct AllPorts {
     /// Owner of the ports.
     pub of: PortsOf,
@@ -523,7 +525,7 @@ pub struct AllPorts {
 }
 
 /// Owner of the ports for which `.*` stands.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum PortsOf {
     /// The graph itself: its inputs and slots.
     In,
@@ -534,7 +536,7 @@ pub enum PortsOf {
 }
 
 /// `node`, `node.port`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct PortRef {
     /// The parts between the dots.
     pub parts: Vec<Ident>,
@@ -550,7 +552,7 @@ impl PortRef {
 }
 
 /// `claim exclusive(a, b);`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Claim {
     /// Kind of the claim.
     pub kind: Ident,
@@ -561,7 +563,7 @@ pub struct Claim {
 }
 
 /// `thread vision { cores = [1]; priority = 80 }`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ThreadItem {
     /// The thread group.
     pub name: Ident,
@@ -570,7 +572,7 @@ pub struct ThreadItem {
 }
 
 /// `record "run.mcap" { laser.scan; }`
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct RecordItem {
     /// The file.
     pub file: String,

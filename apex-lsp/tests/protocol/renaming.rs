@@ -86,6 +86,36 @@ fn everything_that_a_text_names() {
 }
 
 #[test]
+fn a_node_and_its_exchange() {
+    let mut client = Client::start();
+    let path = unsaved("variants.afg");
+    let text = "graph Wide(gap: f32[m] = 15cm) {
+    in  scan: Scan;
+    node jump = JumpDistance(gap = gap);
+    scan -> jump;
+}
+graph Narrow(gap: f32[m] = 5cm) = Wide {
+    out segments: Segments;
+    node jump = JumpDistance(gap = gap * 2);
+    jump -> segments;
+}
+";
+    let text = &format!("use apex_nodes::scan::{{JumpDistance, Scan, Segments}};\n{text}");
+    let renamed = |from: &str, to: &str| {
+        let words = |line: &str| line.replace(&format!("node {from} "), &format!("node {to} "));
+        let ends = words(text).replace(&format!("{from};"), &format!("{to};"));
+        ends.replace(&format!("{from} ->"), &format!("{to} ->"))
+    };
+    for place in [0, 1, 2, 3] {
+        let edit = rename(&mut client, &path, text, ("jump", place), "edges").unwrap();
+        assert_eq!(applied(text, &path, &edit), renamed("jump", "edges"), "{place}");
+    }
+    let edit = rename(&mut client, &path, text, ("Wide", 1), "Broad").unwrap();
+    assert_eq!(applied(text, &path, &edit), text.replace("Wide", "Broad"));
+    assert!(client.stop());
+}
+
+#[test]
 fn refusals_say_why() {
     let mut client = Client::start();
     let path = unsaved("renaming.afg");

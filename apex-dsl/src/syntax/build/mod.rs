@@ -121,6 +121,7 @@ impl<'a> Builder<'a> {
             name: Ident { text: String::new(), span: self.span(&pair) },
             generics: vec![],
             params: vec![],
+            base: None,
             ports: vec![],
             nodes: vec![],
             chains: vec![],
@@ -139,6 +140,7 @@ impl<'a> Builder<'a> {
                     graph.params =
                         part.into_inner().filter(|p| p.as_rule() == Rule::param).map(|p| self.param(p)).collect();
                 }
+                Rule::base => graph.base = part.into_inner().find(|p| p.as_rule() == Rule::path).map(|p| self.path(p)),
                 Rule::stmt => {
                     for stmt in part.into_inner() {
                         self.statement(stmt, &mut graph);
