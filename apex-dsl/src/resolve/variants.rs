@@ -1,4 +1,4 @@
-//! Variants: `robot Simulated = Real { … }` has the statements of `Real`, some of whose nodes are exchanged, and its own.
+//! Variants: `robot Simulated = Real { … }` has the statements of `Real`, with some nodes exchanged, and its own.
 
 use super::{
     MAX_NESTING,
