@@ -3,7 +3,7 @@
 use crate::{Format, project};
 use apex_dsl::{
     analyse::Analysis,
-    graph::{Graph, MAIN_GROUP},
+    graph::{Graph, MAIN_GROUP, NodeId},
     program::Program,
 };
 use serde_json::{Value, json};
@@ -91,16 +91,16 @@ fn threads<'a>(program: &'a Program, profile: &Profile) -> Vec<Thread<'a>> {
 }
 
 fn thread<'a>(name: &'a str, graph: &Graph, analysis: &Analysis, profile: &Profile) -> Thread<'a> {
-    let measured = |node: usize| profile.nodes.get(&graph.path(node));
-    let all: f64 = (0..graph.nodes.len()).filter_map(|node| Some(measured(node)?.all)).sum();
+    let measured = |node: NodeId| profile.nodes.get(&graph.path(node));
+    let all: f64 = graph.nodes.ids().filter_map(|node| Some(measured(node)?.all)).sum();
     let clusters = analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires).map(|(number, cluster)| {
-        let nodes: Vec<usize> = cluster.schedule().into_iter().filter(|node| measured(*node).is_some()).collect();
-        let longest = |node: &usize| measured(*node).map_or(0.0, |m| m.longest) * analysis.repetitions[*node] as f64;
+        let nodes: Vec<NodeId> = cluster.schedule().into_iter().filter(|node| measured(*node).is_some()).collect();
+        let longest = |node: &NodeId| measured(*node).map_or(0.0, |m| m.longest) * analysis.repetitions[*node] as f64;
         (number, nodes.iter().map(|node| graph.path(*node)).collect(), nodes.iter().map(longest).sum())
     });
     let clusters: Vec<(usize, Vec<String>, f64)> = clusters.collect();
-    let is_in_none = |node: &usize| !clusters.iter().any(|(_, nodes, _)| nodes.contains(&graph.path(*node)));
-    let slots = (0..graph.nodes.len()).filter(is_in_none);
+    let is_in_none = |node: &NodeId| !clusters.iter().any(|(_, nodes, _)| nodes.contains(&graph.path(*node)));
+    let slots = graph.nodes.ids().filter(is_in_none);
     let slots = slots.filter_map(|node| Some((graph.path(node), measured(node)?.longest))).collect();
     Thread { name, busy: 100.0 * all / profile.span.max(f64::MIN_POSITIVE), clusters, slots }
 }

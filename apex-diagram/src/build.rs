@@ -48,7 +48,7 @@ impl<'a> Builder<'a> {
 
     /// Boundary nodes, which are the ports of the graph itself.
     fn boundaries(&self) -> impl Iterator<Item = NodeId> {
-        (0..self.graph.nodes.len()).filter(|n| matches!(self.graph.nodes[*n].kind, NodeKind::Boundary(_)))
+        self.graph.nodes.ids().filter(|n| matches!(self.graph.nodes[*n].kind, NodeKind::Boundary(_)))
     }
 
     fn boundary_port(&self, id: NodeId) -> Port {
@@ -104,7 +104,7 @@ impl<'a> Builder<'a> {
             let hidden = matches!(node.kind, NodeKind::Boundary(_) | NodeKind::Relay | NodeKind::Probe);
             node.scope == scope && !hidden
         };
-        let nodes = (0..graph.nodes.len()).filter(drawn).map(|n| (graph.nodes[n].span.start, Member::Node(n)));
+        let nodes = graph.nodes.ids().filter(drawn).map(|n| (graph.nodes[n].span.start, Member::Node(n)));
         let inner = (1..graph.scopes.len()).filter(|s| graph.scopes[*s].parent == scope);
         let inner = inner.map(|s| (graph.scopes[s].span.start, Member::Scope(s)));
         let mut all: Vec<(u32, Member)> = nodes.chain(inner).collect();
@@ -208,8 +208,8 @@ impl<'a> Builder<'a> {
     fn each(&self, node: &Node, each: &Each) -> Item {
         let body = &*each.body;
         let inner = Builder::new(body, self.machines, self.catalog);
-        let mut item = match &body.nodes[..] {
-            [only, ..] if only.span == body.span && matches!(only.kind, NodeKind::Library(_)) => inner.node(0).0,
+        let mut item = match body.nodes.iter_enumerated().next() {
+            Some((id, only)) if only.span == body.span && matches!(only.kind, NodeKind::Library(_)) => inner.node(id).0,
             _ => {
                 let mut item = Item::new(Shape::Node, &node.name);
                 item.words.push(body.name.clone());

@@ -101,8 +101,8 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         }
     }
     let _ = writeln!(text, "{pad}pruning");
-    let width = (0..graph.nodes.len()).map(|n| graph.path(n).len()).max().unwrap_or(0);
-    for node in (0..graph.nodes.len()).filter(|node| !is_cell(graph, *node)) {
+    let width = graph.nodes.ids().map(|n| graph.path(n).len()).max().unwrap_or(0);
+    for node in graph.nodes.ids().filter(|node| !is_cell(graph, *node)) {
         let skipped: Vec<String> = skipped(graph, analysis, node).into_iter().map(|n| graph.path(n)).collect();
         let words = characteristics(analysis, node);
         let words = if words.is_empty() { "-".to_owned() } else { words.join(", ") };
@@ -198,7 +198,7 @@ fn skipped(graph: &Graph, analysis: &Analysis, node: NodeId) -> Vec<NodeId> {
 /// Tokens that outlive a firing of their cluster, or that a node writes in place.
 fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(PortId, String)> {
     let mut kept = vec![];
-    for (node, n) in graph.nodes.iter().enumerate() {
+    for (node, n) in graph.nodes.iter_enumerated() {
         for port in
             (0..n.ports.len()).filter(|p| n.ports[*p].kind == PortKind::Output && n.ports[*p].parameter.is_none())
         {
@@ -235,7 +235,9 @@ pub fn explain_json(program: &Program, catalog: &Catalog) -> Value {
 }
 
 fn object(graph: &Graph, analysis: &Analysis, decided: &Decided, catalog: &Catalog) -> Value {
-    let nodes: Vec<Value> = (0..graph.nodes.len())
+    let nodes: Vec<Value> = graph
+        .nodes
+        .ids()
         .map(|node| {
             let c = analysis.characteristics[node];
             let clock: Vec<String> = analysis.clocks[node].iter().map(|end| graph.end_name(*end)).collect();

@@ -16,6 +16,7 @@ pub mod fix;
 pub mod format;
 pub mod graph;
 pub mod ide;
+pub mod index;
 pub mod machine;
 pub mod passes;
 pub mod petri;

@@ -4,6 +4,7 @@
 //! failing graphs are shown without reduction.
 
 use crate::compile::{How, Program, run};
+use apex_dsl::graph::NodeId;
 use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, read};
 use std::{collections::BTreeMap, env};
 
@@ -68,8 +69,9 @@ fn wrong_record(checker: &Checker, program: &Program, trace: &str) -> Option<Str
     }
     let checked = checker.check(&program.text).expect("only legal texts are compiled");
     let (step, why): Failure = checker.judge(&checked, &records).err()?;
-    let names =
-        |node: usize| if node < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() };
+    let names = |node: NodeId| {
+        if node.index() < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() }
+    };
     let shown: Vec<String> =
         records[step.saturating_sub(25)..=step].iter().map(|r| r.named(&names, &checked)).collect();
     Some(format!("{why}\n  {}", shown.join("\n  ")))

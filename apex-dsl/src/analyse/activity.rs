@@ -2,6 +2,7 @@
 
 use crate::{
     graph::{Graph, NodeId, NodeKind},
+    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::collections::BTreeSet;
@@ -18,7 +19,7 @@ pub fn reachable_within(graph: &Graph) -> BTreeSet<NodeId> {
 
 /// Nodes that activity can reach from its origins, and from nodes of the kinds for which `enters` is `true`.
 fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId> {
-    let mut next: Vec<Vec<NodeId>> = vec![vec![]; graph.nodes.len()];
+    let mut next: IdVec<NodeId, Vec<NodeId>> = IdVec::from_elem(vec![], graph.nodes.len());
     for c in graph.connections.iter().filter(|c| c.active) {
         next[c.from.node].push(c.to.node);
     }
@@ -28,7 +29,7 @@ fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId>
         node.starts_active || is_source && !next[*n].is_empty()
     };
     let mut found: BTreeSet<NodeId> = BTreeSet::new();
-    let mut stack: Vec<NodeId> = (0..graph.nodes.len()).filter(begins).collect();
+    let mut stack: Vec<NodeId> = graph.nodes.ids().filter(begins).collect();
     while let Some(node) = stack.pop() {
         if found.insert(node) {
             stack.extend(&next[node]);

@@ -11,6 +11,7 @@ use super::{Delivery, Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
     graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,7 +50,7 @@ pub struct Asynchronous {
 
 impl Asynchronous {
     /// Analyses the asynchronous connections of `graph`. Removes the ones that never carry a token from `links`.
-    pub fn new(graph: &Graph, catalog: &Catalog, links: &mut Links, regions: &[usize]) -> Self {
+    pub fn new(graph: &Graph, catalog: &Catalog, links: &mut Links, regions: &IdVec<NodeId, usize>) -> Self {
         // The effect of a token is a firing of the node at the end of its connection, or a call of its slot.
         let mut causes: Vec<Vec<usize>> =
             (0..graph.connections.len()).map(|index| caused(graph, catalog, links, index)).collect();
@@ -170,15 +171,15 @@ fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
 /// A slot is served at once if all events of its node lead to slots that are served at once. The search starts at nodes
 /// without events, the ends of chains, and proceeds upstream. It never finds the nodes on a cycle of events.
 fn may_block(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
-    let consumers: Vec<NodeId> = (0..graph.nodes.len()).collect();
-    let mut waits: Vec<usize> = consumers.iter().map(|n| events(graph, links, *n).count()).collect();
+    let consumers = graph.nodes.ids();
+    let mut waits: IdVec<NodeId, usize> = consumers.clone().map(|n| events(graph, links, n).count()).collect();
     let mut into: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
     for &index in slots {
         into.entry(graph.connections[index].to.node).or_default().push(index);
     }
     let leaves_program = |node: NodeId| matches!(graph.nodes[node].kind, NodeKind::Boundary(_));
     let mut may_block: Vec<bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
-    let mut served: Vec<NodeId> = consumers.into_iter().filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
+    let mut served: Vec<NodeId> = consumers.filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
     while let Some(node) = served.pop() {
         for &index in into.get(&node).into_iter().flatten() {
             may_block[index] = false;
@@ -202,7 +203,7 @@ fn is_single(
     links: &Links,
     slots: &[usize],
     causes: &[Vec<usize>],
-    regions: &[usize],
+    regions: &IdVec<NodeId, usize>,
 ) -> bool {
     let to_slot = |c: &usize| slots.binary_search(c).is_ok();
     // The slot takes the token away, so no other connection may need it.

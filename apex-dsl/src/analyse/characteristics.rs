@@ -12,6 +12,7 @@ use super::Links;
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind},
+    index::IdVec,
 };
 
 /// Consequences of a ⊥ at a node for other nodes.
@@ -28,8 +29,13 @@ pub struct Characteristics {
 }
 
 /// Characteristics of all nodes.
-pub fn characteristics(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId]) -> Vec<Characteristics> {
-    let mut list = vec![Characteristics::default(); graph.nodes.len()];
+pub fn characteristics(
+    graph: &Graph,
+    catalog: &Catalog,
+    links: &Links,
+    order: &[NodeId],
+) -> IdVec<NodeId, Characteristics> {
+    let mut list = IdVec::from_elem(Characteristics::default(), graph.nodes.len());
     let siblings = siblings(graph, links, order);
     for &node in order.iter().rev() {
         let essential = graph.nodes[node].modifiers.essential || super::handles_absence(graph, catalog, node);
@@ -48,7 +54,7 @@ pub fn characteristics(graph: &Graph, catalog: &Catalog, links: &Links, order: &
 /// dominator tree. The tree grows in the order of the nodes. An edge `u → w` leaves the subtree of `u` and of each
 /// ancestor of `u` below the dominator of `w`: all of these have siblings. The edge counts 1 at `u` and -1 at the
 /// dominator of `w`, so that the sum over a subtree is the number of edges that leave it.
-fn siblings(graph: &Graph, links: &Links, order: &[NodeId]) -> Vec<bool> {
+fn siblings(graph: &Graph, links: &Links, order: &[NodeId]) -> IdVec<NodeId, bool> {
     let root = graph.nodes.len();
     let mut tree = Tree { parent: vec![root; root + 1], jump: vec![root; root + 1], depth: vec![0; root + 1] };
     let mut edges = vec![];
@@ -63,18 +69,18 @@ fn siblings(graph: &Graph, links: &Links, order: &[NodeId]) -> Vec<bool> {
                 continue;
             }
             edges.push((from, node));
-            dominator = Some(dominator.map_or(from, |other| tree.common(other, from)));
+            dominator = Some(dominator.map_or(from.index(), |other| tree.common(other, from.index())));
         }
-        tree.insert(node, dominator.unwrap_or(root));
+        tree.insert(node.index(), dominator.unwrap_or(root));
     }
     let mut leaks = vec![0i64; root + 1];
     for (from, to) in edges {
-        leaks[from] += 1;
-        leaks[tree.parent[to]] -= 1;
+        leaks[from.index()] += 1;
+        leaks[tree.parent[to.index()]] -= 1;
     }
     for &node in order.iter().rev() {
-        let own = leaks[node];
-        leaks[tree.parent[node]] += own;
+        let own = leaks[node.index()];
+        leaks[tree.parent[node.index()]] += own;
     }
     leaks[..root].iter().map(|leaks| *leaks > 0).collect()
 }

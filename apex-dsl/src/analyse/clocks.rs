@@ -9,6 +9,7 @@ use super::{Links, handles_absence, may_be_missing};
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind, PortId},
+    index::IdVec,
 };
 use std::collections::BTreeSet;
 
@@ -16,8 +17,14 @@ use std::collections::BTreeSet;
 pub type Clock = BTreeSet<PortId>;
 
 /// Clock of each node, seen from its cluster. `order` has producers before consumers.
-pub fn clocks(graph: &Graph, catalog: &Catalog, links: &Links, order: &[NodeId], cluster_of: &[usize]) -> Vec<Clock> {
-    let mut clocks: Vec<Clock> = vec![Clock::new(); graph.nodes.len()];
+pub fn clocks(
+    graph: &Graph,
+    catalog: &Catalog,
+    links: &Links,
+    order: &[NodeId],
+    cluster_of: &IdVec<NodeId, usize>,
+) -> IdVec<NodeId, Clock> {
+    let mut clocks = IdVec::from_elem(Clock::new(), graph.nodes.len());
     for &node in order {
         let mut clock = Clock::new();
         if !fires_always(graph, catalog, node) {
@@ -52,19 +59,24 @@ pub fn is_mandatory(graph: &Graph, input: PortId) -> bool {
 }
 
 /// Tokens that must be present for the token at `from` to be present, seen from its own cluster.
-pub fn presence(graph: &Graph, catalog: &Catalog, clocks: &[Clock], from: PortId) -> Clock {
+pub fn presence(graph: &Graph, catalog: &Catalog, clocks: &IdVec<NodeId, Clock>, from: PortId) -> Clock {
     if may_be_missing(graph, catalog, from) { Clock::from([from]) } else { clocks[from.node].clone() }
 }
 
 /// Removes the tokens that others in the clock imply: a token is present only if its node fired.
-fn reduce(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: Clock) -> Clock {
+fn reduce(clocks: &IdVec<NodeId, Clock>, cluster_of: &IdVec<NodeId, usize>, cluster: usize, clock: Clock) -> Clock {
     let implied = implied(clocks, cluster_of, cluster, &clock);
     clock.into_iter().filter(|token| !implied.contains(token)).collect()
 }
 
 /// All tokens that are present if those of `clock` are. A token of `clock` itself is among them only if another one
 /// implies it.
-pub fn implied(clocks: &[Clock], cluster_of: &[usize], cluster: usize, clock: &Clock) -> BTreeSet<PortId> {
+pub fn implied(
+    clocks: &IdVec<NodeId, Clock>,
+    cluster_of: &IdVec<NodeId, usize>,
+    cluster: usize,
+    clock: &Clock,
+) -> BTreeSet<PortId> {
     let mut implied = BTreeSet::new();
     let mut stack: Vec<PortId> = clock.iter().copied().collect();
     while let Some(token) = stack.pop() {

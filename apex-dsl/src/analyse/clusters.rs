@@ -20,6 +20,7 @@ use super::{Analysis, Asynchronous, Block, Links, Step, demand_driven::demand_dr
 use crate::{
     catalog::Catalog,
     graph::{Connection, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -133,10 +134,10 @@ pub fn check_paces(graph: &Graph, diagnostics: &mut Diagnostics) -> Option<()> {
 
 /// Region of each node, numbered in the order of the source file. All connections to inputs that cross the boundaries
 /// of a nested graph end in one region, as it takes its inputs together and sends its outputs together.
-pub fn regions(graph: &Graph) -> Vec<usize> {
+pub fn regions(graph: &Graph) -> IdVec<NodeId, usize> {
     // Union-find: the representative of a region is its first node.
-    let mut root: Vec<usize> = (0..graph.nodes.len()).collect();
-    let mut join = |a: usize, b: usize| {
+    let mut root: IdVec<NodeId, NodeId> = graph.nodes.ids().collect();
+    let mut join = |a: NodeId, b: NodeId| {
         let (a, b) = (find(&mut root, a), find(&mut root, b));
         root[a.max(b)] = a.min(b);
     };
@@ -150,7 +151,9 @@ pub fn regions(graph: &Graph) -> Vec<usize> {
         }
     }
     let mut numbers = BTreeMap::new();
-    (0..graph.nodes.len())
+    graph
+        .nodes
+        .ids()
         .map(|node| {
             let next = numbers.len();
             *numbers.entry(find(&mut root, node)).or_insert(next)
@@ -159,7 +162,7 @@ pub fn regions(graph: &Graph) -> Vec<usize> {
 }
 
 /// Representative of a node's region. Shortens the path to it (path halving).
-fn find(root: &mut [usize], mut node: usize) -> usize {
+fn find(root: &mut IdVec<NodeId, NodeId>, mut node: NodeId) -> NodeId {
     while root[node] != node {
         root[node] = root[root[node]];
         node = root[node];
@@ -173,12 +176,12 @@ pub fn clusters(
     catalog: &Catalog,
     links: &Links,
     order: &[NodeId],
-    regions: &[usize],
+    regions: &IdVec<NodeId, usize>,
     asynchronous: &Asynchronous,
-) -> (Vec<Guard>, Vec<Cluster>, Vec<usize>) {
+) -> (Vec<Guard>, Vec<Cluster>, IdVec<NodeId, usize>) {
     let mut guards = vec![];
-    let mut own: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
-    for (id, node) in graph.nodes.iter().enumerate() {
+    let mut own: IdVec<NodeId, Vec<usize>> = IdVec::from_elem(vec![], graph.nodes.len());
+    for (id, node) in graph.nodes.iter_enumerated() {
         // The body of an `each` has none of these guards: it runs when it is called, with all its inputs.
         if graph.is_body || !fires(graph, catalog, links, id) {
             continue;
@@ -208,7 +211,7 @@ pub fn clusters(
     let mut groups: Vec<_> = by_guards.into_iter().collect();
     // The dispatcher tests clusters in the order of the source file.
     groups.sort_by_key(|(_, nodes)| nodes.iter().min().copied());
-    let mut cluster_of = vec![0; graph.nodes.len()];
+    let mut cluster_of = IdVec::from_elem(0, graph.nodes.len());
     let mut clusters: Vec<Cluster> = vec![];
     for ((region, set), nodes) in groups {
         nodes.iter().for_each(|n| cluster_of[*n] = clusters.len());
@@ -234,7 +237,7 @@ pub fn clusters(
 
 /// Finds the clusters upstream and downstream of each cluster. A nested graph takes its inputs together and sends its
 /// outputs together, so a consumer behind a boundary waits for all clusters that send to the boundary.
-fn join(graph: &Graph, cluster_of: &[usize], clusters: &mut [Cluster]) {
+fn join(graph: &Graph, cluster_of: &IdVec<NodeId, usize>, clusters: &mut [Cluster]) {
     let synchronous: Vec<&Connection> = graph.connections.iter().filter(|c| graph.is_synchronous(c)).collect();
     // Boundaries also feed other boundaries, in any order: repeat until nothing is added.
     let mut senders = Sides::new();
@@ -284,7 +287,7 @@ pub struct View<'a> {
     catalog: &'a Catalog,
     pub links: &'a Links,
     order: &'a [NodeId],
-    regions: &'a [usize],
+    regions: &'a IdVec<NodeId, usize>,
     asynchronous: &'a Asynchronous,
 }
 
@@ -308,7 +311,11 @@ impl View<'_> {
 /// The two kinds depend on each other. A new guard also reaches the consumers downstream, so that those of a pulled
 /// group may no longer have guards in common. The group is dropped then, its sources get guards of their own, and the
 /// next round begins. As groups are only dropped, the rounds end.
-fn add_react_guards(view: &View<'_>, guards: &mut Vec<Guard>, own: &mut Vec<Vec<usize>>) -> Vec<BTreeSet<usize>> {
+fn add_react_guards(
+    view: &View<'_>,
+    guards: &mut Vec<Guard>,
+    own: &mut IdVec<NodeId, Vec<usize>>,
+) -> IdVec<NodeId, BTreeSet<usize>> {
     let above = accumulate(view, guards, own);
     let plain = without_pace(view, guards, own);
     let holding = holding(view, &above);
@@ -352,9 +359,9 @@ enum HeldBack {
 /// (R4). Two sources without a period may share a cluster only if the same guards downstream hold them back. Otherwise
 /// one would wait for the guards of the other: with `a -> [x, z.p]` and `b -> z.q`, where `x` waits for room for its
 /// event, `b` must not wait for it.
-fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<HeldBack>> {
+fn holding(view: &View<'_>, above: &IdVec<NodeId, BTreeSet<usize>>) -> IdVec<NodeId, BTreeSet<HeldBack>> {
     let guards = |guards: &BTreeSet<usize>| guards.iter().copied().map(HeldBack::Guard).collect();
-    let mut holding: Vec<BTreeSet<HeldBack>> = above.iter().map(guards).collect();
+    let mut holding: IdVec<NodeId, BTreeSet<HeldBack>> = above.iter().map(guards).collect();
     // Loops with delays lead upstream: all nodes are visited until nothing changes.
     loop {
         let mut changed = false;
@@ -377,18 +384,18 @@ fn holding(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<BTreeSet<HeldBack>
 
 /// Nodes that fire once per reaction: sources without a period, and delays on loops that nothing feeds. Without a guard
 /// such a loop would not have a condition to wait for, and would fire without end.
-fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<NodeId> {
+fn without_pace(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>) -> Vec<NodeId> {
     let View { graph, catalog, links, .. } = *view;
     let paced = |n: NodeId| own[n].iter().any(|g| matches!(guards[*g], Guard::Timer(_) | Guard::Input(_)));
-    let sources = (0..graph.nodes.len()).filter(|n| !paced(*n) && is_source(graph, catalog, links, *n));
+    let sources = graph.nodes.ids().filter(|n| !paced(*n) && is_source(graph, catalog, links, *n));
     let mut plain: Vec<NodeId> = sources.collect();
     // A further guard flows downstream from these sources. Delays that neither it nor another guard reaches are on
     // loops that nothing feeds. Room for events does not count: it does not begin anything.
-    let (mut guards, mut started) = (guards.to_vec(), own.to_vec());
+    let (mut guards, mut started) = (guards.to_vec(), own.clone());
     plain.iter().for_each(|n| started[*n].push(guards.len()));
     guards.push(Guard::React);
     let reached = accumulate(view, &guards, &started);
-    let delays = (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Delay(_)));
+    let delays = graph.nodes.ids().filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Delay(_)));
     let starts = |g: &usize| !matches!(guards[*g], Guard::Events(_));
     plain.extend(delays.filter(|n| !reached[*n].iter().any(starts)));
     plain.sort_unstable();
@@ -398,14 +405,14 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<No
 /// Guards of each node: its own, and those of all nodes upstream. The guards of all tokens that arrive at a boundary go
 /// on together. A token of an event brings its own guard and not those of its sender. Guards also travel around loops
 /// with delays: all nodes are visited until nothing changes.
-fn accumulate(view: &View<'_>, guards: &[Guard], own: &[Vec<usize>]) -> Vec<BTreeSet<usize>> {
+fn accumulate(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>) -> IdVec<NodeId, BTreeSet<usize>> {
     let View { graph, links, order, .. } = *view;
     let tokens: BTreeMap<usize, usize> = guards
         .iter()
         .enumerate()
         .filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })
         .collect();
-    let mut sets: Vec<BTreeSet<usize>> = own.iter().map(|g| g.iter().copied().collect()).collect();
+    let mut sets: IdVec<NodeId, BTreeSet<usize>> = own.iter().map(|g| g.iter().copied().collect()).collect();
     let mut sides = Sides::new();
     loop {
         let mut changed = false;

@@ -6,7 +6,7 @@
 //! presence of a third, the program has a queue.
 
 use super::{Analysis, Asynchronous, Links, asynchronous::events};
-use crate::graph::{Flow, Graph, NodeKind, PortId};
+use crate::graph::{Flow, Graph, NodeId, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Storage of the order of slot tokens.
@@ -46,11 +46,11 @@ fn all_alone(graph: &Graph, asynchronous: &Asynchronous) -> bool {
 /// Connections that each kind of step may send on, in the order in which tokens are emitted.
 fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<usize>> {
     let firings = analysis.clusters.iter().map(|c| c.sends.clone());
-    let alone = |node: &usize| {
+    let alone = |node: &NodeId| {
         let n = &graph.nodes[*node];
         matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Receiver(_)) || n.modifiers.timeout.is_some()
     };
-    let nodes = (0..graph.nodes.len()).filter(alone).map(|node| analysis.links.sends[node].clone());
+    let nodes = graph.nodes.ids().filter(alone).map(|node| analysis.links.sends[node].clone());
     firings.chain(nodes).chain([at_start(graph, analysis)]).collect()
 }
 

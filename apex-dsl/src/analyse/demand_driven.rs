@@ -13,7 +13,10 @@
 //! count as consumers, too: a source that waited for an event which one of them sends would wait forever.
 
 use super::clusters::{Guard, View};
-use crate::graph::{Crossing, NodeId, NodeKind};
+use crate::{
+    graph::{Crossing, NodeId, NodeKind},
+    index::IdVec,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Connected nodes without any guards upstream, and the nodes that take their tokens.
@@ -28,7 +31,7 @@ pub struct DemandDriven {
 impl DemandDriven {
     /// Guards of the taker with the fewest, if all other takers have these guards, too. `None` if they have not, or if
     /// these guards are only [`Guard::Events`]: room for events does not determine a time.
-    pub fn guards(&self, guards: &[Guard], accumulated: &[BTreeSet<usize>]) -> Option<BTreeSet<usize>> {
+    pub fn guards(&self, guards: &[Guard], accumulated: &IdVec<NodeId, BTreeSet<usize>>) -> Option<BTreeSet<usize>> {
         let sets = || self.consumers.iter().map(|consumer| &accumulated[*consumer]);
         let least = sets().min_by_key(|set| set.len())?;
         let has_pace = least.iter().any(|guard| !matches!(guards[*guard], Guard::Events(_)));
@@ -38,12 +41,12 @@ impl DemandDriven {
 
 /// Groups of nodes that could fire with their takers, because nothing else observes the time of their firings. `above`
 /// holds the guards upstream of each node.
-pub fn demand_driven(view: &View<'_>, above: &[BTreeSet<usize>]) -> Vec<DemandDriven> {
+pub fn demand_driven(view: &View<'_>, above: &IdVec<NodeId, BTreeSet<usize>>) -> Vec<DemandDriven> {
     let is_free = |node: &NodeId| above[*node].is_empty() && view.fires(*node);
     let behind = behind(view);
     let mut seen: BTreeSet<NodeId> = BTreeSet::new();
     let mut found = vec![];
-    for node in (0..view.graph.nodes.len()).filter(is_free) {
+    for node in view.graph.nodes.ids().filter(is_free) {
         if !seen.contains(&node) {
             let together = together(view, &behind, node, &is_free);
             seen.extend(&together.nodes);

@@ -8,6 +8,7 @@
 use super::{Links, schedule::Run};
 use crate::{
     graph::{Graph, NodeId, NodeKind, PortId},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
 };
 use std::collections::BTreeMap;
@@ -19,7 +20,7 @@ const MAX_TURNS: usize = 10_000;
 struct Iteration<'a> {
     graph: &'a Graph,
     links: &'a Links,
-    repetitions: &'a [u64],
+    repetitions: &'a IdVec<NodeId, u64>,
     fired: BTreeMap<NodeId, u64>,
     /// A delay, and a number of tokens that it holds instead of those in the source file.
     assumed: Option<(NodeId, u64)>,
@@ -37,7 +38,7 @@ enum Fault {
 pub fn runs(
     graph: &Graph,
     links: &Links,
-    repetitions: &[u64],
+    repetitions: &IdVec<NodeId, u64>,
     nodes: &[NodeId],
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Run>> {

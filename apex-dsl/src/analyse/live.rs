@@ -4,6 +4,7 @@ use super::{Cluster, Links, asynchronous::by_process, fires};
 use crate::{
     catalog::Catalog,
     graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -22,7 +23,7 @@ pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize
         missing: links.inputs.iter().map(Vec::len).collect(),
         found: vec![],
     };
-    for node in 0..graph.nodes.len() {
+    for node in graph.nodes.ids() {
         let starts = fires(graph, catalog, links, node) && links.inputs[node].is_empty();
         let is_first = |c: &usize| {
             let from = graph.connections[*c].from;
@@ -42,7 +43,7 @@ struct Search<'a> {
     causes: &'a [Vec<usize>],
     live: Vec<bool>,
     /// Number of inputs of each node that no token has reached yet.
-    missing: Vec<usize>,
+    missing: IdVec<NodeId, usize>,
     /// Live connections that have not been followed yet.
     found: Vec<usize>,
 }

@@ -33,6 +33,7 @@ mod steps;
 use crate::{
     catalog::Catalog,
     graph::{Flow, Graph, NodeId, NodeKind, PortId},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -55,19 +56,19 @@ pub struct Analysis {
     /// All nodes, producers before consumers, otherwise in the order of the source file.
     pub order: Vec<NodeId>,
     /// Number of firings of each node in one iteration of its region.
-    pub repetitions: Vec<u64>,
+    pub repetitions: IdVec<NodeId, u64>,
     /// Region of each node.
-    pub regions: Vec<usize>,
+    pub regions: IdVec<NodeId, usize>,
     /// Guards of all clusters.
     pub guards: Vec<Guard>,
     /// Clusters, in the order of their first node.
     pub clusters: Vec<Cluster>,
     /// Cluster of each node. Nodes that do not fire have the number 0, but are in no cluster.
-    pub cluster_of: Vec<usize>,
+    pub cluster_of: IdVec<NodeId, usize>,
     /// Characteristics of each node for pruning (thesis eqs. 3.6–3.8).
-    pub characteristics: Vec<Characteristics>,
+    pub characteristics: IdVec<NodeId, Characteristics>,
     /// Clock of each node.
-    pub clocks: Vec<Clock>,
+    pub clocks: IdVec<NodeId, Clock>,
     /// Connections with slots or events.
     pub asynchronous: Asynchronous,
     /// Clusters and connections that keep stamps.
@@ -92,14 +93,14 @@ impl Analysis {
 #[derive(Debug)]
 pub struct Links {
     /// Synchronous connections into each node.
-    pub into: Vec<Vec<usize>>,
+    pub into: IdVec<NodeId, Vec<usize>>,
     /// Synchronous connections out of each node.
-    pub out_of: Vec<Vec<usize>>,
+    pub out_of: IdVec<NodeId, Vec<usize>>,
     /// All connections into the inputs of each node.
-    pub inputs: Vec<Vec<usize>>,
+    pub inputs: IdVec<NodeId, Vec<usize>>,
     /// Asynchronous connections out of each node that can carry tokens, in the order of its ports, then of the source
     /// file.
-    pub sends: Vec<Vec<usize>>,
+    pub sends: IdVec<NodeId, Vec<usize>>,
     /// Loops with delays.
     pub loops: Loops,
 }
@@ -107,7 +108,7 @@ pub struct Links {
 impl Links {
     /// Connections of `graph`.
     pub fn new(graph: &Graph) -> Self {
-        let none = vec![vec![]; graph.nodes.len()];
+        let none = IdVec::from_elem(vec![], graph.nodes.len());
         let loops = Loops::default();
         let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none, loops };
         for (index, connection) in graph.connections.iter().enumerate() {
@@ -157,7 +158,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
     let order = order::order(graph, &links, diagnostics)?;
     let repetitions = rates::repetitions(graph, &links, diagnostics)?;
     let mut bodies = BTreeMap::new();
-    for (id, node) in graph.nodes.iter().enumerate() {
+    for (id, node) in graph.nodes.iter_enumerated() {
         if let NodeKind::Each(each) = &node.kind {
             bodies.insert(id, analyse(&each.body, catalog, diagnostics)?);
         }

@@ -12,6 +12,7 @@
 use super::Links;
 use crate::{
     graph::{Connection, Crossing, Flow, Graph, NodeId, ScopeId},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
 };
 use std::{
@@ -41,7 +42,7 @@ impl Precedence {
         let is_taken = |c: &usize| !links.loops.delays.contains(&graph.connections[*c].from.node);
         let mut precedence = Self::of(graph, links.into.iter().flatten().copied().filter(is_taken));
         for (node, begun) in &links.loops.begun_by {
-            precedence.edges[*node].extend(begun.iter().map(|next| (*next, None)));
+            precedence.edges[node.index()].extend(begun.iter().map(|next| (next.index(), None)));
         }
         precedence
     }
@@ -50,13 +51,13 @@ impl Precedence {
     fn of(graph: &Graph, connections: impl Iterator<Item = usize>) -> Self {
         let nodes = graph.nodes.len();
         let scopes = graph.scopes.len();
-        let mut vertices: Vec<Vertex> = (0..nodes).map(Vertex::Node).collect();
+        let mut vertices: Vec<Vertex> = graph.nodes.ids().map(Vertex::Node).collect();
         vertices.extend((0..scopes).map(Vertex::Enter));
         vertices.extend((0..scopes).map(Vertex::Leave));
         let mut edges = vec![vec![]; vertices.len()];
         for connection in connections {
             let c = &graph.connections[connection];
-            let mut at = c.from.node;
+            let mut at = c.from.node.index();
             for next in stations(graph, c) {
                 edges[at].push((next, Some(connection)));
                 at = next;
@@ -78,7 +79,7 @@ fn stations(graph: &Graph, connection: &Connection) -> impl Iterator<Item = usiz
         Crossing::Enter(scope) => nodes + scope,
         Crossing::Leave(scope) => nodes + scopes + scope,
     });
-    sides.chain((graph.flow(connection) != Flow::ToSlot).then_some(connection.to.node))
+    sides.chain((graph.flow(connection) != Flow::ToSlot).then_some(connection.to.node.index()))
 }
 
 /// Loops of a graph that lead through delays.
@@ -95,25 +96,26 @@ impl Loops {
     /// Loops of `graph`.
     pub fn new(graph: &Graph, links: &Links) -> Self {
         // `links` has no loops yet, so the order graph also has the connections from delays.
-        let mut delays = (0..graph.nodes.len()).filter(|node| graph.nodes[*node].is_delay()).peekable();
+        let mut delays = graph.nodes.ids().filter(|node| graph.nodes[*node].is_delay()).peekable();
         if delays.peek().is_none() {
             return Self::default();
         }
         let edges = Precedence::new(graph, links).edges;
         let part = components(&edges);
         // A delay is on a loop if it sends to its own strongly connected component.
-        let is_on_loop = |delay: &NodeId| edges[*delay].iter().any(|(next, _)| part[*next] == part[*delay]);
+        let is_on_loop =
+            |delay: &NodeId| edges[delay.index()].iter().any(|(next, _)| part[*next] == part[delay.index()]);
         let delays: BTreeSet<NodeId> = delays.filter(is_on_loop).collect();
         let mut behind: BTreeMap<usize, BTreeSet<NodeId>> = BTreeMap::new();
         for delay in &delays {
             let sent = links.out_of[*delay].iter().map(|c| graph.connections[*c].to.node);
-            behind.entry(part[*delay]).or_default().extend(sent);
+            behind.entry(part[delay.index()]).or_default().extend(sent);
         }
         let mut begun_by = BTreeMap::new();
-        for (node, out) in links.out_of.iter().enumerate() {
+        for (node, out) in links.out_of.iter_enumerated() {
             // A token also enters a loop at a boundary that the loop leads through.
             let stations = out.iter().flat_map(|c| stations(graph, &graph.connections[*c]));
-            let entered: BTreeSet<usize> = stations.map(|s| part[s]).filter(|p| *p != part[node]).collect();
+            let entered: BTreeSet<usize> = stations.map(|s| part[s]).filter(|p| *p != part[node.index()]).collect();
             let begun: BTreeSet<NodeId> = entered.iter().filter_map(|p| behind.get(p)).flatten().copied().collect();
             if !begun.is_empty() {
                 begun_by.insert(node, begun.into_iter().collect());
@@ -125,11 +127,11 @@ impl Loops {
 
 /// For each node the number of its strongly connected component. Two nodes have the same number if they are on a common
 /// cycle of synchronous connections, which may lead through delays and through boundaries of nested graphs.
-pub fn circles(graph: &Graph) -> Vec<usize> {
+pub fn circles(graph: &Graph) -> IdVec<NodeId, usize> {
     let synchronous = (0..graph.connections.len()).filter(|c| graph.is_synchronous(&graph.connections[*c]));
     let mut part = components(&Precedence::of(graph, synchronous).edges);
     part.truncate(graph.nodes.len());
-    part
+    part.into()
 }
 
 /// Connections from events to inputs that lie on a cycle. The cycle may lead through delays, and through boundaries of
@@ -139,7 +141,7 @@ pub fn events_on_circles(graph: &Graph) -> Vec<usize> {
     let part = components(&edges);
     let is_on_circle = |c: &usize| {
         let c = &graph.connections[*c];
-        graph.flow(c) == Flow::ToInput && part[c.from.node] == part[c.to.node]
+        graph.flow(c) == Flow::ToInput && part[c.from.node.index()] == part[c.to.node.index()]
     };
     (0..graph.connections.len()).filter(is_on_circle).collect()
 }

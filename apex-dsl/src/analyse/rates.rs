@@ -8,6 +8,7 @@ use super::Analysis;
 use super::Links;
 use crate::{
     graph::{Graph, NodeId},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
 };
 
@@ -15,11 +16,11 @@ use crate::{
 pub const MAX_REPETITIONS: u64 = 100_000;
 
 /// The smallest repetition vector. Reports a cycle of connections whose rates contradict each other.
-pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<Vec<u64>> {
-    let mut rates: Vec<Option<(u64, u64)>> = vec![None; graph.nodes.len()];
-    let mut reached: Vec<Option<usize>> = vec![None; graph.nodes.len()];
-    let mut repetitions = vec![1; graph.nodes.len()];
-    for start in 0..graph.nodes.len() {
+pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<IdVec<NodeId, u64>> {
+    let mut rates: IdVec<NodeId, Option<(u64, u64)>> = IdVec::from_elem(None, graph.nodes.len());
+    let mut reached: IdVec<NodeId, Option<usize>> = IdVec::from_elem(None, graph.nodes.len());
+    let mut repetitions = IdVec::from_elem(1, graph.nodes.len());
+    for start in graph.nodes.ids() {
         if rates[start].is_some() {
             continue;
         }
@@ -98,7 +99,7 @@ fn contradiction(
     graph: &Graph,
     connection: usize,
     node: NodeId,
-    reached: &[Option<usize>],
+    reached: &IdVec<NodeId, Option<usize>>,
     diagnostics: &mut Diagnostics,
 ) {
     let c = &graph.connections[connection];
@@ -144,7 +145,7 @@ fn contradiction(
 /// Returns `true` if a node in the region of a cluster has rates (see [`has_rates`]).
 pub(super) fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
     let region = analysis.clusters[cluster].region;
-    (0..graph.nodes.len()).any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
+    graph.nodes.ids().any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
 }
 
 /// Returns `true` if a node fires several times per iteration, or has a port for several tokens per firing.

@@ -35,7 +35,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
         slots_of.entry(graph.connections[slot].to.node).or_default().push(slot);
     }
     let first = |node: &NodeId| graph.nodes[*node].modifiers.deadline.is_some() || asks(graph, catalog, *node);
-    let mut open: Vec<Asks> = (0..graph.nodes.len()).filter(first).map(Asks::Node).collect();
+    let mut open: Vec<Asks> = graph.nodes.ids().filter(first).map(Asks::Node).collect();
     let mut found = Stamps::default();
     while let Some(next) = open.pop() {
         let mut sent_on: Vec<usize> = vec![];
@@ -75,7 +75,7 @@ fn asks(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
             let slots = signature.slots.iter().flat_map(|s| &s.args);
             signature.process.iter().flatten().chain(slots).any(|arg| *arg == ArgSig::Ctx)
         }
-        NodeKind::Each(each) => (0..each.body.nodes.len()).any(|inner| asks(&each.body, catalog, inner)),
+        NodeKind::Each(each) => each.body.nodes.ids().any(|inner| asks(&each.body, catalog, inner)),
         NodeKind::Sender(far) => far.stamped,
         _ => false,
     }

@@ -4,6 +4,7 @@ use crate::{
     analyse::{active_nodes, active_nodes_within},
     catalog::Catalog,
     graph::{Connection, Graph, NodeId, NodeKind, WireEnd},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
 };
@@ -70,8 +71,8 @@ fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
 }
 
 /// Targets of the active connections of each node.
-fn next(graph: &Graph) -> Vec<Vec<NodeId>> {
-    let mut next = vec![vec![]; graph.nodes.len()];
+fn next(graph: &Graph) -> IdVec<NodeId, Vec<NodeId>> {
+    let mut next = IdVec::from_elem(vec![], graph.nodes.len());
     for c in graph.connections.iter().filter(|c| c.active) {
         next[c.from.node].push(c.to.node);
     }
@@ -86,7 +87,7 @@ struct Check<'a> {
     waiting: BTreeMap<NodeId, usize>,
     /// Nodes that keep activity, with a connection that could have carried it on.
     stuck: BTreeMap<NodeId, usize>,
-    next: Vec<Vec<NodeId>>,
+    next: IdVec<NodeId, Vec<NodeId>>,
 }
 
 impl<'a> Check<'a> {

@@ -2,7 +2,7 @@
 
 use crate::{
     catalog::Catalog,
-    graph::{Graph, NodeKind, PortId},
+    graph::{Graph, NodeId, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// Reports open inputs of nodes, and outputs of the graph that nothing is connected to.
 pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let connected: BTreeSet<PortId> = graph.connections.iter().map(|c| c.to).collect();
-    for (id, node) in graph.nodes.iter().enumerate() {
+    for (id, node) in graph.nodes.iter_enumerated() {
         for (port, p) in node.ports.iter().enumerate() {
             if p.kind != PortKind::Input || connected.contains(&PortId { node: id, port }) {
                 continue;
@@ -44,6 +44,6 @@ pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Dia
 }
 
 /// Returns `true` if a port of the nested graph around the node is open, which is reported there.
-fn inside_unconnected(graph: &Graph, node: usize) -> bool {
+fn inside_unconnected(graph: &Graph, node: NodeId) -> bool {
     graph.nodes[node].scope != 0 && graph.open_pins.contains(&node)
 }

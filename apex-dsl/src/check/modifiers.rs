@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let driven: BTreeSet<NodeId> =
         graph.connections.iter().filter(|c| graph.port(c.to).kind == PortKind::Input).map(|c| c.to.node).collect();
-    for (id, node) in graph.nodes.iter().enumerate() {
+    for (id, node) in graph.nodes.iter_enumerated() {
         let word = if node.modifiers.every.is_some() { "every" } else { "after" };
         if node.modifiers.has_pace() && driven.contains(&id) {
             let message =

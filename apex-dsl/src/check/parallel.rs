@@ -20,7 +20,7 @@ pub fn check_parallel(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
 }
 
 fn check_body(body: &Graph, around: &Node, catalog: &Catalog, diagnostics: &mut Diagnostics) {
-    for (id, node) in body.nodes.iter().enumerate() {
+    for (id, node) in body.nodes.iter_enumerated() {
         if let NodeKind::Each(each) = &node.kind {
             check_body(&each.body, around, catalog, diagnostics);
         }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// Reports connections and ports that would have to hold several tokens of an iteration, also in the bodies of a graph.
 pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     check_regions(graph, analysis, diagnostics);
-    for (id, node) in graph.nodes.iter().enumerate() {
+    for (id, node) in graph.nodes.iter_enumerated() {
         if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
             check_rates(&each.body, body, diagnostics);
         }
@@ -20,7 +20,7 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
 
 fn check_regions(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     let regions: BTreeSet<usize> =
-        (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(|n| analysis.regions[n]).collect();
+        graph.nodes.ids().filter(|n| has_rates(graph, analysis, *n)).map(|n| analysis.regions[n]).collect();
     for cluster in analysis.clusters.iter().filter(|c| regions.contains(&c.region)) {
         for &node in cluster.nodes.iter().filter(|node| analysis.repetitions[**node] > 1) {
             check_boundary(graph, analysis.repetitions[node], node, diagnostics);

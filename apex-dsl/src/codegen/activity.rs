@@ -94,7 +94,7 @@ impl Generator<'_> {
         set("active", "active nodes", count, numbers(&is_plain, &mut active()), false);
         set("gains", "nodes that become active", count, numbers(&gains, &mut active()), false);
         set("loses", "nodes that become inactive", count, numbers(&loses, &mut active()), false);
-        set("enabled", "enabled nodes", count, numbers(&can_be_disabled, &mut (0..graph.nodes.len())), true);
+        set("enabled", "enabled nodes", count, numbers(&can_be_disabled, &mut graph.nodes.ids()), true);
         let slots = &view.wiring.slots;
         let carry = (0..slots.len()).filter(|slot| slots[*slot].carries == Carries::Sometimes).collect();
         set("carries", "slot tokens with activity", slots.len(), carry, false);

@@ -64,7 +64,7 @@ impl Bits {
                 bits.tokens.insert(index, bit);
             }
         }
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Event)) {
                 let bit = bits.next();
                 bits.room.insert(id, bit);

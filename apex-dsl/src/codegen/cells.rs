@@ -11,7 +11,7 @@ use syn::Ident;
 
 /// The cells that a part takes tokens from, with the nodes where they come in.
 pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
-    graph.nodes.iter().enumerate().filter_map(|(id, node)| match node.kind {
+    graph.nodes.iter_enumerated().filter_map(|(id, node)| match node.kind {
         NodeKind::Receiver(far) => Some((far.cell, id)),
         _ => None,
     })

@@ -64,7 +64,7 @@ impl Generator<'_> {
     fn has_start(&self, view: ProgramView<'_>) -> bool {
         let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
         let watches = |node: NodeId| self.watches_silence(view.graph, view.analysis, node).is_some();
-        view.graph.nodes.iter().any(started) || (0..view.graph.nodes.len()).any(watches)
+        view.graph.nodes.iter().any(started) || view.graph.nodes.ids().any(watches)
     }
 
     /// The tables of the dispatcher, and the functions that serve slots.
@@ -302,8 +302,8 @@ impl Generator<'_> {
         let bits = &view.wiring.bits;
         let graph = view.graph;
         let slots = view.analysis.asynchronous.slots.iter().map(|c| graph.connections[*c].to.node);
-        let clusters = bits.dispatched().iter().map(|c| view.analysis.clusters[*c].nodes.first().copied().unwrap_or(0));
-        let nodes = slots.chain(clusters).map(|n| self.index(n));
+        let clusters = bits.dispatched().iter().map(|c| view.analysis.clusters[*c].nodes.first().copied());
+        let nodes = slots.chain(clusters.map(|n| n.unwrap_or(NodeId::from(0)))).map(|n| self.index(n));
         quote! {
             if self.state.steps.is_used_up() {
                 let counts = self.state.steps.counts();
@@ -333,7 +333,7 @@ impl Generator<'_> {
             }
         }
         raises.timed(self.timers_due(view));
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !view.links.sends[id].is_empty() {
                 raises.always(self.enter(view, id));
             }

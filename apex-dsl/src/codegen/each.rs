@@ -102,7 +102,9 @@ impl Emitter<'_> {
 
 /// The boundary node of a port.
 fn boundary(body: &Graph, name: &str, kind: PortKind) -> NodeId {
-    body.nodes.iter().position(|n| n.name == name && matches!(n.kind, NodeKind::Boundary(k) if k == kind)).unwrap_or(0)
+    body.nodes
+        .position(|n| n.name == name && matches!(n.kind, NodeKind::Boundary(k) if k == kind))
+        .unwrap_or(NodeId::from(0))
 }
 
 /// Result of one element at an output, and `true` if it is an `Option`.

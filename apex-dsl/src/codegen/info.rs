@@ -40,7 +40,7 @@ impl Generator<'_> {
         let end_if_hung = end_if_hung(graph);
         let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
         let clusters = clusters.iter().map(|nodes| {
-            let nodes = nodes.iter().copied().map(Literal::usize_unsuffixed);
+            let nodes = nodes.iter().map(|node| Literal::usize_unsuffixed(node.index()));
             quote!(&[#(#nodes),*])
         });
         quote! {
@@ -61,7 +61,7 @@ impl Generator<'_> {
     }
 
     fn rows(&self, graph: &Graph, analysis: &Analysis, prefix: &str, rows: &mut Rows) {
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             let name = format!("{prefix}{}", graph.path(id));
             let kind = Literal::usize_unsuffixed(rows.kinds.number(self.kind_row(node)));
             let (c, place) = (analysis.characteristics[id], self.place_row(node.span, &mut rows.files));
@@ -74,7 +74,7 @@ impl Generator<'_> {
             let (output, input) = (&graph.port(c.from).name, &graph.port(c.to).name);
             rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
         }
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
                 let prefix = format!("{prefix}{}.", graph.path(id));
                 self.inside(graph, id).rows(&each.body, body, &prefix, rows);

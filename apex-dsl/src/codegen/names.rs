@@ -3,6 +3,7 @@
 use super::{Generator, types::ident};
 use crate::{
     graph::{Graph, Node, NodeId, NodeKind, PortId},
+    index::IdVec,
     threads::{Origin, Part},
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +15,7 @@ pub struct Names {
     /// Number that distinguishes a program, its parts and the bodies of its `each`.
     pub number: usize,
     /// The number of each node in the table of all nodes.
-    pub numbers: Vec<usize>,
+    pub numbers: IdVec<NodeId, usize>,
     tokens: BTreeMap<PortId, String>,
     /// Fields of the tokens that delays hold.
     held: BTreeMap<NodeId, String>,
@@ -29,7 +30,7 @@ impl Names {
         let mut names = Self { number: *count, ..Self::default() };
         names.numbers = (*count..*count + graph.nodes.len()).collect();
         *count += graph.nodes.len();
-        for (node, n) in graph.nodes.iter().enumerate() {
+        for (node, n) in graph.nodes.iter_enumerated() {
             let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
             names.add(node, n, &path, used);
             if let NodeKind::Each(each) = &n.kind {
@@ -61,11 +62,11 @@ impl Names {
     /// The names of a thread group's part of the program with these names.
     pub fn of_part(&self, part: &Part, number: usize, used: &mut BTreeSet<String>) -> Self {
         let mut names = Self { number, ..Self::default() };
-        for (node, n) in part.graph.nodes.iter().enumerate() {
+        for (node, n) in part.graph.nodes.iter_enumerated() {
             let Origin::Node(origin) = part.origins[node] else {
                 // It is not a node of the program: its number lies beyond those that observers know.
-                names.numbers.push(self.count() + node);
-                names.add(node, n, &format!("cell_{node}"), used);
+                names.numbers.push(self.count() + node.index());
+                names.add(node, n, &format!("cell_{}", node.index()), used);
                 continue;
             };
             names.numbers.push(self.numbers[origin]);

@@ -43,7 +43,7 @@ impl Generator<'_> {
         fields: &mut BTreeMap<String, Field>,
         params: &mut Vec<TokenStream>,
     ) {
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
                     let place = self.node_place(graph, id);

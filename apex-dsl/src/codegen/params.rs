@@ -57,7 +57,7 @@ impl Generator<'_> {
 
     /// Adds the parameters of a graph. In the body of an `each`, `outer` is the node of the program that it belongs to.
     fn param_rows(&self, graph: &Graph, analysis: &Analysis, outer: Option<NodeId>, rows: &mut ParamRows) {
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             let owner = outer.unwrap_or(id);
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {

@@ -4,7 +4,7 @@
 use crate::{
     analyse::{Analysis, Block, Links, Step, handles_absence, is_mandatory, may_be_missing},
     catalog::{ArgSig, Catalog},
-    graph::{Graph, NodeKind, PortId},
+    graph::{Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -85,7 +85,7 @@ impl Plan {
         };
         let mut fires = vec![];
         plan.number(&analysis.clusters[cluster].block, 0, &mut fires);
-        let block_of: BTreeMap<usize, BlockId> = fires.iter().copied().collect();
+        let block_of: BTreeMap<NodeId, BlockId> = fires.iter().copied().collect();
         for (&node, &block) in &block_of {
             // What waits in the program is read first of all.
             let read_first = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
@@ -147,7 +147,7 @@ impl Plan {
         plan
     }
 
-    fn number(&mut self, block: &Block, parent: BlockId, fires: &mut Vec<(usize, BlockId)>) {
+    fn number(&mut self, block: &Block, parent: BlockId, fires: &mut Vec<(NodeId, BlockId)>) {
         let id = self.parents.len();
         self.parents.push(parent);
         self.tests.push(block.opens.clone());

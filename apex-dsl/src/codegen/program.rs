@@ -195,7 +195,7 @@ impl Generator<'_> {
         };
         let outputs = of(&|kind| kind == PortKind::Output).into_iter();
         let outputs = outputs.map(|(name, ty)| (quote!(pub #name: ::core::option::Option<#ty>), quote!(#name: None)));
-        let probes = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).map(|n| {
+        let probes = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).map(|n| {
             let (name, ty) = (self.probe(n), self.token_type(graph, PortId { node: n, port: 0 }));
             let make = quote!(#name: ::apex_rt::testing::Probe::new());
             (quote!(#inner #name: ::apex_rt::testing::Probe<#ty>), make)
@@ -266,7 +266,7 @@ impl Generator<'_> {
         fields: &mut BTreeMap<String, Field>,
         handed_in: &mut Vec<(Ident, TokenStream)>,
     ) {
-        for (id, node) in graph.nodes.iter().enumerate() {
+        for (id, node) in graph.nodes.iter_enumerated() {
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
                     let ty = self.node_type(graph, library);
@@ -322,7 +322,7 @@ impl Generator<'_> {
 
 /// The ports of the graph itself that are meant.
 pub fn boundaries(graph: &Graph, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId> {
-    (0..graph.nodes.len()).filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
+    graph.nodes.ids().filter(|n| matches!(graph.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
 }
 
 /// Puts a field where its path leads.

@@ -57,7 +57,7 @@ impl Channels {
         for node in boundaries(graph, |kind| kind == PortKind::Event) {
             channels.add(PortId { node, port: 0 }, Role::Event);
         }
-        for node in (0..graph.nodes.len()).filter(|n| is_recorded(graph, analysis, catalog, *n)) {
+        for node in graph.nodes.ids().filter(|n| is_recorded(graph, analysis, catalog, *n)) {
             for end in source_ports(graph, &analysis.links, node) {
                 channels.add(end, Role::Source);
             }

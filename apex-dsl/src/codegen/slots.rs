@@ -350,7 +350,7 @@ impl Generator<'_> {
     pub fn begin(&self, view: ProgramView<'_>) -> TokenStream {
         let graph = view.graph;
         let mut code = quote!();
-        for (node, n) in graph.nodes.iter().enumerate() {
+        for (node, n) in graph.nodes.iter_enumerated() {
             if n.starts_active && view.analysis.active.contains(&node) {
                 let (activate, tell) = (self.activate(view, node), self.tell(view, node));
                 code.extend(quote! { #activate #tell });
@@ -380,7 +380,7 @@ impl Generator<'_> {
 
     /// Code that runs once, before the first reaction.
     pub fn first(&self, view: ProgramView<'_>) -> TokenStream {
-        let watches = (0..view.graph.nodes.len()).map(|node| self.watch_silence(view, node));
+        let watches = view.graph.nodes.ids().map(|node| self.watch_silence(view, node));
         let begin = self.begin(view);
         quote! { #(#watches)* #begin }
     }

@@ -89,7 +89,7 @@ impl Generator<'_> {
     /// Tokens that are kept in the state of the program, or of a parallel body.
     pub fn token_state(&self, graph: &Graph, analysis: &Analysis) -> Vec<StateField> {
         let mut kept = vec![];
-        for (node, n) in graph.nodes.iter().enumerate() {
+        for (node, n) in graph.nodes.iter_enumerated() {
             let ports = (0..n.ports.len()).filter(|port| n.ports[*port].kind.sends());
             kept.extend(ports.filter_map(|port| self.kept_token(graph, analysis, PortId { node, port })));
             kept.extend(self.kept_delay(graph, node));

@@ -43,7 +43,7 @@ impl Generator<'_> {
             let docs = &script.docs;
             quote!(#[doc = #docs])
         });
-        let drains = (0..graph.nodes.len()).filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
+        let drains = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
             let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
             let ports = self.ports_of(graph, node);
             quote! {
@@ -132,7 +132,10 @@ impl Generator<'_> {
 
     fn seen<'s>(&self, graph: &Graph, seen: &'s Seen) -> (TokenStream, &'s str, String) {
         let test = match &seen.what {
-            What::Active(Subject::Node(node)) => quote!(::apex_rt::Program::is_active(program, #node)),
+            What::Active(Subject::Node(node)) => {
+                let node = node.index();
+                quote!(::apex_rt::Program::is_active(program, #node))
+            }
             What::Active(Subject::Scope(scope)) => {
                 let graph = scope - 1;
                 quote!(::apex_rt::Program::is_graph_active(program, #graph))

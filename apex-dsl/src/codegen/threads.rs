@@ -371,7 +371,7 @@ impl Program<'_> {
             let nodes = self.graph.connections.iter().filter(|c| c.from == cell.from).map(|c| c.to.node);
             nodes.chain([cell.from.node]).find(|node| self.graph.group(*node) == self.split.parts[group].group)
         };
-        (0..self.split.parts.len()).map(|group| first(group).unwrap_or(0)).collect()
+        (0..self.split.parts.len()).map(|group| first(group).map_or(0, NodeId::index)).collect()
     }
 
     fn info(&self, analysis: &Analysis) -> TokenStream {

@@ -138,8 +138,7 @@ impl Generator<'_> {
         let NodeKind::Each(each) = &graph.nodes[end.node].kind else { return quote!(()) };
         let name = &graph.port(end).name;
         let body = &each.body;
-        let inside =
-            body.nodes.iter().position(|n| matches!(n.kind, NodeKind::Boundary(PortKind::Output)) && n.name == *name);
+        let inside = body.nodes.position(|n| matches!(n.kind, NodeKind::Boundary(PortKind::Output)) && n.name == *name);
         let item = inside.and_then(|node| body.incoming(PortId { node, port: 0 })).map(|c| {
             let outer = self.inside(graph, end.node);
             outer.token_type(body, c.from)

@@ -143,7 +143,7 @@ impl Wiring {
             }
         });
         let slots: Vec<Slot> = slots.collect();
-        let rows = (0..graph.nodes.len()).map(|node| (node, rows(generator, graph, analysis, &bits, node)));
+        let rows = graph.nodes.ids().map(|node| (node, rows(generator, graph, analysis, &bits, node)));
         let ports = rows.filter(|(_, rows)| !rows.is_empty()).collect();
         let timers = analysis.guards.iter().enumerate().filter_map(|(guard, what)| match what {
             Guard::Timer(node) => Some((*node, bits.guard(guard)?)),
@@ -151,7 +151,7 @@ impl Wiring {
         });
         let mut timers: Vec<(NodeId, usize)> = timers.collect();
         timers.sort_unstable();
-        let timeouts = (0..graph.nodes.len()).filter_map(|node| {
+        let timeouts = graph.nodes.ids().filter_map(|node| {
             let holding = analysis.asynchronous.holding_back(graph, links, node);
             let needs = holding.filter_map(|connection| bits.free(connection)).collect();
             let name = format!("expire_{}", path(node));

@@ -70,7 +70,7 @@ impl Generator<'_> {
     /// The trait that copies tokens of a port, unless their type certainly has `Clone`.
     fn copying(&self, graph: &Graph, end: PortId) -> Option<Ident> {
         let end = graph.origin(end);
-        let (number, PortId { node, port }) = (self.names.number, end);
+        let (number, node, port) = (self.names.number, end.node.index(), end.port);
         (!self.catalog.has_trait(&graph.port(end).ty, Trait::Clone))
             .then(|| format_ident!("Copy{node}Port{port}Of{number}"))
     }
@@ -90,7 +90,7 @@ impl Generator<'_> {
     fn making(&self, node: NodeId, library: &Library) -> Option<Ident> {
         let signature = &self.catalog.signatures[library.signature];
         let is_certain = signature.state.iter().all(|ty| self.catalog.has_trait(ty, Trait::Default));
-        (!is_certain && !library.handed_in).then(|| format_ident!("Make{node}Of{}", self.names.number))
+        (!is_certain && !library.handed_in).then(|| format_ident!("Make{}Of{}", node.index(), self.names.number))
     }
 
     /// The token that a delay without a value holds at first.
@@ -105,7 +105,7 @@ impl Generator<'_> {
     fn starting(&self, graph: &Graph, delay: NodeId) -> Option<Ident> {
         let from = graph.incoming(PortId { node: delay, port: 0 })?.from;
         (!self.catalog.has_trait(&graph.port(from).ty, Trait::Default))
-            .then(|| format_ident!("First{delay}Of{}", self.names.number))
+            .then(|| format_ident!("First{}Of{}", delay.index(), self.names.number))
     }
 
     /// The value of a parameter. Its type is asked for where the compiler has not seen that it fits.
@@ -124,7 +124,7 @@ impl Generator<'_> {
                 Type::Named(..) | Type::Def(..) | Type::Alias(..) | Type::Unknown(_)
             );
         let is_known = matches!(library.params[param], Value::RustDefault | Value::Text(_) | Value::Duration(_));
-        (is_open && !is_known).then(|| format_ident!("Argument{node}Param{param}Of{}", self.names.number))
+        (is_open && !is_known).then(|| format_ident!("Argument{}Param{param}Of{}", node.index(), self.names.number))
     }
 
     /// The traits of a graph, and a function that asks what no other code of the program does.
@@ -134,7 +134,7 @@ impl Generator<'_> {
             items.extend(self.link(graph, connection).map(|name| self.link_item(graph, connection, &name)));
         }
         let mut asked = quote!();
-        for (node, n) in graph.nodes.iter().enumerate() {
+        for (node, n) in graph.nodes.iter_enumerated() {
             items.extend(self.copy_items(graph, node));
             match &n.kind {
                 NodeKind::Library(library) => {
@@ -258,7 +258,7 @@ impl Generator<'_> {
         let (number, path, ty) = (self.names.number, graph.path(node), self.node_type(graph, library));
         let mut asked = quote!();
         if let Some(bound) = port_trait(signature).filter(|_| !signature.bounds.is_empty() && is_whole(library)) {
-            let name = format_ident!("Bounds{node}Of{number}");
+            let name = format_ident!("Bounds{}Of{number}", node.index());
             let text = format!("`{path}` is `{{Self}}`, which does not have what `{}` asks for", signature.name);
             let note = format!("`{}` needs {}", signature.name, list(&signature.bounds));
             items.extend(self.question(&name, &bound, &Message { text, place: n.span, note: Some(note) }));
@@ -267,7 +267,7 @@ impl Generator<'_> {
         if !self.parts.is_empty() && self.outer.is_none() {
             let send = quote!(::core::marker::Send);
             if !signature.is_function && !signature.state.iter().all(|ty| self.catalog.has_trait(ty, Trait::Send)) {
-                let name = format_ident!("Move{node}Of{number}");
+                let name = format_ident!("Move{}Of{number}", node.index());
                 let text = format!("`{path}` runs on a thread, and `{{Self}}` is not `Send`");
                 items.extend(self.question(&name, &send, &Message { text, place: n.span, note: None }));
                 asked.extend(ask(&name, &ty));

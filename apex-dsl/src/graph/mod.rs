@@ -6,7 +6,12 @@ mod names;
 mod node;
 mod value;
 
-use crate::{catalog::Type, source::Span, syntax::tree::PortKind};
+use crate::{
+    catalog::Type,
+    index::{IdVec, id},
+    source::Span,
+    syntax::tree::PortKind,
+};
 use std::{collections::BTreeSet, time::Duration};
 
 pub use condition::{Condition, is_arithmetic};
@@ -14,8 +19,11 @@ pub use names::camel;
 pub use node::{CellEnd, Each, Library, Modifiers, Node, NodeKind, Port, PortId, Standard, TypeArg};
 pub use value::{Claim, ClaimKind, Number, Subject, Value};
 
-/// Number of a node in [`Graph::nodes`].
-pub type NodeId = usize;
+id! {
+    /// Number of a node in [`Graph::nodes`].
+    NodeId
+}
+
 /// Number of a scope in [`Graph::scopes`].
 pub type ScopeId = usize;
 
@@ -41,7 +49,7 @@ pub struct Graph {
     /// Its name in the source file.
     pub span: Span,
     /// Nodes in the order of the source file.
-    pub nodes: Vec<Node>,
+    pub nodes: IdVec<NodeId, Node>,
     /// Connections in the order of the source file.
     pub connections: Vec<Connection>,
     /// Scope 0 is the graph itself, each other one an instance of a nested graph; parents come first.

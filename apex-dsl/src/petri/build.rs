@@ -17,14 +17,14 @@ use std::collections::{BTreeMap, BTreeSet};
 /// # Errors
 /// Fails if a port of the graph takes or sends several tokens per firing.
 pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
-    for (node, n) in graph.nodes.iter().enumerate() {
+    for (node, n) in graph.nodes.iter_enumerated() {
         if let Some(port) = n.ports.iter().find(|p| p.rate != 1) {
             let port = format!("{}.{}", graph.path(node), port.name);
             return Err(NoNet(format!("`{port}` has several tokens per firing, which nets do not support yet")));
         }
     }
     let mut builder = Builder::new(graph);
-    for node in 0..graph.nodes.len() {
+    for node in graph.nodes.ids() {
         builder.node(node, catalog);
     }
     let sides =
@@ -104,7 +104,7 @@ impl<'a> Builder<'a> {
             places[entry].echo = Some(place(format!("{} has seen {segment}", names(graph, &on_loop.delays)), 0));
         }
         let mut starts = BTreeMap::new();
-        for (node, n) in graph.nodes.iter().enumerate() {
+        for (node, n) in graph.nodes.iter_enumerated() {
             if matches!(n.kind, NodeKind::Start) {
                 starts.insert(node, place(format!("{} is due", graph.path(node)), 1));
             }

@@ -14,7 +14,7 @@ pub fn demand_driven(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<Node
         is_library && !has_pace(node) && sent.peek().is_some() && sent.all(|c| graph.is_synchronous(c))
     };
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
-    let mut paces: BTreeSet<SegmentEnd> = (0..graph.nodes.len()).filter(has_pace).map(SegmentEnd::Node).collect();
+    let mut paces: BTreeSet<SegmentEnd> = graph.nodes.ids().filter(has_pace).map(SegmentEnd::Node).collect();
     for segment in segments(graph) {
         let flow = graph.flow(&graph.connections[segment.connection]);
         // Tokens cross a boundary together, so that asynchronous ones wait for all others there, too.

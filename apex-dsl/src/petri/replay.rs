@@ -349,7 +349,7 @@ impl<'a> Replay<'a> {
 
     /// Nodes that could fire without running, but are deferred because they take activity or have slots.
     fn deferred(&self) -> Vec<(NodeId, Preview)> {
-        let nodes = 0..self.graph.nodes.len();
+        let nodes = self.graph.nodes.ids();
         nodes
             .filter(|n| self.by_kind.get(&TransitionKind::Take(*n)).is_some_and(|t| self.state.is_enabled(*t)))
             .map(|n| (n, self.state.preview(n)))

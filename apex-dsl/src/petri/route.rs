@@ -97,7 +97,7 @@ fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
         before.entry(segment.to).or_default().push(segment.from);
     }
     let mut insides = BTreeMap::new();
-    for (node, _) in graph.nodes.iter().enumerate().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
+    for (node, _) in graph.nodes.iter_enumerated().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
         // Everything that is both downstream and upstream of a delay is on a loop with it.
         let (below, above) = (reached([SegmentEnd::Node(node)], &after), reached([SegmentEnd::Node(node)], &before));
         if below.contains(&SegmentEnd::Node(node)) {

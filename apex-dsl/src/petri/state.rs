@@ -9,6 +9,7 @@ use super::{
 use crate::{
     catalog::Catalog,
     graph::{Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -76,14 +77,14 @@ pub struct State<'a> {
     net: &'a Net,
     script: &'a Script<'a>,
     marking: Vec<VecDeque<Token>>,
-    active: Vec<bool>,
-    calls: Vec<usize>,
+    active: IdVec<NodeId, bool>,
+    calls: IdVec<NodeId, usize>,
     taken: BTreeMap<NodeId, Taken>,
     /// Decisions of undecided ports: `None` for silence, else a token for each leg.
     decided: BTreeMap<PortId, Option<BTreeMap<usize, Token>>>,
     changes: Vec<(NodeId, bool)>,
-    told: Vec<bool>,
-    deactivates: Vec<bool>,
+    told: IdVec<NodeId, bool>,
+    deactivates: IdVec<NodeId, bool>,
     into: BTreeMap<SegmentEnd, Vec<Link>>,
     from: BTreeMap<SegmentEnd, Vec<Link>>,
     consumers: Vec<Vec<TransitionId>>,
@@ -104,7 +105,7 @@ struct Link {
 
 /// A feature of the graph that the coloured net does not support, if there is one.
 pub fn unsupported(graph: &Graph) -> Option<String> {
-    for (id, node) in graph.nodes.iter().enumerate() {
+    for (id, node) in graph.nodes.iter_enumerated() {
         if let NodeKind::Boundary(_) = node.kind {
             return Some(format!("`{}` is a port of the program", node.name));
         }
@@ -124,7 +125,7 @@ impl<'a> State<'a> {
             NodeKind::Library(library) => Some(&catalog.signatures[library.signature]),
             _ => None,
         };
-        let nodes = 0..graph.nodes.len();
+        let nodes = graph.nodes.ids();
         let (mut into, mut from) = (BTreeMap::<_, Vec<_>>::new(), BTreeMap::<_, Vec<_>>::new());
         let segments = route::segments(graph);
         for (i, segment) in segments.iter().enumerate() {
@@ -152,7 +153,7 @@ impl<'a> State<'a> {
             script,
             marking: net.places.iter().map(|p| std::iter::repeat_n(initial, p.initial).collect()).collect(),
             active: graph.nodes.iter().map(|n| n.starts_active).collect(),
-            calls: vec![0; graph.nodes.len()],
+            calls: IdVec::from_elem(0, graph.nodes.len()),
             taken: BTreeMap::new(),
             decided: BTreeMap::new(),
             changes: nodes.clone().filter(|n| graph.nodes[*n].starts_active).map(|n| (n, true)).collect(),
@@ -456,7 +457,7 @@ impl<'a> State<'a> {
         match self.graph.nodes[to.node].kind {
             NodeKind::Reset => {
                 // A reset restores the initial activity of all nodes.
-                for node in 0..self.graph.nodes.len() {
+                for node in self.graph.nodes.ids() {
                     self.set_active(node, self.graph.nodes[node].starts_active);
                 }
             }

@@ -19,7 +19,7 @@ impl Builder<'_> {
         if body.item.claims.is_empty() {
             return;
         }
-        let nodes = self.nodes.iter().enumerate().skip(node).filter(|(_, n)| n.scope == body.scope);
+        let nodes = self.nodes.iter_enumerated().skip(node).filter(|(_, n)| n.scope == body.scope);
         let mut subjects: BTreeMap<String, Subject> =
             nodes.map(|(id, n)| (n.name.clone(), Subject::Node(id))).collect();
         let scopes = self.scopes.iter().enumerate().skip(scope).filter(|(_, s)| s.parent == body.scope);

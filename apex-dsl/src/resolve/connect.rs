@@ -339,7 +339,7 @@ impl Builder<'_> {
 
     /// The node of a predefined name. Each graph that uses the name has one.
     pub fn own_node(&mut self, body: &Body<'_>, name: &Ident, kind: NodeKind) -> Option<NodeId> {
-        let made = self.nodes.iter().position(|n| n.scope == body.scope && n.name == name.text && own(&n.kind));
+        let made = self.nodes.position(|n| n.scope == body.scope && n.name == name.text && own(&n.kind));
         match made {
             Some(node) => Some(node),
             None => {
@@ -386,7 +386,7 @@ impl Builder<'_> {
         let ty = Type::Unknown(String::new());
         self.pins.push(Pin { name: name.to_owned(), kind, ty, scope, span, docs, standard: true });
         let place = WireEnd::Pin(self.pins.len() - 1);
-        let nodes: Vec<NodeId> = (0..self.nodes.len()).filter(|n| self.nodes[*n].scope == scope).collect();
+        let nodes: Vec<NodeId> = self.nodes.ids().filter(|n| self.nodes[*n].scope == scope).collect();
         let nested: Vec<ScopeId> = (1..self.scopes.len()).filter(|s| self.scopes[*s].parent == scope).collect();
         let mut inner: Vec<WireEnd> =
             nodes.into_iter().filter_map(|n| Some(WireEnd::Port(self.standard_end(n, standard)?))).collect();

@@ -4,6 +4,7 @@ use super::value::Wanted;
 use crate::{
     catalog::{Catalog, Signature, Type},
     graph::{Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::{Expr, ExprKind, PortKind},
 };
@@ -65,14 +66,14 @@ fn fit_values(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostic
 /// types of their own.
 pub fn settle(graph: &mut Graph, catalog: &Catalog) {
     substitute(graph, catalog);
-    let mut touching: Vec<Vec<usize>> = vec![vec![]; graph.nodes.len()];
+    let mut touching: IdVec<NodeId, Vec<usize>> = IdVec::from_elem(vec![], graph.nodes.len());
     for (index, connection) in graph.connections.iter().enumerate() {
         touching[connection.from.node].push(index);
         touching[connection.to.node].push(index);
     }
     // First the inputs determine types, then the outputs determine those that are left.
     for only_from_inputs in [true, false] {
-        let mut queue: VecDeque<NodeId> = (0..graph.nodes.len()).filter(|n| is_open(graph, *n)).collect();
+        let mut queue: VecDeque<NodeId> = graph.nodes.ids().filter(|n| is_open(graph, *n)).collect();
         while let Some(node) = queue.pop_front() {
             if is_open(graph, node) && settle_node(graph, catalog, node, &touching[node], only_from_inputs) {
                 // The types of this node's tokens are known now, so that its neighbours are examined again.
@@ -144,7 +145,7 @@ fn argument_from(graph: &Graph, name: &str, mine: PortId, other: PortId) -> Opti
 }
 
 fn substitute(graph: &mut Graph, catalog: &Catalog) {
-    for node in 0..graph.nodes.len() {
+    for node in graph.nodes.ids() {
         substitute_node(graph, catalog, node);
     }
 }

@@ -15,6 +15,7 @@ use crate::{
     graph::{
         self, Claim, Graph, Library, Node, NodeKind, Pin, Port, PortId, Scope, ScopeId, TypeArg, Value, Wire, WireEnd,
     },
+    index::IdVec,
     machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -29,7 +30,7 @@ pub struct Builder<'a> {
     pub texts: &'a SourceSet,
     pub catalog: &'a Catalog,
     pub diagnostics: &'a mut Diagnostics,
-    pub nodes: Vec<Node>,
+    pub nodes: IdVec<graph::NodeId, Node>,
     pub scopes: Vec<Scope>,
     pub pins: Vec<Pin>,
     pub wires: Vec<Wire>,
@@ -112,7 +113,7 @@ impl<'a> Builder<'a> {
             texts,
             catalog,
             diagnostics,
-            nodes: vec![],
+            nodes: IdVec::default(),
             scopes: vec![],
             pins: vec![],
             wires: vec![],
@@ -224,7 +225,7 @@ impl<'a> Builder<'a> {
         kind: NodeKind,
         ports: Vec<Port>,
         docs: &str,
-    ) -> Option<usize> {
+    ) -> Option<graph::NodeId> {
         self.spend(name.span)?;
         let node = Node {
             name: name.text.clone(),
@@ -236,8 +237,7 @@ impl<'a> Builder<'a> {
             docs: docs.to_owned(),
             starts_active: false,
         };
-        self.nodes.push(node);
-        Some(self.nodes.len() - 1)
+        Some(self.nodes.push(node))
     }
 
     pub fn spend(&mut self, span: Span) -> Option<()> {
@@ -407,7 +407,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Connects `start` to a state machine whose initial state triggers events.
-    fn begin_machine(&mut self, body: &Body<'_>, span: Span, node: usize) -> Option<()> {
+    fn begin_machine(&mut self, body: &Body<'_>, span: Span, node: graph::NodeId) -> Option<()> {
         let Some(port) = self.nodes[node].ports.iter().position(|p| p.name == Machine::BEGIN) else { return Some(()) };
         let start = Ident { text: "start".to_owned(), span };
         let start = self.own_node(body, &start, NodeKind::Start)?;

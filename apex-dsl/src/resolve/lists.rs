@@ -9,7 +9,7 @@ use crate::{
 
 /// Chooses the list of each `each` by the types, if it is not written.
 pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
-    for id in 0..graph.nodes.len() {
+    for id in graph.nodes.ids() {
         let NodeKind::Each(each) = &mut graph.nodes[id].kind else { continue };
         resolve(&mut each.body, diagnostics);
         if each.list.is_some() {

@@ -71,7 +71,7 @@ fn unknown(graph: &Graph, port: &PortRef) -> Diagnostic {
 }
 
 fn sending_ports(graph: &Graph) -> impl Iterator<Item = PortId> + '_ {
-    let nodes = (0..graph.nodes.len()).filter(|node| !matches!(graph.nodes[*node].kind, NodeKind::Start));
+    let nodes = graph.nodes.ids().filter(|node| !matches!(graph.nodes[*node].kind, NodeKind::Start));
     let ends = nodes.flat_map(|node| (0..graph.nodes[node].ports.len()).map(move |port| PortId { node, port }));
     ends.filter(|end| graph.port(*end).kind.sends())
 }

@@ -89,7 +89,7 @@ struct Writer<'a> {
 impl Writer<'_> {
     /// Reports replacements of unknown nodes, and nodes made in Rust that are not replaced.
     fn check_replaced(&mut self, item: &TestItem) {
-        let paths: Vec<String> = (0..self.graph.nodes.len()).map(|n| self.graph.path(n)).collect();
+        let paths: Vec<String> = self.graph.nodes.ids().map(|n| self.graph.path(n)).collect();
         for (of, _) in &item.replaced {
             if !paths.iter().any(|p| is_or_contains(of, p)) {
                 let word = Ident { text: of.text(), span: of.span };
@@ -143,8 +143,7 @@ impl Writer<'_> {
         let ports: Vec<(NodeId, &str)> = self
             .graph
             .nodes
-            .iter()
-            .enumerate()
+            .iter_enumerated()
             .filter(|(_, n)| is_way_in(n))
             .map(|(i, n)| (i, n.name.as_str()))
             .collect();
@@ -232,7 +231,7 @@ impl Writer<'_> {
     /// The node or nested graph with this name.
     fn subject(&mut self, of: &PortRef) -> Option<Subject> {
         let path = of.text();
-        let nodes = (0..self.graph.nodes.len()).map(Subject::Node);
+        let nodes = self.graph.nodes.ids().map(Subject::Node);
         let all: Vec<Subject> = nodes.chain((1..self.graph.scopes.len()).map(Subject::Scope)).collect();
         let names: Vec<String> = all.iter().map(|subject| self.graph.subject_name(*subject)).collect();
         let found = names.iter().position(|name| *name == path);
@@ -253,11 +252,11 @@ impl Writer<'_> {
         let path = of.text();
         let name = format!("probe {path}");
         let known = |n: &crate::graph::Node| n.kind.is_probe() && (n.name == name || n.scope == 0 && n.name == path);
-        if let Some(node) = self.graph.nodes.iter().position(known) {
+        if let Some(node) = self.graph.nodes.position(known) {
             return Some((node, self.graph.nodes[node].ports[0].ty.clone()));
         }
         let Some(from) = sending_port(self.graph, &path) else {
-            let ends = (0..self.graph.nodes.len()).flat_map(|node| {
+            let ends = self.graph.nodes.ids().flat_map(|node| {
                 let graph = &*self.graph;
                 (0..graph.nodes[node].ports.len()).map(move |port| graph.end_name(PortId { node, port }))
             });
@@ -277,8 +276,7 @@ impl Writer<'_> {
             docs: String::new(),
             starts_active: false,
         };
-        self.graph.nodes.push(node);
-        let to = PortId { node: self.graph.nodes.len() - 1, port: 0 };
+        let to = PortId { node: self.graph.nodes.push(node), port: 0 };
         let (crossings, span) = (vec![], of.span);
         self.graph.connections.push(Connection {
             from,

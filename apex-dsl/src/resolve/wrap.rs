@@ -10,6 +10,7 @@ use super::{
 use crate::{
     catalog::{SignatureId, Type},
     graph::{Each, Graph, Node, NodeId, NodeKind, Port, PortId, Scope, Value, Wire, WireEnd},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Expr, Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
@@ -36,8 +37,10 @@ impl Builder<'_> {
             };
             builder.library(&inside, name, id, instance, "")?;
             // The body runs in the thread group of its `each`.
-            builder.nodes[0].modifiers.group = None;
-            let ports: Vec<Port> = builder.nodes[0].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
+            let wrapped = NodeId::from(0);
+            builder.nodes[wrapped].modifiers.group = None;
+            let ports: Vec<Port> =
+                builder.nodes[wrapped].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
             for (port, inner) in ports.into_iter().enumerate() {
                 let span = name.span;
                 let ident = Ident { text: inner.name.clone(), span };
@@ -49,7 +52,7 @@ impl Builder<'_> {
                 let outer = Port { kind, optional: true, rate: 1, ..inner };
                 let node = builder.node(&ident, 0, NodeKind::Boundary(boundary), vec![outer], "")?;
                 let (library, outside) =
-                    (WireEnd::Port(PortId { node: 0, port }), WireEnd::Port(PortId { node, port: 0 }));
+                    (WireEnd::Port(PortId { node: wrapped, port }), WireEnd::Port(PortId { node, port: 0 }));
                 let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };
                 builder.wires.push(Wire { from, to, active: false, differs: false, span });
             }
@@ -87,7 +90,7 @@ impl Builder<'_> {
         docs: &str,
     ) -> Option<Symbol> {
         let mut ports: Vec<Port> = vec![];
-        for id in 0..inner.nodes.len() {
+        for id in inner.nodes.ids() {
             let takes_missing = takes_missing(&inner, id);
             let node = &mut inner.nodes[id];
             let NodeKind::Boundary(kind) = node.kind else { continue };
@@ -226,7 +229,7 @@ pub fn fit_delays(graph: &mut Graph, delays: &[(NodeId, Expr)], diagnostics: &mu
 }
 
 /// Makes the connection into a delay active if one behind it is: only the latter is written.
-pub fn let_activity_into_delays(nodes: &[Node], wires: &mut [Wire]) {
+pub fn let_activity_into_delays(nodes: &IdVec<NodeId, Node>, wires: &mut [Wire]) {
     let delay = |place: WireEnd| match place {
         WireEnd::Port(end) if nodes[end.node].is_delay() => Some(end.node),
         _ => None,

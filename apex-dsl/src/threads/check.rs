@@ -45,7 +45,7 @@ fn check_body(body: &Graph, diagnostics: &mut Diagnostics) {
 /// Reports watchdogs that cannot work: some thread must be watched, and the reaction to a hung node needs another
 /// thread.
 fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
-    let Some(hung) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Watchdog)) else { return };
+    let Some(hung) = graph.nodes.position(|n| matches!(n.kind, NodeKind::Watchdog)) else { return };
     if graph.threads.iter().all(|t| t.hang.is_none()) {
         let error =
             Diagnostic::error("threads", graph.nodes[hung].span, "no thread is watched, so `hung` is never triggered");
@@ -89,7 +89,7 @@ fn check_loops(graph: &Graph, diagnostics: &mut Diagnostics) {
 fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
     // A region may be divided among groups: only the parts with several rates are restricted.
     let part = |node: NodeId| (analysis.regions[node], graph.group(node));
-    let parts: BTreeSet<_> = (0..graph.nodes.len()).filter(|n| has_rates(graph, analysis, *n)).map(part).collect();
+    let parts: BTreeSet<_> = graph.nodes.ids().filter(|n| has_rates(graph, analysis, *n)).map(part).collect();
     let is_within = |node: NodeId| parts.contains(&part(node));
     for c in synchronous(graph).filter(|c| is_within(c.from.node) || is_within(c.to.node)) {
         let message =
@@ -102,7 +102,7 @@ fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
 
 /// Reports active nodes outside the group of `reset`, which takes all activity away at once.
 fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
-    let Some(reset) = graph.nodes.iter().position(|n| matches!(n.kind, NodeKind::Reset)) else { return };
+    let Some(reset) = graph.nodes.position(|n| matches!(n.kind, NodeKind::Reset)) else { return };
     let own = graph.group(reset);
     for &node in analysis.active.iter().filter(|n| graph.group(**n) != own) {
         let message = format!(

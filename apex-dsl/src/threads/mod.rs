@@ -11,6 +11,7 @@ mod split;
 use crate::{
     analyse::Analysis,
     graph::{Graph, NodeId, PortId},
+    index::IdVec,
 };
 
 pub use check::check;
@@ -35,7 +36,7 @@ pub struct Part {
     /// Analysis of the graph.
     pub analysis: Analysis,
     /// For each node, its counterpart in the whole graph.
-    pub origins: Vec<Origin>,
+    pub origins: IdVec<NodeId, Origin>,
     /// For each connection, its number in the whole graph, unless it leads to a cell or a relay.
     pub connections: Vec<Option<usize>>,
 }

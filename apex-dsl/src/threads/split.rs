@@ -7,6 +7,7 @@ use crate::{
     graph::{
         CellEnd, Connection, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port, PortId, WATCH_GROUP,
     },
+    index::IdVec,
     report::Diagnostics,
     syntax::tree::PortKind,
 };
@@ -23,9 +24,9 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
         whole,
         analysis,
         catalog,
-        group_of: (0..whole.nodes.len()).map(of_node).collect(),
+        group_of: whole.nodes.ids().map(of_node).collect(),
         drafts: groups.iter().map(|group| Draft::new(whole, group)).collect(),
-        placed: vec![None; whole.nodes.len()],
+        placed: IdVec::from_elem(None, whole.nodes.len()),
         cells: vec![],
         shared: BTreeMap::new(),
         ends: BTreeMap::new(),
@@ -45,7 +46,7 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
 /// The thread groups of a graph: the main group, then the others in the order of the source file.
 pub fn groups(graph: &Graph) -> Vec<&str> {
     let mut groups = vec![MAIN_GROUP];
-    for node in 0..graph.nodes.len() {
+    for node in graph.nodes.ids() {
         let group = graph.group(node);
         if group != WATCH_GROUP && !groups.contains(&group) {
             groups.push(group);
@@ -57,7 +58,7 @@ pub fn groups(graph: &Graph) -> Vec<&str> {
 /// A part under construction.
 struct Draft {
     graph: Graph,
-    origins: Vec<Origin>,
+    origins: IdVec<NodeId, Origin>,
     connections: Vec<Option<usize>>,
 }
 
@@ -66,19 +67,18 @@ impl Draft {
         let graph = Graph {
             // The name of the group is not changed to camel case: `a_b` and `aB` are different groups.
             name: format!("{}On_{group}", whole.name),
-            nodes: vec![],
+            nodes: IdVec::default(),
             connections: vec![],
             wires: vec![],
             claims: vec![],
             ..whole.clone()
         };
-        Self { graph, origins: vec![], connections: vec![] }
+        Self { graph, origins: IdVec::default(), connections: vec![] }
     }
 
     fn add(&mut self, node: Node, origin: Origin) -> NodeId {
-        self.graph.nodes.push(node);
         self.origins.push(origin);
-        self.graph.nodes.len() - 1
+        self.graph.nodes.push(node)
     }
 
     fn connect(&mut self, connection: Connection, number: Option<usize>) {
@@ -104,10 +104,10 @@ struct Splitter<'a> {
     analysis: &'a Analysis,
     catalog: &'a Catalog,
     /// The group of each node; `None` for the watchdog.
-    group_of: Vec<Option<usize>>,
+    group_of: IdVec<NodeId, Option<usize>>,
     drafts: Vec<Draft>,
     /// The number of each node in its part, once it has been placed.
-    placed: Vec<Option<NodeId>>,
+    placed: IdVec<NodeId, Option<NodeId>>,
     cells: Vec<Cell>,
     /// The connections that share each cell.
     shared: BTreeMap<Way, Vec<usize>>,
@@ -129,7 +129,7 @@ impl Splitter<'_> {
     }
 
     fn place_nodes(&mut self) {
-        for (id, node) in self.whole.nodes.iter().enumerate() {
+        for (id, node) in self.whole.nodes.iter_enumerated() {
             if let Some(group) = self.group_of[id] {
                 self.placed[id] = Some(self.drafts[group].add(node.clone(), Origin::Node(id)));
             }

@@ -124,9 +124,9 @@ fn record(line: &str) -> Option<Record> {
     let first = numbers.first().copied().flatten().unwrap_or_default();
     Some(match kind {
         "R" => Record::Begin(first as u64),
-        "F" => Record::Fired(first as usize),
+        "F" => Record::Fired(NodeId::from(first as usize)),
         "H" => Record::Handled(first as usize),
-        "A" => Record::Activity(first as usize, numbers.get(1) == Some(&Some(1))),
+        "A" => Record::Activity(NodeId::from(first as usize), numbers.get(1) == Some(&Some(1))),
         "T" => Record::Took(numbers),
         "E" => Record::PortId,
         _ => return None,
@@ -136,7 +136,7 @@ fn record(line: &str) -> Option<Record> {
 /// Identifiers and parameters of the scripted nodes of a graph.
 pub fn script_of(graph: &Graph, catalog: &Catalog) -> BTreeMap<NodeId, (i64, script::Parameters)> {
     let mut scripts = BTreeMap::new();
-    for (node, n) in graph.nodes.iter().enumerate() {
+    for (node, n) in graph.nodes.iter_enumerated() {
         let NodeKind::Library(library) = &n.kind else { continue };
         let signature = &catalog.signatures[library.signature];
         let value =
@@ -189,7 +189,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
                 Ok(())
             }
             // Nodes in the body of an `each` have larger indices than all others.
-            Record::Fired(node) if *node >= graph.nodes.len() => Ok(()),
+            Record::Fired(node) if node.index() >= graph.nodes.len() => Ok(()),
             Record::Fired(node) => {
                 let ports = graph.nodes[*node].ports.iter().enumerate();
                 let own = ports.filter(|(_, p)| p.kind == PortKind::Input && p.parameter.is_none());
@@ -218,7 +218,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
 
 /// Origin of a value. A value that no scripted node made gets a port that does not exist.
 fn origin(graph: &Graph, by_id: &BTreeMap<i64, NodeId>, value: i64) -> Origin {
-    let nowhere = Origin { end: PortId { node: usize::MAX, port: 0 }, call: 0 };
+    let nowhere = Origin { end: PortId { node: NodeId::from(graph.nodes.len()), port: 0 }, call: 0 };
     let Some((id, port, call)) = script::origin(value) else { return nowhere };
     let Some(node) = by_id.get(&id).copied() else { return nowhere };
     let Some(port) = graph.nodes[node].ports.iter().position(|p| p.name == port && p.kind.sends()) else {
