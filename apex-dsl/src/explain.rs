@@ -51,7 +51,7 @@ fn signature(node: &Node) -> Option<usize> {
 
 /// Writes the asynchronous connections in the order of the source, and for how long each one is occupied by a token.
 fn asynchronous(text: &mut String, graph: &Graph, analysis: &Analysis, pad: &str) {
-    for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| !graph.is_synchronous(c)) {
+    for (index, c) in graph.connections.iter_enumerated().filter(|(_, c)| !graph.is_synchronous(c)) {
         let how = match (graph.flow(c), analysis.asynchronous.may_block[index]) {
             _ if is_cell(graph, c.to.node) => "occupied until the other thread has processed the token",
             (Flow::ToInput, _) => "occupied until the region downstream has finished",

@@ -10,7 +10,7 @@
 use super::{Delivery, Links, live};
 use crate::{
     catalog::{ArgSig, Catalog, Signature},
-    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard},
     index::IdVec,
     syntax::tree::PortKind,
 };
@@ -28,16 +28,16 @@ const MOST_FUNCTIONS: usize = 128;
 #[derive(Debug)]
 pub struct Asynchronous {
     /// For each connection of any kind, `true` if it can ever carry a token.
-    pub live: Vec<bool>,
+    pub live: IdVec<ConnectionId, bool>,
     /// Connections to slots that can carry tokens, in the order of the source file. The number of a slot token is its
     /// position in this list.
-    pub slots: Vec<usize>,
+    pub slots: Vec<ConnectionId>,
     /// For each connection, `true` if it may hold a token when clusters are tested: it leads to an input, out of the
     /// program, or to a slot that can itself be held back.
-    pub may_block: Vec<bool>,
+    pub may_block: IdVec<ConnectionId, bool>,
     /// For each connection, `true` if it has a bit for "free" at run time: it may stay occupied, a slot of its node
     /// might be called again before the token is taken (R5), or it holds back the nodes that feed its sender (R4).
-    pub has_occupancy_bit: Vec<bool>,
+    pub has_occupancy_bit: IdVec<ConnectionId, bool>,
     /// `true` if tokens may circulate without end while time does not advance.
     pub endless: bool,
     /// Storage of the order of slot tokens.
@@ -45,26 +45,26 @@ pub struct Asynchronous {
     /// `true` if tables serve the slots or timeouts, as there are more than [`MANY`]. Slot tokens are queued then.
     pub is_tabled: bool,
     /// For each connection, the connections on which its token may cause other tokens.
-    causes: Vec<Vec<usize>>,
+    causes: IdVec<ConnectionId, Vec<ConnectionId>>,
 }
 
 impl Asynchronous {
     /// Analyses the asynchronous connections of `graph`. Removes the ones that never carry a token from `links`.
     pub fn new(graph: &Graph, catalog: &Catalog, links: &mut Links, regions: &IdVec<NodeId, usize>) -> Self {
         // The effect of a token is a firing of the node at the end of its connection, or a call of its slot.
-        let mut causes: Vec<Vec<usize>> =
-            (0..graph.connections.len()).map(|index| caused(graph, catalog, links, index)).collect();
+        let mut causes: IdVec<ConnectionId, Vec<ConnectionId>> =
+            graph.connections.ids().map(|index| caused(graph, catalog, links, index)).collect();
         let live = live::live(graph, catalog, links, &causes);
         links.sends.iter_mut().for_each(|sends| sends.retain(|c| live[*c]));
         causes.iter_mut().zip(&live).filter(|(_, live)| !**live).for_each(|(causes, _)| causes.clear());
         let links = &*links;
-        let to_slot = |c: &usize| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
-        let slots: Vec<usize> = (0..graph.connections.len()).filter(to_slot).collect();
+        let to_slot = |c: &ConnectionId| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
+        let slots: Vec<ConnectionId> = graph.connections.ids().filter(to_slot).collect();
         let timeouts = graph.nodes.iter().filter(|node| node.modifiers.timeout.is_some()).count();
         let is_tabled = slots.len().max(timeouts) > MOST_FUNCTIONS;
         let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut may_block = may_block(graph, links, &slots);
-        live.iter().enumerate().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);
+        live.iter_enumerated().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);
         if single {
             slots.iter().for_each(|c| may_block[*c] = false);
         }
@@ -75,7 +75,7 @@ impl Asynchronous {
             // A region has finished only when the slots behind its outputs have taken their tokens (R4), and an event
             // that leads to the region is free only then (R7). Else a slot that waits for it could overtake them.
             if may_block.contains(&true) {
-                let from_output = |c: &&usize| graph.port(graph.connections[**c].from).kind == PortKind::Output;
+                let from_output = |c: &&ConnectionId| graph.port(graph.connections[**c].from).kind == PortKind::Output;
                 slots.iter().filter(from_output).for_each(|c| has_occupancy_bit[*c] = true);
             }
         }
@@ -93,24 +93,24 @@ impl Asynchronous {
     }
 
     /// Returns `true` if a connection leads to a slot and can carry tokens.
-    pub fn is_slot(&self, connection: usize) -> bool {
+    pub fn is_slot(&self, connection: ConnectionId) -> bool {
         self.slots.binary_search(&connection).is_ok()
     }
 
     /// Connections on which tokens may be sent because of the token on `connection`.
-    pub fn causes(&self, connection: usize) -> &[usize] {
+    pub fn causes(&self, connection: ConnectionId) -> &[ConnectionId] {
         &self.causes[connection]
     }
 
     /// Slot tokens that may be sent because of the token on `connection`, in the order in which they are emitted.
-    pub fn caused_slots(&self, connection: usize) -> impl Iterator<Item = usize> + Clone + '_ {
+    pub fn caused_slots(&self, connection: ConnectionId) -> impl Iterator<Item = ConnectionId> + Clone + '_ {
         self.causes[connection].iter().copied().filter(|c| self.is_slot(*c))
     }
 
     /// Slot tokens that may follow one after another from tokens on `connections`. The flag is `true` if they can
     /// circulate.
-    pub fn following(&self, connections: &[usize]) -> (Vec<usize>, bool) {
-        let mut found: Vec<usize> = connections.iter().copied().filter(|c| self.is_slot(*c)).collect();
+    pub fn following(&self, connections: &[ConnectionId]) -> (Vec<ConnectionId>, bool) {
+        let mut found: Vec<ConnectionId> = connections.iter().copied().filter(|c| self.is_slot(*c)).collect();
         let mut circle = false;
         let mut at = 0;
         while at < found.len() {
@@ -128,7 +128,7 @@ impl Asynchronous {
     }
 
     /// The number of the slot token on `connection`.
-    pub fn slot(&self, connection: usize) -> usize {
+    pub fn slot(&self, connection: ConnectionId) -> usize {
         self.slots.partition_point(|c| *c < connection)
     }
 
@@ -138,16 +138,16 @@ impl Asynchronous {
         graph: &'a Graph,
         links: &'a Links,
         node: NodeId,
-    ) -> impl Iterator<Item = usize> + 'a {
+    ) -> impl Iterator<Item = ConnectionId> + 'a {
         events(graph, links, node).filter(|c| self.may_block[*c])
     }
 
     /// Connections that may be occupied when the slot at the end of `connection` is due: those of its node's events
     /// (R5), or for `reset` all connections on which a reset sends.
-    pub fn not_yet_taken(&self, graph: &Graph, links: &Links, connection: usize) -> Vec<usize> {
+    pub fn not_yet_taken(&self, graph: &Graph, links: &Links, connection: ConnectionId) -> Vec<ConnectionId> {
         let node = graph.connections[connection].to.node;
         let resets = matches!(graph.nodes[node].kind, NodeKind::Reset);
-        let all: Vec<usize> =
+        let all: Vec<ConnectionId> =
             if resets { sent_by_reset(graph).collect() } else { events(graph, links, node).collect() };
         // The token that `reset` takes has left its connection.
         all.into_iter().filter(|c| self.has_occupancy_bit[*c] && !(resets && *c == connection)).collect()
@@ -155,30 +155,30 @@ impl Asynchronous {
 }
 
 /// Connections of a node's events.
-pub fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = usize> + 'a {
+pub fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iterator<Item = ConnectionId> + 'a {
     links.sends[node].iter().copied().filter(|c| graph.port(graph.connections[*c].from).kind == PortKind::Event)
 }
 
 /// Connections on which a reset sends: those of `start`, and of the events `activated` and `deactivated`.
-fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = usize> + '_ {
+fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = ConnectionId> + '_ {
     let sent =
         |from: PortId| matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity();
-    (0..graph.connections.len()).filter(move |c| sent(graph.connections[*c].from))
+    graph.connections.ids().filter(move |c| sent(graph.connections[*c].from))
 }
 
 /// For each connection, `true` if it may stay occupied.
 ///
 /// A slot is served at once if all events of its node lead to slots that are served at once. The search starts at nodes
 /// without events, the ends of chains, and proceeds upstream. It never finds the nodes on a cycle of events.
-fn may_block(graph: &Graph, links: &Links, slots: &[usize]) -> Vec<bool> {
+fn may_block(graph: &Graph, links: &Links, slots: &[ConnectionId]) -> IdVec<ConnectionId, bool> {
     let consumers = graph.nodes.ids();
     let mut waits: IdVec<NodeId, usize> = consumers.clone().map(|n| events(graph, links, n).count()).collect();
-    let mut into: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
+    let mut into: BTreeMap<NodeId, Vec<ConnectionId>> = BTreeMap::new();
     for &index in slots {
         into.entry(graph.connections[index].to.node).or_default().push(index);
     }
     let leaves_program = |node: NodeId| matches!(graph.nodes[node].kind, NodeKind::Boundary(_));
-    let mut may_block: Vec<bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
+    let mut may_block: IdVec<ConnectionId, bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
     let mut served: Vec<NodeId> = consumers.filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
     while let Some(node) = served.pop() {
         for &index in into.get(&node).into_iter().flatten() {
@@ -201,13 +201,13 @@ fn is_single(
     graph: &Graph,
     catalog: &Catalog,
     links: &Links,
-    slots: &[usize],
-    causes: &[Vec<usize>],
+    slots: &[ConnectionId],
+    causes: &IdVec<ConnectionId, Vec<ConnectionId>>,
     regions: &IdVec<NodeId, usize>,
 ) -> bool {
-    let to_slot = |c: &usize| slots.binary_search(c).is_ok();
+    let to_slot = |c: &ConnectionId| slots.binary_search(c).is_ok();
     // The slot takes the token away, so no other connection may need it.
-    let alone = |c: &usize| {
+    let alone = |c: &ConnectionId| {
         let from = graph.connections[*c].from;
         links.from(from.node).filter(|other| graph.connections[*other].from == from).count() == 1
     };
@@ -241,11 +241,11 @@ pub fn by_process(signature: &Signature, graph: &Graph, from: PortId) -> bool {
 }
 
 /// Returns `true` if a token can cause another one on its own connection while time does not advance.
-fn is_endless(causes: &[Vec<usize>]) -> bool {
+fn is_endless(causes: &IdVec<ConnectionId, Vec<ConnectionId>>) -> bool {
     // A topological sort: connections that remain are on a cycle, or behind one.
-    let mut waits = vec![0usize; causes.len()];
+    let mut waits = IdVec::from_elem(0usize, causes.len());
     causes.iter().flatten().for_each(|c| waits[*c] += 1);
-    let mut free: Vec<usize> = (0..causes.len()).filter(|c| waits[*c] == 0).collect();
+    let mut free: Vec<ConnectionId> = causes.ids().filter(|c| waits[*c] == 0).collect();
     let mut seen = 0;
     while let Some(index) = free.pop() {
         seen += 1;
@@ -260,7 +260,7 @@ fn is_endless(causes: &[Vec<usize>]) -> bool {
 }
 
 /// Connections on which a token may be sent because of a token on `connection`.
-fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: usize) -> Vec<usize> {
+fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: ConnectionId) -> Vec<ConnectionId> {
     let to = graph.connections[connection].to;
     let node = &graph.nodes[to.node];
     let by_process = graph.port(to).kind == PortKind::Input;

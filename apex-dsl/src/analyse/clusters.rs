@@ -19,7 +19,7 @@
 use super::{Analysis, Asynchronous, Block, Links, Step, demand_driven::demand_driven, fires, is_source};
 use crate::{
     catalog::Catalog,
-    graph::{Connection, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
+    graph::{Connection, ConnectionId, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
@@ -37,7 +37,7 @@ pub enum Guard {
     /// same guards upstream and downstream.
     React,
     /// The token on an asynchronous connection to an input.
-    Token(usize),
+    Token(ConnectionId),
     /// The events of this node are enabled, so that it can trigger them (R1).
     Events(NodeId),
 }
@@ -80,7 +80,7 @@ pub struct Cluster {
     /// Clusters that wait for its tokens.
     pub downstream: BTreeSet<usize>,
     /// Asynchronous connections that its nodes send on, in the order in which their tokens are emitted.
-    pub sends: Vec<usize>,
+    pub sends: Vec<ConnectionId>,
     /// Schedule of a firing.
     pub block: Block,
 }
@@ -110,7 +110,7 @@ impl Cluster {
     /// Returns `true` if the cluster needs no dispatcher: it fires once per reaction, exchanges no synchronous
     /// tokens with other clusters, and nothing that it sends can hold it back.
     pub fn is_free(&self, graph: &Graph, analysis: &Analysis) -> bool {
-        let holds_back = |c: &usize| {
+        let holds_back = |c: &ConnectionId| {
             analysis.asynchronous.may_block[*c] && graph.port(graph.connections[*c].from).kind == PortKind::Output
         };
         self.upstream.is_empty()
@@ -300,7 +300,7 @@ impl View<'_> {
     /// Returns `true` if an output of a node leads to a slot that may leave the token there. Until it is taken, the
     /// nodes upstream are held back (R4).
     fn sends_what_stays(&self, node: NodeId) -> bool {
-        let is_output = |c: &usize| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
+        let is_output = |c: &ConnectionId| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
         self.links.sends[node].iter().any(|c| is_output(c) && self.asynchronous.may_block[*c])
     }
 }
@@ -407,7 +407,7 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize
 /// with delays: all nodes are visited until nothing changes.
 fn accumulate(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>) -> IdVec<NodeId, BTreeSet<usize>> {
     let View { graph, links, order, .. } = *view;
-    let tokens: BTreeMap<usize, usize> = guards
+    let tokens: BTreeMap<ConnectionId, usize> = guards
         .iter()
         .enumerate()
         .filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })

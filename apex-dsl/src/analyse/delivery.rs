@@ -6,7 +6,7 @@
 //! presence of a third, the program has a queue.
 
 use super::{Analysis, Asynchronous, Links, asynchronous::events};
-use crate::graph::{Flow, Graph, NodeId, NodeKind, PortId};
+use crate::graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Storage of the order of slot tokens.
@@ -27,7 +27,7 @@ const MAX_ORDERED: usize = 64;
 pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
     let asynchronous = &analysis.asynchronous;
     let resets = graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset));
-    let is_ordered = |sends: &Vec<usize>| ordered(graph, &analysis.links, asynchronous, sends).is_some();
+    let is_ordered = |sends: &Vec<ConnectionId>| ordered(graph, &analysis.links, asynchronous, sends).is_some();
     asynchronous.delivery == Delivery::Queued
         && !asynchronous.is_tabled
         && !asynchronous.endless
@@ -40,11 +40,11 @@ pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
 /// Returns `true` if tokens that go to slots go nowhere else, so that the last slot can take them away.
 fn all_alone(graph: &Graph, asynchronous: &Asynchronous) -> bool {
     let sent: BTreeSet<PortId> = asynchronous.slots.iter().map(|c| graph.connections[*c].from).collect();
-    graph.connections.iter().enumerate().all(|(i, c)| asynchronous.is_slot(i) || !sent.contains(&c.from))
+    graph.connections.iter_enumerated().all(|(i, c)| asynchronous.is_slot(i) || !sent.contains(&c.from))
 }
 
 /// Connections that each kind of step may send on, in the order in which tokens are emitted.
-fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<usize>> {
+fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<ConnectionId>> {
     let firings = analysis.clusters.iter().map(|c| c.sends.clone());
     let alone = |node: &NodeId| {
         let n = &graph.nodes[*node];
@@ -55,8 +55,8 @@ fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<usize>> {
 }
 
 /// Connections that the start of a program may send on, in the order in which tokens are emitted.
-pub fn at_start(graph: &Graph, analysis: &Analysis) -> Vec<usize> {
-    let starts = |c: &usize| {
+pub fn at_start(graph: &Graph, analysis: &Analysis) -> Vec<ConnectionId> {
+    let starts = |c: &ConnectionId| {
         let from = graph.connections[*c].from;
         let node = &graph.nodes[from.node];
         matches!(node.kind, NodeKind::Start) || node.starts_active && graph.port(from).tells_of_activity()
@@ -67,8 +67,13 @@ pub fn at_start(graph: &Graph, analysis: &Analysis) -> Vec<usize> {
 /// Slot tokens that follow a step which may have sent on `sends`, in the order in which they are taken. The first token
 /// whose slot can be called is taken first; the others keep their places. `None` if the order depends on which tokens
 /// were really sent.
-pub fn ordered(graph: &Graph, links: &Links, asynchronous: &Asynchronous, sends: &[usize]) -> Option<Vec<usize>> {
-    let mut queue: VecDeque<usize> = sends.iter().copied().filter(|c| asynchronous.is_slot(*c)).collect();
+pub fn ordered(
+    graph: &Graph,
+    links: &Links,
+    asynchronous: &Asynchronous,
+    sends: &[ConnectionId],
+) -> Option<Vec<ConnectionId>> {
+    let mut queue: VecDeque<ConnectionId> = sends.iter().copied().filter(|c| asynchronous.is_slot(*c)).collect();
     let mut order = vec![];
     while !queue.is_empty() {
         let taken = queue.remove(next(graph, links, &queue)?)?;
@@ -89,14 +94,14 @@ pub fn ordered(graph: &Graph, links: &Links, asynchronous: &Asynchronous, sends:
 /// Position in the queue of the token that is taken next, whichever others are absent. A slot waits until the events of
 /// its node are taken (R5). If the first token waits, the second must be the one that it waits for. `None` if the
 /// position is not certain.
-fn next(graph: &Graph, links: &Links, queue: &VecDeque<usize>) -> Option<usize> {
-    let waits_for = |c: usize| {
-        let events: Vec<usize> = events(graph, links, graph.connections[c].to.node).collect();
+fn next(graph: &Graph, links: &Links, queue: &VecDeque<ConnectionId>) -> Option<usize> {
+    let waits_for = |c: ConnectionId| {
+        let events: Vec<ConnectionId> = events(graph, links, graph.connections[c].to.node).collect();
         let may_block = events.iter().any(|c| graph.flow(&graph.connections[*c]) != Flow::ToSlot);
         let leaves = matches!(graph.nodes[graph.connections[c].to.node].kind, NodeKind::Boundary(_));
         (!may_block && !leaves).then_some(events)
     };
-    let held_back = |events: &[usize]| queue.iter().any(|c| events.contains(c));
+    let held_back = |events: &[ConnectionId]| queue.iter().any(|c| events.contains(c));
     let first = waits_for(queue[0])?;
     if !held_back(&first) {
         return Some(0);

@@ -3,7 +3,7 @@
 use super::{Cluster, Links, asynchronous::by_process, fires};
 use crate::{
     catalog::Catalog,
-    graph::{Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
@@ -15,17 +15,22 @@ use crate::{
 /// The search starts at ports that send without a token before, and follows the tokens. A slot needs one token; a
 /// firing needs one at each input. With `a.e -> n.x` and `b.e -> n.y`, where `b.e` is never triggered, `n` does not
 /// fire, and does not send either.
-pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize>]) -> Vec<bool> {
+pub fn live(
+    graph: &Graph,
+    catalog: &Catalog,
+    links: &Links,
+    causes: &IdVec<ConnectionId, Vec<ConnectionId>>,
+) -> IdVec<ConnectionId, bool> {
     let mut search = Search {
         graph,
         causes,
-        live: vec![false; graph.connections.len()],
+        live: IdVec::from_elem(false, graph.connections.len()),
         missing: links.inputs.iter().map(Vec::len).collect(),
         found: vec![],
     };
     for node in graph.nodes.ids() {
         let starts = fires(graph, catalog, links, node) && links.inputs[node].is_empty();
-        let is_first = |c: &usize| {
+        let is_first = |c: &ConnectionId| {
             let from = graph.connections[*c].from;
             begins(graph, from) || starts && is_sent(graph, catalog, from)
         };
@@ -40,23 +45,23 @@ pub fn live(graph: &Graph, catalog: &Catalog, links: &Links, causes: &[Vec<usize
 /// A search for live connections.
 struct Search<'a> {
     graph: &'a Graph,
-    causes: &'a [Vec<usize>],
-    live: Vec<bool>,
+    causes: &'a IdVec<ConnectionId, Vec<ConnectionId>>,
+    live: IdVec<ConnectionId, bool>,
     /// Number of inputs of each node that no token has reached yet.
     missing: IdVec<NodeId, usize>,
     /// Live connections that have not been followed yet.
-    found: Vec<usize>,
+    found: Vec<ConnectionId>,
 }
 
 impl Search<'_> {
-    fn find(&mut self, connection: usize) {
+    fn find(&mut self, connection: ConnectionId) {
         if !std::mem::replace(&mut self.live[connection], true) {
             self.found.push(connection);
         }
     }
 
     /// Follows a token: a slot takes each one, and a node fires when all its inputs have one.
-    fn follow(&mut self, catalog: &Catalog, links: &Links, connection: usize) {
+    fn follow(&mut self, catalog: &Catalog, links: &Links, connection: ConnectionId) {
         let c = &self.graph.connections[connection];
         if self.graph.flow(c) == Flow::ToSlot {
             self.causes[connection].iter().for_each(|next| self.find(*next));
@@ -65,8 +70,8 @@ impl Search<'_> {
         let node = c.to.node;
         self.missing[node] -= 1;
         if self.missing[node] == 0 {
-            let sent = |c: &usize| is_sent(self.graph, catalog, self.graph.connections[*c].from);
-            let sent: Vec<usize> = links.from(node).filter(sent).collect();
+            let sent = |c: &ConnectionId| is_sent(self.graph, catalog, self.graph.connections[*c].from);
+            let sent: Vec<ConnectionId> = links.from(node).filter(sent).collect();
             sent.into_iter().for_each(|c| self.find(c));
         }
     }
@@ -95,7 +100,7 @@ fn is_sent(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
 }
 
 /// Marks the clusters that never fire because a token that they wait for never arrives.
-pub fn mark(clusters: &mut [Cluster], links: &Links, live: &[bool]) {
+pub fn mark(clusters: &mut [Cluster], links: &Links, live: &IdVec<ConnectionId, bool>) {
     let lacks = |c: &Cluster| c.nodes.iter().flat_map(|n| &links.inputs[*n]).any(|c| !live[*c]);
     let mut dead: Vec<usize> = (0..clusters.len()).filter(|c| lacks(&clusters[*c])).collect();
     while let Some(index) = dead.pop() {
@@ -106,12 +111,12 @@ pub fn mark(clusters: &mut [Cluster], links: &Links, live: &[bool]) {
 }
 
 /// Warns of nodes that wait for an event that never comes.
-pub fn check_live(graph: &Graph, links: &Links, live: &[bool], diagnostics: &mut Diagnostics) {
+pub fn check_live(graph: &Graph, links: &Links, live: &IdVec<ConnectionId, bool>, diagnostics: &mut Diagnostics) {
     if graph.is_body || graph.is_open {
         return;
     }
     let waits_itself = |node: NodeId| links.inputs[node].iter().any(|c| !live[*c]);
-    for (index, c) in graph.connections.iter().enumerate() {
+    for (index, c) in graph.connections.iter_enumerated() {
         if live[index] || graph.flow(c) != Flow::ToInput || waits_itself(c.from.node) {
             continue;
         }

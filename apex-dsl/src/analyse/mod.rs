@@ -32,7 +32,7 @@ mod steps;
 
 use crate::{
     catalog::Catalog,
-    graph::{Flow, Graph, NodeId, NodeKind, PortId},
+    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
@@ -93,14 +93,14 @@ impl Analysis {
 #[derive(Debug)]
 pub struct Links {
     /// Synchronous connections into each node.
-    pub into: IdVec<NodeId, Vec<usize>>,
+    pub into: IdVec<NodeId, Vec<ConnectionId>>,
     /// Synchronous connections out of each node.
-    pub out_of: IdVec<NodeId, Vec<usize>>,
+    pub out_of: IdVec<NodeId, Vec<ConnectionId>>,
     /// All connections into the inputs of each node.
-    pub inputs: IdVec<NodeId, Vec<usize>>,
+    pub inputs: IdVec<NodeId, Vec<ConnectionId>>,
     /// Asynchronous connections out of each node that can carry tokens, in the order of its ports, then of the source
     /// file.
-    pub sends: IdVec<NodeId, Vec<usize>>,
+    pub sends: IdVec<NodeId, Vec<ConnectionId>>,
     /// Loops with delays.
     pub loops: Loops,
 }
@@ -111,7 +111,7 @@ impl Links {
         let none = IdVec::from_elem(vec![], graph.nodes.len());
         let loops = Loops::default();
         let mut links = Self { into: none.clone(), out_of: none.clone(), inputs: none.clone(), sends: none, loops };
-        for (index, connection) in graph.connections.iter().enumerate() {
+        for (index, connection) in graph.connections.iter_enumerated() {
             let flow = graph.flow(connection);
             if flow == Flow::Synchronous {
                 links.into[connection.to.node].push(index);
@@ -131,7 +131,7 @@ impl Links {
     }
 
     /// All connections out of `node` that can carry tokens: the asynchronous ones, then the synchronous ones.
-    pub fn from(&self, node: NodeId) -> impl Iterator<Item = usize> + '_ {
+    pub fn from(&self, node: NodeId) -> impl Iterator<Item = ConnectionId> + '_ {
         self.sends[node].iter().chain(&self.out_of[node]).copied()
     }
 

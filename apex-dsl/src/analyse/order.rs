@@ -11,7 +11,7 @@
 
 use super::Links;
 use crate::{
-    graph::{Connection, Crossing, Flow, Graph, NodeId, ScopeId},
+    graph::{Connection, ConnectionId, Crossing, Flow, Graph, NodeId, ScopeId},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
 };
@@ -32,14 +32,14 @@ enum Vertex {
 /// Order graph: vertices by number, and edges out of each vertex with the connection that they come from.
 struct Precedence {
     vertices: Vec<Vertex>,
-    edges: Vec<Vec<(usize, Option<usize>)>>,
+    edges: Vec<Vec<(usize, Option<ConnectionId>)>>,
 }
 
 impl Precedence {
     /// Order graph of one iteration: without the connections from delays on loops, with the edges of
     /// [`Loops::begun_by`].
     fn new(graph: &Graph, links: &Links) -> Self {
-        let is_taken = |c: &usize| !links.loops.delays.contains(&graph.connections[*c].from.node);
+        let is_taken = |c: &ConnectionId| !links.loops.delays.contains(&graph.connections[*c].from.node);
         let mut precedence = Self::of(graph, links.into.iter().flatten().copied().filter(is_taken));
         for (node, begun) in &links.loops.begun_by {
             precedence.edges[node.index()].extend(begun.iter().map(|next| (next.index(), None)));
@@ -48,7 +48,7 @@ impl Precedence {
     }
 
     /// Order graph of some connections. A connection to a slot counts up to the last boundary that it crosses.
-    fn of(graph: &Graph, connections: impl Iterator<Item = usize>) -> Self {
+    fn of(graph: &Graph, connections: impl Iterator<Item = ConnectionId>) -> Self {
         let nodes = graph.nodes.len();
         let scopes = graph.scopes.len();
         let mut vertices: Vec<Vertex> = graph.nodes.ids().map(Vertex::Node).collect();
@@ -128,7 +128,7 @@ impl Loops {
 /// For each node the number of its strongly connected component. Two nodes have the same number if they are on a common
 /// cycle of synchronous connections, which may lead through delays and through boundaries of nested graphs.
 pub fn circles(graph: &Graph) -> IdVec<NodeId, usize> {
-    let synchronous = (0..graph.connections.len()).filter(|c| graph.is_synchronous(&graph.connections[*c]));
+    let synchronous = graph.connections.ids().filter(|c| graph.is_synchronous(&graph.connections[*c]));
     let mut part = components(&Precedence::of(graph, synchronous).edges);
     part.truncate(graph.nodes.len());
     part.into()
@@ -136,18 +136,18 @@ pub fn circles(graph: &Graph) -> IdVec<NodeId, usize> {
 
 /// Connections from events to inputs that lie on a cycle. The cycle may lead through delays, and through boundaries of
 /// nested graphs.
-pub fn events_on_circles(graph: &Graph) -> Vec<usize> {
-    let edges = Precedence::of(graph, 0..graph.connections.len()).edges;
+pub fn events_on_circles(graph: &Graph) -> Vec<ConnectionId> {
+    let edges = Precedence::of(graph, graph.connections.ids()).edges;
     let part = components(&edges);
-    let is_on_circle = |c: &usize| {
+    let is_on_circle = |c: &ConnectionId| {
         let c = &graph.connections[*c];
         graph.flow(c) == Flow::ToInput && part[c.from.node.index()] == part[c.to.node.index()]
     };
-    (0..graph.connections.len()).filter(is_on_circle).collect()
+    graph.connections.ids().filter(is_on_circle).collect()
 }
 
 /// Strongly connected component of each vertex, as the number of one of its members (Kosaraju and Sharir).
-fn components(edges: &[Vec<(usize, Option<usize>)>]) -> Vec<usize> {
+fn components(edges: &[Vec<(usize, Option<ConnectionId>)>]) -> Vec<usize> {
     let after: Vec<Vec<usize>> = edges.iter().map(|e| e.iter().map(|(next, _)| *next).collect()).collect();
     let mut before = vec![vec![]; edges.len()];
     for (vertex, next) in after.iter().enumerate() {
@@ -218,7 +218,7 @@ pub fn order(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Opt
 
 /// Reports a cycle. Each vertex that still waits has a predecessor that still waits, so walking back leads into one.
 fn report_cycle(graph: &Graph, precedence: &Precedence, waits: &[usize], diagnostics: &mut Diagnostics) {
-    let mut back: Vec<Option<(usize, Option<usize>)>> = vec![None; waits.len()];
+    let mut back: Vec<Option<(usize, Option<ConnectionId>)>> = vec![None; waits.len()];
     for (vertex, edges) in precedence.edges.iter().enumerate().filter(|(v, _)| waits[*v] > 0) {
         for (next, connection) in edges.iter().filter(|(n, _)| waits[*n] > 0) {
             back[*next] = Some((vertex, *connection));

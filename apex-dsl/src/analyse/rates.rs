@@ -7,7 +7,7 @@
 use super::Analysis;
 use super::Links;
 use crate::{
-    graph::{Graph, NodeId},
+    graph::{ConnectionId, Graph, NodeId},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
 };
@@ -18,7 +18,7 @@ pub const MAX_REPETITIONS: u64 = 100_000;
 /// The smallest repetition vector. Reports a cycle of connections whose rates contradict each other.
 pub fn repetitions(graph: &Graph, links: &Links, diagnostics: &mut Diagnostics) -> Option<IdVec<NodeId, u64>> {
     let mut rates: IdVec<NodeId, Option<(u64, u64)>> = IdVec::from_elem(None, graph.nodes.len());
-    let mut reached: IdVec<NodeId, Option<usize>> = IdVec::from_elem(None, graph.nodes.len());
+    let mut reached: IdVec<NodeId, Option<ConnectionId>> = IdVec::from_elem(None, graph.nodes.len());
     let mut repetitions = IdVec::from_elem(1, graph.nodes.len());
     for start in graph.nodes.ids() {
         if rates[start].is_some() {
@@ -87,7 +87,7 @@ fn scale((n, d): (u64, u64), up: u64, down: u64) -> Option<(u64, u64)> {
     Some((n / g, d / g))
 }
 
-fn too_many(graph: &Graph, connection: usize, diagnostics: &mut Diagnostics) {
+fn too_many(graph: &Graph, connection: ConnectionId, diagnostics: &mut Diagnostics) {
     let message = format!("one iteration would need more than {MAX_REPETITIONS} firings of a node");
     diagnostics.push(
         Diagnostic::error("rates", graph.connections[connection].span, message)
@@ -97,14 +97,14 @@ fn too_many(graph: &Graph, connection: usize, diagnostics: &mut Diagnostics) {
 
 fn contradiction(
     graph: &Graph,
-    connection: usize,
+    connection: ConnectionId,
     node: NodeId,
-    reached: &IdVec<NodeId, Option<usize>>,
+    reached: &IdVec<NodeId, Option<ConnectionId>>,
     diagnostics: &mut Diagnostics,
 ) {
     let c = &graph.connections[connection];
     let other = if c.from.node == node { c.to.node } else { c.from.node };
-    let describe = |index: usize| {
+    let describe = |index: ConnectionId| {
         let c = &graph.connections[index];
         format!(
             "`{}` sends {} and `{}` takes {} per firing",
@@ -128,7 +128,7 @@ fn contradiction(
         }
     }
     path.sort_unstable();
-    let nodes = |index: &usize| [graph.connections[*index].from.node, graph.connections[*index].to.node];
+    let nodes = |index: &ConnectionId| [graph.connections[*index].from.node, graph.connections[*index].to.node];
     let mut names: Vec<String> =
         path.iter().chain([&connection]).flat_map(nodes).map(|n| format!("`{}`", graph.path(n))).collect();
     names.sort();

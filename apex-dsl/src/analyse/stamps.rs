@@ -9,7 +9,7 @@
 use super::{Analysis, Guard};
 use crate::{
     catalog::{ArgSig, Catalog},
-    graph::{Graph, NodeId, NodeKind},
+    graph::{ConnectionId, Graph, NodeId, NodeKind},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +19,7 @@ pub struct Stamps {
     /// Clusters with a node that uses stamps, and all from which its tokens come.
     pub clusters: BTreeSet<usize>,
     /// Asynchronous connections whose tokens have stamps.
-    pub connections: BTreeSet<usize>,
+    pub connections: BTreeSet<ConnectionId>,
 }
 
 /// Part of the graph that needs the stamps of its tokens.
@@ -30,7 +30,7 @@ enum Asks {
 
 /// Follows tokens upstream, from all nodes that use stamps to the sources.
 pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
-    let mut slots_of: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
+    let mut slots_of: BTreeMap<NodeId, Vec<ConnectionId>> = BTreeMap::new();
     for &slot in &analysis.asynchronous.slots {
         slots_of.entry(graph.connections[slot].to.node).or_default().push(slot);
     }
@@ -38,7 +38,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
     let mut open: Vec<Asks> = graph.nodes.ids().filter(first).map(Asks::Node).collect();
     let mut found = Stamps::default();
     while let Some(next) = open.pop() {
-        let mut sent_on: Vec<usize> = vec![];
+        let mut sent_on: Vec<ConnectionId> = vec![];
         match next {
             Asks::Node(node) => {
                 open.extend(analysis.fires_in(node).map(Asks::Cluster));

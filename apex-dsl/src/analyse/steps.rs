@@ -1,14 +1,14 @@
 //! Upper bound of the steps that the dispatcher takes until all consequences of a firing have finished.
 
 use super::Analysis;
-use crate::graph::{Flow, Graph};
+use crate::graph::{ConnectionId, Flow, Graph};
 use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Action that takes one step: the firing of a cluster, or the call of the slot at the end of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
     Cluster(usize),
-    Slot(usize),
+    Slot(ConnectionId),
 }
 
 impl Analysis {
@@ -38,7 +38,7 @@ impl Analysis {
     /// Steps that a step may cause. A cluster that takes tokens from several clusters fires once, when all tokens have
     /// arrived, but is counted for each of them.
     fn caused(&self, graph: &Graph, step: Step) -> Vec<Step> {
-        let after = |connection: &usize| {
+        let after = |connection: &ConnectionId| {
             let c = &graph.connections[*connection];
             match graph.flow(c) {
                 _ if !self.asynchronous.live[*connection] => None,

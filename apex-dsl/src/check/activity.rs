@@ -3,7 +3,7 @@
 use crate::{
     analyse::{active_nodes, active_nodes_within},
     catalog::Catalog,
-    graph::{Connection, Graph, NodeId, NodeKind, WireEnd},
+    graph::{Connection, ConnectionId, Graph, NodeId, NodeKind, WireEnd},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -36,9 +36,9 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
 }
 
 /// Nodes with outgoing `=>` that activity never reaches, each with the first of these connections.
-fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
+fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, ConnectionId> {
     let mut waiting = BTreeMap::new();
-    for (index, c) in graph.connections.iter().enumerate() {
+    for (index, c) in graph.connections.iter_enumerated() {
         let node = c.from.node;
         // A node that deactivates others needs no activity of its own for that.
         let takes_away =
@@ -56,10 +56,10 @@ fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTre
 }
 
 /// Nodes that activity reaches and never leaves although they send tokens, each with an outgoing connection.
-fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, usize> {
+fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, ConnectionId> {
     let mut stuck = BTreeMap::new();
     let mut passes = BTreeSet::new();
-    for (index, c) in graph.connections.iter().enumerate() {
+    for (index, c) in graph.connections.iter_enumerated() {
         if c.active {
             passes.insert(c.from.node);
         } else if reached.contains(&c.from.node) {
@@ -84,9 +84,9 @@ struct Check<'a> {
     /// Nodes that activity reaches.
     reached: BTreeSet<NodeId>,
     /// Nodes that wait for activity, with a connection that never carries any.
-    waiting: BTreeMap<NodeId, usize>,
+    waiting: BTreeMap<NodeId, ConnectionId>,
     /// Nodes that keep activity, with a connection that could have carried it on.
-    stuck: BTreeMap<NodeId, usize>,
+    stuck: BTreeMap<NodeId, ConnectionId>,
     next: IdVec<NodeId, Vec<NodeId>>,
 }
 

@@ -4,7 +4,7 @@
 use crate::{
     analyse::{active_nodes, takes_activity},
     catalog::Catalog,
-    graph::{Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ pub enum Place {
     /// A node: it is active.
     Node(NodeId),
     /// A connection, by number: it holds a token that carries activity.
-    Connection(usize),
+    Connection(ConnectionId),
 }
 
 /// A port over which a node passes its activity on.
@@ -57,7 +57,7 @@ pub enum Move {
     /// The token at this place is taken.
     Take(PlaceId),
     /// The connection with this number takes away the activity at this place.
-    Away(usize, PlaceId),
+    Away(ConnectionId, PlaceId),
 }
 
 /// Places and moves of the activity of a graph.
@@ -74,7 +74,7 @@ pub struct Model {
     /// Effect of activity at the end of each connection; `None` for nodes.
     pub arrivals: Vec<Option<Arrival>>,
     /// Connections that can take activity away from each place.
-    pub removers: Vec<Vec<usize>>,
+    pub removers: Vec<Vec<ConnectionId>>,
 }
 
 impl Model {
@@ -86,7 +86,7 @@ impl Model {
             NodeKind::Start => true,
             _ => reached.contains(&end.node) && gives_away(graph, catalog, end),
         };
-        let connections = graph.connections.iter().enumerate();
+        let connections = graph.connections.iter_enumerated();
         places.extend(connections.filter(|(_, c)| c.active && carries(c.from)).map(|(i, _)| Place::Connection(i)));
         let number: BTreeMap<Place, PlaceId> = (0..).zip(&places).map(|(i, p)| (*p, i)).collect();
         let mut model = Self {
@@ -110,7 +110,13 @@ impl Model {
         model
     }
 
-    fn add_connection(&mut self, graph: &Graph, number: &BTreeMap<Place, PlaceId>, index: usize, connection: usize) {
+    fn add_connection(
+        &mut self,
+        graph: &Graph,
+        number: &BTreeMap<Place, PlaceId>,
+        index: usize,
+        connection: ConnectionId,
+    ) {
         let c = &graph.connections[connection];
         self.arrivals[index] = Some(match (&graph.nodes[c.to.node].kind, number.get(&Place::Node(c.to.node))) {
             (_, Some(node)) => Arrival::Node(*node),
@@ -147,7 +153,7 @@ impl Model {
     }
 
     fn add_removers(&mut self, graph: &Graph, catalog: &Catalog, number: &BTreeMap<Place, PlaceId>) {
-        for (index, c) in graph.connections.iter().enumerate().filter(|(_, c)| c.active) {
+        for (index, c) in graph.connections.iter_enumerated().filter(|(_, c)| c.active) {
             if let Some(place) = number.get(&Place::Node(c.to.node))
                 && takes_activity(graph, catalog, c.from.node)
                 && can_fire(graph, catalog, c.from.node)

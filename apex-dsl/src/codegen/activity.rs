@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     analyse::{Analysis, Links, takes_activity},
-    graph::{Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -47,7 +47,7 @@ pub enum Carries {
 
 impl Generator<'_> {
     /// Activity that the tokens on `connection` may carry.
-    pub fn carries(&self, graph: &Graph, analysis: &Analysis, connection: usize) -> Carries {
+    pub fn carries(&self, graph: &Graph, analysis: &Analysis, connection: ConnectionId) -> Carries {
         let c = &graph.connections[connection];
         let checked = self.checks_claims();
         // Claims have to know of activity on its way to the end of the program.

@@ -2,7 +2,7 @@
 
 use crate::{
     analyse::{Analysis, Guard, Links},
-    graph::{Flow, Graph, NodeId, NodeKind},
+    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -18,8 +18,8 @@ pub struct Bits {
     guards: BTreeMap<usize, usize>,
     enabled: BTreeMap<usize, usize>,
     edges: BTreeMap<(usize, usize), usize>,
-    free: BTreeMap<usize, usize>,
-    tokens: BTreeMap<usize, usize>,
+    free: BTreeMap<ConnectionId, usize>,
+    tokens: BTreeMap<ConnectionId, usize>,
     room: BTreeMap<NodeId, usize>,
     count: usize,
 }
@@ -54,7 +54,7 @@ impl Bits {
                 bits.edges.insert((cluster, down), bit);
             }
         }
-        for (index, c) in graph.connections.iter().enumerate() {
+        for (index, c) in graph.connections.iter_enumerated() {
             if analysis.asynchronous.has_occupancy_bit[index] {
                 let bit = bits.next();
                 bits.free.insert(index, bit);
@@ -105,19 +105,19 @@ impl Bits {
     }
 
     /// "free" of an asynchronous connection, if it may stay occupied.
-    pub fn free(&self, connection: usize) -> Option<usize> {
+    pub fn free(&self, connection: ConnectionId) -> Option<usize> {
         self.free.get(&connection).copied()
     }
 
     /// "holds a token" of an asynchronous connection to an input.
-    pub fn token(&self, connection: usize) -> Option<usize> {
+    pub fn token(&self, connection: ConnectionId) -> Option<usize> {
         self.tokens.get(&connection).copied()
     }
 
     /// Descriptions of all conditions, by number.
     pub fn texts(&self, graph: &Graph, clusters: &[String], guard: &dyn Fn(usize) -> String) -> Vec<String> {
         let mut texts = vec![String::new(); self.count];
-        let connection = |c: usize| graph.connection_text(c);
+        let connection = |c: ConnectionId| graph.connection_text(c);
         self.guards.iter().for_each(|(g, bit)| texts[*bit] = guard(*g));
         self.enabled.iter().for_each(|(c, bit)| texts[*bit] = format!("{} is enabled", clusters[*c]));
         for ((from, to), bit) in &self.edges {
@@ -207,11 +207,11 @@ impl Bits {
     }
 
     /// For each token from an event that a cluster needs: the other tokens that it needs.
-    pub fn missing(&self, analysis: &Analysis, number: &dyn Fn(usize) -> Option<usize>) -> Vec<TokenStream> {
+    pub fn missing(&self, analysis: &Analysis, number: &dyn Fn(ConnectionId) -> Option<usize>) -> Vec<TokenStream> {
         let mut missing = vec![];
         for &index in &self.dispatched {
             let c = &analysis.clusters[index];
-            let events: Vec<usize> = c
+            let events: Vec<ConnectionId> = c
                 .own_guards
                 .iter()
                 .filter_map(|g| if let Guard::Token(c) = analysis.guards[*g] { Some(c) } else { None })
@@ -238,7 +238,7 @@ impl Bits {
 
     /// Conditions for serving each slot: its node can trigger its events (R5).
     pub fn needs(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<Vec<usize>> {
-        let needs = |connection: &usize| {
+        let needs = |connection: &ConnectionId| {
             let node = graph.connections[*connection].to.node;
             let events = analysis.asynchronous.not_yet_taken(graph, links, *connection);
             events.into_iter().filter_map(|c| self.free(c)).chain(self.room.get(&node).copied()).collect()

@@ -2,7 +2,7 @@
 
 use super::{Generator, activity::ProgramView, plan::is_buffer, wiring::Flag};
 use crate::{
-    graph::{CellEnd, Flow, Graph, NodeId, NodeKind, PortId},
+    graph::{CellEnd, ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -18,7 +18,7 @@ pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
 }
 
 /// Returns `true` if an asynchronous connection of a part carries ⊥, because it stands for synchronous data flow.
-pub fn carries_missing(graph: &Graph, connection: usize) -> bool {
+pub fn carries_missing(graph: &Graph, connection: ConnectionId) -> bool {
     let c = &graph.connections[connection];
     match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
         (_, NodeKind::Sender(_)) => graph.port(c.to).optional,

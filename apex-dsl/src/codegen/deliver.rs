@@ -3,7 +3,7 @@
 use super::{Generator, activity::ProgramView, types::ident, wiring::Slot};
 use crate::{
     analyse::{Delivery, ordered},
-    graph::NodeKind,
+    graph::{ConnectionId, NodeKind},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -62,15 +62,16 @@ impl Generator<'_> {
     }
 
     /// Serves the slots that tokens on `sends` can come to, one after the other, where that needs no queue.
-    pub fn deliver(&self, view: ProgramView<'_>, sends: &[usize]) -> TokenStream {
+    pub fn deliver(&self, view: ProgramView<'_>, sends: &[ConnectionId]) -> TokenStream {
         let asynchronous = &view.analysis.asynchronous;
         match asynchronous.delivery {
             Delivery::Queued => quote!(),
             Delivery::Single => self.deliver_single(view, sends),
             Delivery::Ordered => {
                 let connections = ordered(view.graph, view.links, asynchronous, sends).unwrap_or_default();
-                let ends =
-                    |c: &usize| matches!(view.graph.nodes[view.graph.connections[*c].to.node].kind, NodeKind::Exit(_));
+                let ends = |c: &ConnectionId| {
+                    matches!(view.graph.nodes[view.graph.connections[*c].to.node].kind, NodeKind::Exit(_))
+                };
                 let last = connections.iter().position(ends).unwrap_or(connections.len());
                 let goes_on = |at: usize| (at > last).then(|| quote!(&&self.state.exit.is_none()));
                 connections.iter().enumerate().map(|(at, c)| self.serve_one(view, *c, goes_on(at))).collect()
@@ -79,7 +80,7 @@ impl Generator<'_> {
     }
 
     /// Serves the slot at the end of a connection, if a token waits there and `test` allows it.
-    fn serve_one(&self, view: ProgramView<'_>, connection: usize, test: Option<TokenStream>) -> TokenStream {
+    fn serve_one(&self, view: ProgramView<'_>, connection: ConnectionId, test: Option<TokenStream>) -> TokenStream {
         let asynchronous = &view.analysis.asynchronous;
         let slot = asynchronous.slot(connection);
         let waits = self.waits(view.graph, view.graph.connections[connection].from);
@@ -90,7 +91,7 @@ impl Generator<'_> {
     }
 
     /// Delivery where at most one token is in flight. The token may follow a cycle.
-    fn deliver_single(&self, view: ProgramView<'_>, sends: &[usize]) -> TokenStream {
+    fn deliver_single(&self, view: ProgramView<'_>, sends: &[ConnectionId]) -> TokenStream {
         let (connections, circle) = view.analysis.asynchronous.following(sends);
         let serves: TokenStream = connections.iter().map(|c| self.serve_one(view, *c, None)).collect();
         if !circle {

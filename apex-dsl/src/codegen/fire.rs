@@ -10,7 +10,7 @@ use super::{
 use crate::{
     analyse::{Analysis, Block, Links, Step, handles_absence},
     catalog::{ArgSig, Signature},
-    graph::{Graph, Library, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -303,7 +303,7 @@ impl<'a> Emitter<'a> {
         self.connection(to).map(|c| self.graph.connections[c].from)
     }
 
-    fn connection(&self, to: PortId) -> Option<usize> {
+    fn connection(&self, to: PortId) -> Option<ConnectionId> {
         self.links.inputs[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
     }
 

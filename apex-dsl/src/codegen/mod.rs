@@ -44,7 +44,7 @@ pub use text::{module_name, text};
 use crate::{
     catalog::Catalog,
     claims::Decided,
-    graph::{Graph, NodeId},
+    graph::{ConnectionId, Graph, NodeId},
     program::Program,
     report::Diagnostics,
     source::{Sources, Span},
@@ -183,10 +183,10 @@ impl<'a> Generator<'a> {
     }
 
     /// The number of a connection in the table of all connections, unless it leads to another thread group.
-    fn connection(&self, connection: usize) -> Option<usize> {
+    fn connection(&self, connection: ConnectionId) -> Option<usize> {
         match self.part {
-            Some((_, part)) => part.connections[connection],
-            None => Some(connection),
+            Some((_, part)) => part.connections[connection].map(ConnectionId::index),
+            None => Some(connection.index()),
         }
     }
 }

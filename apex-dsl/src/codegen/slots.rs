@@ -12,16 +12,16 @@ use super::{
 use crate::{
     analyse::Delivery,
     catalog::{ArgSig, Signature},
-    graph::{Flow, Graph, Library, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Flow, Graph, Library, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
 
 /// Returns `true` if a slot removes its token. Without a queue, the last slot that a token reaches does.
-fn takes(view: ProgramView<'_>, connection: usize) -> bool {
+fn takes(view: ProgramView<'_>, connection: ConnectionId) -> bool {
     let from = view.graph.connections[connection].from;
-    let same = |c: &&usize| view.graph.connections[**c].from == from;
+    let same = |c: &&ConnectionId| view.graph.connections[**c].from == from;
     view.analysis.asynchronous.delivery != Delivery::Queued
         && view.links.sends[from.node].iter().rfind(same) == Some(&connection)
 }
@@ -149,7 +149,7 @@ impl Generator<'_> {
     }
 
     /// Documentation of what a connection leads to: ``` `stopped => waiting.enable`, mission.afg:27 ```.
-    fn docs_of_connection(&self, graph: &Graph, connection: usize) -> String {
+    fn docs_of_connection(&self, graph: &Graph, connection: ConnectionId) -> String {
         format!(" `{}`, {}.", graph.connection_text(connection), self.line(graph.connections[connection].span))
     }
 
@@ -190,7 +190,7 @@ impl Generator<'_> {
     }
 
     /// The call of a slot's method, or what the slot of a built-in node does.
-    pub fn call_slot(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+    pub fn call_slot(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
         let graph = view.graph;
         let c = &graph.connections[connection];
         let node = c.to.node;
@@ -227,7 +227,7 @@ impl Generator<'_> {
     }
 
     /// The token of a connection, where it lies: `Option<&T>`.
-    fn token(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+    fn token(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
         let from = view.graph.connections[connection].from;
         let name = self.name(from);
         match is_buffer(view.graph, self.catalog, from) {
@@ -237,7 +237,7 @@ impl Generator<'_> {
         }
     }
 
-    fn call_method(&self, view: ProgramView<'_>, connection: usize, library: &Library) -> TokenStream {
+    fn call_method(&self, view: ProgramView<'_>, connection: ConnectionId, library: &Library) -> TokenStream {
         let graph = view.graph;
         let c = &graph.connections[connection];
         let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
@@ -319,7 +319,13 @@ impl Generator<'_> {
     }
 
     /// Lets rustc judge a connection to a slot whose types the scan could not compare.
-    fn judged_slot(&self, graph: &Graph, connection: usize, library: &Library, signature: &Signature) -> TokenStream {
+    fn judged_slot(
+        &self,
+        graph: &Graph,
+        connection: ConnectionId,
+        library: &Library,
+        signature: &Signature,
+    ) -> TokenStream {
         let Some(link) = self.link(graph, connection) else { return quote!(token) };
         let c = &graph.connections[connection];
         let (node, index) = (self.node_type(graph, library), signature.ports[c.to.port].index);
@@ -361,7 +367,7 @@ impl Generator<'_> {
                     continue;
                 }
                 let (name, emit) = (self.name(end), self.emit(view, node, false));
-                let sent = graph.connections.iter().enumerate().filter(|(_, c)| c.from == end);
+                let sent = graph.connections.iter_enumerated().filter(|(_, c)| c.from == end);
                 let gains = sent.filter_map(|(i, c)| {
                     match (graph.flow(c) == Flow::ToSlot, self.carries(graph, view.analysis, i)) {
                         (true, Carries::Sometimes) => {

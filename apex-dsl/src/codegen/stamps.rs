@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     analyse::Guard,
-    graph::{Graph, NodeId, Standard},
+    graph::{ConnectionId, Graph, NodeId, Standard},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -55,13 +55,13 @@ impl Generator<'_> {
     }
 
     /// A slot's token is as old as what sent it.
-    pub fn stamp_of_slot(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+    pub fn stamp_of_slot(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
         let stamp = of_connection(view, connection);
         stamp.map(|stamp| quote! { let ctx = &ctx.since(state.#stamp); }).unwrap_or_default()
     }
 
     /// A token is sent.
-    pub fn stamp_sent(&self, view: ProgramView<'_>, connection: usize) -> TokenStream {
+    pub fn stamp_sent(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
         let stamp = of_connection(view, connection);
         stamp.map(|stamp| quote! { state.#stamp = ctx.stamp(); }).unwrap_or_default()
     }
@@ -82,13 +82,13 @@ fn is_left(view: ProgramView<'_>, cluster: usize) -> bool {
 }
 
 /// The place of a connection's stamp in the state, if it is kept.
-pub fn of_connection(view: ProgramView<'_>, connection: usize) -> Option<TokenStream> {
+pub fn of_connection(view: ProgramView<'_>, connection: ConnectionId) -> Option<TokenStream> {
     let index = number(view, connection)?;
     Some(quote!(stamps[#index]))
 }
 
 /// The number of a connection's stamp, if it is kept.
-pub fn number(view: ProgramView<'_>, connection: usize) -> Option<usize> {
+pub fn number(view: ProgramView<'_>, connection: ConnectionId) -> Option<usize> {
     view.analysis.stamps.connections.iter().position(|c| *c == connection)
 }
 

@@ -7,7 +7,7 @@
 use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
 use crate::{
     analyse::{Analysis, Delivery, Guard, takes_activity},
-    graph::{Flow, Graph, NodeId, NodeKind, PortId},
+    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::{
@@ -47,7 +47,7 @@ pub struct Port {
 /// An asynchronous connection, as its sender sees it.
 #[derive(Debug)]
 pub struct Send {
-    pub connection: usize,
+    pub connection: ConnectionId,
     /// The slot whose token is queued; `None` if the token itself tells that it waits.
     pub queued: Option<usize>,
     /// The condition that a token is there.
@@ -63,7 +63,7 @@ pub struct Send {
 pub struct Slot {
     /// Name of its function: `stopped_to_waiting_enable`.
     pub name: String,
-    pub connection: usize,
+    pub connection: ConnectionId,
     pub node: NodeId,
     /// The condition that the connection is free again.
     pub frees: Option<usize>,
@@ -194,7 +194,7 @@ impl Wiring {
 
 /// The rows of a node. Both orders are kept: a row says what its port does with activity unless an earlier one did.
 fn rows(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, bits: &Bits, node: NodeId) -> Vec<Port> {
-    let from = |c: &usize| graph.connections[*c].from;
+    let from = |c: &ConnectionId| graph.connections[*c].from;
     let sends = analysis.links.sends[node].chunk_by(|a, b| from(a) == from(b));
     let active: BTreeSet<PortId> =
         analysis.links.from(node).filter(|c| graph.connections[*c].active).map(|c| from(&c)).collect();
@@ -216,7 +216,7 @@ fn rows(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, bits: &Bi
     rows
 }
 
-fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: usize) -> Send {
+fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: ConnectionId) -> Send {
     let raises = bits.token(connection);
     let is_queued = analysis.asynchronous.delivery == Delivery::Queued && raises.is_none();
     Send {
@@ -231,7 +231,7 @@ fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: usize) -> S
 /// Effect of a token at `end` on activity.
 fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: PortId) -> Port {
     let connections = analysis.links.from(end.node);
-    let mut connections: Vec<usize> =
+    let mut connections: Vec<ConnectionId> =
         connections.filter(|c| graph.connections[*c].active && graph.connections[*c].from == end).collect();
     connections.sort_unstable();
     let (mut along, mut takes_away) = (vec![], vec![]);

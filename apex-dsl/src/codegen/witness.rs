@@ -7,7 +7,7 @@ use super::Generator;
 use crate::{
     catalog::{Match, Signature, Trait, Type},
     check::compare_types,
-    graph::{Graph, Library, NodeId, NodeKind, PortId, TypeArg, Value},
+    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, TypeArg, Value},
     source::Span,
     syntax::tree::PortKind,
 };
@@ -25,16 +25,16 @@ struct Message {
 
 impl Generator<'_> {
     /// Returns `true` if rustc compares the types of a connection: the scan could not, and both ends can be named.
-    fn is_compared_by_rustc(&self, graph: &Graph, connection: usize) -> bool {
+    fn is_compared_by_rustc(&self, graph: &Graph, connection: ConnectionId) -> bool {
         let c = &graph.connections[connection];
         let NodeKind::Library(library) = &graph.nodes[c.to.node].kind else { return false };
         library.types.is_empty() && graph.port(c.to).parameter.is_none() && compare_types(graph, c) == Match::Unknown
     }
 
     /// The trait that compares the types of a connection, if rustc has to.
-    pub fn link(&self, graph: &Graph, connection: usize) -> Option<Ident> {
+    pub fn link(&self, graph: &Graph, connection: ConnectionId) -> Option<Ident> {
         let number = self.names.number;
-        self.is_compared_by_rustc(graph, connection).then(|| format_ident!("Link{connection}Of{number}"))
+        self.is_compared_by_rustc(graph, connection).then(|| format_ident!("Link{}Of{number}", connection.index()))
     }
 
     /// A token as `Option<&T>` becomes `Option<T>`.
@@ -130,7 +130,7 @@ impl Generator<'_> {
     /// The traits of a graph, and a function that asks what no other code of the program does.
     pub fn witnesses(&self, graph: &Graph) -> TokenStream {
         let mut items = quote!();
-        for connection in 0..graph.connections.len() {
+        for connection in graph.connections.ids() {
             items.extend(self.link(graph, connection).map(|name| self.link_item(graph, connection, &name)));
         }
         let mut asked = quote!();
@@ -153,7 +153,7 @@ impl Generator<'_> {
         quote! { #items #function }
     }
 
-    fn link_item(&self, graph: &Graph, connection: usize, name: &Ident) -> TokenStream {
+    fn link_item(&self, graph: &Graph, connection: ConnectionId, name: &Ident) -> TokenStream {
         let c = &graph.connections[connection];
         let text =
             format!("`{}` sends `{{Self}}`, but `{}` takes `{{T}}`", graph.end_name(c.from), graph.end_name(c.to));

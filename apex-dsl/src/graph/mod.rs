@@ -24,6 +24,11 @@ id! {
     NodeId
 }
 
+id! {
+    /// Number of a connection in [`Graph::connections`].
+    ConnectionId
+}
+
 /// Number of a scope in [`Graph::scopes`].
 pub type ScopeId = usize;
 
@@ -51,7 +56,7 @@ pub struct Graph {
     /// Nodes in the order of the source file.
     pub nodes: IdVec<NodeId, Node>,
     /// Connections in the order of the source file.
-    pub connections: Vec<Connection>,
+    pub connections: IdVec<ConnectionId, Connection>,
     /// Scope 0 is the graph itself, each other one an instance of a nested graph; parents come first.
     pub scopes: Vec<Scope>,
     /// The ports of the nested graphs.
@@ -251,7 +256,7 @@ impl Graph {
     }
 
     /// A connection as written in a source file.
-    pub fn connection_text(&self, connection: usize) -> String {
+    pub fn connection_text(&self, connection: ConnectionId) -> String {
         let c = &self.connections[connection];
         let arrow = if c.active { "=>" } else { "->" };
         format!("{} {arrow} {}", self.end_name(c.from), self.end_name(c.to))

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     catalog::Catalog,
-    graph::{Crossing, Flow, Graph, NodeId, NodeKind, PortId},
+    graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -209,7 +209,7 @@ impl<'a> Builder<'a> {
         let mut ports = vec![];
         for port in 0..self.graph.nodes[node].ports.len() {
             let end = PortId { node, port };
-            let connections: BTreeSet<usize> = route::value_connections(self.graph, end).collect();
+            let connections: BTreeSet<ConnectionId> = route::value_connections(self.graph, end).collect();
             if connections.is_empty() {
                 continue;
             }

@@ -16,7 +16,7 @@ mod replay;
 mod route;
 mod state;
 
-use crate::graph::{self, Crossing, Graph, NodeId, PortId};
+use crate::graph::{self, ConnectionId, Crossing, Graph, NodeId, PortId};
 use std::fmt;
 
 pub use build::net;
@@ -76,7 +76,7 @@ pub enum TransitionKind {
     /// A port that sends only values sends none, or an event is not triggered.
     Suppress(PortId),
     /// The slot at the end of this connection takes the token on it.
-    Handle(usize),
+    Handle(ConnectionId),
     /// The slots of a node have finished.
     Handled(NodeId),
     /// All tokens at a boundary of a nested graph cross it together.
@@ -111,7 +111,7 @@ impl Net {
 }
 
 /// A connection as written in a source file.
-fn connection_name(graph: &Graph, connection: usize) -> String {
+fn connection_name(graph: &Graph, connection: ConnectionId) -> String {
     let c = &graph.connections[connection];
     format!("{} -> {}", graph.end_name(c.from), graph.end_name(c.to))
 }

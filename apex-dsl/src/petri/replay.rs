@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     catalog::Catalog,
-    graph::{Graph, NodeId, NodeKind},
+    graph::{ConnectionId, Graph, NodeId, NodeKind},
 };
 use std::{
     collections::{BTreeMap, BTreeSet, VecDeque},
@@ -162,10 +162,10 @@ impl<'a> Replay<'a> {
     ///
     /// # Errors
     /// Fails if it may not take the token.
-    pub fn handled(&mut self, connection: usize) -> Result<(), Wrong> {
+    pub fn handled(&mut self, connection: ConnectionId) -> Result<(), Wrong> {
         self.step += 1;
         let Some(handle) = self.by_kind.get(&TransitionKind::Handle(connection)).copied() else {
-            return Err(self.wrong(&format!("handled {connection}"), "it does not end at a slot".to_owned()));
+            return Err(self.wrong(&format!("handled {}", connection.index()), "it does not end at a slot".to_owned()));
         };
         let what = format!("handled {}", connection_name(self.graph, connection));
         self.check_debts(&what)?;

@@ -1,7 +1,7 @@
 //! Connections cut into legs at the boundaries of nested graphs, and the loops of a graph.
 
 use crate::{
-    graph::{Crossing, Flow, Graph, NodeId, NodeKind},
+    graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ pub enum SegmentEnd {
 #[derive(Debug, Clone, Copy)]
 pub struct Segment {
     /// The connection.
-    pub connection: usize,
+    pub connection: ConnectionId,
     /// Origin of the leg.
     pub from: SegmentEnd,
     /// Destination of the leg.
@@ -40,7 +40,7 @@ pub fn segments(graph: &Graph) -> Vec<Segment> {
 /// The legs, where connections from a node ignore the boundaries for which `passes` is true.
 fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Segment> {
     let mut segments = vec![];
-    for (connection, c) in graph.connections.iter().enumerate() {
+    for (connection, c) in graph.connections.iter_enumerated() {
         let mut from = SegmentEnd::Node(c.from.node);
         // A slot takes each token alone, so that no boundary holds it back.
         let sides = if graph.flow(c) == Flow::ToSlot { &[] } else { c.crossings.as_slice() };
@@ -128,12 +128,12 @@ pub fn reached(
 }
 
 /// Connections from a port that carry only values: those from an event, and those from an output to a slot.
-pub fn value_connections(graph: &Graph, end: crate::graph::PortId) -> impl Iterator<Item = usize> + '_ {
-    let connections = graph.connections.iter().enumerate();
+pub fn value_connections(graph: &Graph, end: crate::graph::PortId) -> impl Iterator<Item = ConnectionId> + '_ {
+    let connections = graph.connections.iter_enumerated();
     connections.filter(move |(_, c)| c.from == end && graph.flow(c) != Flow::Synchronous).map(|(i, _)| i)
 }
 
 /// Returns `true` if a connection starts at an event of its node.
-pub fn from_event(graph: &Graph, connection: usize) -> bool {
+pub fn from_event(graph: &Graph, connection: ConnectionId) -> bool {
     graph.port(graph.connections[connection].from).kind == PortKind::Event
 }

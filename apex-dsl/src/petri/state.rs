@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     catalog::Catalog,
-    graph::{Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard},
     index::IdVec,
     syntax::tree::PortKind,
 };
@@ -98,7 +98,7 @@ pub struct State<'a> {
 /// A leg with its token place.
 #[derive(Debug, Clone, Copy)]
 struct Link {
-    connection: usize,
+    connection: ConnectionId,
     token: PlaceId,
     synchronous: bool,
 }
@@ -448,7 +448,7 @@ impl<'a> State<'a> {
         self.decided.remove(&end).flatten().unwrap_or_default()
     }
 
-    fn handle(&mut self, connection: usize, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+    fn handle(&mut self, connection: ConnectionId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
         let to = self.graph.connections[connection].to;
         // A connection to a slot consists of a single leg.
         let link = self.from.values().flatten().find(|l| l.connection == connection);
@@ -476,7 +476,7 @@ impl<'a> State<'a> {
     fn pass(&mut self, side: Crossing, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
         let stop = SegmentEnd::Side(side);
         let into = self.into.get(&stop).into_iter().flatten();
-        let by_connection: BTreeMap<usize, Token> =
+        let by_connection: BTreeMap<ConnectionId, Token> =
             into.filter_map(|l| Some((l.connection, *tokens.get(&l.token)?))).collect();
         let from = self.from.get(&stop).into_iter().flatten();
         from.filter_map(|l| Some((l.token, *by_connection.get(&l.connection)?))).collect()

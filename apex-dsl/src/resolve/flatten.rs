@@ -2,7 +2,8 @@
 
 use super::{MAX_NODES, instance::Builder};
 use crate::{
-    graph::{Connection, Crossing, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Wire, WireEnd},
+    graph::{Connection, ConnectionId, Crossing, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Wire, WireEnd},
+    index::IdVec,
     report::Diagnostic,
     syntax::tree::{Ident, PortKind},
 };
@@ -10,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Replaces all pins by the ports that are connected through them. Also returns the nodes with an input at a pin
 /// without tokens.
-pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
+pub fn wires(builder: &mut Builder<'_>) -> (IdVec<ConnectionId, Connection>, BTreeSet<NodeId>) {
     let mut wires = builder.wires.clone();
     check_single(builder, &wires);
     add_relays(builder, &mut wires);
@@ -19,7 +20,7 @@ pub fn wires(builder: &mut Builder<'_>) -> (Vec<Connection>, BTreeSet<NodeId>) {
         into.entry(wire.to).or_default().push(i);
     }
     check_pins(builder, &into, &wires);
-    let mut connections = vec![];
+    let mut connections = IdVec::default();
     let mut seen = BTreeSet::new();
     for wire in &wires {
         let WireEnd::Port(to) = wire.to else { continue };

@@ -3,7 +3,7 @@
 use super::value::Wanted;
 use crate::{
     catalog::{Catalog, Signature, Type},
-    graph::{Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg},
+    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::{Expr, ExprKind, PortKind},
@@ -66,8 +66,8 @@ fn fit_values(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostic
 /// types of their own.
 pub fn settle(graph: &mut Graph, catalog: &Catalog) {
     substitute(graph, catalog);
-    let mut touching: IdVec<NodeId, Vec<usize>> = IdVec::from_elem(vec![], graph.nodes.len());
-    for (index, connection) in graph.connections.iter().enumerate() {
+    let mut touching: IdVec<NodeId, Vec<ConnectionId>> = IdVec::from_elem(vec![], graph.nodes.len());
+    for (index, connection) in graph.connections.iter_enumerated() {
         touching[connection.from.node].push(index);
         touching[connection.to.node].push(index);
     }
@@ -91,7 +91,13 @@ fn is_open(graph: &Graph, node: NodeId) -> bool {
 }
 
 /// Infers arguments of one node. Returns `true` if a new one is known.
-fn settle_node(graph: &mut Graph, catalog: &Catalog, node: NodeId, touching: &[usize], only_from_inputs: bool) -> bool {
+fn settle_node(
+    graph: &mut Graph,
+    catalog: &Catalog,
+    node: NodeId,
+    touching: &[ConnectionId],
+    only_from_inputs: bool,
+) -> bool {
     let NodeKind::Library(library) = graph.nodes[node].kind.clone() else { return false };
     let signature = &catalog.signatures[library.signature];
     let mut types = library.types.clone();

@@ -10,7 +10,7 @@ mod split;
 
 use crate::{
     analyse::Analysis,
-    graph::{Graph, NodeId, PortId},
+    graph::{ConnectionId, Graph, NodeId, PortId},
     index::IdVec,
 };
 
@@ -38,7 +38,7 @@ pub struct Part {
     /// For each node, its counterpart in the whole graph.
     pub origins: IdVec<NodeId, Origin>,
     /// For each connection, its number in the whole graph, unless it leads to a cell or a relay.
-    pub connections: Vec<Option<usize>>,
+    pub connections: IdVec<ConnectionId, Option<ConnectionId>>,
 }
 
 /// Counterpart of a node in the whole graph.

@@ -5,7 +5,8 @@ use crate::{
     analyse::{self, Analysis},
     catalog::Catalog,
     graph::{
-        CellEnd, Connection, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port, PortId, WATCH_GROUP,
+        CellEnd, Connection, ConnectionId, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port,
+        PortId, WATCH_GROUP,
     },
     index::IdVec,
     report::Diagnostics,
@@ -34,7 +35,7 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
     // The connections that share a cell must be known before it is made: they decide if it carries activity and stamps.
     splitter.gather();
     splitter.place_nodes();
-    for index in 0..whole.connections.len() {
+    for index in whole.connections.ids() {
         splitter.place_connection(index);
     }
     let Splitter { drafts, cells, .. } = splitter;
@@ -59,7 +60,7 @@ pub fn groups(graph: &Graph) -> Vec<&str> {
 struct Draft {
     graph: Graph,
     origins: IdVec<NodeId, Origin>,
-    connections: Vec<Option<usize>>,
+    connections: IdVec<ConnectionId, Option<ConnectionId>>,
 }
 
 impl Draft {
@@ -68,12 +69,12 @@ impl Draft {
             // The name of the group is not changed to camel case: `a_b` and `aB` are different groups.
             name: format!("{}On_{group}", whole.name),
             nodes: IdVec::default(),
-            connections: vec![],
+            connections: IdVec::default(),
             wires: vec![],
             claims: vec![],
             ..whole.clone()
         };
-        Self { graph, origins: IdVec::default(), connections: vec![] }
+        Self { graph, origins: IdVec::default(), connections: IdVec::default() }
     }
 
     fn add(&mut self, node: Node, origin: Origin) -> NodeId {
@@ -81,7 +82,7 @@ impl Draft {
         self.graph.nodes.push(node)
     }
 
-    fn connect(&mut self, connection: Connection, number: Option<usize>) {
+    fn connect(&mut self, connection: Connection, number: Option<ConnectionId>) {
         self.graph.connections.push(connection);
         self.connections.push(number);
     }
@@ -110,14 +111,14 @@ struct Splitter<'a> {
     placed: IdVec<NodeId, Option<NodeId>>,
     cells: Vec<Cell>,
     /// The connections that share each cell.
-    shared: BTreeMap<Way, Vec<usize>>,
+    shared: BTreeMap<Way, Vec<ConnectionId>>,
     /// The receiving end of each cell.
     ends: BTreeMap<Way, NodeId>,
 }
 
 impl Splitter<'_> {
     fn gather(&mut self) {
-        for (index, c) in self.whole.connections.iter().enumerate() {
+        for (index, c) in self.whole.connections.iter_enumerated() {
             if let Some(receiver) = self.group_of[c.to.node] {
                 self.shared.entry(self.way(c, receiver)).or_default().push(index);
             }
@@ -141,7 +142,7 @@ impl Splitter<'_> {
         Some(PortId { node: self.placed[end.node]?, port: end.port })
     }
 
-    fn place_connection(&mut self, index: usize) {
+    fn place_connection(&mut self, index: ConnectionId) {
         let c = &self.whole.connections[index];
         let (Some(receiver), Some(to)) = (self.group_of[c.to.node], self.place(c.to)) else { return };
         let sender = self.group_of[c.from.node];
@@ -176,7 +177,7 @@ impl Splitter<'_> {
     }
 
     /// Makes a cell for connection `index` and all that share it. Returns the receiving end.
-    fn add_cell(&mut self, index: usize, receiver: usize, leaving: Vec<Crossing>) -> NodeId {
+    fn add_cell(&mut self, index: ConnectionId, receiver: usize, leaving: Vec<Crossing>) -> NodeId {
         let first = self.whole.connections[index].clone();
         let sender = self.group_of[first.from.node];
         let way = self.way(&first, receiver);
@@ -213,7 +214,7 @@ impl Splitter<'_> {
     }
 
     /// Returns `true` if a node at the end of a connection, or downstream of it, needs stamps.
-    fn is_stamped(&self, connection: usize) -> bool {
+    fn is_stamped(&self, connection: ConnectionId) -> bool {
         let (stamps, to) = (&self.analysis.stamps, self.whole.connections[connection].to.node);
         stamps.connections.contains(&connection)
             || self.whole.is_synchronous(&self.whole.connections[connection])

@@ -3,7 +3,7 @@
 use super::script;
 use apex_dsl::{
     catalog::Catalog,
-    graph::{Graph, NodeId, NodeKind, PortId, Value},
+    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Value},
     passes,
     petri::{self, Call, Net, Origin, Replay},
     report::{Diagnostics, Severity},
@@ -39,7 +39,7 @@ pub enum Record {
     /// `F`: a node fires.
     Fired(NodeId),
     /// `H`: a slot takes the token on a connection.
-    Handled(usize),
+    Handled(ConnectionId),
     /// `A`: a node becomes active (`true`) or inactive (`false`).
     Activity(NodeId, bool),
     /// `T`: tokens of the previous call; `None` is ⊥.
@@ -125,7 +125,7 @@ fn record(line: &str) -> Option<Record> {
     Some(match kind {
         "R" => Record::Begin(first as u64),
         "F" => Record::Fired(NodeId::from(first as usize)),
-        "H" => Record::Handled(first as usize),
+        "H" => Record::Handled(ConnectionId::from(first as usize)),
         "A" => Record::Activity(NodeId::from(first as usize), numbers.get(1) == Some(&Some(1))),
         "T" => Record::Took(numbers),
         "E" => Record::PortId,
