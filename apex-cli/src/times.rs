@@ -93,10 +93,10 @@ fn threads<'a>(program: &'a Program, profile: &Profile) -> Vec<Thread<'a>> {
 fn thread<'a>(name: &'a str, graph: &Graph, analysis: &Analysis, profile: &Profile) -> Thread<'a> {
     let measured = |node: NodeId| profile.nodes.get(&graph.path(node));
     let all: f64 = graph.nodes.ids().filter_map(|node| Some(measured(node)?.all)).sum();
-    let clusters = analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires).map(|(number, cluster)| {
+    let clusters = analysis.clusters.iter_enumerated().filter(|(_, c)| c.fires).map(|(number, cluster)| {
         let nodes: Vec<NodeId> = cluster.schedule().into_iter().filter(|node| measured(*node).is_some()).collect();
         let longest = |node: &NodeId| measured(*node).map_or(0.0, |m| m.longest) * analysis.repetitions[*node] as f64;
-        (number, nodes.iter().map(|node| graph.path(*node)).collect(), nodes.iter().map(longest).sum())
+        (number.index(), nodes.iter().map(|node| graph.path(*node)).collect(), nodes.iter().map(longest).sum())
     });
     let clusters: Vec<(usize, Vec<String>, f64)> = clusters.collect();
     let is_in_none = |node: &NodeId| !clusters.iter().any(|(_, nodes, _)| nodes.contains(&graph.path(*node)));

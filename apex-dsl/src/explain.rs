@@ -1,7 +1,7 @@
 //! Report of the compiler's decisions, as text and as JSON.
 
 use crate::{
-    analyse::{Analysis, Block, Run, Step},
+    analyse::{Analysis, Block, ClusterId, Run, Step},
     catalog::Catalog,
     claims::Decided,
     codegen::{Storage, storage},
@@ -73,13 +73,13 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         regions.len(),
         analysis.clusters.len()
     );
-    for (index, cluster) in analysis.clusters.iter().enumerate() {
+    for (index, cluster) in analysis.clusters.iter_enumerated() {
         let guards: Vec<String> = cluster.own_guards.iter().map(|g| analysis.guards[*g].text(graph)).collect();
-        let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {c}")).collect();
+        let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {}", c.index())).collect();
         let waits = guards.into_iter().chain(upstream).collect::<Vec<_>>().join(", ");
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
         let never = if cluster.fires { "" } else { ", and never fires: some of these never arrive" };
-        let _ = writeln!(text, "{pad}cluster {index} (region {}) waits for {waits}{never}", cluster.region);
+        let _ = writeln!(text, "{pad}cluster {} (region {}) waits for {waits}{never}", index.index(), cluster.region);
         if !graph.is_body && cluster.fires && cluster.upstream.is_empty() {
             let steps = match analysis.steps_after(graph, index) {
                 Some(1) => "it is the only step until it is notified".to_owned(),
@@ -243,7 +243,7 @@ fn object(graph: &Graph, analysis: &Analysis, decided: &Decided, catalog: &Catal
             let clock: Vec<String> = analysis.clocks[node].iter().map(|end| graph.end_name(*end)).collect();
             let skips: Vec<String> = skipped(graph, analysis, node).into_iter().map(|n| graph.path(n)).collect();
             json!({
-                "name": graph.path(node), "region": analysis.regions[node], "cluster": analysis.cluster_of[node],
+                "name": graph.path(node), "region": analysis.regions[node], "cluster": analysis.cluster_of[node].index(),
                 "repetitions": analysis.repetitions[node], "essential": c.essential, "required": c.required,
                 "siblings": c.siblings, "joins": c.joins, "fires_if": clock, "skips": skips,
             })
@@ -255,7 +255,7 @@ fn object(graph: &Graph, analysis: &Analysis, decided: &Decided, catalog: &Catal
         .map(|c| {
             let guards: Vec<String> = c.own_guards.iter().map(|g| analysis.guards[*g].text(graph)).collect();
             let schedule: Vec<String> = c.schedule().into_iter().map(|n| graph.path(n)).collect();
-            json!({ "region": c.region, "guards": guards, "upstream": c.upstream, "downstream": c.downstream, "schedule": schedule, "steps": step_list(graph, &c.block) })
+            json!({ "region": c.region, "guards": guards, "upstream": numbers(&c.upstream), "downstream": numbers(&c.downstream), "schedule": schedule, "steps": step_list(graph, &c.block) })
         })
         .collect();
     let memory: Vec<Value> = kept(graph, analysis, catalog)
@@ -280,6 +280,10 @@ fn object(graph: &Graph, analysis: &Analysis, decided: &Decided, catalog: &Catal
         "name": graph.name, "nodes": nodes, "clusters": clusters, "memory": memory, "each": bodies,
         "claims": claims, "claim_states": decided.states,
     })
+}
+
+fn numbers(clusters: &BTreeSet<ClusterId>) -> Vec<usize> {
+    clusters.iter().map(|cluster| cluster.index()).collect()
 }
 
 fn step_list(graph: &Graph, block: &Block) -> Value {

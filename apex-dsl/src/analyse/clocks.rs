@@ -5,7 +5,7 @@
 //! and `g` both have the clock {`gate.out`}: one `if` skips both. If `f` may send ⊥, too, the clock of `g` is
 //! {`f.out`}. It need not contain `gate.out`, because `f` sends a value only if it fired.
 
-use super::{Links, handles_absence, may_be_missing};
+use super::{ClusterId, Links, handles_absence, may_be_missing};
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind, PortId},
@@ -22,7 +22,7 @@ pub fn clocks(
     catalog: &Catalog,
     links: &Links,
     order: &[NodeId],
-    cluster_of: &IdVec<NodeId, usize>,
+    cluster_of: &IdVec<NodeId, ClusterId>,
 ) -> IdVec<NodeId, Clock> {
     let mut clocks = IdVec::from_elem(Clock::new(), graph.nodes.len());
     for &node in order {
@@ -64,7 +64,12 @@ pub fn presence(graph: &Graph, catalog: &Catalog, clocks: &IdVec<NodeId, Clock>,
 }
 
 /// Removes the tokens that others in the clock imply: a token is present only if its node fired.
-fn reduce(clocks: &IdVec<NodeId, Clock>, cluster_of: &IdVec<NodeId, usize>, cluster: usize, clock: Clock) -> Clock {
+fn reduce(
+    clocks: &IdVec<NodeId, Clock>,
+    cluster_of: &IdVec<NodeId, ClusterId>,
+    cluster: ClusterId,
+    clock: Clock,
+) -> Clock {
     let implied = implied(clocks, cluster_of, cluster, &clock);
     clock.into_iter().filter(|token| !implied.contains(token)).collect()
 }
@@ -73,8 +78,8 @@ fn reduce(clocks: &IdVec<NodeId, Clock>, cluster_of: &IdVec<NodeId, usize>, clus
 /// implies it.
 pub fn implied(
     clocks: &IdVec<NodeId, Clock>,
-    cluster_of: &IdVec<NodeId, usize>,
-    cluster: usize,
+    cluster_of: &IdVec<NodeId, ClusterId>,
+    cluster: ClusterId,
     clock: &Clock,
 ) -> BTreeSet<PortId> {
     let mut implied = BTreeSet::new();

@@ -20,11 +20,16 @@ use super::{Analysis, Asynchronous, Block, Links, Step, demand_driven::demand_dr
 use crate::{
     catalog::Catalog,
     graph::{Connection, ConnectionId, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
-    index::IdVec,
+    index::{IdVec, id},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
+
+id! {
+    /// Number of a cluster in [`Analysis::clusters`].
+    ClusterId
+}
 
 /// Condition that a cluster waits for and that the synchronous schedule does not decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,9 +81,9 @@ pub struct Cluster {
     /// tokens.
     pub own_guards: Vec<usize>,
     /// Clusters whose tokens it waits for.
-    pub upstream: BTreeSet<usize>,
+    pub upstream: BTreeSet<ClusterId>,
     /// Clusters that wait for its tokens.
-    pub downstream: BTreeSet<usize>,
+    pub downstream: BTreeSet<ClusterId>,
     /// Asynchronous connections that its nodes send on, in the order in which their tokens are emitted.
     pub sends: Vec<ConnectionId>,
     /// Schedule of a firing.
@@ -178,7 +183,7 @@ pub fn clusters(
     order: &[NodeId],
     regions: &IdVec<NodeId, usize>,
     asynchronous: &Asynchronous,
-) -> (Vec<Guard>, Vec<Cluster>, IdVec<NodeId, usize>) {
+) -> (Vec<Guard>, IdVec<ClusterId, Cluster>, IdVec<NodeId, ClusterId>) {
     let mut guards = vec![];
     let mut own: IdVec<NodeId, Vec<usize>> = IdVec::from_elem(vec![], graph.nodes.len());
     for (id, node) in graph.nodes.iter_enumerated() {
@@ -211,10 +216,10 @@ pub fn clusters(
     let mut groups: Vec<_> = by_guards.into_iter().collect();
     // The dispatcher tests clusters in the order of the source file.
     groups.sort_by_key(|(_, nodes)| nodes.iter().min().copied());
-    let mut cluster_of = IdVec::from_elem(0, graph.nodes.len());
-    let mut clusters: Vec<Cluster> = vec![];
+    let mut cluster_of = IdVec::from_elem(ClusterId::from(0), graph.nodes.len());
+    let mut clusters: IdVec<ClusterId, Cluster> = IdVec::default();
     for ((region, set), nodes) in groups {
-        nodes.iter().for_each(|n| cluster_of[*n] = clusters.len());
+        nodes.iter().for_each(|n| cluster_of[*n] = ClusterId::from(clusters.len()));
         // A set, as several nodes can share a React guard.
         let own_guards: BTreeSet<usize> = nodes.iter().flat_map(|n| own[*n].iter().copied()).collect();
         let (upstream, downstream) = (BTreeSet::new(), BTreeSet::new());
@@ -237,7 +242,7 @@ pub fn clusters(
 
 /// Finds the clusters upstream and downstream of each cluster. A nested graph takes its inputs together and sends its
 /// outputs together, so a consumer behind a boundary waits for all clusters that send to the boundary.
-fn join(graph: &Graph, cluster_of: &IdVec<NodeId, usize>, clusters: &mut [Cluster]) {
+fn join(graph: &Graph, cluster_of: &IdVec<NodeId, ClusterId>, clusters: &mut IdVec<ClusterId, Cluster>) {
     let synchronous: Vec<&Connection> = graph.connections.iter().filter(|c| graph.is_synchronous(c)).collect();
     // Boundaries also feed other boundaries, in any order: repeat until nothing is added.
     let mut senders = Sides::new();
@@ -262,16 +267,16 @@ fn join(graph: &Graph, cluster_of: &IdVec<NodeId, usize>, clusters: &mut [Cluste
 }
 
 /// For each boundary of a nested graph, the clusters or guards of all tokens that arrive there.
-type Sides = BTreeMap<Crossing, BTreeSet<usize>>;
+type Sides<T> = BTreeMap<Crossing, BTreeSet<T>>;
 
 /// Passes `tokens` (clusters or guards) through the boundaries `crossings`, and returns what leaves the last one. At
 /// each boundary all that arrives there goes on together. `changed` is set if a boundary gets something new.
-fn pass_sides(
+fn pass_sides<T: Copy + Ord>(
     crossings: &[Crossing],
-    mut tokens: BTreeSet<usize>,
-    sides: &mut Sides,
+    mut tokens: BTreeSet<T>,
+    sides: &mut Sides<T>,
     changed: &mut bool,
-) -> BTreeSet<usize> {
+) -> BTreeSet<T> {
     for crossing in crossings {
         let side = sides.entry(*crossing).or_default();
         *changed |= !tokens.is_subset(side);

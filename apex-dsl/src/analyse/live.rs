@@ -1,6 +1,6 @@
 //! Connections that can ever carry a token. No code is generated for the others, and for nodes that wait for them.
 
-use super::{Cluster, Links, asynchronous::by_process, fires};
+use super::{Cluster, ClusterId, Links, asynchronous::by_process, fires};
 use crate::{
     catalog::Catalog,
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard},
@@ -100,9 +100,9 @@ fn is_sent(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
 }
 
 /// Marks the clusters that never fire because a token that they wait for never arrives.
-pub fn mark(clusters: &mut [Cluster], links: &Links, live: &IdVec<ConnectionId, bool>) {
+pub fn mark(clusters: &mut IdVec<ClusterId, Cluster>, links: &Links, live: &IdVec<ConnectionId, bool>) {
     let lacks = |c: &Cluster| c.nodes.iter().flat_map(|n| &links.inputs[*n]).any(|c| !live[*c]);
-    let mut dead: Vec<usize> = (0..clusters.len()).filter(|c| lacks(&clusters[*c])).collect();
+    let mut dead: Vec<ClusterId> = clusters.ids().filter(|c| lacks(&clusters[*c])).collect();
     while let Some(index) = dead.pop() {
         if std::mem::replace(&mut clusters[index].fires, false) {
             dead.extend(&clusters[index].downstream);

@@ -43,7 +43,7 @@ pub use activity::{reachable as active_nodes, reachable_within as active_nodes_w
 pub use asynchronous::{Asynchronous, MANY};
 pub use characteristics::Characteristics;
 pub use clocks::{Clock, is_mandatory};
-pub use clusters::{Cluster, Guard};
+pub use clusters::{Cluster, ClusterId, Guard};
 pub use delivery::{Delivery, at_start, ordered};
 pub use order::{Loops, circles, events_on_circles};
 pub use rates::has_rates;
@@ -62,9 +62,9 @@ pub struct Analysis {
     /// Guards of all clusters.
     pub guards: Vec<Guard>,
     /// Clusters, in the order of their first node.
-    pub clusters: Vec<Cluster>,
+    pub clusters: IdVec<ClusterId, Cluster>,
     /// Cluster of each node. Nodes that do not fire have the number 0, but are in no cluster.
-    pub cluster_of: IdVec<NodeId, usize>,
+    pub cluster_of: IdVec<NodeId, ClusterId>,
     /// Characteristics of each node for pruning (thesis eqs. 3.6–3.8).
     pub characteristics: IdVec<NodeId, Characteristics>,
     /// Clock of each node.
@@ -83,7 +83,7 @@ pub struct Analysis {
 
 impl Analysis {
     /// Cluster in which a node fires; `None` for a node that only has slots.
-    fn fires_in(&self, node: NodeId) -> Option<usize> {
+    fn fires_in(&self, node: NodeId) -> Option<ClusterId> {
         let cluster = self.cluster_of[node];
         self.clusters.get(cluster).is_some_and(|c| c.nodes.contains(&node)).then_some(cluster)
     }
@@ -192,7 +192,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         links,
         bodies,
     };
-    for cluster in 0..analysis.clusters.len() {
+    for cluster in analysis.clusters.ids() {
         let block = if rates::is_multirate(graph, &analysis, cluster) {
             let nodes = &analysis.clusters[cluster].nodes;
             let runs = iteration::runs(graph, &analysis.links, &analysis.repetitions, nodes, diagnostics)?;

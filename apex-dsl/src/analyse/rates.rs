@@ -4,8 +4,7 @@
 //! If `a` sends 2 tokens per firing and `b` takes 3, `a` fires 3 times and `b` twice. On an undirected cycle of
 //! connections the equations can contradict each other. Then there is no solution.
 
-use super::Analysis;
-use super::Links;
+use super::{Analysis, ClusterId, Links};
 use crate::{
     graph::{ConnectionId, Graph, NodeId},
     index::IdVec,
@@ -143,7 +142,7 @@ fn contradiction(
 }
 
 /// Returns `true` if a node in the region of a cluster has rates (see [`has_rates`]).
-pub(super) fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: usize) -> bool {
+pub(super) fn is_multirate(graph: &Graph, analysis: &Analysis, cluster: ClusterId) -> bool {
     let region = analysis.clusters[cluster].region;
     graph.nodes.ids().any(|n| analysis.regions[n] == region && has_rates(graph, analysis, n))
 }

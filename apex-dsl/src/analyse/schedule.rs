@@ -9,7 +9,7 @@
 //! block whose clock its own implies. Each block first fires the ready nodes with its own clock. Then it opens an inner
 //! block for the first ready node that needs more tokens.
 
-use super::{Analysis, Clock, Links, clocks::implied};
+use super::{Analysis, Clock, ClusterId, Links, clocks::implied};
 use crate::graph::{Graph, NodeId, PortId};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -63,14 +63,14 @@ struct Scheduler<'a> {
     graph: &'a Graph,
     links: &'a Links,
     analysis: &'a Analysis,
-    cluster: usize,
+    cluster: ClusterId,
     waits: BTreeMap<NodeId, usize>,
     rank: BTreeMap<NodeId, usize>,
     levels: Vec<Level>,
 }
 
 /// Schedule of a cluster.
-pub fn schedule(graph: &Graph, links: &Links, analysis: &Analysis, cluster: usize) -> Block {
+pub fn schedule(graph: &Graph, links: &Links, analysis: &Analysis, cluster: ClusterId) -> Block {
     let nodes = &analysis.clusters[cluster].nodes;
     let rank: BTreeMap<NodeId, usize> = nodes.iter().enumerate().map(|(rank, node)| (*node, rank)).collect();
     let mut waits: BTreeMap<NodeId, usize> = nodes.iter().map(|n| (*n, 0)).collect();

@@ -6,7 +6,7 @@
 //! `drive.stuck -> log.line`, where `seen` and `stuck` are events, `goal` and `line` slots. If `drive` has a
 //! `deadline`, its token from `find` and the cluster of `camera` and `find` have stamps; the token to `log` has none.
 
-use super::{Analysis, Guard};
+use super::{Analysis, ClusterId, Guard};
 use crate::{
     catalog::{ArgSig, Catalog},
     graph::{ConnectionId, Graph, NodeId, NodeKind},
@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Default)]
 pub struct Stamps {
     /// Clusters with a node that uses stamps, and all from which its tokens come.
-    pub clusters: BTreeSet<usize>,
+    pub clusters: BTreeSet<ClusterId>,
     /// Asynchronous connections whose tokens have stamps.
     pub connections: BTreeSet<ConnectionId>,
 }
@@ -25,7 +25,7 @@ pub struct Stamps {
 /// Part of the graph that needs the stamps of its tokens.
 enum Asks {
     Node(NodeId),
-    Cluster(usize),
+    Cluster(ClusterId),
 }
 
 /// Follows tokens upstream, from all nodes that use stamps to the sources.

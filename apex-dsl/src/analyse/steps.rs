@@ -1,20 +1,20 @@
 //! Upper bound of the steps that the dispatcher takes until all consequences of a firing have finished.
 
-use super::Analysis;
+use super::{Analysis, ClusterId};
 use crate::graph::{ConnectionId, Flow, Graph};
 use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Action that takes one step: the firing of a cluster, or the call of the slot at the end of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
-    Cluster(usize),
+    Cluster(ClusterId),
     Slot(ConnectionId),
 }
 
 impl Analysis {
     /// Largest number of steps from a firing of `cluster` until everything downstream has finished and all slots that
     /// it reaches have been called. `None` if there is no bound, because tokens can circulate.
-    pub fn steps_after(&self, graph: &Graph, cluster: usize) -> Option<u64> {
+    pub fn steps_after(&self, graph: &Graph, cluster: ClusterId) -> Option<u64> {
         // Depth-first search: a step is counted after all that it causes.
         let mut known = BTreeMap::new();
         let mut open = vec![(Step::Cluster(cluster), false)];

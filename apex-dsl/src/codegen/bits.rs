@@ -1,8 +1,9 @@
 //! The conditions that decide at run time what is ready, as bits, and the tables over them.
 
 use crate::{
-    analyse::{Analysis, Guard, Links},
+    analyse::{Analysis, ClusterId, Guard, Links},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind},
+    index::IdVec,
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -14,10 +15,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// "free" and, if it leads to an input, "holds a token"; for each event of the program "has room".
 #[derive(Debug)]
 pub struct Bits {
-    dispatched: Vec<usize>,
+    dispatched: Vec<ClusterId>,
     guards: BTreeMap<usize, usize>,
-    enabled: BTreeMap<usize, usize>,
-    edges: BTreeMap<(usize, usize), usize>,
+    enabled: BTreeMap<ClusterId, usize>,
+    edges: BTreeMap<(ClusterId, ClusterId), usize>,
     free: BTreeMap<ConnectionId, usize>,
     tokens: BTreeMap<ConnectionId, usize>,
     room: BTreeMap<NodeId, usize>,
@@ -28,9 +29,9 @@ impl Bits {
     /// Numbers the conditions of a program.
     pub fn new(graph: &Graph, analysis: &Analysis) -> Self {
         let clusters = &analysis.clusters;
-        let is_free = |c: &usize| clusters[*c].is_free(graph, analysis);
+        let is_free = |c: &ClusterId| clusters[*c].is_free(graph, analysis);
         let mut bits = Self {
-            dispatched: (0..clusters.len()).filter(|c| clusters[*c].fires && !is_free(c)).collect(),
+            dispatched: clusters.ids().filter(|c| clusters[*c].fires && !is_free(c)).collect(),
             guards: BTreeMap::new(),
             enabled: BTreeMap::new(),
             edges: BTreeMap::new(),
@@ -85,7 +86,7 @@ impl Bits {
     }
 
     /// The clusters that are dispatched, in the order of their rows.
-    pub fn dispatched(&self) -> &[usize] {
+    pub fn dispatched(&self) -> &[ClusterId] {
         &self.dispatched
     }
 
@@ -115,7 +116,12 @@ impl Bits {
     }
 
     /// Descriptions of all conditions, by number.
-    pub fn texts(&self, graph: &Graph, clusters: &[String], guard: &dyn Fn(usize) -> String) -> Vec<String> {
+    pub fn texts(
+        &self,
+        graph: &Graph,
+        clusters: &IdVec<ClusterId, String>,
+        guard: &dyn Fn(usize) -> String,
+    ) -> Vec<String> {
         let mut texts = vec![String::new(); self.count];
         let connection = |c: ConnectionId| graph.connection_text(c);
         self.guards.iter().for_each(|(g, bit)| texts[*bit] = guard(*g));
@@ -132,7 +138,7 @@ impl Bits {
     }
 
     /// The row of a cluster in the table.
-    pub fn row(&self, cluster: usize) -> Option<usize> {
+    pub fn row(&self, cluster: ClusterId) -> Option<usize> {
         self.dispatched.binary_search(&cluster).ok()
     }
 
@@ -255,7 +261,7 @@ fn list(bits: &[usize]) -> TokenStream {
 
 /// Returns `true` if all tokens from a cluster to another come from nodes that are free again as soon as they have
 /// fired.
-fn is_pipelined(graph: &Graph, analysis: &Analysis, cluster: usize, down: usize) -> bool {
+fn is_pipelined(graph: &Graph, analysis: &Analysis, cluster: ClusterId, down: ClusterId) -> bool {
     let of = |node: NodeId| analysis.cluster_of[node];
     let synchronous = graph.connections.iter().filter(|c| graph.is_synchronous(c));
     let mut between = synchronous.filter(|c| of(c.from.node) == cluster && of(c.to.node) == down).peekable();
@@ -263,15 +269,21 @@ fn is_pipelined(graph: &Graph, analysis: &Analysis, cluster: usize, down: usize)
 }
 
 /// All clusters from which tokens come to `cluster`; behind each stand those from which its own tokens come.
-fn above(graph: &Graph, analysis: &Analysis, cluster: usize) -> Vec<usize> {
-    fn visit(graph: &Graph, analysis: &Analysis, cluster: usize, seen: &mut BTreeSet<usize>, order: &mut Vec<usize>) {
+fn above(graph: &Graph, analysis: &Analysis, cluster: ClusterId) -> Vec<ClusterId> {
+    fn visit(
+        graph: &Graph,
+        analysis: &Analysis,
+        cluster: ClusterId,
+        seen: &mut BTreeSet<ClusterId>,
+        order: &mut Vec<ClusterId>,
+    ) {
         let relayed = analysis.clusters[cluster].own_guards.iter().filter_map(|g| match analysis.guards[*g] {
             Guard::Token(c) if graph.port(graph.connections[c].from).kind == PortKind::Output => {
                 Some(analysis.cluster_of[graph.connections[c].from.node])
             }
             _ => None,
         });
-        let ups: Vec<usize> = analysis.clusters[cluster].upstream.iter().copied().chain(relayed).collect();
+        let ups: Vec<ClusterId> = analysis.clusters[cluster].upstream.iter().copied().chain(relayed).collect();
         for up in ups {
             if seen.insert(up) {
                 visit(graph, analysis, up, seen, order);

@@ -1,7 +1,7 @@
 //! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
 
 use super::{Generator, activity::ProgramView, fire::Emitter, types::ident};
-use crate::analyse::{Guard, MANY};
+use crate::analyse::{ClusterId, Guard, MANY};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -19,11 +19,17 @@ fn share_functions(view: ProgramView<'_>) -> bool {
     view.analysis.clusters.len() > MANY
 }
 
+/// The number of the function that a cluster shares with others.
+fn chunk(cluster: ClusterId) -> usize {
+    cluster.index() / CHUNK
+}
+
 /// The call that fires a cluster.
-pub fn fire(view: ProgramView<'_>, cluster: usize) -> TokenStream {
+pub fn fire(view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
     match share_functions(view) {
         true => {
-            let (name, cluster) = (format_ident!("clusters_{}", cluster / CHUNK), Literal::usize_unsuffixed(cluster));
+            let (name, cluster) =
+                (format_ident!("clusters_{}", chunk(cluster)), Literal::usize_unsuffixed(cluster.index()));
             quote! { self.#name(#cluster, ctx, observer); }
         }
         false => {
@@ -34,7 +40,7 @@ pub fn fire(view: ProgramView<'_>, cluster: usize) -> TokenStream {
 }
 
 /// Documentation of a cluster: its nodes, in the order in which they fire.
-fn docs(view: ProgramView<'_>, cluster: usize) -> String {
+fn docs(view: ProgramView<'_>, cluster: ClusterId) -> String {
     const MOST: usize = 12;
     let nodes = view.analysis.clusters[cluster].schedule();
     let names = nodes.iter().map(|node| format!("`{}`", view.graph.path(*node)));
@@ -46,10 +52,10 @@ fn docs(view: ProgramView<'_>, cluster: usize) -> String {
 impl Generator<'_> {
     /// The functions that fire clusters.
     pub fn clusters(&self, view: ProgramView<'_>) -> TokenStream {
-        let firing = (0..view.analysis.clusters.len()).filter(|c| view.analysis.clusters[*c].fires);
-        let firing: Vec<usize> = firing.collect();
+        let firing = view.analysis.clusters.ids().filter(|c| view.analysis.clusters[*c].fires);
+        let firing: Vec<ClusterId> = firing.collect();
         if share_functions(view) {
-            return firing.chunk_by(|a, b| a / CHUNK == b / CHUNK).map(|chunk| self.chunk(view, chunk)).collect();
+            return firing.chunk_by(|a, b| chunk(*a) == chunk(*b)).map(|chunk| self.chunk(view, chunk)).collect();
         }
         let functions = firing.into_iter().map(|cluster| {
             let (name, code) = (ident(&view.wiring.clusters[cluster]), self.cluster(view, cluster));
@@ -67,10 +73,10 @@ impl Generator<'_> {
     }
 
     /// The function that fires the clusters of a chunk.
-    fn chunk(&self, view: ProgramView<'_>, chunk: &[usize]) -> TokenStream {
-        let name = format_ident!("clusters_{}", chunk[0] / CHUNK);
-        let arms = chunk.iter().map(|cluster| {
-            let (number, code) = (Literal::usize_unsuffixed(*cluster), self.cluster(view, *cluster));
+    fn chunk(&self, view: ProgramView<'_>, clusters: &[ClusterId]) -> TokenStream {
+        let name = format_ident!("clusters_{}", chunk(clusters[0]));
+        let arms = clusters.iter().map(|cluster| {
+            let (number, code) = (Literal::usize_unsuffixed(cluster.index()), self.cluster(view, *cluster));
             quote! { #number => { #code } }
         });
         quote! {
@@ -83,7 +89,7 @@ impl Generator<'_> {
     }
 
     /// Code of a cluster. The timers of its sources advance with it.
-    fn cluster(&self, view: ProgramView<'_>, cluster: usize) -> TokenStream {
+    fn cluster(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
         let guards = view.analysis.clusters[cluster].own_guards.iter();
         let timers = guards.filter_map(|guard| match view.analysis.guards[*guard] {
             Guard::Timer(node) => view.wiring.timer(node),
@@ -101,7 +107,7 @@ impl Generator<'_> {
 
 /// A cluster in the code of a reaction.
 pub struct Firing {
-    pub cluster: usize,
+    pub cluster: ClusterId,
     /// Its row in the table of the dispatcher; without one it fires once in a reaction.
     pub row: Option<usize>,
     pub fire: TokenStream,
@@ -143,9 +149,9 @@ pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&
     let count = firing.len();
     let budget = slots.map(|_| quote! { if self.state.steps.is_used_up() { break; } });
     let step = slots.map(|slots| quote! { self.state.steps.take(#slots + row); });
-    let numbers = firing.iter().map(|firing| Literal::usize_unsuffixed(firing.cluster));
+    let numbers = firing.iter().map(|firing| Literal::usize_unsuffixed(firing.cluster.index()));
     let chunks = 0..all.div_ceil(CHUNK);
-    let chunks = chunks.filter(|chunk| firing.iter().any(|firing| firing.cluster / CHUNK == *chunk)).map(|chunk| {
+    let chunks = chunks.filter(|number| firing.iter().any(|firing| chunk(firing.cluster) == *number)).map(|chunk| {
         let (name, chunk) = (format_ident!("clusters_{chunk}"), Literal::usize_unsuffixed(chunk));
         quote! { #chunk => self.#name(cluster, ctx, observer), }
     });

@@ -148,7 +148,7 @@ impl Generator<'_> {
         let has_exit = self.has_exit(graph);
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let firing = (0..analysis.clusters.len()).filter(|c| analysis.clusters[*c].fires).map(|cluster| {
+        let firing = analysis.clusters.ids().filter(|c| analysis.clusters[*c].fires).map(|cluster| {
             let c = &analysis.clusters[cluster];
             let served = match queued {
                 false => self.deliver(view, &c.sends),

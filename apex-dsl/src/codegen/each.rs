@@ -22,7 +22,9 @@ impl Emitter<'_> {
         let body = &*each.body;
         let Some(analysis) = self.analysis.bodies.get(&node) else { return quote!() };
         let wiring = Wiring::new(&generator, body, analysis);
-        let clusters: Vec<Emitter<'_>> = (0..analysis.clusters.len())
+        let clusters: Vec<Emitter<'_>> = analysis
+            .clusters
+            .ids()
             .map(|cluster| Emitter::new(&generator, ProgramView::new(body, analysis, &wiring), cluster))
             .collect();
         let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();

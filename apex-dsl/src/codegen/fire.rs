@@ -8,7 +8,7 @@ use super::{
     wiring::Flag,
 };
 use crate::{
-    analyse::{Analysis, Block, Links, Step, handles_absence},
+    analyse::{Analysis, Block, ClusterId, Links, Step, handles_absence},
     catalog::{ArgSig, Signature},
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
@@ -25,12 +25,12 @@ pub struct Emitter<'a> {
     pub analysis: &'a Analysis,
     pub links: &'a Links,
     pub plan: Plan,
-    pub cluster: usize,
+    pub cluster: ClusterId,
 }
 
 impl<'a> Emitter<'a> {
     /// An emitter for `cluster`.
-    pub fn new(generator: &'a Generator<'a>, view: ProgramView<'a>, cluster: usize) -> Self {
+    pub fn new(generator: &'a Generator<'a>, view: ProgramView<'a>, cluster: ClusterId) -> Self {
         let ProgramView { graph, analysis, links, .. } = view;
         let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
         Self { generator, view, graph, analysis, links, plan, cluster }

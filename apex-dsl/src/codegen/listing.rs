@@ -70,7 +70,7 @@ impl Generator<'_> {
     }
 
     fn list_clusters(&self, lines: &mut Lines, view: ProgramView<'_>) {
-        for (index, cluster) in view.analysis.clusters.iter().enumerate().filter(|(_, c)| c.fires) {
+        for (index, cluster) in view.analysis.clusters.iter_enumerated().filter(|(_, c)| c.fires) {
             let guards = cluster.own_guards.iter().map(|guard| view.analysis.guards[*guard].text(view.graph));
             let when: Vec<String> = guards.chain((!cluster.upstream.is_empty()).then(|| "tokens".to_owned())).collect();
             lines.add(1, &format!("cluster {}: {}", view.wiring.clusters[index], when.join(", ")));

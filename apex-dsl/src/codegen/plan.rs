@@ -2,7 +2,7 @@
 //! if other blocks use it, and the state of the program if a node writes it in place.
 
 use crate::{
-    analyse::{Analysis, Block, Links, Step, handles_absence, is_mandatory, may_be_missing},
+    analyse::{Analysis, Block, ClusterId, Links, Step, handles_absence, is_mandatory, may_be_missing},
     catalog::{ArgSig, Catalog},
     graph::{Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
@@ -73,7 +73,7 @@ pub fn storage(graph: &Graph, catalog: &Catalog, end: PortId) -> Storage {
 
 impl Plan {
     /// Plans `cluster`.
-    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, analysis: &Analysis, cluster: usize) -> Self {
+    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, analysis: &Analysis, cluster: ClusterId) -> Self {
         let mut plan = Self {
             parents: vec![],
             home: BTreeMap::new(),

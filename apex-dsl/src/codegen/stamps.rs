@@ -7,7 +7,7 @@ use super::{
     types::duration,
 };
 use crate::{
-    analyse::Guard,
+    analyse::{ClusterId, Guard},
     graph::{ConnectionId, Graph, NodeId, Standard},
 };
 use proc_macro2::TokenStream;
@@ -21,8 +21,9 @@ impl Generator<'_> {
             view.analysis.stamps.connections.iter().map(|c| view.graph.connection_text(*c)).collect();
         let fired = view.analysis.stamps.clusters.iter().filter(|c| is_left(view, **c));
         let (ty, make) = (quote!(::apex_rt::Time), quote!(::apex_rt::Time::ZERO));
-        let fired = fired
-            .map(|c| StateField::new(Kind::Stamp, format!("cluster {c}"), of_cluster(*c), ty.clone(), make.clone()));
+        let fired = fired.map(|c| {
+            StateField::new(Kind::Stamp, format!("cluster {}", c.index()), of_cluster(*c), ty.clone(), make.clone())
+        });
         let count = sent.len();
         let sent = (count > 0).then(|| {
             let (ty, make) = (quote!([#ty; #count]), quote!([#make; #count]));
@@ -32,7 +33,7 @@ impl Generator<'_> {
     }
 
     /// A firing of a cluster is as old as the oldest token that it takes.
-    pub fn stamp_of_firing(&self, view: ProgramView<'_>, cluster: usize) -> TokenStream {
+    pub fn stamp_of_firing(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
         if !view.analysis.stamps.clusters.contains(&cluster) {
             return quote!();
         }
@@ -76,7 +77,7 @@ impl Generator<'_> {
 }
 
 /// Returns `true` if clusters downstream need the time at which a cluster's source fired.
-fn is_left(view: ProgramView<'_>, cluster: usize) -> bool {
+fn is_left(view: ProgramView<'_>, cluster: ClusterId) -> bool {
     let down = &view.analysis.clusters[cluster].downstream;
     down.iter().any(|c| view.analysis.stamps.clusters.contains(c))
 }
@@ -92,6 +93,6 @@ pub fn number(view: ProgramView<'_>, connection: ConnectionId) -> Option<usize> 
     view.analysis.stamps.connections.iter().position(|c| *c == connection)
 }
 
-fn of_cluster(cluster: usize) -> Ident {
-    format_ident!("stamp_of_{cluster}")
+fn of_cluster(cluster: ClusterId) -> Ident {
+    format_ident!("stamp_of_{}", cluster.index())
 }

@@ -6,8 +6,9 @@
 
 use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
 use crate::{
-    analyse::{Analysis, Delivery, Guard, takes_activity},
+    analyse::{Analysis, ClusterId, Delivery, Guard, takes_activity},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
+    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::{
@@ -108,7 +109,7 @@ pub struct Wiring {
     /// The sources with timers, and the conditions that these are due.
     pub timers: Vec<(NodeId, usize)>,
     /// Names of the functions of clusters: `fire_camera`, by the first node of its schedule.
-    pub clusters: Vec<String>,
+    pub clusters: IdVec<ClusterId, String>,
     /// The timeouts, in the order of the nodes.
     pub timeouts: Vec<Timeout>,
     /// Slots and timeouts are so many that tables serve them.
