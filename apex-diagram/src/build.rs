@@ -19,7 +19,7 @@ pub fn diagram(graph: &Graph, machines: &Machines, catalog: &Catalog) -> Item {
     item.docs.clone_from(&graph.docs);
     let builder = Builder::new(graph, machines, catalog);
     item.ports = builder.boundaries().map(|node| builder.boundary_port(node)).collect();
-    item.inside = Some(builder.frame(0));
+    item.inside = Some(builder.frame(ScopeId::TOP));
     item
 }
 
@@ -87,7 +87,7 @@ impl<'a> Builder<'a> {
 
     fn own_places(&self, scope: ScopeId) -> BTreeMap<WireEnd, Anchor> {
         let places: Vec<WireEnd> = match scope {
-            0 => self.boundaries().map(|node| WireEnd::Port(PortId { node, port: 0 })).collect(),
+            ScopeId::TOP => self.boundaries().map(|node| WireEnd::Port(PortId { node, port: 0 })).collect(),
             _ => self.pins(scope).map(WireEnd::Pin).collect(),
         };
         places.into_iter().enumerate().map(|(port, place)| (place, Anchor::Own(port))).collect()
@@ -105,7 +105,7 @@ impl<'a> Builder<'a> {
             node.scope == scope && !hidden
         };
         let nodes = graph.nodes.ids().filter(drawn).map(|n| (graph.nodes[n].span.start, Member::Node(n)));
-        let inner = (1..graph.scopes.len()).filter(|s| graph.scopes[*s].parent == scope);
+        let inner = graph.nested().filter(|s| graph.scopes[*s].parent == scope);
         let inner = inner.map(|s| (graph.scopes[s].span.start, Member::Scope(s)));
         let mut all: Vec<(u32, Member)> = nodes.chain(inner).collect();
         all.sort_by_key(|(at, _)| *at);
@@ -214,7 +214,7 @@ impl<'a> Builder<'a> {
                 let mut item = Item::new(Shape::Node, &node.name);
                 item.words.push(body.name.clone());
                 item.docs.clone_from(&body.docs);
-                item.inside = Some(inner.frame(0));
+                item.inside = Some(inner.frame(ScopeId::TOP));
                 item
             }
         };

@@ -52,8 +52,8 @@ impl Precedence {
         let nodes = graph.nodes.len();
         let scopes = graph.scopes.len();
         let mut vertices: Vec<Vertex> = graph.nodes.ids().map(Vertex::Node).collect();
-        vertices.extend((0..scopes).map(Vertex::Enter));
-        vertices.extend((0..scopes).map(Vertex::Leave));
+        vertices.extend(graph.scopes.ids().map(Vertex::Enter));
+        vertices.extend(graph.scopes.ids().map(Vertex::Leave));
         let mut edges = vec![vec![]; vertices.len()];
         for connection in connections {
             let c = &graph.connections[connection];
@@ -76,8 +76,8 @@ impl Precedence {
 fn stations(graph: &Graph, connection: &Connection) -> impl Iterator<Item = usize> {
     let (nodes, scopes) = (graph.nodes.len(), graph.scopes.len());
     let sides = connection.crossings.iter().map(move |crossing| match crossing {
-        Crossing::Enter(scope) => nodes + scope,
-        Crossing::Leave(scope) => nodes + scopes + scope,
+        Crossing::Enter(scope) => nodes + scope.index(),
+        Crossing::Leave(scope) => nodes + scopes + scope.index(),
     });
     sides.chain((graph.flow(connection) != Flow::ToSlot).then_some(connection.to.node.index()))
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     catalog::Catalog,
-    graph::{Graph, NodeId, NodeKind, PortId},
+    graph::{Graph, NodeId, NodeKind, PortId, ScopeId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -45,5 +45,5 @@ pub fn check_open_inputs(graph: &Graph, catalog: &Catalog, diagnostics: &mut Dia
 
 /// Returns `true` if a port of the nested graph around the node is open, which is reported there.
 fn inside_unconnected(graph: &Graph, node: NodeId) -> bool {
-    graph.nodes[node].scope != 0 && graph.open_pins.contains(&node)
+    graph.nodes[node].scope != ScopeId::TOP && graph.open_pins.contains(&node)
 }

@@ -98,10 +98,10 @@ impl Generator<'_> {
         }
         let model = Model::new(graph, self.catalog);
         let flags = self.place_flags(view, &model);
-        let arms = (1..graph.scopes.len()).map(|scope| {
+        let arms = graph.nested().map(|scope| {
             let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
             let inside: Vec<PlaceId> = inside.map(|(id, _)| id).collect();
-            let (index, active) = (scope - 1, any(&flags, &inside));
+            let (index, active) = (scope.index() - 1, any(&flags, &inside));
             quote! { #index => #active, }
         });
         quote! {

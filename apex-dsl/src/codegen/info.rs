@@ -38,7 +38,7 @@ impl Generator<'_> {
         let kinds = kinds.rows();
         let claims = graph.claims.iter().map(|claim| graph.claim_text(claim));
         let end_if_hung = end_if_hung(graph);
-        let graphs = (1..graph.scopes.len()).map(|scope| graph.scope_path(scope));
+        let graphs = graph.nested().map(|scope| graph.scope_path(scope));
         let clusters = clusters.iter().map(|nodes| {
             let nodes = nodes.iter().map(|node| Literal::usize_unsuffixed(node.index()));
             quote!(&[#(#nodes),*])

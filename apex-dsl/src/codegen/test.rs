@@ -137,7 +137,7 @@ impl Generator<'_> {
                 quote!(::apex_rt::Program::is_active(program, #node))
             }
             What::Active(Subject::Scope(scope)) => {
-                let graph = scope - 1;
+                let graph = scope.index() - 1;
                 quote!(::apex_rt::Program::is_graph_active(program, #graph))
             }
             What::Token(node, None) => {

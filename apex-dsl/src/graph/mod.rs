@@ -29,8 +29,10 @@ id! {
     ConnectionId
 }
 
-/// Number of a scope in [`Graph::scopes`].
-pub type ScopeId = usize;
+id! {
+    /// Number of a scope in [`Graph::scopes`].
+    ScopeId
+}
 
 /// Thread group of nodes that are not assigned to another one.
 pub const MAIN_GROUP: &str = "main";
@@ -58,7 +60,7 @@ pub struct Graph {
     /// Connections in the order of the source file.
     pub connections: IdVec<ConnectionId, Connection>,
     /// Scope 0 is the graph itself, each other one an instance of a nested graph; parents come first.
-    pub scopes: Vec<Scope>,
+    pub scopes: IdVec<ScopeId, Scope>,
     /// The ports of the nested graphs.
     pub pins: Vec<Pin>,
     /// The connections as written, before nested graphs were flattened: the ones that a picture shows.
@@ -206,11 +208,16 @@ pub struct ThreadSettings {
     pub hang: Option<Duration>,
 }
 
+impl ScopeId {
+    /// The graph itself.
+    pub const TOP: Self = Self(0);
+}
+
 impl Scope {
     /// The scope of the graph itself.
     pub fn top(graph: &str, span: Span) -> Self {
-        let name = String::new();
-        Self { name, graph: graph.to_owned(), parent: 0, group: None, args: vec![], docs: String::new(), span }
+        let (name, docs, parent) = (String::new(), String::new(), ScopeId::TOP);
+        Self { name, graph: graph.to_owned(), parent, group: None, args: vec![], docs, span }
     }
 }
 
@@ -262,11 +269,16 @@ impl Graph {
         format!("{} {arrow} {}", self.end_name(c.from), self.end_name(c.to))
     }
 
+    /// The scopes of all nested graphs.
+    pub fn nested(&self) -> impl Iterator<Item = ScopeId> + use<> {
+        self.scopes.ids().skip(1)
+    }
+
     /// The scopes around a node, innermost first, without scope 0.
     pub fn scopes_of(&self, node: NodeId) -> Vec<ScopeId> {
         let mut scopes = vec![];
         let mut scope = self.nodes[node].scope;
-        while scope != 0 {
+        while scope != ScopeId::TOP {
             scopes.push(scope);
             scope = self.scopes[scope].parent;
         }
@@ -326,9 +338,9 @@ impl Graph {
 }
 
 /// The names of the scopes from the outermost to `scope`, then `name`, separated by dots.
-pub fn path(scopes: &[Scope], mut scope: ScopeId, name: Option<&str>) -> String {
+pub fn path(scopes: &IdVec<ScopeId, Scope>, mut scope: ScopeId, name: Option<&str>) -> String {
     let mut names: Vec<&str> = name.into_iter().collect();
-    while scope != 0 {
+    while scope != ScopeId::TOP {
         names.push(&scopes[scope].name);
         scope = scopes[scope].parent;
     }

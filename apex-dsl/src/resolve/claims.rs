@@ -22,7 +22,7 @@ impl Builder<'_> {
         let nodes = self.nodes.iter_enumerated().skip(node).filter(|(_, n)| n.scope == body.scope);
         let mut subjects: BTreeMap<String, Subject> =
             nodes.map(|(id, n)| (n.name.clone(), Subject::Node(id))).collect();
-        let scopes = self.scopes.iter().enumerate().skip(scope).filter(|(_, s)| s.parent == body.scope);
+        let scopes = self.scopes.iter_enumerated().skip(scope).filter(|(_, s)| s.parent == body.scope);
         subjects.extend(scopes.map(|(id, s)| (s.name.clone(), Subject::Scope(id))));
         for claim in &body.item.claims {
             if self.is_exhausted() || self.look(claim.of.len(), claim.span).is_none() {

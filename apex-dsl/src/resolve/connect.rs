@@ -387,7 +387,7 @@ impl Builder<'_> {
         self.pins.push(Pin { name: name.to_owned(), kind, ty, scope, span, docs, standard: true });
         let place = WireEnd::Pin(self.pins.len() - 1);
         let nodes: Vec<NodeId> = self.nodes.ids().filter(|n| self.nodes[*n].scope == scope).collect();
-        let nested: Vec<ScopeId> = (1..self.scopes.len()).filter(|s| self.scopes[*s].parent == scope).collect();
+        let nested: Vec<ScopeId> = self.scopes.ids().skip(1).filter(|s| self.scopes[*s].parent == scope).collect();
         let mut inner: Vec<WireEnd> =
             nodes.into_iter().filter_map(|n| Some(WireEnd::Port(self.standard_end(n, standard)?))).collect();
         inner.extend(nested.into_iter().map(|s| self.shared_port(s, standard, span)));

@@ -31,7 +31,7 @@ pub struct Builder<'a> {
     pub catalog: &'a Catalog,
     pub diagnostics: &'a mut Diagnostics,
     pub nodes: IdVec<graph::NodeId, Node>,
-    pub scopes: Vec<Scope>,
+    pub scopes: IdVec<ScopeId, Scope>,
     pub pins: Vec<Pin>,
     pub wires: Vec<Wire>,
     /// Inputs whose connection could not be made, which has been reported.
@@ -114,7 +114,7 @@ impl<'a> Builder<'a> {
             catalog,
             diagnostics,
             nodes: IdVec::default(),
-            scopes: vec![],
+            scopes: IdVec::default(),
             pins: vec![],
             wires: vec![],
             suppressed: BTreeSet::new(),
@@ -160,7 +160,7 @@ impl<'a> Builder<'a> {
             // Seen from inside, an input of the graph sends.
             let kind = port.kind.seen_from_inside();
             let inner = Port { docs: port.docs.clone(), ..Port::new(&port.name.text, kind, ty) };
-            let node = self.node(&port.name, 0, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
+            let node = self.node(&port.name, ScopeId::TOP, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
             table.insert(
                 &port.name,
                 Symbol::port(
@@ -173,7 +173,7 @@ impl<'a> Builder<'a> {
             );
         }
         let origins = args::origins(&item.params, &[], &Origins::new());
-        self.body(&Body::new(id, 0, (values.clone(), origins), item), table);
+        self.body(&Body::new(id, ScopeId::TOP, (values.clone(), origins), item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
             let message = "a `robot` cannot have ports: there is nothing outside that they could be connected to";
@@ -518,7 +518,7 @@ impl<'a> Builder<'a> {
         let item = self.texts.graph(id);
         self.look(item.ports.len() + item.params.len() + item.claims.len(), name.span)?;
         let given: Vec<String> = instance.args.iter().filter_map(|a| Some(a.name.as_ref()?.text.clone())).collect();
-        self.scopes.push(Scope {
+        let scope = self.scopes.push(Scope {
             name: name.text.clone(),
             graph: item.name.text.clone(),
             parent: body.scope,
@@ -527,7 +527,6 @@ impl<'a> Builder<'a> {
             docs: if docs.is_empty() { item.docs.clone() } else { docs.to_owned() },
             span: name.span,
         });
-        let scope = self.scopes.len() - 1;
         let mut inside = Table::new();
         let mut symbol: Vec<(String, PortKind, Type, WireEnd)> = vec![];
         for port in &item.ports {

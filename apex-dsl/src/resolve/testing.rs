@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, Type},
-    graph::{Connection, Graph, Modifiers, NodeId, NodeKind, Port, PortId, Subject, Value},
+    graph::{Connection, Graph, Modifiers, NodeId, NodeKind, Port, PortId, ScopeId, Subject, Value},
     report::{Diagnostic, Diagnostics},
     script::{Script, Seen, Step, Until, What},
     source::{Sources, Span},
@@ -232,7 +232,7 @@ impl Writer<'_> {
     fn subject(&mut self, of: &PortRef) -> Option<Subject> {
         let path = of.text();
         let nodes = self.graph.nodes.ids().map(Subject::Node);
-        let all: Vec<Subject> = nodes.chain((1..self.graph.scopes.len()).map(Subject::Scope)).collect();
+        let all: Vec<Subject> = nodes.chain(self.graph.nested().map(Subject::Scope)).collect();
         let names: Vec<String> = all.iter().map(|subject| self.graph.subject_name(*subject)).collect();
         let found = names.iter().position(|name| *name == path);
         if found.is_none() {
@@ -251,7 +251,8 @@ impl Writer<'_> {
     fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
         let path = of.text();
         let name = format!("probe {path}");
-        let known = |n: &crate::graph::Node| n.kind.is_probe() && (n.name == name || n.scope == 0 && n.name == path);
+        let known =
+            |n: &crate::graph::Node| n.kind.is_probe() && (n.name == name || n.scope == ScopeId::TOP && n.name == path);
         if let Some(node) = self.graph.nodes.position(known) {
             return Some((node, self.graph.nodes[node].ports[0].ty.clone()));
         }
@@ -267,7 +268,7 @@ impl Writer<'_> {
         let ty = self.graph.port(from).ty.clone();
         let node = crate::graph::Node {
             name,
-            scope: 0,
+            scope: ScopeId::TOP,
             kind: NodeKind::Probe,
             ports: vec![Port::new("probe", probe_kind(self.graph.port(from).kind), ty.clone())],
             // The probe runs in the group of the port, so that no cell is between them.

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     catalog::{SignatureId, Type},
-    graph::{Each, Graph, Node, NodeId, NodeKind, Port, PortId, Scope, Value, Wire, WireEnd},
+    graph::{Each, Graph, Node, NodeId, NodeKind, Port, PortId, Scope, ScopeId, Value, Wire, WireEnd},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -29,7 +29,7 @@ impl Builder<'_> {
         self.inner(|mut builder| {
             builder.scopes.push(Scope::top(&instance.path.text(), name.span));
             let inside = Body {
-                scope: 0,
+                scope: ScopeId::TOP,
                 values: body.values.clone(),
                 origins: body.origins.clone(),
                 fed: body.fed.range((name.text.as_str(), "")..).take_while(|(n, _)| *n == name.text).copied().collect(),
@@ -50,7 +50,7 @@ impl Builder<'_> {
                     PortKind::Slot | PortKind::Event => continue,
                 };
                 let outer = Port { kind, optional: true, rate: 1, ..inner };
-                let node = builder.node(&ident, 0, NodeKind::Boundary(boundary), vec![outer], "")?;
+                let node = builder.node(&ident, ScopeId::TOP, NodeKind::Boundary(boundary), vec![outer], "")?;
                 let (library, outside) =
                     (WireEnd::Port(PortId { node: wrapped, port }), WireEnd::Port(PortId { node, port: 0 }));
                 let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };

@@ -6,7 +6,7 @@ use crate::{
     catalog::Catalog,
     graph::{
         CellEnd, Connection, ConnectionId, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port,
-        PortId, WATCH_GROUP,
+        PortId, ScopeId, WATCH_GROUP,
     },
     index::IdVec,
     report::Diagnostics,
@@ -237,7 +237,7 @@ fn node(beside: &Node, name: &str, kind: NodeKind, ports: Vec<Port>) -> Node {
     Node {
         name: name.to_owned(),
         // The new node is outside all nested graphs.
-        scope: 0,
+        scope: ScopeId::TOP,
         kind,
         ports,
         modifiers: Modifiers::default(),
