@@ -37,7 +37,7 @@ macro_rules! id {
 pub(crate) use id;
 
 /// A vector whose items are numbered by `I`. It also is a slice, for everything that needs no numbers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct IdVec<I, T> {
     items: Vec<T>,
     numbers: PhantomData<I>,

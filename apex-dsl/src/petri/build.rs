@@ -78,10 +78,7 @@ impl<'a> Builder<'a> {
     fn new(graph: &'a Graph) -> Self {
         let segments = route::segments(graph);
         let mut net = Net { name: graph.name.clone(), ..Net::default() };
-        let mut place = |name: String, initial| {
-            net.places.push(Place { name, initial });
-            net.places.len() - 1
-        };
+        let mut place = |name: String, initial| net.places.push(Place { name, initial });
         let mut places = vec![];
         for (i, segment) in segments.iter().enumerate() {
             let mut name = connection_name(graph, segment.connection);
@@ -127,8 +124,7 @@ impl<'a> Builder<'a> {
     }
 
     fn place(&mut self, name: String, initial: usize) -> PlaceId {
-        self.net.places.push(Place { name, initial });
-        self.net.places.len() - 1
+        self.net.places.push(Place { name, initial })
     }
 
     fn transition(&mut self, name: String, kind: TransitionKind, takes: Vec<PlaceId>, gives: Vec<PlaceId>) {

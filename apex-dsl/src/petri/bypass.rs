@@ -4,11 +4,12 @@
 //! the difference cannot be observed. Such a token is a debt: the others have to follow before anything else happens.
 
 use super::{
-    Net, PlaceId, TransitionId, TransitionKind,
+    Net, PlaceId, TransitionId, TransitionKind, free_for,
     route::{Loop, Segment, SegmentEnd},
     state::Token,
+    token_on,
 };
-use crate::graph::Crossing;
+use crate::{graph::Crossing, index::IdVec};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Tokens that have crossed a boundary early.
@@ -38,26 +39,26 @@ struct Route {
     gives: Vec<PlaceId>,
 }
 
-type Marking = [VecDeque<Token>];
+type Marking = IdVec<PlaceId, VecDeque<Token>>;
 
 impl Bypass {
     /// Initial state, without early tokens.
     pub fn new(segments: &[Segment], loops: &[Loop], net: &Net) -> Self {
-        // `build` makes two places for each leg: `2 * segment` for its token, and `2 * segment + 1` while it is free.
-        let mut gives: Vec<Vec<PlaceId>> = (0..segments.len()).map(|segment| vec![2 * segment]).collect();
+        let mut gives: Vec<Vec<PlaceId>> = (0..segments.len()).map(|segment| vec![token_on(segment)]).collect();
         // The copies (`echo`) for legs into loops follow the places of all legs.
         let entries = loops.iter().flat_map(|on_loop| &on_loop.entries);
-        for (echo, entry) in (2 * segments.len()..).zip(entries) {
+        for (echo, entry) in (2 * segments.len()..).map(PlaceId::from).zip(entries) {
             gives[*entry].push(echo);
         }
         let (mut sides, mut begins) = (BTreeMap::new(), BTreeMap::new());
-        for (pass, transition) in net.transitions.iter().enumerate() {
+        for (pass, transition) in net.transitions.iter_enumerated() {
             let TransitionKind::Pass(side) = transition.kind else { continue };
             let mut routes = vec![];
             for segment in (0..segments.len()).filter(|l| segments[*l].from == SegmentEnd::Side(side)) {
-                begins.insert(2 * segment, (side, routes.len()));
+                begins.insert(token_on(segment), (side, routes.len()));
                 // The preceding leg is the part of the same connection before the boundary.
-                routes.push(Route { before: 2 * (segment - 1), free: 2 * segment + 1, gives: gives[segment].clone() });
+                let (before, free) = (token_on(segment - 1), free_for(segment));
+                routes.push(Route { before, free, gives: gives[segment].clone() });
             }
             // `Builder::side` takes a token of each way, then `enabled`. The last place that it gives to is `waiting`.
             let (enabled, waiting) = (transition.takes[routes.len()], transition.gives[transition.gives.len() - 1]);

@@ -16,7 +16,10 @@ mod replay;
 mod route;
 mod state;
 
-use crate::graph::{self, ConnectionId, Crossing, Graph, NodeId, PortId};
+use crate::{
+    graph::{self, ConnectionId, Crossing, Graph, NodeId, PortId},
+    index::{IdVec, id},
+};
 use std::fmt;
 
 pub use build::net;
@@ -24,10 +27,15 @@ pub use pnml::pnml;
 pub use replay::{Replay, Wrong};
 pub use state::{Call, Origin, Preview, Script, State, Token, unsupported};
 
-/// Number of a place in [`Net::places`].
-pub type PlaceId = usize;
-/// Number of a transition in [`Net::transitions`].
-pub type TransitionId = usize;
+id! {
+    /// Number of a place in [`Net::places`].
+    PlaceId
+}
+
+id! {
+    /// Number of a transition in [`Net::transitions`].
+    TransitionId
+}
 
 /// A Petri net. All arcs have weight one.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -35,9 +43,9 @@ pub struct Net {
     /// Name of the graph.
     pub name: String,
     /// Places.
-    pub places: Vec<Place>,
+    pub places: IdVec<PlaceId, Place>,
     /// Transitions.
-    pub transitions: Vec<Transition>,
+    pub transitions: IdVec<TransitionId, Transition>,
 }
 
 /// A place.
@@ -106,8 +114,18 @@ impl fmt::Display for NoNet {
 impl Net {
     /// The transition with this meaning.
     pub fn find(&self, kind: TransitionKind) -> Option<TransitionId> {
-        self.transitions.iter().position(|t| t.kind == kind)
+        self.transitions.position(|t| t.kind == kind)
     }
+}
+
+/// The place of the token of a leg: a net begins with two places for each leg.
+fn token_on(segment: usize) -> PlaceId {
+    PlaceId::from(2 * segment)
+}
+
+/// The place that is marked while a leg is free.
+fn free_for(segment: usize) -> PlaceId {
+    PlaceId::from(2 * segment + 1)
 }
 
 /// A connection as written in a source file.

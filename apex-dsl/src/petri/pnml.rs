@@ -31,8 +31,8 @@ pub fn pnml(net: &Net) -> String {
         count += 1;
     };
     for (i, transition) in net.transitions.iter().enumerate() {
-        transition.takes.iter().for_each(|p| arc(format!("p{p}"), format!("t{i}")));
-        transition.gives.iter().for_each(|p| arc(format!("t{i}"), format!("p{p}")));
+        transition.takes.iter().for_each(|p| arc(format!("p{}", p.index()), format!("t{i}")));
+        transition.gives.iter().for_each(|p| arc(format!("t{i}"), format!("p{}", p.index())));
     }
     text.push_str("    </page>\n  </net>\n</pnml>\n");
     text

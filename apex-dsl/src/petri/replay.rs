@@ -90,8 +90,8 @@ impl<'a> Replay<'a> {
             state,
             step: 0,
             now: Duration::ZERO,
-            agenda: (0..net.transitions.len()).collect(),
-            by_kind: net.transitions.iter().enumerate().map(|(i, t)| (t.kind, i)).collect(),
+            agenda: net.transitions.ids().collect(),
+            by_kind: net.transitions.iter_enumerated().map(|(i, t)| (t.kind, i)).collect(),
             expected: BTreeMap::new(),
             bypass: vec![],
             last: vec![],
@@ -129,7 +129,7 @@ impl<'a> Replay<'a> {
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
         }
         // Time has passed, so that any transition may have become enabled.
-        self.agenda = (0..self.net.transitions.len()).collect();
+        self.agenda = self.net.transitions.ids().collect();
         self.settle();
     }
 
@@ -239,7 +239,7 @@ impl<'a> Replay<'a> {
         self.flush_deferred();
         self.check_debts(what)?;
         self.check_early(what, |_| false)?;
-        for (transition, t) in self.net.transitions.iter().enumerate() {
+        for (transition, t) in self.net.transitions.iter_enumerated() {
             if !self.state.is_enabled(transition) {
                 continue;
             }
@@ -378,7 +378,7 @@ impl<'a> Replay<'a> {
     }
 
     fn release_all(&mut self) {
-        (0..self.net.transitions.len()).for_each(|transition| self.release(transition));
+        self.net.transitions.ids().for_each(|transition| self.release(transition));
     }
 
     /// Lets one deferred node take its tokens: `last` only if there is no other, and nodes whose activity does not

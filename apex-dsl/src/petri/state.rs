@@ -5,6 +5,7 @@ use super::{
     build::has_process,
     bypass::Bypass,
     route::{self, SegmentEnd},
+    token_on,
 };
 use crate::{
     catalog::Catalog,
@@ -76,18 +77,18 @@ pub struct State<'a> {
     graph: &'a Graph,
     net: &'a Net,
     script: &'a Script<'a>,
-    marking: Vec<VecDeque<Token>>,
+    marking: IdVec<PlaceId, VecDeque<Token>>,
     active: IdVec<NodeId, bool>,
     calls: IdVec<NodeId, usize>,
     taken: BTreeMap<NodeId, Taken>,
     /// Decisions of undecided ports: `None` for silence, else a token for each leg.
-    decided: BTreeMap<PortId, Option<BTreeMap<usize, Token>>>,
+    decided: BTreeMap<PortId, Option<BTreeMap<PlaceId, Token>>>,
     changes: Vec<(NodeId, bool)>,
     told: IdVec<NodeId, bool>,
     deactivates: IdVec<NodeId, bool>,
     into: BTreeMap<SegmentEnd, Vec<Link>>,
     from: BTreeMap<SegmentEnd, Vec<Link>>,
-    consumers: Vec<Vec<TransitionId>>,
+    consumers: IdVec<PlaceId, Vec<TransitionId>>,
     /// Nodes without connected inputs, and the first delays of loops without entries.
     sources: BTreeSet<NodeId>,
     /// The delays of each loop, by the first one.
@@ -130,15 +131,15 @@ impl<'a> State<'a> {
         let segments = route::segments(graph);
         for (i, segment) in segments.iter().enumerate() {
             let flow = graph.flow(&graph.connections[segment.connection]);
-            // The net begins with two places for each leg, of which the first one holds the token.
-            let link = Link { connection: segment.connection, token: 2 * i, synchronous: flow == Flow::Synchronous };
+            let link =
+                Link { connection: segment.connection, token: token_on(i), synchronous: flow == Flow::Synchronous };
             from.entry(segment.from).or_default().push(link);
             if flow != Flow::ToSlot {
                 into.entry(segment.to).or_default().push(link);
             }
         }
-        let mut consumers = vec![vec![]; net.places.len()];
-        for (id, transition) in net.transitions.iter().enumerate() {
+        let mut consumers = IdVec::from_elem(vec![], net.places.len());
+        for (id, transition) in net.transitions.iter_enumerated() {
             transition.takes.iter().for_each(|p| consumers[*p].push(id));
         }
         let initial = Token { value: true, ..Token::default() };

@@ -40,7 +40,9 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
                         modifiers.every.map_or(!plain.contains(&node), |every| every * count <= passed)
                     })
             };
-            let ready: Vec<TransitionId> = (0..net.transitions.len())
+            let ready: Vec<TransitionId> = net
+                .transitions
+                .ids()
                 .filter(|t| state.is_enabled(*t))
                 .filter(|t| match net.transitions[*t].kind {
                     TransitionKind::Take(node) | TransitionKind::Release(node) => is_due(node),
