@@ -68,7 +68,7 @@ impl<'a> Emitter<'a> {
         match self.graph.nodes[node].kind {
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                let pass = self.view.analysis.active.contains(&node).then(|| self.pass(node, 0));
+                let pass = self.view.analysis.active.contains(&node).then(|| self.pass(node, BlockId::OUTERMOST));
                 quote! { let #name = state.#held.take(); #pass }
             }
             NodeKind::Boundary(_) if !self.graph.is_body => {
@@ -96,7 +96,7 @@ impl<'a> Emitter<'a> {
             let token = match self.plan.storage(end) {
                 // The only one of an iteration.
                 Storage::Array => quote!(#name[0].as_ref()),
-                _ => self.option(end, 0),
+                _ => self.option(end, BlockId::OUTERMOST),
             };
             self.generator.store(self.graph, end, &quote!(state.#name), &token)
         });
@@ -104,8 +104,8 @@ impl<'a> Emitter<'a> {
         quote! { #(#stores)* #hold }
     }
 
-    fn block(&self, block: &Block, next: &mut BlockId) -> TokenStream {
-        let id = *next;
+    fn block(&self, block: &Block, next: &mut usize) -> TokenStream {
+        let id = BlockId::from(*next);
         *next += 1;
         let hoisted = self.plan.hoisted_to(id).into_iter().map(|end| {
             let name = self.generator.name(end);
@@ -126,7 +126,7 @@ impl<'a> Emitter<'a> {
             .map(|step| match step {
                 Step::Fire(node) => self.step(*node, id),
                 Step::Block(inner) => {
-                    let test = self.test(*next);
+                    let test = self.test(BlockId::from(*next));
                     let body = self.block(inner, next);
                     quote! { if let #test { #body } }
                 }

@@ -5,6 +5,7 @@ use crate::{
     analyse::{Analysis, Block, ClusterId, Links, Step, handles_absence, is_mandatory, may_be_missing},
     catalog::{ArgSig, Catalog},
     graph::{Graph, NodeId, NodeKind, PortId},
+    index::{IdVec, id},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,18 +29,25 @@ pub enum Storage {
     Array,
 }
 
-/// A block of a cluster, by number; 0 is the outermost.
-pub type BlockId = usize;
+id! {
+    /// A block of a cluster, by number.
+    BlockId
+}
+
+impl BlockId {
+    /// The block around all others.
+    pub const OUTERMOST: Self = Self(0);
+}
 
 /// The plan of one cluster.
 pub struct Plan {
-    parents: Vec<BlockId>,
+    parents: IdVec<BlockId, BlockId>,
     /// The block in which a token comes into being.
     home: BTreeMap<PortId, BlockId>,
     /// The block in which it must be known: the innermost one around its origin and all its uses.
     pub declared: BTreeMap<PortId, BlockId>,
     /// The tokens whose presence a block tests, and which it gives names to.
-    pub tests: Vec<Vec<PortId>>,
+    pub tests: IdVec<BlockId, Vec<PortId>>,
     storage: BTreeMap<PortId, Storage>,
     /// Tokens of nodes that can be disabled: they are declared outside the test of that.
     gated: BTreeSet<PortId>,
@@ -75,21 +83,21 @@ impl Plan {
     /// Plans `cluster`.
     pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, analysis: &Analysis, cluster: ClusterId) -> Self {
         let mut plan = Self {
-            parents: vec![],
+            parents: IdVec::default(),
             home: BTreeMap::new(),
             declared: BTreeMap::new(),
-            tests: vec![],
+            tests: IdVec::default(),
             storage: BTreeMap::new(),
             gated: BTreeSet::new(),
             is_multirate: analysis.clusters[cluster].is_multirate(),
         };
         let mut fires = vec![];
-        plan.number(&analysis.clusters[cluster].block, 0, &mut fires);
+        plan.number(&analysis.clusters[cluster].block, BlockId::OUTERMOST, &mut fires);
         let block_of: BTreeMap<NodeId, BlockId> = fires.iter().copied().collect();
         for (&node, &block) in &block_of {
             // What waits in the program is read first of all.
             let read_first = matches!(graph.nodes[node].kind, NodeKind::Delay(_) | NodeKind::Boundary(_));
-            let home = if read_first { 0 } else { block };
+            let home = if read_first { BlockId::OUTERMOST } else { block };
             for (port, _) in graph.nodes[node]
                 .ports
                 .iter()
@@ -117,21 +125,23 @@ impl Plan {
                 if analysis.cluster_of[c.from.node] != cluster || !graph.is_synchronous(c) {
                     let buffer = is_buffer(graph, catalog, c.from);
                     plan.storage.insert(c.from, if buffer { Storage::Buffer } else { Storage::Outside });
-                    plan.home.insert(c.from, 0);
+                    plan.home.insert(c.from, BlockId::OUTERMOST);
                 }
             }
             for &index in &links.out_of[node] {
                 let c = &graph.connections[index];
                 if analysis.cluster_of[c.to.node] != cluster {
-                    uses.push((c.from, 0, false));
+                    uses.push((c.from, BlockId::OUTERMOST, false));
                 }
             }
             let asynchronous = links.sends[node].iter().map(|c| graph.connections[*c].from);
             uses.extend(
-                asynchronous.filter(|end| graph.port(*end).kind == PortKind::Output).map(|end| (end, 0, false)),
+                asynchronous
+                    .filter(|end| graph.port(*end).kind == PortKind::Output)
+                    .map(|end| (end, BlockId::OUTERMOST, false)),
             );
         }
-        for (block, opens) in plan.tests.iter().enumerate() {
+        for (block, opens) in plan.tests.iter_enumerated() {
             uses.extend(opens.iter().map(|end| (*end, plan.parents[block], false)));
         }
         for (end, block, _) in &uses {
@@ -148,8 +158,7 @@ impl Plan {
     }
 
     fn number(&mut self, block: &Block, parent: BlockId, fires: &mut Vec<(NodeId, BlockId)>) {
-        let id = self.parents.len();
-        self.parents.push(parent);
+        let id = self.parents.push(parent);
         self.tests.push(block.opens.clone());
         for step in &block.steps {
             match step {
@@ -204,7 +213,7 @@ impl Plan {
             if self.tests[at].contains(&end) || made_in == Some(&at) {
                 return true;
             }
-            if at == 0 {
+            if at == BlockId::OUTERMOST {
                 return false;
             }
             at = self.parents[at];

@@ -3,7 +3,7 @@
 
 use super::{
     fire::Emitter,
-    plan::{Storage, is_buffer},
+    plan::{BlockId, Storage, is_buffer},
 };
 use crate::{
     analyse::{Block, Run, Step, handles_absence, is_mandatory},
@@ -133,14 +133,14 @@ impl Emitter<'_> {
             }
             _ => {}
         }
-        let step = self.step(node, 0);
+        let step = self.step(node, BlockId::OUTERMOST);
         let tests = !handles_absence(graph, self.generator.catalog, node)
             && matches!(graph.nodes[node].kind, NodeKind::Library(_) | NodeKind::Each(_));
         let mandatory = (0..graph.nodes[node].ports.len())
             .map(|port| PortId { node, port })
             .filter(|to| tests && graph.port(*to).kind == PortKind::Input && is_mandatory(graph, *to));
         let (names, tokens): (Vec<Ident>, Vec<TokenStream>) =
-            mandatory.filter_map(|to| Some((self.tested(to), self.arriving(to, 0)?))).unzip();
+            mandatory.filter_map(|to| Some((self.tested(to), self.arriving(to, BlockId::OUTERMOST)?))).unzip();
         match names.as_slice() {
             [] => step,
             _ => quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { #step } },
@@ -173,7 +173,7 @@ impl Emitter<'_> {
         }
         let to = PortId { node, port: 0 };
         let (held, count) = (self.generator.held(node), self.count(node));
-        let token = self.copied(to, 0).unwrap_or_else(|| quote!(None));
+        let token = self.copied(to, BlockId::OUTERMOST).unwrap_or_else(|| quote!(None));
         quote! { for i in 0..#count { state.#held.put(#token); } }
     }
 }
