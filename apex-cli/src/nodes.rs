@@ -2,7 +2,7 @@
 
 use crate::project::{self, Checker};
 use apex_dsl::{
-    catalog::{Signature, first_sentence, linkless},
+    catalog::{Signature, SignatureId, first_sentence, linkless},
     ide::{NodeType, ParamFacts, PortFacts, View},
     report::nearest,
     syntax::tree::PortKind,
@@ -49,9 +49,8 @@ struct Index<'a> {
 
 impl<'a> Index<'a> {
     fn new(view: View<'a>, package: &str) -> Self {
-        let reachable =
-            view.catalog.rust_nodes().iter().enumerate().filter(|(_, signature)| !signature.path.is_empty());
-        let entry = |(id, signature): (usize, &'a Signature)| {
+        let reachable = view.catalog.rust_nodes().filter(|(_, signature)| !signature.path.is_empty());
+        let entry = |(id, signature): (SignatureId, &'a Signature)| {
             let written = view.catalog.written(&signature.path);
             let path: Vec<&str> = written.iter().map(String::as_str).collect();
             let module: Vec<&str> = match path.split_last() {

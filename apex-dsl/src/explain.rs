@@ -2,7 +2,7 @@
 
 use crate::{
     analyse::{Analysis, Block, ClusterId, Run, Step},
-    catalog::Catalog,
+    catalog::{Catalog, SignatureId},
     claims::Decided,
     codegen::{Storage, storage},
     graph::{Flow, Graph, Node, NodeId, NodeKind, PortId},
@@ -23,7 +23,7 @@ pub fn explain(program: &Program, machines: &Machines, catalog: &Catalog) -> Str
         None => section(&mut text, &program.graph, &program.analysis, &program.claims, catalog, 0),
         Some(split) => threads(&mut text, program, split, catalog),
     }
-    let used: BTreeSet<usize> = program.graph.nodes.iter().filter_map(signature).collect();
+    let used: BTreeSet<SignatureId> = program.graph.nodes.iter().filter_map(signature).collect();
     for machine in used.iter().filter_map(|signature| machines.get(signature)) {
         text.push_str(&machine::translation(machine));
     }
@@ -45,7 +45,7 @@ fn threads(text: &mut String, program: &Program, split: &Split, catalog: &Catalo
     claims(text, &program.graph, &program.claims, "  ");
 }
 
-fn signature(node: &Node) -> Option<usize> {
+fn signature(node: &Node) -> Option<SignatureId> {
     if let NodeKind::Library(library) = &node.kind { Some(library.signature) } else { None }
 }
 

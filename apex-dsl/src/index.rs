@@ -58,6 +58,11 @@ impl<I: From<usize> + Into<usize>, T> IdVec<I, T> {
         I::from(self.items.len() - 1)
     }
 
+    /// Drops all but the first `count` items.
+    pub fn truncate(&mut self, count: usize) {
+        self.items.truncate(count);
+    }
+
     /// The item of a number, if there is one.
     pub fn get(&self, id: I) -> Option<&T> {
         self.items.get(id.into())

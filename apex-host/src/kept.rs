@@ -85,7 +85,7 @@ mod tests {
         let mut nodes = || -> (Vec<String>, bool) {
             let mut disk = Disk::new(None);
             let catalog = kept.catalog(crates(folder.clone()), &mut disk);
-            let names = catalog.rust_nodes().iter().map(|node| node.name.clone()).collect();
+            let names = catalog.rust_nodes().map(|(_, node)| node.name.clone()).collect();
             (names, disk.has_read_items())
         };
         assert_eq!(nodes(), (vec!["one".to_owned(), "two".to_owned()], true));

@@ -3,6 +3,7 @@
 use super::book::{Claim, Files, Item, Key, Picture, State, Test, Text, Use};
 use apex_diagram::{MAX_ITEMS, chart, diagram, folded, folded_states, svg};
 use apex_dsl::{
+    catalog::SignatureId,
     claims::Verdict,
     graph::Graph,
     ide::{Definition, MachineId, NodeType, Origin, View, declaration},
@@ -133,7 +134,7 @@ impl Checked<'_> {
         }
     }
 
-    fn rust(&self, id: usize) -> Item {
+    fn rust(&self, id: SignatureId) -> Item {
         let signature = &self.view.catalog.signatures[id];
         let written = self.view.catalog.written(&signature.path);
         let path: Vec<&str> = written.iter().map(String::as_str).collect();

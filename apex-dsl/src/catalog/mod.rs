@@ -13,7 +13,7 @@ mod tree;
 mod ty;
 mod types;
 
-use crate::source::World;
+use crate::{index::IdVec, source::World};
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
@@ -81,7 +81,7 @@ pub trait RustFiles: World {
 #[derive(Debug, Default)]
 pub struct Catalog {
     /// The node types.
-    pub signatures: Vec<Signature>,
+    pub signatures: IdVec<SignatureId, Signature>,
     tree: Tree,
     crates: Crates,
     by_def: BTreeMap<DefId, SignatureId>,
@@ -102,8 +102,8 @@ impl Catalog {
     }
 
     /// Node types that are declared in Rust.
-    pub fn rust_nodes(&self) -> &[Signature] {
-        &self.signatures[..self.by_def.len()]
+    pub fn rust_nodes(&self) -> impl Iterator<Item = (SignatureId, &Signature)> {
+        self.signatures.iter_enumerated().take(self.by_def.len())
     }
 
     /// Removes the state machines of source files that were checked before.
@@ -111,11 +111,9 @@ impl Catalog {
         self.signatures.truncate(self.by_def.len());
     }
 
-    /// Makes room for `count` state machines and returns the number of the first.
-    pub fn reserve_machines(&mut self, count: usize) -> SignatureId {
-        let first = self.signatures.len();
-        self.signatures.extend((0..count).map(|_| Signature::default()));
-        first
+    /// Makes room for `count` state machines and returns their numbers.
+    pub fn reserve_machines(&mut self, count: usize) -> Vec<SignatureId> {
+        (0..count).map(|_| self.signatures.push(Signature::default())).collect()
     }
 
     /// Stores the signature of a state machine, whose number is reserved.
@@ -161,8 +159,7 @@ impl Catalog {
             self.tree.defs[id].kind = ItemKind::Refused(reason);
         }
         for (def, signature) in found {
-            self.by_def.insert(def, self.signatures.len());
-            self.signatures.push(signature);
+            self.by_def.insert(def, self.signatures.push(signature));
         }
     }
 

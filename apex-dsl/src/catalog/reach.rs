@@ -1,6 +1,6 @@
 //! Place of the generated code, and the items that it can reach from there.
 
-use super::{Catalog, Crates, DefId, ItemKind, ModuleId, Tree};
+use super::{Catalog, Crates, DefId, ItemKind, ModuleId, SignatureId, Tree};
 use std::path::{Path, PathBuf};
 
 /// Place of the generated code.
@@ -57,7 +57,7 @@ impl Catalog {
         }
         self.site = site;
         self.paths = self.tree.paths(site);
-        let places: Vec<(DefId, usize)> = self.by_def.iter().map(|(def, signature)| (*def, *signature)).collect();
+        let places: Vec<(DefId, SignatureId)> = self.by_def.iter().map(|(def, signature)| (*def, *signature)).collect();
         for (def, signature) in places {
             self.signatures[signature].path = self.paths.get(&def).cloned().unwrap_or_default();
         }

@@ -1,11 +1,13 @@
 //! Signature of a node: what the catalog has read of a function or struct with `#[node]`.
 
 use super::{DefaultValue, Need, Type};
-use crate::syntax::tree::PortKind;
+use crate::{index::id, syntax::tree::PortKind};
 use std::path::PathBuf;
 
-/// Number of a node signature.
-pub type SignatureId = usize;
+id! {
+    /// Number of a node signature in [`Catalog::signatures`](super::Catalog::signatures).
+    SignatureId
+}
 
 /// Signature of a node type, as declared by `#[node]` or by a state machine.
 #[derive(Debug, Clone, Default)]

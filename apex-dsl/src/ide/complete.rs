@@ -439,7 +439,7 @@ impl Completer<'_> {
             let Some(node) = node.filter(|n| is_meant(*n) && !is_recursive(*n)) else { continue };
             found.push(self.node_type_item(name, node, with_args, None));
         }
-        for (id, signature) in self.view.catalog.rust_nodes().iter().enumerate() {
+        for (id, signature) in self.view.catalog.rust_nodes() {
             let node = NodeType::Rust(id);
             if signature.path.is_empty() || known.contains(signature.name.as_str()) || !is_meant(node) {
                 continue;

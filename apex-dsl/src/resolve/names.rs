@@ -90,8 +90,7 @@ impl SourceSet {
         // types.
         for file in 0..texts.files.len() {
             let count = texts.files[file].1.machines.len();
-            let first = catalog.reserve_machines(count);
-            texts.machine_nodes.push((first..first + count).collect());
+            texts.machine_nodes.push(catalog.reserve_machines(count));
         }
         for file in 0..texts.files.len() {
             let (names, unclear) = texts.names_of(file, catalog, sources, diagnostics);

@@ -109,7 +109,7 @@ impl Target for Sources {
         };
         let crates = Crates { root: PathBuf::from("/x"), all: vec![spec], here: 0, own: vec![0], ..Crates::default() };
         let catalog = Catalog::load(crates, &mut OneFile(text));
-        for node in catalog.rust_nodes() {
+        for (_, node) in catalog.rust_nodes() {
             assert!(!node.name.is_empty(), "a node without a name");
         }
     }
