@@ -141,7 +141,7 @@ impl Catalog {
             }
         }
         let (mut found, mut refused) = (vec![], vec![]);
-        for (id, def) in self.tree.defs.iter().enumerate() {
+        for (id, def) in self.tree.defs.iter_enumerated() {
             let (node, methods) = match &def.kind {
                 ItemKind::Function(node) => (node, &[][..]),
                 ItemKind::Struct(node) => {

@@ -7,15 +7,21 @@ use super::{
     library,
     ty::Ty,
 };
+use crate::index::{IdVec, id};
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
 };
 
-/// Number of a module in [`Tree::modules`].
-pub type ModuleId = usize;
-/// Number of a definition in [`Tree::defs`].
-pub type DefId = usize;
+id! {
+    /// Number of a module in [`Tree::modules`].
+    ModuleId
+}
+
+id! {
+    /// Number of a definition in [`Tree::defs`].
+    DefId
+}
 
 /// Largest number of imports that are followed for one name.
 const MAX_IMPORTS: usize = 32;
@@ -99,11 +105,11 @@ pub struct Def {
 #[derive(Debug, Default)]
 pub struct Tree {
     /// The modules.
-    pub modules: Vec<Module>,
+    pub modules: IdVec<ModuleId, Module>,
     /// The root module of each crate.
     pub roots: Vec<ModuleId>,
     /// Definitions.
-    pub defs: Vec<Def>,
+    pub defs: IdVec<DefId, Def>,
     /// Parts of the Rust libraries that each crate does without.
     pub does_without: Vec<Without>,
     /// Items whose condition does not hold: the crate, the name, and the condition.
@@ -216,7 +222,7 @@ impl Tree {
             let mut scan = Scan { tree: &mut tree, spec, is_own, conditions, world, open: vec![] };
             scan.file(root, &spec.root, &folder);
         }
-        for (id, def) in tree.defs.iter().enumerate() {
+        for (id, def) in tree.defs.iter_enumerated() {
             tree.by_name.entry(def.name.clone()).or_default().push(id);
         }
         tree
@@ -231,8 +237,7 @@ impl Tree {
         lines: Option<(usize, usize)>,
     ) -> ModuleId {
         let (file, names, globs) = (file.to_owned(), BTreeMap::new(), vec![]);
-        self.modules.push(Module { krate, need, parent, file, lines, is_open: false, names, globs });
-        self.modules.len() - 1
+        self.modules.push(Module { krate, need, parent, file, lines, is_open: false, names, globs })
     }
 
     /// All definitions with this name.
@@ -243,7 +248,7 @@ impl Tree {
     /// The innermost module of crate `krate` that contains a line of a file.
     pub fn module_at(&self, krate: usize, file: &Path, line: usize) -> Option<ModuleId> {
         let holds = |m: &Module| m.lines.is_none_or(|(first, last)| (first..=last).contains(&line));
-        let modules = self.modules.iter().enumerate();
+        let modules = self.modules.iter_enumerated();
         modules.filter(|(_, m)| m.krate == krate && m.file == file && holds(m)).map(|(id, _)| id).next_back()
     }
 
@@ -496,8 +501,8 @@ impl Scan<'_> {
             ItemKind::Broken(reason) => self.tree.broken.push((file.to_owned(), item.line, reason.clone())),
             kind => {
                 let (name, file) = (item.name.clone(), file.to_owned());
-                self.tree.defs.push(Def { need, name, module, file, line: item.line, kind: kind.clone() });
-                return Some(Target::Def(self.tree.defs.len() - 1));
+                let def = Def { need, name, module, file, line: item.line, kind: kind.clone() };
+                return Some(Target::Def(self.tree.defs.push(def)));
             }
         }
         None
