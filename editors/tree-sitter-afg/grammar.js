@@ -33,6 +33,7 @@ module.exports = grammar({
 
     graph: ($) =>
       seq(
+        optional('pub'),
         choice('graph', 'robot'),
         field('name', $.identifier),
         optional($.generics),
@@ -153,7 +154,7 @@ module.exports = grammar({
       choice(
         seq('active', '(', $.reference, ')'),
         // A port can have that name.
-        seq(choice($.reference, alias('active', $.reference)), optional(seq($._comparison, $.expression))),
+        seq(choice($.reference, alias('active', $.reference)), optional(seq($._comparison, $.expression, optional(seq('+-', $.expression))))),
       ),
     _comparison: () => choice('==', '!=', '<=', '>=', '<', '>'),
 

@@ -19,6 +19,10 @@ fn nodes_are_exchanged_and_statements_added() {
 
 #[test]
 fn parameters_have_another_default() {
+    let mut program = Quiet::new();
+    program.inputs().x.put(5).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!(program.outputs().y, Some(20));
     let mut program = Loud::new();
     program.inputs().x.put(5).unwrap();
     program.react(Time::ZERO);

@@ -1,7 +1,7 @@
 //! Random source files with their Rust code. If the compiler accepts a source file, rustc accepts it. If the compiler
 //! rejects it, its first error is in the source file.
 //!
-//! `APEX_TEXTS` is the number of cases (300), `APEX_TEXTS_SEED` the first seed. With `APEX_TEXTS_RAW`, failing cases
+//! `APEX_TEXTS` is the number of cases (100), `APEX_TEXTS_SEED` the first seed. With `APEX_TEXTS_RAW`, failing cases
 //! are shown without reduction. `APEX_TEXTS_OUT` is a folder for all failing cases.
 
 mod cargo;
@@ -122,7 +122,7 @@ const KNOWN: [u64; 14] =
 
 #[test]
 fn what_is_accepted_compiles() {
-    let count = number("APEX_TEXTS").unwrap_or(300);
+    let count = number("APEX_TEXTS").unwrap_or(100);
     let first = number("APEX_TEXTS_SEED").unwrap_or(1);
     println!("{count} texts, APEX_TEXTS_SEED={first}");
     let mut checker = Checker::new(BATCH);

@@ -201,7 +201,7 @@ fn opener(tokens: &[Token<'_>]) -> Option<usize> {
             "(" | "[" | "{" if depth == 0 => return Some(i),
             "(" | "[" | "{" => depth -= 1,
             // An item begins here: brackets that are still open before it were never closed.
-            "graph" | "robot" | "fsm" if depth == 0 && starts_item(tokens, i) => return None,
+            "pub" | "graph" | "robot" | "fsm" if depth == 0 && starts_item(tokens, i) => return None,
             _ => {}
         }
     }
@@ -257,7 +257,7 @@ fn in_braces(tokens: &[Token<'_>], open: usize) -> Context {
         Some("fsm") => in_machine(written, false),
         Some("state") => in_machine(written, true),
         Some("test") => in_test(written),
-        Some("graph" | "robot") => in_graph(written),
+        Some("pub" | "graph" | "robot") => in_graph(written),
         Some("record") => in_record(written),
         _ => Context::Nothing,
     }
@@ -398,7 +398,7 @@ fn in_parens(tokens: &[Token<'_>], open: usize) -> Context {
     let inside = &tokens[open + 1..];
     let word = before.last().filter(|t| t.kind == TokenKind::Word).map(|t| t.text);
     match (header.first().map(|t| t.text), header.len(), word) {
-        (Some("graph" | "robot"), 2, _) => return in_parameters(inside),
+        (Some("graph" | "robot"), 2, _) | (Some("pub"), 3, _) => return in_parameters(inside),
         (Some("claim"), 2, _) => return Context::Name(Named::Node, None),
         (_, _, Some("active")) => return in_condition(inside),
         (_, _, Some("each" | "par")) => return each_of(before).map_or(Context::Nothing, Context::List),

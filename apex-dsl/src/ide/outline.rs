@@ -72,7 +72,11 @@ fn graph(view: &View<'_>, item: &GraphItem) -> Symbol {
         NodeBody::HandedIn(ty, _) => symbol(&n.name, text(ty.span), SymbolKind::Node, ty.span),
     });
     let children = params.chain(ports).chain(nodes).collect();
-    let word = if item.robot { "robot" } else { "graph" };
+    let word = match (item.robot, item.is_public) {
+        (true, _) => "robot",
+        (false, true) => "pub graph",
+        (false, false) => "graph",
+    };
     Symbol { children, extent: item.extent, ..symbol(&item.name, word, SymbolKind::Graph, item.extent) }
 }
 

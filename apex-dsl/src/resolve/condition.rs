@@ -52,6 +52,24 @@ impl Conditions<'_> {
         Ok(condition)
     }
 
+    /// Comparison of the token with a number, up to a difference: `== 1.5m +- 1cm`.
+    pub fn nearness(&self, operator: &str, value: &Expr, tolerance: &Expr) -> Evaluated<Condition> {
+        let error = |message: &str| Box::new(Diagnostic::error("wrong-value", tolerance.span, message));
+        if !matches!(operator, "==" | "!=") {
+            return Err(error("`+-` belongs to `==` or `!=`"));
+        }
+        if matches!(evaluate(tolerance, self.scope)?, Value::Number(n) if n.value < 0.0) {
+            return Err(error("the tolerance behind `+-` must not be negative"));
+        }
+        let bound = |sign| {
+            let (value, tolerance) = (Box::new(value.clone()), Box::new(tolerance.clone()));
+            Expr { span: value.span.to(tolerance.span), kind: ExprKind::Binary(sign, value, tolerance) }
+        };
+        let (low, high) = (self.comparison(">=", &bound("-"))?, self.comparison("<=", &bound("+"))?);
+        let near = Condition::Binary(Box::new(low), "&&", Box::new(high));
+        Ok(if operator == "!=" { Condition::Unary("!", Box::new(near)) } else { near })
+    }
+
     /// Turns an error about an unknown name in a condition into one that suggests the name of the token.
     fn unknown_token(&self, error: Box<Diagnostic>, expr: &Expr) -> Box<Diagnostic> {
         let names = names_in(expr);

@@ -139,16 +139,7 @@ impl<'a> Builder<'a> {
         };
         let needs_more = item.params.iter().any(|p| p.default.is_none()) || !item.generics.is_empty();
         let is_open = given.is_none() && needs_more;
-        if item.robot {
-            for param in item.params.iter().filter(|p| p.default.is_none()) {
-                let message = format!(
-                    "`{}` needs a value for `{}`: every parameter of a `robot` needs a default",
-                    item.name.text, param.name.text
-                );
-                let error = Diagnostic::error("missing-argument", param.name.span, message);
-                self.diagnostics.push(error.note("write a default: `name: type = value`"));
-            }
-        }
+        self.check_complete(item);
         let values = given.unwrap_or_else(|| {
             let params = self.param_types(id);
             args::of_graph(&item.name, &params, None, item.name.span, self.diagnostics)
@@ -215,6 +206,31 @@ impl<'a> Builder<'a> {
         }
         require_function_params(&mut graph, self.catalog);
         Some(graph)
+    }
+
+    /// Reports what keeps a `robot` or `pub graph` from being a program of its own.
+    fn check_complete(&mut self, item: &GraphItem) {
+        let word = match (item.robot, item.is_public) {
+            (true, _) => "robot",
+            (false, true) => "pub graph",
+            (false, false) => return,
+        };
+        for param in item.params.iter().filter(|p| p.default.is_none()) {
+            let message = format!(
+                "`{}` needs a value for `{}`: every parameter of a `{word}` needs a default",
+                item.name.text, param.name.text
+            );
+            let error = Diagnostic::error("missing-argument", param.name.span, message);
+            self.diagnostics.push(error.note("write a default: `name: type = value`"));
+        }
+        if let Some(generic) = item.generics.first() {
+            let message = format!(
+                "`{}` has the type parameter `{}`, but the types of a `{word}` are known",
+                item.name.text, generic.text
+            );
+            let error = Diagnostic::error("type-arguments", generic.span, message);
+            self.diagnostics.push(error.note("write a graph around it, with ports that have types"));
+        }
     }
 
     /// Adds a node; `None` if there are too many.

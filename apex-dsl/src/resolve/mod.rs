@@ -88,7 +88,7 @@ pub fn resolve(
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
     for graph in 0..texts.files[0].1.graphs.len() {
         let id = GraphId { file: 0, graph };
-        let is_nested = used.contains(texts.graph(id).name.text.as_str());
+        let is_nested = is_nested(texts.graph(id), &used);
         if budget.exceeded {
             break;
         }
@@ -152,7 +152,7 @@ const OF_RUST: [&str; 38] = [
 fn generated_names(texts: &SourceSet, used: &BTreeSet<&str>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let file = &texts.files[0].1;
     let all = || (0..file.graphs.len()).map(|graph| texts.graph(GraphId { file: 0, graph }));
-    let graphs = || all().filter(|graph| !used.contains(graph.name.text.as_str()));
+    let graphs = || all().filter(|graph| !is_nested(graph, used));
     let made = || graphs().map(|g| &g.name).chain(file.machines.iter().map(|m| &m.name));
     for name in made().filter(|name| OF_RUST.contains(&name.text.as_str()) || PRIMITIVES.contains(&name.text.as_str()))
     {
@@ -195,6 +195,11 @@ fn taken_names<'a>(types: impl Iterator<Item = (String, &'a Ident)>, catalog: &C
 /// Returns `true` if a graph has nodes that are made in Rust.
 fn has_parts(graph: &&GraphItem) -> bool {
     graph.nodes.iter().any(|node| matches!(node.body, NodeBody::HandedIn(..)))
+}
+
+/// Returns `true` if a graph is only a part of others, and not a program of its own. `used` are the names of parts.
+fn is_nested(graph: &GraphItem, used: &BTreeSet<&str>) -> bool {
+    !graph.is_public && used.contains(graph.name.text.as_str())
 }
 
 /// The names of all graphs and nodes of which the graphs in a source file contain instances.

@@ -214,7 +214,11 @@ impl Writer<'_> {
                 Some((operator, value)) => {
                     let name = condition.of.text();
                     let conditions = Conditions { name: &name, token: "", ty: &ty, scope: self.scope };
-                    match conditions.comparison(operator, value) {
+                    let read = match &condition.tolerance {
+                        Some(tolerance) => conditions.nearness(operator, value, tolerance),
+                        None => conditions.comparison(operator, value),
+                    };
+                    match read {
                         Ok(condition) => Some(condition),
                         Err(error) => {
                             self.diagnostics.push(*error);

@@ -40,12 +40,13 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 53] = [
+pub const KEYWORDS: [Keyword; 54] = [
     keyword(
         "use",
         KeywordPosition::Item,
         "Imports nodes and types of a crate, or graphs of a source file in the same folder.",
     ),
+    keyword("pub", KeywordPosition::Item, "A graph that is a program, too, if another graph contains it."),
     keyword("graph", KeywordPosition::Item, "A graph: ports, nodes and connections. It can be used as a node."),
     keyword("robot", KeywordPosition::Item, "A graph without ports: the program of one machine."),
     keyword("fsm", KeywordPosition::Item, "A state machine: slots, events, and states with transitions."),

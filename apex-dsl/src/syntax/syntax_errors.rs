@@ -67,7 +67,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
         "test" => again(Rule::test_item, file, start, text, OUTSIDE),
         "fsm" => again(Rule::fsm_item, file, start, text, OUTSIDE),
         "use" => again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`"),
-        "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
+        "pub" | "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ if text.trim_start().starts_with("///") => again(Rule::graph_item, file, start, text, OUTSIDE),
         _ => {
             let message = format!("no item begins with `{first}`");
@@ -155,6 +155,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::expr | Rule::primary | Rule::number => "a value",
         Rule::string => "a string",
         Rule::binary => "an operator",
+        Rule::plus_minus => "`+-`",
         Rule::use_group => "`{`",
         Rule::type_args | Rule::generics => "`<`",
         Rule::params => "`(`",

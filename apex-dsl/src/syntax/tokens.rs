@@ -39,7 +39,7 @@ pub enum TokenKind {
     Open,
     /// One of `) ] }`.
     Close,
-    /// Another punctuation mark: one character, or one of `->`, `=>`, `::`, `..`, `..=`.
+    /// Another punctuation mark: one character, or one of `->`, `=>`, `::`, `..`, `..=`, `+-`.
     Sign,
     /// A character without a meaning.
     Unknown,
@@ -90,7 +90,7 @@ pub fn tokens(text: &str) -> impl Iterator<Item = Token<'_>> {
 
 /// Length of the punctuation mark with which a text begins.
 pub fn sign(text: &str) -> Option<usize> {
-    const LONG: [&str; 5] = ["..=", "->", "=>", "::", ".."];
+    const LONG: [&str; 6] = ["..=", "->", "=>", "::", "..", "+-"];
     const SHORT: &[u8] = b"<>;,:.=-+*/%!&|^";
     let long = LONG.iter().find(|sign| text.starts_with(**sign)).map(|sign| sign.len());
     long.or_else(|| text.as_bytes().first().filter(|byte| SHORT.contains(byte)).map(|_| 1))

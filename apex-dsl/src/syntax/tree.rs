@@ -50,6 +50,8 @@ pub struct GraphItem {
     pub docs: String,
     /// `true` for a `robot`.
     pub robot: bool,
+    /// `true` for `pub`: the graph is a program even if another graph contains it.
+    pub is_public: bool,
     /// Name of the graph.
     pub name: Ident,
     /// Type parameters.
@@ -460,6 +462,8 @@ pub struct Condition {
     pub active: bool,
     /// Comparison of the token: operator and value.
     pub compare: Option<(&'static str, Expr)>,
+    /// Largest difference that is still equal.
+    pub tolerance: Option<Expr>,
     /// The whole condition.
     pub span: Span,
 }

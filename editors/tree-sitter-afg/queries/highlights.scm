@@ -11,7 +11,7 @@
 (boolean) @constant.builtin
 
 ["use" "as"] @keyword.import
-["graph" "robot" "fsm" "test"] @keyword.type
+["pub" "graph" "robot" "fsm" "test"] @keyword.type
 ["in" "out" "slot" "event" "node" "claim" "record" "thread" "state"] @keyword
 ["on" "if" "entry" "exit"] @keyword
 ["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
@@ -19,6 +19,7 @@
 
 (arrow) @operator
 (operator) @operator
+(condition "+-" @operator)
 (transition ["=>" "->"] @operator)
 (hook "->" @operator)
 ["(" ")" "[" "]" "{" "}"] @punctuation.bracket

@@ -118,6 +118,7 @@ impl<'a> Builder<'a> {
         let mut graph = GraphItem {
             docs: String::new(),
             robot: false,
+            is_public: false,
             name: Ident { text: String::new(), span: self.span(&pair) },
             generics: vec![],
             params: vec![],
@@ -133,6 +134,7 @@ impl<'a> Builder<'a> {
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::doc => push_doc(&mut graph.docs, &part),
+                Rule::pub_kw => graph.is_public = true,
                 Rule::graph_kw => graph.robot = part.as_str() == "robot",
                 Rule::ident => graph.name = self.ident(&part),
                 Rule::generics => graph.generics = part.into_inner().map(|p| self.ident(&p)).collect(),

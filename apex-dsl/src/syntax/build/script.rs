@@ -82,7 +82,7 @@ impl Builder<'_> {
 
     fn condition(&mut self, pair: Pair<'_, Rule>) -> Option<Condition> {
         let span = self.span(&pair);
-        let (mut of, mut active, mut operator, mut value) = (None, false, None, None);
+        let (mut of, mut active, mut operator, mut value, mut tolerance) = (None, false, None, None, None);
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::port_ref => of = Some(self.port_ref(part)),
@@ -90,9 +90,12 @@ impl Builder<'_> {
                 // Pairs include the white space behind an operator.
                 Rule::compare => operator = COMPARISONS.into_iter().find(|c| *c == part.as_str().trim_end()),
                 Rule::expr => value = Some(self.expr(part)),
+                Rule::tolerance => {
+                    tolerance = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p));
+                }
                 _ => {}
             }
         }
-        Some(Condition { of: of?, active, compare: operator.zip(value), span })
+        Some(Condition { of: of?, active, compare: operator.zip(value), tolerance, span })
     }
 }
