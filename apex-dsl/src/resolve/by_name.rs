@@ -2,8 +2,9 @@
 //! and has the same name.
 
 use super::{
-    connect::{Candidate, End, Made, Owner, Symbol, Table, own_node},
+    connect::{End, Made, own_node},
     instance::{Body, Builder},
+    table::{Candidate, Owner, Symbol, Table},
 };
 use crate::{
     catalog::Match,

@@ -2,9 +2,10 @@
 
 use super::{
     MAX_CLAIMS,
-    connect::{Symbol, Table, own_node},
+    connect::own_node,
     instance::{Body, Builder},
     names::suggest,
+    table::{Symbol, Table},
 };
 use crate::{
     graph::{Claim, ClaimKind, Subject},

@@ -3,10 +3,11 @@
 use super::{
     Budget, MAX_NESTING, MAX_NODES,
     args::{self, Origins},
-    connect::{Symbol, Table, named_ports},
+    connect::named_ports,
     flatten, generics,
     link::Link,
     names::{Constructor, GraphId, SourceSet},
+    table::{Symbol, Table},
     types,
     value::Scope as Names,
 };

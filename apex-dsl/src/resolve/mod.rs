@@ -14,6 +14,7 @@ mod lists;
 mod machine;
 mod names;
 mod record;
+mod table;
 mod testing;
 mod threads;
 mod types;

@@ -1,8 +1,8 @@
 //! Unknown names: finds the one that was misspelt, and the place at which to report it.
 
 use super::{
-    connect::{Candidate, Owner, Symbol, Table},
     instance::{Body, Builder},
+    table::{Candidate, Owner, Symbol, Table},
 };
 use crate::{
     graph::WireEnd,

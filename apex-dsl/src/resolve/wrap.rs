@@ -1,10 +1,10 @@
 //! Modifiers that wrap an instance: `each` and `delay`.
 
 use super::{
-    connect::Symbol,
     flatten, generics,
     instance::{Body, Builder},
     lists::token_type,
+    table::Symbol,
     value::{Scope as Names, Wanted, element_of, evaluate},
 };
 use crate::{

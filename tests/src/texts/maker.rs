@@ -9,6 +9,7 @@ use super::{
     script,
     types::{ODD, PLAIN, Type, WRONG},
     values::{self, Param},
+    variant,
 };
 use crate::Dice;
 
@@ -58,6 +59,13 @@ pub fn generate(seed: u64) -> Case {
     }
     if maker.has(Kind::Tests) || maker.has(Kind::Threads) || maker.dice.one_in(3) {
         script::add(&mut maker);
+    }
+    // Decided last, so that the rest of a case is what it was before there were variants.
+    if maker.dice.one_in(3) {
+        variant::add(&mut maker);
+    }
+    if maker.dice.one_in(3) {
+        variant::publish(&mut maker);
     }
     maker.case(seed)
 }

@@ -12,6 +12,7 @@ mod script;
 mod steps;
 mod types;
 mod values;
+mod variant;
 
 pub use case::{Call, Case, Item, Shape, Text};
 pub use kinds::Kind;
