@@ -9,6 +9,7 @@ mod properties;
 mod shake;
 
 use properties::check;
+use rayon::prelude::*;
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -86,9 +87,9 @@ fn markdown(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn every_text_keeps_what_it_says() {
-    for (name, text) in texts().into_iter().chain(hostile::texts(0..100)).chain(large::texts()) {
-        check(&name, &text);
-    }
+    let texts: Vec<(String, String)> =
+        texts().into_iter().chain(hostile::texts(0..100)).chain(large::texts()).collect();
+    texts.par_iter().for_each(|(name, text)| drop(check(name, text)));
 }
 
 /// Valid source files of the repository and of the generators of other tests.
@@ -106,15 +107,15 @@ fn legal() -> Vec<(String, String)> {
 
 #[test]
 fn blanks_and_line_ends_make_no_difference() {
-    for (seed, (name, text)) in legal().into_iter().enumerate() {
+    legal().into_par_iter().enumerate().for_each(|(seed, (name, text))| {
         let shaken = shake::blanks(&text, seed as u64);
         assert_eq!(check(&name, &shaken).as_ref(), Some(&text), "{name}:\n{shaken}");
-    }
+    });
 }
 
 #[test]
 fn comments_survive_everywhere() {
-    for (seed, (name, text)) in legal().into_iter().enumerate() {
+    legal().into_par_iter().enumerate().for_each(|(seed, (name, text))| {
         for rarity in [2, 30] {
             let commented = shake::comments(&text.replace("\r\n", "\n"), rarity, seed as u64);
             let Some(formatted) = check(&name, &commented) else { panic!("{name} became wrong:\n{commented}") };
@@ -122,5 +123,5 @@ fn comments_survive_everywhere() {
             let expected = check(&name, &properties::without_comments(&text));
             assert_eq!(bare, expected, "{name}:\n{commented}");
         }
-    }
+    });
 }

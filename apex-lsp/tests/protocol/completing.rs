@@ -36,7 +36,7 @@ fn lacks(found: &[String], unwanted: &[&str]) {
 fn items_and_imports() {
     let mut client = Client::start();
     let path = unsaved("items.afg");
-    assert_eq!(client.completions(&path, "gr|"), ["use", "graph", "robot", "fsm", "test"]);
+    assert_eq!(client.completions(&path, "gr|"), ["use", "pub", "graph", "robot", "fsm", "test"]);
     let crates = client.completions(&path, "use |");
     has(&crates, &["apex_nodes", "crate", "find_container"]);
     has(&client.completions(&path, "use apex_nodes::{scan::|"), &["JumpDistance", "Scan", "Segments"]);

@@ -157,10 +157,20 @@ fn random_edits() {
     let mut whole = vec![];
     ["robots", "tests", "docs"].iter().for_each(|folder| texts(&repository().join(folder), &mut whole));
     assert!(whole.len() > 100, "{} texts", whole.len());
+    std::thread::scope(|scope| {
+        for seed in [14, 15] {
+            let whole = &whole;
+            scope.spawn(move || edit_texts(whole, edits / 2, seed));
+        }
+    });
+}
+
+/// Edits some of these source files, each in steps that are asked about, in an editor of its own.
+fn edit_texts(whole: &[String], edits: usize, seed: u64) {
     let mut client = Client::start();
     let path = unsaved("edits.afg");
     client.open(&unsaved("broken.afg"), "use edits::A;\ngraph Inner { in x: u8; out y: u8; nonsense; x -> z; }\n");
-    let mut dice = Dice(14);
+    let mut dice = Dice(seed);
     for round in 0..edits.div_ceil(PER_TEXT) {
         let mut text = whole[dice.below(whole.len())].clone();
         client.open(&path, &text);
