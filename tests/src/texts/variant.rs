@@ -32,3 +32,22 @@ fn base(item: &Item) -> Option<(&str, &str)> {
     let name = rest.split(['(', ' ', '<']).next()?;
     (matches!(word, "graph" | "robot") && item.body.is_some()).then_some((word, name))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::texts::generate;
+
+    #[test]
+    fn both_occur() {
+        let heads: Vec<String> = (0..200)
+            .flat_map(|seed| generate(seed).texts)
+            .flat_map(|text| text.items.into_iter().map(|item| item.head))
+            .collect();
+        let variants = heads.iter().filter(|head| {
+            let words: Vec<&str> = head.split(' ').collect();
+            matches!(words[..], ["graph" | "robot", _, "=", _])
+        });
+        let public = heads.iter().filter(|head| head.starts_with("pub graph "));
+        assert!(variants.clone().count() > 40 && public.clone().count() > 10, "{heads:?}");
+    }
+}
