@@ -25,11 +25,13 @@ pub struct Variant {
     pub item: GraphItem,
     /// The nodes of the base that are exchanged, with the places of their names in the variant.
     pub exchanged: BTreeMap<String, Span>,
+    /// Number of variants from the first base to this one.
+    depth: usize,
 }
 
 /// All variants in the source files.
 pub fn variants(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics) -> BTreeMap<GraphId, Variant> {
-    let mut finder = Finder { texts, catalog, diagnostics, found: BTreeMap::new(), statements: 0 };
+    let mut finder = Finder { texts, catalog, diagnostics, found: BTreeMap::new(), statements: 0, is_full: false };
     for (file, (_, tree)) in texts.files.iter().enumerate() {
         for graph in 0..tree.graphs.len() {
             finder.find(GraphId { file, graph }, &mut vec![]);
@@ -45,6 +47,8 @@ struct Finder<'a> {
     found: BTreeMap<GraphId, Variant>,
     /// Number of statements in `found`.
     statements: usize,
+    /// `true` if they are too many, which has been reported.
+    is_full: bool,
 }
 
 impl Finder<'_> {
@@ -58,7 +62,7 @@ impl Finder<'_> {
             self.find(base, open);
         }
         open.pop();
-        let base = base.filter(|base| self.has_room(*base, own));
+        let base = base.filter(|base| !self.is_too_deep(*base, path) && self.has_room(*base, own));
         let variant = match base {
             Some(base) => self.merged(base, own),
             None => alone(own),
@@ -72,8 +76,10 @@ impl Finder<'_> {
     }
 
     fn merged(&self, base: GraphId, own: &GraphItem) -> Variant {
-        let exchanged = self.found.get(&base).map(|variant| variant.exchanged.clone()).unwrap_or_default();
-        merged(base, self.item(base), exchanged, own)
+        let of = self.found.get(&base);
+        let exchanged = of.map(|variant| variant.exchanged.clone()).unwrap_or_default();
+        let depth = of.map_or(0, |variant| variant.depth) + 1;
+        Variant { depth, ..merged(base, self.item(base), exchanged, own) }
     }
 
     fn base(&mut self, path: &PathExpr, open: &[GraphId]) -> Option<GraphId> {
@@ -83,9 +89,7 @@ impl Finder<'_> {
             Ok(Constructor::Graph(base)) if open.contains(&base) => {
                 error("recursion", format!("`{name}` would be a variant of itself"))
             }
-            Ok(Constructor::Graph(_)) if open.len() >= MAX_NESTING => {
-                error("too-deep", format!("there are more than {MAX_NESTING} variants of variants"))
-            }
+            Ok(Constructor::Graph(_)) if open.len() > MAX_NESTING => too_deep(path),
             Ok(Constructor::Graph(base)) => return Some(base),
             Ok(Constructor::Node(_)) => {
                 error("unknown-graph", format!("`{name}` is a node, but only a graph can have variants"))
@@ -96,14 +100,27 @@ impl Finder<'_> {
         None
     }
 
+    fn is_too_deep(&mut self, base: GraphId, path: &PathExpr) -> bool {
+        let is_it = self.found.get(&base).is_some_and(|variant| variant.depth >= MAX_NESTING);
+        if is_it {
+            self.diagnostics.push(too_deep(path));
+        }
+        is_it
+    }
+
     fn has_room(&mut self, base: GraphId, own: &GraphItem) -> bool {
         let fits = self.statements + count(self.item(base)) + count(own) <= MAX_STATEMENTS;
-        if !fits {
+        if !fits && !std::mem::replace(&mut self.is_full, true) {
             let message = format!("the variants have more than {MAX_STATEMENTS} statements together");
             self.diagnostics.push(Diagnostic::error("too-large", own.name.span, message));
         }
         fits
     }
+}
+
+fn too_deep(path: &PathExpr) -> Diagnostic {
+    let message = format!("`{}` is a variant of more than {MAX_NESTING} others", path.text());
+    Diagnostic::error("too-deep", path.span, message)
 }
 
 fn count(item: &GraphItem) -> usize {
@@ -113,7 +130,7 @@ fn count(item: &GraphItem) -> usize {
 /// A variant whose base is not known. Its connections may need nodes of the base.
 fn alone(own: &GraphItem) -> Variant {
     let item = GraphItem { chains: vec![], claims: vec![], records: vec![], ..own.clone() };
-    Variant { base: None, item, exchanged: BTreeMap::new() }
+    Variant { base: None, item, exchanged: BTreeMap::new(), depth: 0 }
 }
 
 fn merged(id: GraphId, base: &GraphItem, mut exchanged: BTreeMap<String, Span>, own: &GraphItem) -> Variant {
@@ -146,5 +163,5 @@ fn merged(id: GraphId, base: &GraphItem, mut exchanged: BTreeMap<String, Span>, 
         records: if own.records.is_empty() { base.records.clone() } else { own.records.clone() },
         ..own.clone()
     };
-    Variant { base: Some(id), item, exchanged }
+    Variant { base: Some(id), item, exchanged, depth: 1 }
 }
