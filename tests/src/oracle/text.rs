@@ -30,7 +30,7 @@ impl Case {
                 let _ = writeln!(text, "    {line}");
             }
             let lines = &bodies.lines[group];
-            let lines = if self.seed % 2 == 0 { by_name(lines) } else { lines.clone() };
+            let lines = if self.seed.is_multiple_of(2) { by_name(lines) } else { lines.clone() };
             for line in lines {
                 let _ = writeln!(text, "    {line}");
             }
