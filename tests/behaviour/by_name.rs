@@ -5,6 +5,37 @@ use apex_rt::Time;
 
 graph!("by_name.afg");
 
+graph! {
+    use apex_tests::nodes::{add, product};
+
+    pub graph Product {
+        in  a: i64;
+        in  b: i64;
+        out result: i64;
+        node of = product();
+        in.* -> of.*;
+        of -> result;
+    }
+
+    graph Sum = Product {
+        node of = add();
+    }
+
+    graph Both {
+        in  a: i64;
+        in  b: i64;
+        out result: i64;
+        node product = Product();
+        in.* -> product.* -> out.*;
+    }
+
+    test sums: Sum {
+        feed a = 6;
+        feed b = 7;
+        expect result == 12 +- 1;
+    }
+}
+
 #[test]
 fn ports_of_all_kinds_go_through_two_graphs() {
     let mut program = Around::new();
@@ -14,6 +45,20 @@ fn ports_of_all_kinds_go_through_two_graphs() {
     program.react(Time::ZERO);
     assert_eq!(program.outputs().product, Some(42));
     assert_eq!(program.events().e.take(), Some(5));
+}
+
+#[test]
+fn in_a_macro_as_in_a_file() {
+    let mut program = Both::new();
+    program.inputs().a.put(6).unwrap();
+    program.inputs().b.put(7).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!(program.outputs().result, Some(42));
+    let mut program = Product::new();
+    program.inputs().a.put(6).unwrap();
+    program.inputs().b.put(7).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!(program.outputs().result, Some(42));
 }
 
 #[test]

@@ -13,7 +13,10 @@ use crate::{
     source::Span,
     syntax::tree::{AllPorts, Arrow, PortsOf},
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    rc::Rc,
+};
 
 /// The ports for which `.*` stands.
 #[derive(Debug, Clone)]
@@ -43,6 +46,11 @@ impl All {
         self.ports.iter().filter(|port| !port.kind.sends())
     }
 
+    /// Number of ports.
+    pub fn count(&self) -> usize {
+        self.ports.len()
+    }
+
     /// Name of the node or nested graph.
     fn node(&self) -> Option<&str> {
         if let PortOwner::Other(name, _) = &self.owner { Some(name) } else { None }
@@ -63,6 +71,7 @@ impl All {
 impl Builder<'_> {
     /// The ports for which an endpoint with `.*` stands. `None` stands for an error. Parameters are not among them.
     pub fn all_ports(&mut self, body: &Body<'_>, table: &Table, all: &AllPorts) -> Option<All> {
+        self.look(body.item.ports.len(), all.span)?;
         let own = |sends: bool| {
             let own = table.own_ports().filter(|port| port.kind.sends() == sends).cloned().collect();
             (PortOwner::Graph, own)
@@ -91,6 +100,7 @@ impl Builder<'_> {
                         return None;
                     }
                 };
+                self.look(ports.len(), all.span)?;
                 let ports = ports.iter().filter(|port| !port.parameter).cloned().collect();
                 (format!("{}.*", name.text), (PortOwner::Other(name.text.clone(), owner), ports))
             }
@@ -100,15 +110,12 @@ impl Builder<'_> {
 
     /// Makes the connections by name of a graph body, whose wires begin at `first`. Ports to which a connection leads
     /// that names them are left out.
-    pub fn connect_by_name(&mut self, body: &Body<'_>, arrows: &[(All, All, Arrow)], first: usize) {
+    pub fn connect_by_name(&mut self, body: &Body<'_>, arrows: &[(Rc<All>, Rc<All>, Arrow)], first: usize) {
         if arrows.is_empty() {
             return;
         }
         let named: BTreeSet<WireEnd> = self.wires[first..].iter().map(|wire| wire.to).collect();
         for (from, to, arrow) in arrows {
-            if self.look(from.ports.len() + to.ports.len(), arrow.span).is_none() {
-                return;
-            }
             if arrow.active {
                 self.activity_by_name(arrow, to);
                 continue;

@@ -13,7 +13,7 @@ use crate::{
     source::Span,
     syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef, PortsOf},
 };
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, rc::Rc};
 
 /// Adds every `node.port` of an endpoint to `names`.
 pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str)>) {
@@ -74,7 +74,8 @@ impl End {
 #[derive(Debug, Clone)]
 enum Meaning {
     One(End),
-    All(All),
+    /// Shared, because a list makes many pairs of them.
+    All(Rc<All>),
 }
 
 /// An endpoint of a connection: the ports that it may stand for, and its place.
@@ -117,7 +118,12 @@ impl Builder<'_> {
                                     [from, to].into_iter().find_map(|end| self.exchange(body, end.node(), arrow.span));
                                 self.at_exchange(exchange, |this| this.connect(body, from, to, arrow, open));
                             }
-                            (Meaning::All(from), Meaning::All(to)) => by_name.push((from.clone(), to.clone(), *arrow)),
+                            (Meaning::All(from), Meaning::All(to)) => {
+                                if self.look(from.count() + to.count() + 1, arrow.span).is_none() {
+                                    return;
+                                }
+                                by_name.push((Rc::clone(from), Rc::clone(to), *arrow));
+                            }
                             (Meaning::One(one), Meaning::All(all)) | (Meaning::All(all), Meaning::One(one)) => {
                                 self.one_sided(one, all);
                                 self.suppress_end(to);
@@ -168,7 +174,7 @@ impl Builder<'_> {
         match end {
             Endpoint::List(ends, _) => ends.iter().flat_map(|end| self.endpoint(body, table, end, in_place)).collect(),
             Endpoint::Port(reference) => vec![self.reference(body, table, reference).map(Meaning::One)],
-            Endpoint::All(all) => vec![self.all_ports(body, table, all).map(Meaning::All)],
+            Endpoint::All(all) => vec![self.all_ports(body, table, all).map(Rc::new).map(Meaning::All)],
             Endpoint::Instance(instance) => {
                 *in_place += 1;
                 let word = instance.path.segments.last().map_or("node", |s| s.text.as_str());
