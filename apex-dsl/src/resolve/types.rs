@@ -23,7 +23,7 @@ pub fn check(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics
         }
         let mut checker = Checker { texts, catalog, file, generics: vec![], missing: &mut missing, diagnostics };
         let ports = tree.machines.iter().flat_map(|machine| &machine.ports);
-        ports.filter_map(|port| port.ty.as_ref()).for_each(|ty| checker.ty(ty));
+        ports.filter_map(|port| port.ty.as_ref()).for_each(|ty| checker.token(ty));
         let replaced = tree.tests.iter().flat_map(|test| &test.replaced);
         replaced.for_each(|(_, instance)| checker.instance(instance));
     }
@@ -37,6 +37,16 @@ pub fn wrong_count(path: &PathExpr, takes: usize, given: usize, span: Span) -> D
         _ => format!("{takes} type arguments"),
     };
     Diagnostic::error("type-arguments", span, format!("`{}` takes {takes}, not {given}", path.text()))
+}
+
+/// The part of a type that has no size. Behind a pointer (`Box<[T]>`) it needs none.
+fn unsized_part(ty: &TypeExpr) -> Option<Span> {
+    match &ty.kind {
+        TypeKind::Array(_, None) => Some(ty.span),
+        TypeKind::Array(element, Some(_)) => unsized_part(element),
+        TypeKind::Tuple(parts) => parts.iter().find_map(unsized_part),
+        TypeKind::Path(..) | TypeKind::Const(_) => None,
+    }
 }
 
 struct Checker<'a> {
@@ -58,7 +68,7 @@ impl Checker<'_> {
                 self.diagnostics.push(error.also(first.name.span, "first defined here"));
             }
         }
-        graph.ports.iter().filter_map(|port| port.ty.as_ref()).for_each(|ty| self.ty(ty));
+        graph.ports.iter().filter_map(|port| port.ty.as_ref()).for_each(|ty| self.token(ty));
         graph.params.iter().for_each(|param| self.ty(&param.ty));
         for node in &graph.nodes {
             match &node.body {
@@ -88,6 +98,18 @@ impl Checker<'_> {
     fn argument(&mut self, ty: &TypeExpr) {
         if !matches!(ty.kind, TypeKind::Const(_)) {
             self.ty(ty);
+        }
+    }
+
+    /// The type of a port, whose tokens have a size.
+    fn token(&mut self, ty: &TypeExpr) {
+        match unsized_part(ty) {
+            Some(span) => {
+                let message = "a token cannot be a list without a number of elements";
+                let error = Diagnostic::error("unknown-type", span, message);
+                self.diagnostics.push(error.note("write `[T; 8]`, `Vec<T>` or `heapless::Vec<T, 8>`"));
+            }
+            None => self.ty(ty),
         }
     }
 
