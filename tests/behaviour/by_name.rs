@@ -36,11 +36,19 @@ graph! {
     }
 }
 
+/// A program that has taken a factor at `a` and one at `b`.
+macro_rules! fed {
+    ($program:expr) => {{
+        let mut program = $program;
+        program.inputs().a.put(6).unwrap();
+        program.inputs().b.put(7).unwrap();
+        program
+    }};
+}
+
 #[test]
 fn ports_of_all_kinds_go_through_two_graphs() {
-    let mut program = Around::new();
-    program.inputs().a.put(6).unwrap();
-    program.inputs().b.put(7).unwrap();
+    let mut program = fed!(Around::new());
     program.inputs().s.put(5).unwrap();
     program.react(Time::ZERO);
     assert_eq!(program.outputs().product, Some(42));
@@ -49,23 +57,17 @@ fn ports_of_all_kinds_go_through_two_graphs() {
 
 #[test]
 fn in_a_macro_as_in_a_file() {
-    let mut program = Both::new();
-    program.inputs().a.put(6).unwrap();
-    program.inputs().b.put(7).unwrap();
+    let mut program = fed!(Both::new());
     program.react(Time::ZERO);
     assert_eq!(program.outputs().result, Some(42));
-    let mut program = Product::new();
-    program.inputs().a.put(6).unwrap();
-    program.inputs().b.put(7).unwrap();
+    let mut program = fed!(Product::new());
     program.react(Time::ZERO);
     assert_eq!(program.outputs().result, Some(42));
 }
 
 #[test]
 fn a_port_that_is_named_is_left_out() {
-    let mut program = Named::new();
-    program.inputs().a.put(6).unwrap();
-    program.inputs().b.put(7).unwrap();
+    let mut program = fed!(Named::new());
     program.react(Time::ZERO);
     assert_eq!(program.outputs().product, Some(360));
     assert_eq!(program.nodes().unused.seen, [7]);

@@ -1,11 +1,7 @@
 //! Connections by name (`.*`), written out.
 
 use super::View;
-use crate::{
-    resolve::Link,
-    source::Span,
-    syntax::tree::{Chain, Endpoint},
-};
+use crate::{resolve::Link, source::Span, syntax::tree::Chain};
 
 /// A chain with `.*`, and the text that makes the same connections by the names of their ports.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,23 +14,17 @@ pub struct WrittenOut {
 
 /// The chains with `.*` of the first source file that touch the bytes from `start` to `end` and connect something.
 pub fn written_out(view: &View<'_>, start: u32, end: u32) -> Vec<WrittenOut> {
+    let by_name: Vec<&Link> = view.links.iter().filter(|link| link.by_name).collect();
     let chains = view.texts.files[0].1.graphs.iter().flat_map(|graph| &graph.chains);
     let touched = chains.filter(|chain| {
         let span = chain.span();
-        is_by_name(chain) && span.start <= end && start <= span.end
+        span.start <= end && start <= span.end
     });
-    touched.filter_map(|chain| write_out(view, chain)).collect()
+    touched.filter_map(|chain| write_out(view, chain, &by_name)).collect()
 }
 
-fn is_by_name(chain: &Chain) -> bool {
-    chain.ends.iter().any(|end| match end {
-        Endpoint::List(ends, _) => ends.iter().any(|end| matches!(end, Endpoint::All(_))),
-        end => matches!(end, Endpoint::All(_)),
-    })
-}
-
-fn write_out(view: &View<'_>, chain: &Chain) -> Option<WrittenOut> {
-    let made = view.links.iter().filter(|link| chain.arrows.iter().any(|arrow| arrow.span == link.arrow));
+fn write_out(view: &View<'_>, chain: &Chain, by_name: &[&Link]) -> Option<WrittenOut> {
+    let made = by_name.iter().filter(|link| chain.arrows.iter().any(|arrow| arrow.span == link.arrow));
     let mut senders: Vec<(&str, Vec<&Link>)> = vec![];
     for link in made {
         match senders.iter_mut().find(|(name, _)| *name == link.from.name) {

@@ -65,8 +65,7 @@ impl<'a> Declared<'a> {
         let (mut graphs, mut params) = (BTreeMap::new(), BTreeMap::new());
         let (mut ports, mut states) = (BTreeMap::new(), BTreeMap::new());
         for (file, (_, tree)) in view.texts.files.iter().enumerate() {
-            for graph in 0..tree.graphs.len() {
-                let id = GraphId { file, graph };
+            for id in view.texts.graph_ids(file) {
                 graphs.insert(id, of_graph(view, id));
                 params.insert(id, params_of(view, id));
             }
@@ -86,7 +85,7 @@ impl<'a> Declared<'a> {
 /// The names in a graph. Those that a variant has from its base mean the same there, also where it exchanges a node.
 fn of_graph<'a>(view: &View<'a>, id: GraphId) -> Names<'a> {
     let (item, node) = (view.texts.graph(id), NodeType::Graph(id));
-    let mut names = base(view, id).map(|base| of_graph(view, base)).unwrap_or_default();
+    let mut names = base(view, id).map_or_else(Names::new, |base| of_graph(view, base));
     let ports = item.ports.iter().enumerate().map(|(i, p)| (&p.name, Definition::Port(node, i)));
     let nodes = item.nodes.iter().enumerate().map(|(i, n)| (&n.name, Definition::Instance(id, i)));
     add_first_of_each(&mut names, ports.chain(nodes));
@@ -94,7 +93,7 @@ fn of_graph<'a>(view: &View<'a>, id: GraphId) -> Names<'a> {
 }
 
 fn params_of<'a>(view: &View<'a>, id: GraphId) -> Names<'a> {
-    let mut names = base(view, id).map(|base| params_of(view, base)).unwrap_or_default();
+    let mut names = base(view, id).map_or_else(Names::new, |base| params_of(view, base));
     let params = view.texts.graph(id).params.iter().enumerate();
     add_first_of_each(&mut names, params.map(|(i, p)| (&p.name, Definition::Param(NodeType::Graph(id), i))));
     names

@@ -72,12 +72,7 @@ fn graph(view: &View<'_>, item: &GraphItem) -> Symbol {
         NodeBody::HandedIn(ty, _) => symbol(&n.name, text(ty.span), SymbolKind::Node, ty.span),
     });
     let children = params.chain(ports).chain(nodes).collect();
-    let word = match (item.robot, item.is_public) {
-        (true, _) => "robot",
-        (false, true) => "pub graph",
-        (false, false) => "graph",
-    };
-    Symbol { children, extent: item.extent, ..symbol(&item.name, word, SymbolKind::Graph, item.extent) }
+    Symbol { children, extent: item.extent, ..symbol(&item.name, item.word(), SymbolKind::Graph, item.extent) }
 }
 
 fn machine(view: &View<'_>, item: &FsmItem) -> Symbol {

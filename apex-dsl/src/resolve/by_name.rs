@@ -2,16 +2,15 @@
 //! and has the same name.
 
 use super::{
-    connect::{End, Made, own_node},
+    connect::{Chosen, End, own_node, without_ports},
     instance::{Body, Builder},
-    table::{Candidate, Owner, Symbol, Table},
+    table::{Candidate, Symbol, Table},
 };
 use crate::{
-    catalog::Match,
     graph::WireEnd,
     report::Diagnostic,
     source::Span,
-    syntax::tree::{AllPorts, Arrow, PortsOf},
+    syntax::tree::{AllPorts, Arrow, Ident, PortsOf},
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -21,19 +20,12 @@ use std::{
 /// The ports for which `.*` stands.
 #[derive(Debug, Clone)]
 pub struct All {
+    /// Node or nested graph with the ports; `None` for the graph itself, whose ports are named alone.
+    node: Option<String>,
     /// The endpoint as text.
     text: String,
     span: Span,
-    owner: PortOwner,
     ports: Vec<Candidate>,
-}
-
-/// Owner of the ports, with the name that they follow in a graph.
-#[derive(Debug, Clone)]
-enum PortOwner {
-    /// The graph itself, whose ports are named alone.
-    Graph,
-    Other(String, Owner),
 }
 
 impl All {
@@ -41,8 +33,7 @@ impl All {
         self.ports.iter().filter(|port| port.kind.sends())
     }
 
-    /// The ports that take tokens.
-    pub fn takes(&self) -> impl Iterator<Item = &Candidate> {
+    fn takes(&self) -> impl Iterator<Item = &Candidate> {
         self.ports.iter().filter(|port| !port.kind.sends())
     }
 
@@ -51,20 +42,12 @@ impl All {
         self.ports.len()
     }
 
-    /// Name of the node or nested graph.
-    fn node(&self) -> Option<&str> {
-        if let PortOwner::Other(name, _) = &self.owner { Some(name) } else { None }
-    }
-
-    /// One of the ports, as if the graph named it here.
-    fn end(&self, port: &Candidate) -> End {
-        let (symbol, text) = match &self.owner {
-            PortOwner::Graph => (Symbol::Own(port.clone()), port.name.clone()),
-            PortOwner::Other(name, owner) => {
-                (Symbol::Ports(*owner, vec![port.clone()]), format!("{name}.{}", port.name))
-            }
-        };
-        End { symbol, text, span: self.span }
+    /// One of the ports as a graph names it.
+    fn name(&self, port: &Candidate) -> String {
+        match &self.node {
+            Some(node) => format!("{node}.{}", port.name),
+            None => port.name.clone(),
+        }
     }
 }
 
@@ -72,40 +55,37 @@ impl Builder<'_> {
     /// The ports for which an endpoint with `.*` stands. `None` stands for an error. Parameters are not among them.
     pub fn all_ports(&mut self, body: &Body<'_>, table: &Table, all: &AllPorts) -> Option<All> {
         self.look(body.item.ports.len(), all.span)?;
-        let own = |sends: bool| {
-            let own = table.own_ports().filter(|port| port.kind.sends() == sends).cloned().collect();
-            (PortOwner::Graph, own)
-        };
-        let (text, (owner, ports)) = match &all.of {
+        let own = |sends: bool| table.own_ports().filter(|port| port.kind.sends() == sends).cloned().collect();
+        let (node, name, ports) = match &all.of {
             // Seen from inside, the inputs of the graph send.
-            PortsOf::In => ("in.*".to_owned(), own(true)),
-            PortsOf::Out => ("out.*".to_owned(), own(false)),
-            PortsOf::Node(name) => {
-                let Some((symbol, _)) = table.get(&name.text) else {
-                    if own_node(&name.text).is_some() {
-                        let message = format!("`{}` is a single port: write it without `.*`", name.text);
-                        self.diagnostics.push(Diagnostic::error("wrong-wildcard", all.span, message));
-                        return None;
-                    }
-                    self.unknown_name(body, table, name);
-                    return None;
-                };
-                let (owner, ports) = match symbol {
-                    Symbol::Broken => return None,
-                    Symbol::Ports(owner, ports) => (*owner, ports),
-                    Symbol::Own(_) => {
-                        let message = format!("`{}` is a port of this graph and has no ports of its own", name.text);
-                        let error = Diagnostic::error("unknown-port", all.span, message);
-                        self.diagnostics.push(error.note("`in.*` and `out.*` stand for the ports of this graph"));
-                        return None;
-                    }
-                };
-                self.look(ports.len(), all.span)?;
-                let ports = ports.iter().filter(|port| !port.parameter).cloned().collect();
-                (format!("{}.*", name.text), (PortOwner::Other(name.text.clone(), owner), ports))
+            PortsOf::In => (None, "in", own(true)),
+            PortsOf::Out => (None, "out", own(false)),
+            PortsOf::Node(name) => (Some(name.text.clone()), &*name.text, self.ports_of(body, table, name, all.span)?),
+        };
+        Some(All { node, text: format!("{name}.*"), span: all.span, ports })
+    }
+
+    fn ports_of(&mut self, body: &Body<'_>, table: &Table, name: &Ident, span: Span) -> Option<Vec<Candidate>> {
+        let error = match table.get(&name.text) {
+            Some((Symbol::Ports(_, ports), _)) => {
+                self.look(ports.len(), span)?;
+                return Some(ports.iter().filter(|port| !port.parameter).cloned().collect());
+            }
+            Some((Symbol::Broken, _)) => return None,
+            Some((Symbol::Own(_), _)) => {
+                without_ports(name, span).note("`in.*` and `out.*` stand for the ports of this graph")
+            }
+            None if own_node(&name.text).is_some() => {
+                let message = format!("`{}` is a single port: write it without `.*`", name.text);
+                Diagnostic::error("wrong-wildcard", span, message)
+            }
+            None => {
+                self.unknown_name(body, table, name);
+                return None;
             }
         };
-        Some(All { text, span: all.span, owner, ports })
+        self.diagnostics.push(error);
+        None
     }
 
     /// Makes the connections by name of a graph body, whose wires begin at `first`. Ports to which a connection leads
@@ -120,7 +100,7 @@ impl Builder<'_> {
                 self.activity_by_name(arrow, to);
                 continue;
             }
-            let exchange = [from, to].into_iter().find_map(|all| self.exchange(body, all.node()?, arrow.span));
+            let exchange = [from, to].into_iter().find_map(|all| self.exchange(body, all.node.as_ref()?, arrow.span));
             self.at_exchange(exchange, |this| this.connect_all(from, to, arrow, &named));
         }
     }
@@ -134,19 +114,16 @@ impl Builder<'_> {
         }
         for (source, target) in pairs {
             if !named.contains(&target.place) && !self.suppressed.contains(&target.place) {
-                self.connect_pair((&from.end(source), source), (&to.end(target), target), arrow);
+                let (sender, taker) = (from.name(source), to.name(target));
+                let sender = Chosen { text: &sender, span: from.span, port: source };
+                self.wire(sender, Chosen { text: &taker, span: to.span, port: target }, arrow, true);
             }
         }
     }
 
-    fn connect_pair(&mut self, from: (&End, &Candidate), to: (&End, &Candidate), arrow: &Arrow) {
-        let differs = from.1.ty.compare(&to.1.ty) == Match::Different;
-        if differs {
-            let error = self.mismatch(from, to, arrow.span);
-            let name = &to.1.name;
-            self.diagnostics.push(error.note(format!("`.*` connects them because both are called `{name}`")));
-        }
-        self.wire(from, to, arrow, Made { differs, by_name: true });
+    /// Suppresses errors about missing connections to the ports: they could not be made, which has been reported.
+    pub fn suppress_all(&mut self, to: &All) {
+        self.suppressed.extend(to.takes().map(|port| port.place));
     }
 
     /// Reports `.*` at one end of an arrow only.
@@ -158,7 +135,7 @@ impl Builder<'_> {
 
     /// Reports `=>` between ends with `.*`.
     fn activity_by_name(&mut self, arrow: &Arrow, to: &All) {
-        self.suppressed.extend(to.takes().map(|port| port.place));
+        self.suppress_all(to);
         let message = "`.*` cannot pass activity on: `=>` needs the names of its ports";
         let error = Diagnostic::error("wrong-wildcard", arrow.span, message);
         self.diagnostics
@@ -177,6 +154,6 @@ impl Builder<'_> {
             .note(side(from, from.sends().collect(), "sends"))
             .note(side(to, to.takes().collect(), "takes"));
         self.diagnostics.push(error);
-        self.suppressed.extend(to.takes().map(|port| port.place));
+        self.suppress_all(to);
     }
 }

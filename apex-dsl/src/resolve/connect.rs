@@ -55,15 +55,23 @@ pub struct End {
     pub span: Span,
 }
 
-/// Manner in which a connection is made.
-pub struct Made {
-    /// `true` if its ends carry different types, which has been reported.
-    pub differs: bool,
-    /// `true` if `.*` stands at its ends.
-    pub by_name: bool,
+/// A port that is chosen for an end of a connection.
+#[derive(Debug, Clone, Copy)]
+pub struct Chosen<'a> {
+    /// The end as text.
+    pub text: &'a str,
+    /// The place of the end.
+    pub span: Span,
+    /// The port.
+    pub port: &'a Candidate,
 }
 
 impl End {
+    /// A port of this end.
+    fn chosen<'a>(&'a self, port: &'a Candidate) -> Chosen<'a> {
+        Chosen { text: &self.text, span: self.span, port }
+    }
+
     /// Name of the node, or of the port of the graph.
     fn node(&self) -> &str {
         self.text.split('.').next().unwrap_or(&self.text)
@@ -222,12 +230,14 @@ impl Builder<'_> {
                 Some(end(Symbol::Ports(*owner, named)))
             }
             (_, rest) => {
-                let message = if matches!(symbol, Symbol::Own(_)) {
-                    format!("`{}` is a port of this graph and has no ports of its own", first.text)
+                let span = rest[rest.len() - 1].span;
+                let error = if matches!(symbol, Symbol::Own(_)) {
+                    without_ports(first, span)
                 } else {
-                    "a nested graph can only be connected through its ports".to_owned()
+                    let message = "a nested graph can only be connected through its ports";
+                    Diagnostic::error("unknown-port", span, message)
                 };
-                self.diagnostics.push(Diagnostic::error("unknown-port", rest[rest.len() - 1].span, message));
+                self.diagnostics.push(error);
                 None
             }
         }
@@ -321,7 +331,7 @@ impl Builder<'_> {
 
     /// Connects two ends of a chain. `open` is `true` for each end where a port can be named: a node that is written in
     /// place has no name, and a port that is named inside a chain would be used by the next arrow, too.
-    pub fn connect(&mut self, body: &Body<'_>, from: &End, to: &End, arrow: &Arrow, open: [bool; 2]) {
+    fn connect(&mut self, body: &Body<'_>, from: &End, to: &End, arrow: &Arrow, open: [bool; 2]) {
         let ends = |symbol: &Symbol| if let Symbol::Ports(_, ports) = symbol { ports.len() } else { 1 };
         if self.look(ends(&from.symbol) + ends(&to.symbol), arrow.span).is_none() {
             return;
@@ -333,34 +343,39 @@ impl Builder<'_> {
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other end; so do types.
         let Some((source, target)) = self.choose(sources, targets, open) else { return self.suppress(&to.symbol) };
-        let differs = source.ty.compare(&target.ty) == Match::Different;
-        if differs {
-            // All connections of a list of ends have the same arrow.
-            let error = self.mismatch((from, &source), (to, &target), arrow.span);
-            self.diagnostics.push_once(error);
-        }
-        self.wire((from, &source), (to, &target), arrow, Made { differs, by_name: false });
+        self.wire(from.chosen(&source), to.chosen(&target), arrow, false);
     }
 
-    /// Adds a connection, also to the list of those of the outermost graph if it is wanted.
-    pub fn wire(&mut self, from: (&End, &Candidate), to: (&End, &Candidate), arrow: &Arrow, made: Made) {
-        let (source, target) = (from.1.place, to.1.place);
+    /// Connects two ports and reports different types. `by_name` is `true` if `.*` stands at the ends.
+    pub fn wire(&mut self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow, by_name: bool) {
+        let differs = from.port.ty.compare(&to.port.ty) == Match::Different;
+        if differs {
+            let error = self.mismatch(from, to, arrow.span);
+            let name = &to.port.name;
+            match by_name {
+                true => {
+                    self.diagnostics.push(error.note(format!("`.*` connects them because both are called `{name}`")))
+                }
+                // All connections of a list of ends have the same arrow.
+                false => self.diagnostics.push_once(error),
+            }
+        }
         let (active, span) = (arrow.active, arrow.span);
-        self.wires.push(Wire { from: source, to: target, active, differs: made.differs, span });
+        self.wires.push(Wire { from: from.port.place, to: to.port.place, active, differs, span });
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
-        let side = |(end, port): (&End, &Candidate)| {
-            let is_named = end.text == port.name || end.text.contains('.');
-            let name = if is_named { end.text.clone() } else { format!("{}.{}", end.text, port.name) };
+        let side = |Chosen { text, port, .. }: Chosen<'_>| {
+            let is_named = text == port.name || text.contains('.');
+            let name = if is_named { text.to_owned() } else { format!("{text}.{}", port.name) };
             Side { name, kind: port.kind, ty: port.ty.clone() }
         };
-        links.push(Link { arrow: span, active, by_name: made.by_name, from: side(from), to: side(to) });
+        links.push(Link { arrow: span, active, by_name, from: side(from), to: side(to) });
     }
 
     fn suppress_end(&mut self, to: &Meaning) {
         match to {
             Meaning::One(end) => self.suppress(&end.symbol),
-            Meaning::All(all) => self.suppressed.extend(all.takes().map(|port| port.place)),
+            Meaning::All(all) => self.suppress_all(all),
         }
     }
 
@@ -459,19 +474,14 @@ impl Builder<'_> {
     }
 
     /// The error for ends with different types.
-    pub fn mismatch(
-        &self,
-        (from, source): (&End, &Candidate),
-        (to, target): (&End, &Candidate),
-        span: Span,
-    ) -> Diagnostic {
-        let (a, b) = (self.describe(source, &from.text), self.describe(target, &to.text));
-        let message = format!("{a} sends `{}`, but {b} takes `{}`", source.ty, target.ty);
-        Diagnostic::error("type-mismatch", span, message)
-            .also(from.span, format!("sends `{}`", source.ty))
-            .also(to.span, format!("takes `{}`", target.ty))
-            .note(self.declared(source, &a))
-            .note(self.declared(target, &b))
+    fn mismatch(&self, from: Chosen<'_>, to: Chosen<'_>, span: Span) -> Diagnostic {
+        let (a, b) = (self.describe(from.port, from.text), self.describe(to.port, to.text));
+        let (sent, taken) = (&from.port.ty, &to.port.ty);
+        Diagnostic::error("type-mismatch", span, format!("{a} sends `{sent}`, but {b} takes `{taken}`"))
+            .also(from.span, format!("sends `{sent}`"))
+            .also(to.span, format!("takes `{taken}`"))
+            .note(self.declared(from.port, &a))
+            .note(self.declared(to.port, &b))
             .note("types are not converted implicitly: insert a node that converts the token")
     }
 
@@ -499,6 +509,12 @@ impl Builder<'_> {
             WireEnd::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
         }
     }
+}
+
+/// The error at `span`, where a port of a port is named.
+pub fn without_ports(port: &Ident, span: Span) -> Diagnostic {
+    let message = format!("`{}` is a port of this graph and has no ports of its own", port.text);
+    Diagnostic::error("unknown-port", span, message)
 }
 
 /// Returns `true` if a connection leads to the node `name` in this graph from anything but `start`.

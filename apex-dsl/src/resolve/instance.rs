@@ -1,4 +1,4 @@
-//! Instantiation: instances of catalog nodes become nodes, nested graphs are expanded in place.
+//! Construction of one flat graph: its body is resolved, and nested graphs are expanded in place.
 
 use super::{
     Budget, MAX_NESTING, MAX_NODES,
@@ -7,22 +7,17 @@ use super::{
     flatten, generics,
     link::Link,
     names::{Constructor, GraphId, SourceSet},
+    nodes::require_function_params,
     table::{Symbol, Table},
-    types,
     value::Scope as Names,
 };
 use crate::{
-    catalog::{Catalog, SignatureId, Type},
-    graph::{
-        self, Claim, Graph, Library, Node, NodeKind, Pin, Port, PortId, Scope, ScopeId, TypeArg, Value, Wire, WireEnd,
-    },
+    catalog::{Catalog, Type},
+    graph::{self, Claim, Graph, Node, NodeKind, Pin, Port, PortId, Scope, ScopeId, Value, Wire, WireEnd},
     index::IdVec,
-    machine::Machine,
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{
-        Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr, TypeKind,
-    },
+    syntax::tree::{Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -211,11 +206,10 @@ impl<'a> Builder<'a> {
 
     /// Reports what keeps a `robot` or `pub graph` from being a program of its own.
     fn check_complete(&mut self, item: &GraphItem) {
-        let word = match (item.robot, item.is_public) {
-            (true, _) => "robot",
-            (false, true) => "pub graph",
-            (false, false) => return,
-        };
+        if !item.robot && !item.is_public {
+            return;
+        }
+        let word = item.word();
         for param in item.params.iter().filter(|p| p.default.is_none()) {
             let message = format!(
                 "`{}` needs a value for `{}`: every parameter of a `{word}` needs a default",
@@ -381,128 +375,6 @@ impl<'a> Builder<'a> {
         )
     }
 
-    pub fn library(
-        &mut self,
-        body: &Body<'_>,
-        name: &Ident,
-        id: SignatureId,
-        instance: &Instance,
-        docs: &str,
-    ) -> Option<Symbol> {
-        let signature = &self.catalog.signatures[id];
-        // An incorrect state machine has been reported.
-        if signature.name.is_empty() {
-            return None;
-        }
-        let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-        let scope = Names { params: &body.values, constant: &constant };
-        let fed = |param: &str| body.fed.contains(&(name.text.as_str(), param));
-        let at = instance.span;
-        let params = args::of_node(signature, &instance.args, at, &scope, &body.origins, &fed, self.diagnostics);
-        let types = self.type_args(body, signature.generics.len(), &instance.types, instance);
-        let modifiers = args::modifiers(&instance.modifiers, &scope, &body.origins, self.diagnostics);
-        if signature.process.is_none() && !signature.is_function && signature.ports.is_empty() {
-            let message = format!("`{}` has neither `process` nor a slot", signature.name);
-            let error = Diagnostic::error("no-process", instance.path.span, message).note(format!(
-                "declared at {}:{}; mark its `impl` with `#[node]` too; if it is marked, run `cargo check` to find the error in its signature",
-                signature.file.display(),
-                signature.line
-            ));
-            self.diagnostics.push(error);
-        }
-        let mut ports = library_ports(signature);
-        generics::substitute_ports(&mut ports, signature, &types);
-        let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: false });
-        let docs = if docs.is_empty() { &signature.docs } else { docs };
-        let node = self.node(name, body.scope, kind, ports, docs)?;
-        self.nodes[node].modifiers = modifiers;
-        if self.texts.machines.contains_key(&id) {
-            self.begin_machine(body, name.span, node)?;
-        }
-        Some(Symbol::of_node(node, &self.nodes[node]))
-    }
-
-    /// Connects `start` to a state machine whose initial state triggers events.
-    fn begin_machine(&mut self, body: &Body<'_>, span: Span, node: graph::NodeId) -> Option<()> {
-        let Some(port) = self.nodes[node].ports.iter().position(|p| p.name == Machine::BEGIN) else { return Some(()) };
-        let start = Ident { text: "start".to_owned(), span };
-        let start = self.own_node(body, &start, NodeKind::Start)?;
-        let from = WireEnd::Port(PortId { node: start, port: 0 });
-        let to = WireEnd::Port(PortId { node, port });
-        self.wires.push(Wire { from, to, active: false, differs: false, span });
-        Some(())
-    }
-
-    fn type_args(&mut self, body: &Body<'_>, count: usize, given: &[TypeExpr], instance: &Instance) -> Vec<TypeArg> {
-        if given.is_empty() {
-            return vec![TypeArg::Open; count];
-        }
-        if given.len() != count {
-            let span = given.iter().fold(given[0].span, |all, ty| all.to(ty.span));
-            self.diagnostics.push(types::wrong_count(&instance.path, count, given.len(), span));
-            return vec![TypeArg::Known(Type::Unknown(String::new())); count];
-        }
-        given
-            .iter()
-            .map(|ty| {
-                let resolved = self.ty(body.id, ty);
-                match &resolved {
-                    Type::Param(_) => TypeArg::Open,
-                    _ => TypeArg::Verbatim(resolved, self.texts.ty(ty).to_string()),
-                }
-            })
-            .collect()
-    }
-
-    fn handed_in(
-        &mut self,
-        body: &Body<'_>,
-        name: &Ident,
-        ty: &TypeExpr,
-        modifiers: &[Modifier],
-        docs: &str,
-    ) -> Option<Symbol> {
-        let TypeKind::Path(path, types) = &ty.kind else {
-            self.diagnostics.push(Diagnostic::error(
-                "unknown-node",
-                ty.span,
-                "a node that is handed in from Rust must have the type of a struct node",
-            ));
-            return None;
-        };
-        let instance =
-            Instance { path: path.clone(), types: types.clone(), args: vec![], modifiers: vec![], span: ty.span };
-        let made = self.texts.made(path, self.catalog);
-        match made {
-            Ok(Constructor::Node(id)) if !self.catalog.signatures[id].is_function => {
-                let signature = &self.catalog.signatures[id];
-                let params = vec![Value::RustDefault; signature.params.len()];
-                let types = self.type_args(body, signature.generics.len(), types, &instance);
-                let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: true });
-                let docs = if docs.is_empty() { &signature.docs } else { docs };
-                let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
-                let texts = self.texts;
-                let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-                let scope = Names { params: &body.values, constant: &constant };
-                self.nodes[node].modifiers = args::modifiers(modifiers, &scope, &body.origins, self.diagnostics);
-                Some(Symbol::of_node(node, &self.nodes[node]))
-            }
-            Ok(_) => {
-                let message = "only a struct node can be handed in from Rust";
-                self.diagnostics.push(
-                    Diagnostic::error("unknown-node", ty.span, message)
-                        .note("an instance is written `node name = Type();`"),
-                );
-                None
-            }
-            Err(error) => {
-                error.into_iter().for_each(|error| self.diagnostics.push(*error));
-                None
-            }
-        }
-    }
-
     fn nested(
         &mut self,
         body: &Body<'_>,
@@ -605,42 +477,4 @@ impl<'a> Builder<'a> {
 
 fn ports(places: &BTreeSet<WireEnd>) -> BTreeSet<PortId> {
     places.iter().filter_map(|p| if let WireEnd::Port(end) = p { Some(*end) } else { None }).collect()
-}
-
-/// Makes connected parameters of functions required inputs, because a function cannot store their values.
-fn require_function_params(graph: &mut Graph, catalog: &Catalog) {
-    for connection in &graph.connections {
-        let node = &mut graph.nodes[connection.to.node];
-        if matches!(&node.kind, NodeKind::Library(library) if catalog.signatures[library.signature].is_function) {
-            let port = &mut node.ports[connection.to.port];
-            port.optional &= port.parameter.is_none();
-        }
-    }
-}
-
-/// The ports of a node: those of the signature, then an input and an output for each parameter.
-fn library_ports(signature: &crate::catalog::Signature) -> Vec<Port> {
-    let ports = signature.ports.iter().map(|p| Port {
-        name: p.name.clone(),
-        kind: p.kind,
-        ty: p.ty.clone(),
-        rate: p.rate,
-        optional: p.optional,
-        parameter: None,
-        standard: None,
-        docs: p.docs.clone(),
-    });
-    let params = signature.params.iter().enumerate().flat_map(|(i, p)| {
-        [PortKind::Input, PortKind::Output].map(|kind| Port {
-            name: p.name.clone(),
-            kind,
-            ty: p.ty.clone(),
-            rate: 1,
-            optional: kind == PortKind::Input,
-            parameter: Some(i),
-            standard: None,
-            docs: p.docs.clone(),
-        })
-    });
-    ports.chain(params).collect()
 }

@@ -13,6 +13,7 @@ mod link;
 mod lists;
 mod machine;
 mod names;
+mod nodes;
 mod record;
 mod table;
 mod testing;
@@ -87,8 +88,7 @@ pub fn resolve(
     let used = used(&texts.files[0].1);
     let (mut graphs, mut nested, mut links) = (vec![], vec![], vec![]);
     let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
-    for graph in 0..texts.files[0].1.graphs.len() {
-        let id = GraphId { file: 0, graph };
+    for id in texts.graph_ids(0) {
         let is_nested = is_nested(texts.graph(id), &used);
         if budget.exceeded {
             break;
@@ -105,8 +105,7 @@ pub fn resolve(
             break;
         }
         // A port without a certain name can be neither fed nor expected.
-        let of_file = (0..texts.files[0].1.graphs.len()).map(|graph| texts.graph(GraphId { file: 0, graph }));
-        let graph = of_file.into_iter().find(|graph| test.graph.text() == graph.name.text);
+        let graph = texts.graph_ids(0).map(|id| texts.graph(id)).find(|graph| test.graph.text() == graph.name.text);
         let mut ports = graph.into_iter().flat_map(|graph| &graph.ports);
         if ports.any(|port| diagnostics.has_errors_in(port.name.span)) {
             continue;
@@ -152,8 +151,7 @@ const OF_RUST: [&str; 38] = [
 /// item.
 fn generated_names(texts: &SourceSet, used: &BTreeSet<&str>, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let file = &texts.files[0].1;
-    let all = || (0..file.graphs.len()).map(|graph| texts.graph(GraphId { file: 0, graph }));
-    let graphs = || all().filter(|graph| !is_nested(graph, used));
+    let graphs = || texts.graph_ids(0).map(|id| texts.graph(id)).filter(|graph| !is_nested(graph, used));
     let made = || graphs().map(|g| &g.name).chain(file.machines.iter().map(|m| &m.name));
     for name in made().filter(|name| OF_RUST.contains(&name.text.as_str()) || PRIMITIVES.contains(&name.text.as_str()))
     {

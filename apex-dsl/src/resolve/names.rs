@@ -282,6 +282,11 @@ impl SourceSet {
         self.files.iter().any(|(_, file)| file.broken)
     }
 
+    /// The numbers of the graphs in source file `file`.
+    pub fn graph_ids(&self, file: usize) -> impl Iterator<Item = GraphId> + use<> {
+        (0..self.files[file].1.graphs.len()).map(move |graph| GraphId { file, graph })
+    }
+
     /// The graph with this number, with all statements of a variant.
     pub fn graph(&self, id: GraphId) -> &GraphItem {
         self.variants.get(&id).map_or_else(|| self.written(id), |variant| &variant.item)

@@ -1,6 +1,6 @@
 //! Checks of the types in source files: each is examined once, however often the graph around it is used.
 
-use super::names::{GraphId, SourceSet, suggest};
+use super::names::{SourceSet, suggest};
 use crate::{
     catalog::{Catalog, DURATION, PRIMITIVES, STD, is_path, library},
     report::{Diagnostic, Diagnostics},
@@ -15,11 +15,10 @@ pub fn check(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics
     for file in 0..texts.files.len() {
         let tree = &texts.files[file].1;
         let mut missing = BTreeSet::new();
-        for (number, graph) in tree.graphs.iter().enumerate() {
-            let whole = texts.graph(GraphId { file, graph: number });
-            let generics: Vec<&str> = whole.generics.iter().map(|g| g.text.as_str()).collect();
+        for id in texts.graph_ids(file) {
+            let generics: Vec<&str> = texts.graph(id).generics.iter().map(|g| g.text.as_str()).collect();
             let mut checker = Checker { texts, catalog, file, generics, missing: &mut missing, diagnostics };
-            checker.graph(graph);
+            checker.graph(texts.written(id));
         }
         let mut checker = Checker { texts, catalog, file, generics: vec![], missing: &mut missing, diagnostics };
         let ports = tree.machines.iter().flat_map(|machine| &machine.ports);

@@ -8,7 +8,7 @@ use crate::{
     catalog::Catalog,
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{GraphItem, PathExpr},
+    syntax::tree::{GraphItem, Ident, PathExpr},
 };
 use std::collections::BTreeMap;
 
@@ -25,17 +25,13 @@ pub struct Variant {
     pub item: GraphItem,
     /// The nodes of the base that are exchanged, with the places of their names in the variant.
     pub exchanged: BTreeMap<String, Span>,
-    /// Number of variants from the first base to this one.
-    depth: usize,
 }
 
 /// All variants in the source files.
 pub fn variants(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics) -> BTreeMap<GraphId, Variant> {
     let mut finder = Finder { texts, catalog, diagnostics, found: BTreeMap::new(), statements: 0, is_full: false };
-    for (file, (_, tree)) in texts.files.iter().enumerate() {
-        for graph in 0..tree.graphs.len() {
-            finder.find(GraphId { file, graph }, &mut vec![]);
-        }
+    for id in (0..texts.files.len()).flat_map(|file| texts.graph_ids(file)) {
+        finder.find(id, &mut vec![]);
     }
     finder.found
 }
@@ -75,11 +71,13 @@ impl Finder<'_> {
         self.found.get(&id).map_or_else(|| self.texts.written(id), |variant| &variant.item)
     }
 
+    /// The variant `own` of `base`. What its base has exchanged is exchanged in it, too.
     fn merged(&self, base: GraphId, own: &GraphItem) -> Variant {
-        let of = self.found.get(&base);
-        let exchanged = of.map(|variant| variant.exchanged.clone()).unwrap_or_default();
-        let depth = of.map_or(0, |variant| variant.depth) + 1;
-        Variant { depth, ..merged(base, self.item(base), exchanged, own) }
+        let mut variant = merged(base, self.item(base), own);
+        for (name, span) in self.found.get(&base).iter().flat_map(|base| &base.exchanged) {
+            variant.exchanged.entry(name.clone()).or_insert(*span);
+        }
+        variant
     }
 
     fn base(&mut self, path: &PathExpr, open: &[GraphId]) -> Option<GraphId> {
@@ -101,7 +99,8 @@ impl Finder<'_> {
     }
 
     fn is_too_deep(&mut self, base: GraphId, path: &PathExpr) -> bool {
-        let is_it = self.found.get(&base).is_some_and(|variant| variant.depth >= MAX_NESTING);
+        let bases = std::iter::successors(Some(base), |id| self.found.get(id)?.base);
+        let is_it = bases.count() > MAX_NESTING;
         if is_it {
             self.diagnostics.push(too_deep(path));
         }
@@ -130,27 +129,13 @@ fn count(item: &GraphItem) -> usize {
 /// A variant whose base is not known. Its connections may need nodes of the base.
 fn alone(own: &GraphItem) -> Variant {
     let item = GraphItem { chains: vec![], claims: vec![], records: vec![], ..own.clone() };
-    Variant { base: None, item, exchanged: BTreeMap::new(), depth: 0 }
+    Variant { base: None, item, exchanged: BTreeMap::new() }
 }
 
-fn merged(id: GraphId, base: &GraphItem, mut exchanged: BTreeMap<String, Span>, own: &GraphItem) -> Variant {
-    let mut nodes = base.nodes.clone();
-    for node in &own.nodes {
-        match nodes[..base.nodes.len()].iter_mut().find(|other| other.name.text == node.name.text) {
-            Some(other) => {
-                exchanged.insert(node.name.text.clone(), node.name.span);
-                *other = node.clone();
-            }
-            None => nodes.push(node.clone()),
-        }
-    }
-    let mut params = base.params.clone();
-    for param in &own.params {
-        match params[..base.params.len()].iter_mut().find(|other| other.name.text == param.name.text) {
-            Some(other) => *other = param.clone(),
-            None => params.push(param.clone()),
-        }
-    }
+/// A variant with the statements of its base and its own ones.
+fn merged(id: GraphId, base: &GraphItem, own: &GraphItem) -> Variant {
+    let (nodes, exchanged) = exchange(&base.nodes, &own.nodes, |node| &node.name);
+    let (params, _) = exchange(&base.params, &own.params, |param| &param.name);
     let item = GraphItem {
         docs: if own.docs.is_empty() { base.docs.clone() } else { own.docs.clone() },
         generics: [&*base.generics, &*own.generics].concat(),
@@ -163,5 +148,24 @@ fn merged(id: GraphId, base: &GraphItem, mut exchanged: BTreeMap<String, Span>, 
         records: if own.records.is_empty() { base.records.clone() } else { own.records.clone() },
         ..own.clone()
     };
-    Variant { base: Some(id), item, exchanged, depth: 1 }
+    Variant { base: Some(id), item, exchanged }
+}
+
+/// The declarations of a base, of which those that a variant declares again are exchanged, then the other ones of the
+/// variant. Also returns the names that are exchanged. A second declaration of such a name is another one.
+fn exchange<T: Clone>(base: &[T], own: &[T], name: fn(&T) -> &Ident) -> (Vec<T>, BTreeMap<String, Span>) {
+    let (mut all, mut exchanged) = (base.to_vec(), BTreeMap::new());
+    let mut places: BTreeMap<&str, usize> =
+        base.iter().enumerate().rev().map(|(place, declared)| (name(declared).text.as_str(), place)).collect();
+    for declared in own {
+        let Ident { text, span } = name(declared);
+        match places.remove(text.as_str()) {
+            Some(place) => {
+                all[place] = declared.clone();
+                exchanged.insert(text.clone(), *span);
+            }
+            None => all.push(declared.clone()),
+        }
+    }
+    (all, exchanged)
 }

@@ -1,6 +1,14 @@
 //! The syntax tree: the contents of a source file with positions, before names are resolved.
 
+mod expr;
+mod machine;
+mod script;
+
 use crate::source::Span;
+
+pub use expr::{Expr, ExprKind, TypeExpr, TypeKind};
+pub use machine::{Action, FsmItem, StateItem, Transition};
+pub use script::{Condition, Limit, TestItem, TestStep};
 
 /// An identifier with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -298,6 +306,15 @@ impl GraphItem {
         of_chains.chain(self.claims.iter().flat_map(|claim| &claim.of)).collect()
     }
 
+    /// The words with which it begins.
+    pub fn word(&self) -> &'static str {
+        match (self.robot, self.is_public) {
+            (true, _) => "robot",
+            (false, true) => "pub graph",
+            (false, false) => "graph",
+        }
+    }
+
     /// The names of nodes and ports with which its ends and claims begin.
     pub fn names(&self) -> Vec<&Ident> {
         let before_all = self.ends().into_iter().filter_map(|end| match end {
@@ -350,122 +367,6 @@ impl File {
     pub fn is_empty(&self) -> bool {
         self.graphs.is_empty() && self.machines.is_empty() && self.tests.is_empty()
     }
-}
-
-/// `fsm Name { … }`
-#[derive(Debug)]
-pub struct FsmItem {
-    /// Documentation.
-    pub docs: String,
-    /// Name of the machine.
-    pub name: Ident,
-    /// Slots and events.
-    pub ports: Vec<PortItem>,
-    /// States, of which the first is the initial one.
-    pub states: Vec<StateItem>,
-    /// From its documentation to its closing bracket.
-    pub extent: Span,
-}
-
-/// `state name { … }`
-#[derive(Debug)]
-pub struct StateItem {
-    /// Documentation.
-    pub docs: String,
-    /// Name of the state.
-    pub name: Ident,
-    /// Events that are triggered when it is entered.
-    pub entry: Vec<Action>,
-    /// Events that are triggered when it is left.
-    pub exit: Vec<Action>,
-    /// Transitions for tokens, in order.
-    pub transitions: Vec<Transition>,
-    /// States inside. The first of them is entered together with this state.
-    pub states: Vec<StateItem>,
-    /// From its documentation to its closing bracket.
-    pub extent: Span,
-}
-
-/// `on slot if guard => state -> event, event(value);`
-#[derive(Debug)]
-pub struct Transition {
-    /// The slot whose token causes it.
-    pub slot: Ident,
-    /// Condition for the transition.
-    pub guard: Option<Expr>,
-    /// The new state; `None` if the state remains the same.
-    pub target: Option<Ident>,
-    /// Events that are triggered.
-    pub actions: Vec<Action>,
-}
-
-/// `event`, `event(value)`
-#[derive(Debug)]
-pub struct Action {
-    /// The event.
-    pub event: Ident,
-    /// The token; without it the token of the slot.
-    pub value: Option<Expr>,
-}
-
-/// `test name: Graph(argument = value) { … }`
-#[derive(Debug)]
-pub struct TestItem {
-    /// Documentation.
-    pub docs: String,
-    /// Name of the test.
-    pub name: Ident,
-    /// The graph under test.
-    pub graph: PathExpr,
-    /// Arguments of the graph.
-    pub args: Vec<Arg>,
-    /// Nodes that are replaced, with their replacements.
-    pub replaced: Vec<(PortRef, Instance)>,
-    /// Inputs and expectations, in order.
-    pub steps: Vec<TestStep>,
-    /// From its name to its graph.
-    pub span: Span,
-    /// From its documentation to its closing bracket.
-    pub extent: Span,
-}
-
-/// A statement of a test.
-#[derive(Debug)]
-pub enum TestStep {
-    /// `feed port = value every 10ms;`
-    Feed(Ident, Option<Expr>, Option<Expr>),
-    /// `feed port = recording("run.mcap", "laser.scan");`
-    FeedRecorded(Ident, String, String),
-    /// `wait 50ms;`
-    Wait(Expr),
-    /// `expect condition within 50ms;`, `expect condition by 2s;`
-    Expect(Condition, Option<(Limit, Expr)>),
-    /// `never condition;`
-    Never(Condition),
-}
-
-/// Kind of a time limit for an expectation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limit {
-    /// Measured from the start.
-    By,
-    /// Measured from the previous step.
-    Within,
-}
-
-/// Condition of an expectation.
-#[derive(Debug)]
-pub struct Condition {
-    /// A port, or the node or graph that should be active.
-    pub of: PortRef,
-    /// `true` for `active(…)`.
-    pub active: bool,
-    /// Comparison of the token: operator and value.
-    pub compare: Option<(&'static str, Expr)>,
-    /// Largest difference that is still equal.
-    pub tolerance: Option<Expr>,
-    /// The whole condition.
-    pub span: Span,
 }
 
 /// `a -> b => c;`
@@ -584,54 +485,4 @@ pub struct RecordItem {
     pub ports: Vec<PortRef>,
     /// The keyword and the file.
     pub span: Span,
-}
-
-/// A type as written.
-#[derive(Debug, Clone)]
-pub struct TypeExpr {
-    /// Kind of the type.
-    pub kind: TypeKind,
-    /// Place in the source file.
-    pub span: Span,
-}
-
-/// Kind of a type.
-#[derive(Debug, Clone)]
-pub enum TypeKind {
-    /// `a::B<C>`
-    Path(PathExpr, Vec<TypeExpr>),
-    /// `[T; N]`; without `N` a list of any length.
-    Array(Box<TypeExpr>, Option<String>),
-    /// `(A, B)`
-    Tuple(Vec<TypeExpr>),
-    /// A number as a type argument.
-    Const(String),
-}
-
-/// A constant expression.
-#[derive(Debug, Clone)]
-pub struct Expr {
-    /// Kind of the expression.
-    pub kind: ExprKind,
-    /// Place in the source file.
-    pub span: Span,
-}
-
-/// Kind of an expression.
-#[derive(Debug, Clone)]
-pub enum ExprKind {
-    /// Digits and the unit behind them.
-    Number(String, Option<String>),
-    /// A string with its escapes resolved.
-    Text(String),
-    /// `true`, `false`
-    Bool(bool),
-    /// A parameter, or a constant in Rust.
-    Path(PathExpr),
-    /// `[a, b]`
-    List(Vec<Expr>),
-    /// `-a`, `!a`
-    Unary(&'static str, Box<Expr>),
-    /// `a + b`
-    Binary(&'static str, Box<Expr>, Box<Expr>),
 }

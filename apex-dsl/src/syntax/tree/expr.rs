@@ -1,0 +1,54 @@
+//! Types and constant expressions.
+
+use super::PathExpr;
+use crate::source::Span;
+
+/// A type as written.
+#[derive(Debug, Clone)]
+pub struct TypeExpr {
+    /// Kind of the type.
+    pub kind: TypeKind,
+    /// Place in the source file.
+    pub span: Span,
+}
+
+/// Kind of a type.
+#[derive(Debug, Clone)]
+pub enum TypeKind {
+    /// `a::B<C>`
+    Path(PathExpr, Vec<TypeExpr>),
+    /// `[T; N]`; without `N` a list of any length.
+    Array(Box<TypeExpr>, Option<String>),
+    /// `(A, B)`
+    Tuple(Vec<TypeExpr>),
+    /// A number as a type argument.
+    Const(String),
+}
+
+/// A constant expression.
+#[derive(Debug, Clone)]
+pub struct Expr {
+    /// Kind of the expression.
+    pub kind: ExprKind,
+    /// Place in the source file.
+    pub span: Span,
+}
+
+/// Kind of an expression.
+#[derive(Debug, Clone)]
+pub enum ExprKind {
+    /// Digits and the unit behind them.
+    Number(String, Option<String>),
+    /// A string with its escapes resolved.
+    Text(String),
+    /// `true`, `false`
+    Bool(bool),
+    /// A parameter, or a constant in Rust.
+    Path(PathExpr),
+    /// `[a, b]`
+    List(Vec<Expr>),
+    /// `-a`, `!a`
+    Unary(&'static str, Box<Expr>),
+    /// `a + b`
+    Binary(&'static str, Box<Expr>, Box<Expr>),
+}

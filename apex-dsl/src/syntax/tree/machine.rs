@@ -1,0 +1,60 @@
+//! State machines.
+
+use super::{Expr, Ident, PortItem};
+use crate::source::Span;
+
+/// `fsm Name { … }`
+#[derive(Debug)]
+pub struct FsmItem {
+    /// Documentation.
+    pub docs: String,
+    /// Name of the machine.
+    pub name: Ident,
+    /// Slots and events.
+    pub ports: Vec<PortItem>,
+    /// States, of which the first is the initial one.
+    pub states: Vec<StateItem>,
+    /// From its documentation to its closing bracket.
+    pub extent: Span,
+}
+
+/// `state name { … }`
+#[derive(Debug)]
+pub struct StateItem {
+    /// Documentation.
+    pub docs: String,
+    /// Name of the state.
+    pub name: Ident,
+    /// Events that are triggered when it is entered.
+    pub entry: Vec<Action>,
+    /// Events that are triggered when it is left.
+    pub exit: Vec<Action>,
+    /// Transitions for tokens, in order.
+    pub transitions: Vec<Transition>,
+    /// States inside. The first of them is entered together with this state.
+    pub states: Vec<StateItem>,
+    /// From its documentation to its closing bracket.
+    pub extent: Span,
+}
+
+/// `on slot if guard => state -> event, event(value);`
+#[derive(Debug)]
+pub struct Transition {
+    /// The slot whose token causes it.
+    pub slot: Ident,
+    /// Condition for the transition.
+    pub guard: Option<Expr>,
+    /// The new state; `None` if the state remains the same.
+    pub target: Option<Ident>,
+    /// Events that are triggered.
+    pub actions: Vec<Action>,
+}
+
+/// `event`, `event(value)`
+#[derive(Debug)]
+pub struct Action {
+    /// The event.
+    pub event: Ident,
+    /// The token; without it the token of the slot.
+    pub value: Option<Expr>,
+}
