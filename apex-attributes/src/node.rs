@@ -29,7 +29,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
             arg.attrs.retain(|a| !a.path().is_ident("param"));
         }
     }
-    let (vis, name, generics) = (&item.vis, &item.sig.ident, &item.sig.generics);
+    let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
     let unbound = unbound(generics);

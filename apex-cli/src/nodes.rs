@@ -141,13 +141,10 @@ impl Entry<'_> {
     fn rows(&self) -> Vec<[String; 4]> {
         let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
         let port = |port: &PortFacts| {
-            let ty = match port.rate {
-                _ if port.ty.is_unit() => String::new(),
-                1 => port.ty.to_string(),
-                rate => format!("[{}; {rate}]", port.ty),
-            };
-            let open = if port.optional { " (optional)" } else { "" };
-            [port.kind.word().to_owned(), port.name.clone(), ty + open, plain(&first_sentence(&port.docs))]
+            let ty = if port.ty.is_unit() { String::new() } else { port.type_text() };
+            let remarks: Vec<&str> = port.remarks().collect();
+            let remarks = if remarks.is_empty() { String::new() } else { format!(" ({})", remarks.join(", ")) };
+            [port.kind.word().to_owned(), port.name.clone(), ty + &remarks, plain(&first_sentence(&port.docs))]
         };
         let param = |param: &ParamFacts| {
             let unit = param.unit.as_ref().map(|unit| format!("[{unit}]")).unwrap_or_default();

@@ -114,7 +114,13 @@ impl<'a> Builder<'a> {
 
     /// A wire whose ends both belong to the scope that `places` are of.
     fn line(&self, wire: &Wire, places: &BTreeMap<WireEnd, Anchor>) -> Option<Line> {
-        let (from, to) = (*places.get(&wire.from)?, *places.get(&wire.to)?);
+        let to = match wire.to {
+            WireEnd::Port(PortId { node, port }) => {
+                WireEnd::Port(PortId { node, port: self.graph.nodes[node].declared(port) })
+            }
+            WireEnd::Pin(_) => wire.to,
+        };
+        let (from, to) = (*places.get(&wire.from)?, *places.get(&to)?);
         let sends = |place: WireEnd| match place {
             WireEnd::Port(end) => self.graph.port(end).kind,
             WireEnd::Pin(pin) => self.graph.pins[pin].kind,
@@ -169,6 +175,8 @@ impl<'a> Builder<'a> {
         let ports = 0..node.ports.len();
         let places: Vec<WireEnd> = ports.map(|port| WireEnd::Port(PortId { node: id, port })).collect();
         let shown: Vec<usize> = (0..places.len())
+            // Any number of inputs are one port.
+            .filter(|p| node.declared(*p) == *p)
             .filter(|p| {
                 let port = &node.ports[*p];
                 self.connected.contains(&places[*p]) || port.standard.is_none() && port.parameter.is_none()

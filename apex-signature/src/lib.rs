@@ -1,9 +1,11 @@
 //! Interface of a node, read from Rust syntax. `#[node]` and the catalog of the compiler share this crate, so that a
 //! signature has the same meaning for both.
 
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::{
-    Attribute, Expr, ExprLit, Field, FnArg, GenericArgument, ImplItem, ItemFn, ItemImpl, ItemStruct, Lit, Pat,
-    PathArguments, ReturnType, Signature, Type, spanned::Spanned,
+    Attribute, Expr, ExprLit, Field, FnArg, GenericArgument, GenericParam, Generics, ImplItem, ItemFn, ItemImpl,
+    ItemStruct, Lit, Pat, PathArguments, ReturnType, Signature, Type, spanned::Spanned,
 };
 
 /// Arguments and returned value of a `process` function or a slot.
@@ -12,6 +14,8 @@ pub struct Callable {
     pub args: Vec<Arg>,
     /// The returned value.
     pub returns: Returns,
+    /// Names of the const parameters that stand for a number of inputs. The graph determines their values.
+    pub counts: Vec<String>,
 }
 
 /// One argument.
@@ -24,7 +28,7 @@ pub struct Arg {
 
 /// Role of an argument.
 pub enum Form {
-    /// `&T`, `Option<&T>` or `&[T; N]`.
+    /// `&T`, `Option<&T>`, `&[T; 4]`, or `[&T; N]` and `[Option<&T>; N]` for any number of inputs.
     Input(InputForm),
     /// `&mut Out<T>` or `&mut Out<[T; N]>`.
     Out(Token),
@@ -42,6 +46,8 @@ pub struct InputForm {
     pub token: Token,
     /// `Option<&T>`: ⊥ reaches the node as `None`.
     pub optional: bool,
+    /// Const parameter that stands for the number of inputs, if the argument takes any number of them.
+    pub count: Option<syn::Ident>,
 }
 
 /// The tokens of one firing at a port.
@@ -152,7 +158,7 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
     }
     let mut known: Vec<(&str, String)> = vec![];
     for (name, ty) in methods.events() {
-        let text = quote::ToTokens::to_token_stream(ty).to_string();
+        let text = ty.to_token_stream().to_string();
         if known.iter().any(|(other, token)| *other == name && *token != text) {
             return Err(syn::Error::new_spanned(
                 ty,
@@ -171,6 +177,13 @@ impl Methods {
         let args = self.process.iter().flat_map(|p| &p.args).chain(self.slots.iter().flat_map(|s| &s.args));
         args.filter_map(|arg| if let Form::Event(ty) = &arg.form { Some((arg.name.as_str(), ty)) } else { None })
     }
+}
+
+/// The generics of a function node: those of the function without the numbers of its inputs.
+pub fn generics(item: &ItemFn, callable: &Callable) -> Generics {
+    let is_count = |param: &GenericParam| matches!(param, GenericParam::Const(c) if callable.counts.contains(&c.ident.to_string()));
+    let params = item.sig.generics.params.iter().filter(|param| !is_count(param)).cloned().collect();
+    Generics { params, ..item.sig.generics.clone() }
 }
 
 /// Returns `true` if `attrs` contain `#[node]`, also by its path.
@@ -218,8 +231,10 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
     let mut token = None;
     for (arg, syntax) in callable.args.iter().zip(method.sig.inputs.iter().skip(1)) {
         match &arg.form {
-            Form::Input(input) if token.is_none() && !input.optional && input.token.batch.is_none() => {
-                token = Some(input.token.ty.clone());
+            Form::Input(InputForm { token: taken, optional: false, count: None })
+                if token.is_none() && taken.batch.is_none() =>
+            {
+                token = Some(taken.ty.clone());
             }
             Form::Event(_) | Form::Ctx => {}
             _ => {
@@ -263,7 +278,44 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
         let name = name.strip_prefix("r#").unwrap_or(&name);
         args.push(Arg { name: name.strip_prefix('_').unwrap_or(name).to_owned(), form });
     }
-    Ok(Callable { args, returns: returns(&sig.output)? })
+    let counts = counts(sig, &args)?;
+    Ok(Callable { args, returns: returns(&sig.output)?, counts })
+}
+
+/// The const parameters that stand for numbers of inputs. The number is known only where the node is called, so that no
+/// type of a port may depend on it.
+fn counts(sig: &Signature, args: &[Arg]) -> syn::Result<Vec<String>> {
+    let mut counts: Vec<String> = vec![];
+    let of = |arg: &Arg| if let Form::Input(input) = &arg.form { input.count.clone() } else { None };
+    for count in args.iter().filter_map(of) {
+        let name = count.to_string();
+        if sig.generics.const_params().all(|param| param.ident != count) {
+            let message = format!(
+                "an array of references takes any number of inputs, and its length is a const parameter of the function: \
+                 `fn {}<const N: usize>(…: [Option<&T>; N])`",
+                sig.ident
+            );
+            return Err(syn::Error::new(count.span(), message));
+        }
+        let inputs = sig.inputs.iter().map(ToTokens::to_token_stream);
+        let types = inputs.chain([sig.output.to_token_stream(), sig.generics.where_clause.to_token_stream()]);
+        if types.map(|tokens| mentions(tokens, &name)).sum::<usize>() > 1 {
+            let message = format!("`{name}` is the number of connected inputs: no other type can depend on it");
+            return Err(syn::Error::new(count.span(), message));
+        }
+        counts.push(name);
+    }
+    Ok(counts)
+}
+
+/// Number of times that `name` occurs in `tokens`.
+fn mentions(tokens: TokenStream, name: &str) -> usize {
+    let count = |token| match token {
+        TokenTree::Ident(ident) => usize::from(ident == name),
+        TokenTree::Group(group) => mentions(group.stream(), name),
+        _ => 0,
+    };
+    tokens.into_iter().map(count).sum()
 }
 
 fn form(ty: &Type) -> syn::Result<Form> {
@@ -273,22 +325,46 @@ fn form(ty: &Type) -> syn::Result<Form> {
             None => Err(syn::Error::new_spanned(ty, "`&mut` is only for outputs: `&mut Out<T>`")),
         },
         Type::Reference(reference) if is_named(&reference.elem, "Ctx") => Ok(Form::Ctx),
-        Type::Reference(reference) => Ok(Form::Input(InputForm { token: token(&reference.elem)?, optional: false })),
+        Type::Reference(reference) => {
+            Ok(Form::Input(InputForm { token: token(&reference.elem)?, optional: false, count: None }))
+        }
         _ => {
-            if let Some(Type::Reference(reference)) = wrapped(ty, "Option") {
-                let token = Token { ty: (*reference.elem).clone(), batch: None };
-                return Ok(Form::Input(InputForm { token, optional: true }));
+            if let Some(input) = optional_or_many(ty)? {
+                return Ok(Form::Input(input));
             }
             if let Some(inner) = wrapped(ty, "Event") {
                 return Ok(Form::Event(inner.clone()));
             }
             Err(syn::Error::new_spanned(
                 ty,
-                "an argument of a node is an input `&T`, `Option<&T>` or `&[T; N]`, an output `&mut Out<T>`, an event `Event<T>`, \
+                "an argument of a node is an input `&T`, `Option<&T>`, `&[T; 4]` or `[Option<&T>; N]`, an output `&mut Out<T>`, an event `Event<T>`, \
                  `&Ctx`, or a parameter marked `#[param]`",
             ))
         }
     }
+}
+
+/// `Option<&T>`, `[&T; N]` and `[Option<&T>; N]`.
+fn optional_or_many(ty: &Type) -> syn::Result<Option<InputForm>> {
+    let (element, length) = match ty {
+        Type::Array(array) => (&*array.elem, Some(&array.len)),
+        _ => (ty, None),
+    };
+    let (reference, optional) = match wrapped(element, "Option") {
+        Some(inner) => (inner, true),
+        None => (element, false),
+    };
+    let Type::Reference(reference) = reference else { return Ok(None) };
+    let count = match length {
+        None => None,
+        Some(Expr::Path(path)) if path.path.get_ident().is_some() => path.path.get_ident().cloned(),
+        Some(length) => {
+            let message = "an array of references takes any number of inputs: write its length as a const parameter of \
+                           the function, `const N: usize`";
+            return Err(syn::Error::new(length.span(), message));
+        }
+    };
+    Ok(Some(InputForm { token: Token { ty: (*reference.elem).clone(), batch: None }, optional, count }))
 }
 
 fn token(ty: &Type) -> syn::Result<Token> {

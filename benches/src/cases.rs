@@ -33,7 +33,7 @@ const fn information(name: &'static str, apex: Run, hand: Run) -> Case {
 }
 
 /// All graphs.
-pub const CASES: [Case; 28] = [
+pub const CASES: [Case; 29] = [
     case("chain3", graphs::chain3, hand::chain3, SYNCHRONOUS),
     case("chain10", graphs::chain10, hand::chain10, SYNCHRONOUS),
     case("chain100", graphs::chain100, hand::chain100, SYNCHRONOUS),
@@ -41,6 +41,7 @@ pub const CASES: [Case; 28] = [
     case("diamond8", graphs::diamond8, hand::diamond8, SYNCHRONOUS),
     case("diamond64", graphs::diamond64, hand::diamond64, SYNCHRONOUS),
     case("bot100", graphs::bot100, hand::bot100, 1.2),
+    case("merge8", graphs::merge8, hand::merge8, SYNCHRONOUS),
     case("throttle", graphs::throttle, hand::throttle, SYNCHRONOUS),
     case("rate23", graphs::rate23, hand::rate23, SYNCHRONOUS),
     case("nested1000", graphs::nested1000, hand::nested1000, SYNCHRONOUS),

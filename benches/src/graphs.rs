@@ -14,6 +14,7 @@ graph!("graphs/silent1000.afg");
 graph!("graphs/diamond8.afg");
 graph!("graphs/diamond64.afg");
 graph!("graphs/bot100.afg");
+graph!("graphs/merge8.afg");
 graph!("graphs/throttle.afg");
 graph!("graphs/rate23.afg");
 graph!("graphs/nested1000.afg");
@@ -54,7 +55,7 @@ runs! { sink =>
     chain3: Chain3, chain10: Chain10, chain100: Chain100, chain1000: Chain1000,
     silent10: Silent10, silent100: Silent100, silent1000: Silent1000,
     diamond8: Diamond8, diamond64: Diamond64,
-    bot100: Bot100, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image,
+    bot100: Bot100, merge8: Merge8, throttle: Throttle, rate23: Rate23, nested1000: Nested1000, image: Image,
     timer10: Timer10, timers2: Timers2, timers3: Timers3,
     mpse8: Mpse8, fsm16: Fsm16, fsm16_nodes: StateRing,
     frames_by_value: FramesByValue, frames_by_out: FramesByOut, frames_by_event: FramesByEvent

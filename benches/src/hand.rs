@@ -9,9 +9,7 @@ use crate::{
     frames::{Frame, FrameSink, Frames, tint},
     graphs::milliseconds,
     image::{Camera, Gray, Labels, blur, components, gray, threshold},
-    nodes::{
-        Count, Entered, OneOf, Pairs, Ping, Rows, Silent, Sink, Symbols, add, mix, numbered, op, sum, sum8, sum64,
-    },
+    nodes::{Count, Entered, OneOf, Pairs, Ping, Rows, Silent, Sink, Symbols, add, mix, numbered, op, sum},
 };
 use apex_rt::{Out, Timer};
 use seq_macro::seq;
@@ -73,7 +71,7 @@ pub fn diamond8(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Count::default(), Sink::default());
     for _ in 0..ticks {
         let x = source.process();
-        seq!(K in 1..=8 { sink.process(&sum8(#(&op(&x, K),)*)); });
+        seq!(K in 1..=8 { sink.process(&(0_u64 #(.wrapping_add(op(&x, K)))*)); });
     }
     sink.checksum()
 }
@@ -84,7 +82,7 @@ pub fn diamond64(ticks: u64) -> u64 {
     let (mut source, mut sink) = (Count::default(), Sink::default());
     for _ in 0..ticks {
         let x = source.process();
-        seq!(K in 1..=64 { sink.process(&sum64(#(&op(&x, K),)*)); });
+        seq!(K in 1..=64 { sink.process(&(0_u64 #(.wrapping_add(op(&x, K)))*)); });
     }
     sink.checksum()
 }
@@ -97,6 +95,20 @@ pub fn bot100(ticks: u64) -> u64 {
         let x = op(&source.process(), 1);
         if let Some(x) = filter.process(&x) {
             seq!(K in 3..=100 { let x = op(&x, K); });
+            sink.process(&x);
+        }
+    }
+    sink.checksum()
+}
+
+/// The first of 8 filters that passes a value.
+#[inline(never)]
+pub fn merge8(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Count::default(), Sink::default());
+    seq!(K in 2..10 { let mut filter~K = OneOf::new(K); });
+    for _ in 0..ticks {
+        let x = source.process();
+        if let Some(x) = seq!(K in 2..10 { None #(.or(filter~K.process(&x)))* }) {
             sink.process(&x);
         }
     }

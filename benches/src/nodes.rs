@@ -74,36 +74,16 @@ impl OneOf {
     }
 }
 
-/// Sum of 8.
+/// Sum of any number of values.
 #[node]
-#[allow(clippy::too_many_arguments)]
-#[rustfmt::skip]
-pub fn sum8(x1: &u64, x2: &u64, x3: &u64, x4: &u64, x5: &u64, x6: &u64, x7: &u64, x8: &u64) -> u64 {
-    [x1, x2, x3, x4, x5, x6, x7, x8].into_iter().fold(0, |sum: u64, x| sum.wrapping_add(*x))
+pub fn total<const N: usize>(values: [&u64; N]) -> u64 {
+    values.into_iter().fold(0, |sum: u64, x| sum.wrapping_add(*x))
 }
 
-/// Sum of 64.
+/// First of the values that is there.
 #[node]
-#[allow(clippy::too_many_arguments)]
-#[rustfmt::skip]
-pub fn sum64(
-    x1: &u64, x2: &u64, x3: &u64, x4: &u64, x5: &u64, x6: &u64, x7: &u64, x8: &u64,
-    x9: &u64, x10: &u64, x11: &u64, x12: &u64, x13: &u64, x14: &u64, x15: &u64, x16: &u64,
-    x17: &u64, x18: &u64, x19: &u64, x20: &u64, x21: &u64, x22: &u64, x23: &u64, x24: &u64,
-    x25: &u64, x26: &u64, x27: &u64, x28: &u64, x29: &u64, x30: &u64, x31: &u64, x32: &u64,
-    x33: &u64, x34: &u64, x35: &u64, x36: &u64, x37: &u64, x38: &u64, x39: &u64, x40: &u64,
-    x41: &u64, x42: &u64, x43: &u64, x44: &u64, x45: &u64, x46: &u64, x47: &u64, x48: &u64,
-    x49: &u64, x50: &u64, x51: &u64, x52: &u64, x53: &u64, x54: &u64, x55: &u64, x56: &u64,
-    x57: &u64, x58: &u64, x59: &u64, x60: &u64, x61: &u64, x62: &u64, x63: &u64, x64: &u64,
-) -> u64 {
-    [
-        x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13, x14, x15, x16,
-        x17, x18, x19, x20, x21, x22, x23, x24, x25, x26, x27, x28, x29, x30, x31, x32,
-        x33, x34, x35, x36, x37, x38, x39, x40, x41, x42, x43, x44, x45, x46, x47, x48,
-        x49, x50, x51, x52, x53, x54, x55, x56, x57, x58, x59, x60, x61, x62, x63, x64,
-    ]
-    .into_iter()
-    .fold(0, |sum: u64, x| sum.wrapping_add(*x))
+pub fn first<const N: usize>(values: [Option<&u64>; N]) -> Option<u64> {
+    values.map(Option::<&u64>::copied).into_iter().fold(None, Option::or)
 }
 
 /// Two tokens per firing: `op` with 1 and with 2 of 0, 1, 2, …

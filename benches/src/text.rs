@@ -17,10 +17,10 @@ fn all() -> Vec<(String, String)> {
     let chains = [3, 10, 100, 1000].map(|n| (format!("chain{n}.afg"), chain(n)));
     let silent = [10, 100, 1000].map(|n| (format!("silent{n}.afg"), silent(n)));
     let diamonds = [8, 64].map(|w| (format!("diamond{w}.afg"), diamond(w)));
-    let filtered = ("bot100.afg".to_owned(), bot100());
+    let filtered = [("bot100.afg".to_owned(), bot100()), ("merge8.afg".to_owned(), merge8())];
     let machines = [("fsm16.afg".to_owned(), machine()), ("fsm16nodes.afg".to_owned(), state_nodes())];
     let mixed = ("mixed1000.afg".to_owned(), mixed::graph());
-    chains.into_iter().chain(silent).chain(diamonds).chain([filtered, mixed]).chain(machines).collect()
+    chains.into_iter().chain(silent).chain(diamonds).chain(filtered).chain([mixed]).chain(machines).collect()
 }
 
 fn chain(n: u32) -> String {
@@ -50,13 +50,22 @@ fn bot100() -> String {
 fn diamond(w: u32) -> String {
     let mut text = format!(
         "/// {w} operations side by side, and their sum.\ngraph Diamond{w} {{\n    node source = Count();\n    \
-         node all = sum{w}();\n    node sink = Sink();\n\n"
+         node all = total();\n    node sink = Sink();\n\n"
     );
     for k in 1..=w {
-        let _ = writeln!(text, "    source -> op(k = {k}) -> all.x{k};");
+        let _ = writeln!(text, "    source -> op(k = {k}) -> all;");
     }
     text.push_str("    all -> sink;\n}\n");
     text
+}
+
+fn merge8() -> String {
+    let filters: Vec<String> = (2..10).map(|period| format!("OneOf(period = {period})")).collect();
+    format!(
+        "/// The first of 8 filters that passes a value.\ngraph Merge8 {{\n    node source = Count();\n    \
+         node sink = Sink();\n\n    source -> [{}] -> first() -> sink;\n}}\n",
+        filters.join(", ")
+    )
 }
 
 /// Number of states.

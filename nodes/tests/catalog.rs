@@ -67,6 +67,9 @@ fn graph(number: usize, signature: &Signature, catalog: &Catalog) -> String {
         let Some(ty) = spell(&port.ty, catalog) else { continue };
         let (name, id) = (&port.name, format!("{}_{}", port.kind.word(), port.name));
         let _ = match port.kind {
+            PortKind::Input if port.any_number => {
+                writeln!(text, "    in {id}: {ty};\n    in {id}_2: {ty};\n    [{id}, {id}_2] -> it.{name};")
+            }
             PortKind::Input => writeln!(text, "    in {id}: {ty};\n    {id} -> it.{name};"),
             PortKind::Output => writeln!(text, "    out {id}: {ty};\n    it.{name} -> {id};"),
             PortKind::Slot => writeln!(text, "    slot {id}: {ty};\n    {id} -> it.{name};"),

@@ -15,6 +15,7 @@ mod figures;
 mod forms;
 mod handed;
 mod hygiene;
+mod inputs;
 mod large;
 mod lifecycle;
 mod machines;

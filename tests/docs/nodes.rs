@@ -25,6 +25,12 @@ pub fn larger<T: PartialOrd + Copy>(a: &T, b: &T) -> T {
     if a < b { *b } else { *a }
 }
 
+/// Largest of any number of values: `[a, b, c] -> largest() -> y`.
+#[node]
+pub fn largest<T: PartialOrd + Copy, const N: usize>(values: [&T; N]) -> T {
+    values.into_iter().fold(*values[0], |most, value| if most < *value { *value } else { most })
+}
+
 /// Counts down while it is active, by one per firing, and triggers `done` at zero.
 #[node]
 pub struct Countdown {

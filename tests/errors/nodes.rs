@@ -56,6 +56,12 @@ pub fn double(x: &u64) -> u64 {
     x * 2
 }
 
+/// Sum of any number of values.
+#[node]
+pub fn total<const N: usize>(values: [&u64; N]) -> u64 {
+    values.into_iter().sum()
+}
+
 #[node]
 pub fn sum(a: &u64, b: &u64) -> u64 {
     a + b

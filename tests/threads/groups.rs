@@ -24,6 +24,13 @@ fn no_message_changes_threads_too() {
 }
 
 #[test]
+fn any_number_of_inputs_from_other_threads() {
+    let mut program = ManyInputs::new();
+    simulate(&mut program, Time::ZERO, Time::from_millis(3));
+    assert_eq!(program.nodes().k.seen, [2000, 2004, 2008]);
+}
+
+#[test]
 fn an_event_is_answered_by_another_thread() {
     let mut program = Events::new();
     for question in [1, 2, 3] {

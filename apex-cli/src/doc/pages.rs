@@ -159,13 +159,9 @@ impl<'a> Site<'a> {
 
     fn ports(&self, ports: &[PortFacts]) -> String {
         let port = |port: &PortFacts| {
-            let ty = match port.rate {
-                _ if port.ty.is_unit() => String::new(),
-                1 => format!(" · {}", code(&port.ty.to_string())),
-                rate => format!(" · {}", code(&format!("[{}; {rate}]", port.ty))),
-            };
-            let optional = if port.optional { " · optional" } else { "" };
-            let facts = format!("<span class=\"soft\">{}{ty}{optional}</span>", port.kind.word());
+            let ty = if port.ty.is_unit() { String::new() } else { format!(" · {}", code(&port.type_text())) };
+            let remarks: String = port.remarks().map(|remark| format!(" · {remark}")).collect();
+            let facts = format!("<span class=\"soft\">{}{ty}{remarks}</span>", port.kind.word());
             self.entry(&format!("{} {facts}", code(&port.name)), &port.docs)
         };
         let order = [PortKind::Input, PortKind::Output, PortKind::Slot, PortKind::Event];

@@ -193,6 +193,8 @@ pub enum ArgKind {
     Input(Ty, Option<usize>),
     /// `Option<&T>`
     Optional(Ty),
+    /// `[&T; N]`, `[Option<&T>; N]`: any number of inputs, and `true` if they are optional.
+    Many(Ty, bool),
     /// `&mut Out<T>`
     Out(Ty, Option<usize>),
     /// `Event<T>`
@@ -607,7 +609,7 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
     let docs = signature::docs(&item.attrs);
     NodeItem {
         docs,
-        generics: generics(&item.sig.generics),
+        generics: generics(&signature::generics(item, callable)),
         bounds: bounds(&item.sig.generics),
         params,
         stateful: false,
@@ -655,6 +657,9 @@ fn arguments(args: &[signature::Arg]) -> Vec<ArgItem> {
     args.iter()
         .map(|arg| {
             let kind = match &arg.form {
+                Form::Input(input) if input.count.is_some() => {
+                    ArgKind::Many(Ty::from_syn(&input.token.ty), input.optional)
+                }
                 Form::Input(input) if input.optional => ArgKind::Optional(Ty::from_syn(&input.token.ty)),
                 Form::Input(input) => ArgKind::Input(Ty::from_syn(&input.token.ty), input.token.batch),
                 Form::Out(token) => ArgKind::Out(Ty::from_syn(&token.ty), token.batch),

@@ -176,7 +176,7 @@ impl Catalog {
             ArgKind::Ctx => self.own_type(def.module, "Ctx"),
             ArgKind::Event(_) => self.own_type(def.module, "Event"),
             ArgKind::Out(..) => self.own_type(def.module, "Out"),
-            ArgKind::Input(..) | ArgKind::Optional(_) | ArgKind::Param(_) => None,
+            ArgKind::Input(..) | ArgKind::Optional(_) | ArgKind::Many(..) | ArgKind::Param(_) => None,
         })
     }
 
@@ -459,6 +459,7 @@ impl SignatureBuilder<'_> {
             rate,
             optional,
             index,
+            any_number: false,
             field: None,
             field_is_option: false,
             docs: String::new(),
@@ -480,6 +481,11 @@ impl SignatureBuilder<'_> {
                     ArgSig::Port(self.port(&arg.name, Input, ty, *batch, false, next(&mut inputs)))
                 }
                 ArgKind::Optional(ty) => ArgSig::Port(self.port(&arg.name, Input, ty, None, true, next(&mut inputs))),
+                ArgKind::Many(ty, optional) => {
+                    let port = self.port(&arg.name, Input, ty, None, *optional, next(&mut inputs));
+                    self.ports[port].any_number = true;
+                    ArgSig::Port(port)
+                }
                 ArgKind::Out(ty, batch) => {
                     ArgSig::Port(self.port(&arg.name, Output, ty, *batch, true, next(&mut outputs)))
                 }

@@ -198,7 +198,12 @@ impl<'a> Emitter<'a> {
 
     /// Name of a token whose presence the firing of its node tests.
     pub fn tested(&self, to: PortId) -> Ident {
-        ident(&format!("token_{}", self.graph.port(to).name))
+        let node = &self.graph.nodes[to.node];
+        // The names of further elements are no identifiers.
+        match node.declared(to.port) == to.port {
+            true => ident(&format!("token_{}", node.ports[to.port].name)),
+            false => format_ident!("token_{}", to.port),
+        }
     }
 
     /// The token that arrives at an input, as `Option<&T>`, with its origin.
@@ -360,15 +365,12 @@ impl<'a> Emitter<'a> {
                         let name = self.generator.name(end);
                         quote!(state.#name.begin())
                     }
-                    PortKind::Input if p.optional => match self.arriving(end, block) {
-                        Some(token) => self.judged(end, token, true),
-                        None => quote!(None),
-                    },
-                    PortKind::Input => match self.arrived(end, block) {
-                        Some(_) if told => self.tested(end).into_token_stream(),
-                        Some(token) => self.judged(end, token, false),
-                        None => quote!(),
-                    },
+                    PortKind::Input if p.any_number => {
+                        let elements = self.graph.nodes[node].elements(port);
+                        let tokens = elements.map(|port| self.input(PortId { node, port }, p.optional, block, told));
+                        quote!([#(#tokens),*])
+                    }
+                    PortKind::Input => self.input(end, p.optional, block, told),
                     PortKind::Event | PortKind::Slot => self.generator.event(self.view, end),
                 }
             }
@@ -383,13 +385,29 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// The token at an input, as the node takes it.
+    fn input(&self, end: PortId, optional: bool, block: BlockId, told: bool) -> TokenStream {
+        match optional {
+            true => match self.arriving(end, block) {
+                Some(token) => self.judged(end, token, true),
+                None => quote!(None),
+            },
+            false => match self.arrived(end, block) {
+                Some(_) if told => self.tested(end).into_token_stream(),
+                Some(token) => self.judged(end, token, false),
+                None => quote!(),
+            },
+        }
+    }
+
     /// Lets rustc judge a connection whose types the scan could not compare.
     fn judged(&self, to: PortId, token: TokenStream, optional: bool) -> TokenStream {
         let Some(connection) = self.connection(to) else { return token };
         let Some(link) = self.generator.link(self.graph, connection) else { return token };
         let NodeKind::Library(library) = &self.graph.nodes[to.node].kind else { return token };
         let node = self.generator.node_type(self.graph, library);
-        let index = self.generator.catalog.signatures[library.signature].ports[to.port].index;
+        let declared = self.graph.nodes[to.node].declared(to.port);
+        let index = self.generator.catalog.signatures[library.signature].ports[declared].index;
         let span = (self.generator.place)(self.graph.connections[connection].span);
         let wanted = quote!(<#node as ::apex_rt::Input<#index>>::Token);
         if optional {
@@ -462,7 +480,8 @@ impl<'a> Emitter<'a> {
             .iter()
             .enumerate()
             .filter(|(_, p)| p.kind == PortKind::Input && !p.optional)
-            .map(|(port, _)| PortId { node, port })
+            .flat_map(|(port, _)| self.graph.nodes[node].elements(port))
+            .map(|port| PortId { node, port })
             .filter_map(|to| Some((self.tested(to), self.arriving(to, block)?)))
             .unzip();
         let place = self.generator.node_place(self.graph, node);

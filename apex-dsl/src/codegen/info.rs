@@ -71,7 +71,8 @@ impl Generator<'_> {
         for c in &graph.connections {
             let (from, to) =
                 (Literal::usize_unsuffixed(self.index(c.from.node)), Literal::usize_unsuffixed(self.index(c.to.node)));
-            let (output, input) = (&graph.port(c.from).name, &graph.port(c.to).name);
+            let taker = &graph.nodes[c.to.node];
+            let (output, input) = (&graph.port(c.from).name, &taker.ports[taker.declared(c.to.port)].name);
             rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
         }
         for (id, node) in graph.nodes.iter_enumerated() {
@@ -96,7 +97,9 @@ impl Generator<'_> {
     /// The row of a node's kind.
     fn kind_row(&self, node: &Node) -> TokenStream {
         let (name, docs) = self.kind(node);
-        let own = node.ports.iter().filter(|port| port.parameter.is_none() && port.standard.is_none());
+        let is_declared = |port: usize| node.declared(port) == port;
+        let ports = node.ports.iter().enumerate().filter(|(i, _)| is_declared(*i)).map(|(_, port)| port);
+        let own = ports.filter(|port| port.parameter.is_none() && port.standard.is_none());
         let ports = own.map(|port| {
             let (name, ty) = (&port.name, port.ty.to_string());
             let kind = match port.kind {

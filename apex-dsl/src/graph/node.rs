@@ -191,6 +191,8 @@ pub struct Port {
     /// For an input: it need not be connected, and ⊥ reaches the node. For an output: it may be ⊥ although the node
     /// fired.
     pub optional: bool,
+    /// For one of any number of inputs: the port that the signature declares for all of them, which is the first.
+    pub element_of: Option<usize>,
     /// Parameter that the port reads or sets.
     pub parameter: Option<usize>,
     /// Meaning, if it is a port that every node has.
@@ -260,6 +262,16 @@ impl Node {
         self.ports.iter().position(|p| p.standard == Some(standard))
     }
 
+    /// Number of the port that the signature declares for a port.
+    pub fn declared(&self, port: usize) -> usize {
+        self.ports[port].element_of.unwrap_or(port)
+    }
+
+    /// The ports of a declared port: those of all connections if it takes any number of them.
+    pub fn elements(&self, port: usize) -> impl Iterator<Item = usize> {
+        (0..self.ports.len()).filter(move |element| self.declared(*element) == port)
+    }
+
     /// Returns `true` if the node can be disabled.
     pub fn can_be_disabled(&self) -> bool {
         self.standard(Standard::Disable).is_some()
@@ -290,6 +302,7 @@ impl Port {
             ty,
             rate: 1,
             optional: true,
+            element_of: None,
             parameter: None,
             standard: None,
             docs: String::new(),

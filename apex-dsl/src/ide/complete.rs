@@ -222,6 +222,7 @@ impl Completer<'_> {
             ty: p.ty.clone(),
             rate: 1,
             optional: true,
+            any_number: false,
             docs: p.docs.clone(),
             definition: Definition::Param(node, i),
         });

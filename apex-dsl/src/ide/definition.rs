@@ -84,10 +84,25 @@ pub struct PortFacts {
     pub rate: usize,
     /// `true` for an input that need not be connected.
     pub optional: bool,
+    /// `true` for an input that takes any number of connections.
+    pub any_number: bool,
     /// Documentation.
     pub docs: String,
     /// Definition of the port.
     pub definition: Definition,
+}
+
+impl PortFacts {
+    /// The type as text, with the number of tokens per firing: `[f64; 2]`.
+    pub fn type_text(&self) -> String {
+        if self.rate > 1 { format!("[{}; {}]", self.ty, self.rate) } else { self.ty.to_string() }
+    }
+
+    /// Properties of the port, in words.
+    pub fn remarks(&self) -> impl Iterator<Item = &'static str> {
+        let optional = self.optional.then_some("optional");
+        optional.into_iter().chain(self.any_number.then_some("any number of connections"))
+    }
 }
 
 /// Declaration of a parameter.
@@ -191,6 +206,7 @@ impl<'a> View<'a> {
                     ty: p.ty.clone(),
                     rate: p.rate,
                     optional: p.optional && p.kind == PortKind::Input,
+                    any_number: p.any_number,
                     docs: p.docs.clone(),
                     definition: Definition::Port(node, i),
                 });
@@ -210,6 +226,7 @@ impl<'a> View<'a> {
             ty: ty(port),
             rate: 1,
             optional: false,
+            any_number: false,
             docs: port.docs.clone(),
             definition: Definition::Port(node, i),
         });

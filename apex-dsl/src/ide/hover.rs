@@ -31,9 +31,10 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
         }
         Definition::Port(node, i) => {
             let ports = view.ports(node);
-            let optional = if ports[i].optional { " It is optional." } else { "" };
-            let kind = kind_in_words(ports[i].kind);
-            page(&port(&ports[i]), &format!("{}\n\n{kind} of `{}`.{optional}", ports[i].docs, view.name_of(node)))
+            let (facts, kind) = (&ports[i], kind_in_words(ports[i].kind));
+            let optional = if facts.optional { " It is optional." } else { "" };
+            let number = if facts.any_number { " It takes any number of connections." } else { "" };
+            page(&port(facts), &format!("{}\n\n{kind} of `{}`.{optional}{number}", facts.docs, view.name_of(node)))
         }
         Definition::Standard(standard) => {
             let declaration = format!("{} {}: {}", word_of(standard.kind()), standard.name(), standard.ty());
@@ -137,8 +138,7 @@ pub fn param(param: &ParamFacts) -> String {
 
 /// `in  scan: Scan`
 pub fn port(port: &PortFacts) -> String {
-    let ty = if port.rate > 1 { format!("[{}; {}]", port.ty, port.rate) } else { port.ty.to_string() };
-    format!("{:5} {}: {ty}", word_of(port.kind), port.name)
+    format!("{:5} {}: {}", word_of(port.kind), port.name, port.type_text())
 }
 
 fn word_of(kind: PortKind) -> &'static str {

@@ -95,6 +95,7 @@ impl Machine {
             ty: ty.clone(),
             rate: 1,
             optional: false,
+            any_number: false,
             index,
             field: None,
             field_is_option: false,

@@ -115,9 +115,8 @@ impl Builder<'_> {
                 if ends[i].iter().any(Option::is_none) {
                     ends[i + 1].iter().flatten().for_each(|to| self.suppress_end(to));
                 }
-                let is_port = |end: &Endpoint| matches!(end, Endpoint::Port(_));
                 let open =
-                    [i == 0 && is_port(&chain.ends[0]), i + 2 == chain.ends.len() && is_port(&chain.ends[i + 1])];
+                    [i == 0 && is_named(&chain.ends[0]), i + 2 == chain.ends.len() && is_named(&chain.ends[i + 1])];
                 for from in ends[i].iter().flatten() {
                     for to in ends[i + 1].iter().flatten() {
                         match (from, to) {
@@ -361,7 +360,8 @@ impl Builder<'_> {
             }
         }
         let (active, span) = (arrow.active, arrow.span);
-        self.wires.push(Wire { from: from.port.place, to: to.port.place, active, differs, span });
+        let end = self.free_input(to.port.place);
+        self.wires.push(Wire { from: from.port.place, to: end, active, differs, span });
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
         let side = |Chosen { text, port, .. }: Chosen<'_>| {
@@ -370,6 +370,19 @@ impl Builder<'_> {
             Side { name, kind: port.kind, ty: port.ty.clone() }
         };
         links.push(Link { arrow: span, active, by_name, from: side(from), to: side(to) });
+    }
+
+    /// The port that a connection to `place` takes: if the node takes any number of inputs there, the next one.
+    fn free_input(&mut self, place: WireEnd) -> WireEnd {
+        let WireEnd::Port(PortId { node, port }) = place else { return place };
+        let ports = &mut self.nodes[node].ports;
+        if ports[port].element_of.is_none() || self.arrays.insert(place) {
+            return place;
+        }
+        let number = ports.iter().filter(|other| other.element_of == Some(port)).count();
+        let element = Port { name: format!("{}[{number}]", ports[port].name), ..ports[port].clone() };
+        ports.push(element);
+        WireEnd::Port(PortId { node, port: ports.len() - 1 })
     }
 
     fn suppress_end(&mut self, to: &Meaning) {
@@ -508,6 +521,15 @@ impl Builder<'_> {
             },
             WireEnd::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),
         }
+    }
+}
+
+/// Returns `true` if the ends are names, to which that of a port can be added.
+fn is_named(end: &Endpoint) -> bool {
+    match end {
+        Endpoint::Port(_) => true,
+        Endpoint::List(ends, _) => ends.iter().all(is_named),
+        Endpoint::All(_) | Endpoint::Instance(_) => false,
     }
 }
 

@@ -32,6 +32,8 @@ pub struct Builder<'a> {
     pub wires: Vec<Wire>,
     /// Inputs whose connection could not be made, which has been reported.
     pub suppressed: BTreeSet<WireEnd>,
+    /// Declared ports for any number of inputs that have a connection.
+    pub arrays: BTreeSet<WireEnd>,
     /// Unknown names of nodes or ports in each graph, which have been reported.
     pub unknown: BTreeSet<(GraphId, String)>,
     /// The initial tokens of delays, as written.
@@ -114,6 +116,7 @@ impl<'a> Builder<'a> {
             pins: vec![],
             wires: vec![],
             suppressed: BTreeSet::new(),
+            arrays: BTreeSet::new(),
             unknown: BTreeSet::new(),
             delays: vec![],
             claims: vec![],

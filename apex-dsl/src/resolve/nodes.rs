@@ -156,12 +156,13 @@ pub fn require_function_params(graph: &mut Graph, catalog: &Catalog) {
 
 /// The ports of a node: those of the signature, then an input and an output for each parameter.
 fn library_ports(signature: &Signature) -> Vec<Port> {
-    let ports = signature.ports.iter().map(|p| Port {
+    let ports = signature.ports.iter().enumerate().map(|(i, p)| Port {
         name: p.name.clone(),
         kind: p.kind,
         ty: p.ty.clone(),
         rate: p.rate,
         optional: p.optional,
+        element_of: p.any_number.then_some(i),
         parameter: None,
         standard: None,
         docs: p.docs.clone(),
@@ -173,6 +174,7 @@ fn library_ports(signature: &Signature) -> Vec<Port> {
             ty: p.ty.clone(),
             rate: 1,
             optional: kind == PortKind::Input,
+            element_of: None,
             parameter: Some(i),
             standard: None,
             docs: p.docs.clone(),

@@ -41,6 +41,16 @@ impl Builder<'_> {
             builder.nodes[wrapped].modifiers.group = None;
             let ports: Vec<Port> =
                 builder.nodes[wrapped].ports.iter().filter(|p| p.parameter.is_none()).cloned().collect();
+            if let Some(port) = ports.iter().find(|port| port.element_of.is_some()) {
+                let (node, port) = (instance.path.text(), &port.name);
+                let message =
+                    format!("`each` cannot repeat `{node}`: its input `{port}` takes any number of connections");
+                let error = Diagnostic::error("each-port", instance.span, message);
+                builder.diagnostics.push(error.note(format!(
+                    "write a `graph` that contains `{node}` and has one `in` for each of them, and repeat that graph"
+                )));
+                return None;
+            }
             for (port, inner) in ports.into_iter().enumerate() {
                 let span = name.span;
                 let ident = Ident { text: inner.name.clone(), span };

@@ -11,7 +11,7 @@ thread_local! {
 /// Tasks of the graphs.
 pub mod tasks {
     use super::CHECKSUM;
-    use apex_bench::nodes::{self, Count, OneOf, add, op, sum8};
+    use apex_bench::nodes::{self, Count, OneOf, add, op, total};
     use cu29::prelude::*;
 
     macro_rules! stateless {
@@ -124,7 +124,7 @@ pub mod tasks {
             let all = [a, b, c, d, e, f, g, h].map(|message| message.payload());
             match all {
                 [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f), Some(g), Some(h)] => {
-                    output.set_payload(sum8(a, b, c, d, e, f, g, h));
+                    output.set_payload(total([a, b, c, d, e, f, g, h]));
                 }
                 _ => output.clear_payload(),
             }

@@ -22,10 +22,16 @@ pub fn gate<T: Clone>(value: &T, open: &bool) -> Option<T> {
     open.then(|| value.clone())
 }
 
-/// Value of `first`, or of `second` if `first` is ⊥. Joins the branches of [`switch`].
+/// First of the values that is not ⊥, in the order of the connections. Joins the branches of [`switch`], and the
+/// outputs of nodes that are never active together.
 #[node]
-pub fn merge<T: Clone>(first: Option<&T>, second: Option<&T>) -> Option<T> {
-    first.or(second).cloned()
+pub fn merge<T: Clone, const N: usize>(values: [Option<&T>; N]) -> Option<T> {
+    // Small values stay in registers, while references to them would force them into memory.
+    if const { size_of::<T>() <= 4 * size_of::<usize>() && !core::mem::needs_drop::<T>() } {
+        values.map(|value| value.cloned()).into_iter().fold(None, Option::or)
+    } else {
+        values.into_iter().find_map(|value| value).cloned()
+    }
 }
 
 /// Value of `on_true` or `on_false`, selected by `condition`; ⊥ if the selected input is ⊥.
@@ -53,16 +59,17 @@ mod tests {
 
     #[test]
     fn merge_prefers_the_first() {
-        assert_eq!(merge(Some(&1), Some(&2)), Some(1));
-        assert_eq!(merge(None, Some(&2)), Some(2));
-        assert_eq!(merge::<i32>(None, None), None);
+        assert_eq!(merge([Some(&1), Some(&2)]), Some(1));
+        assert_eq!(merge([None, None, Some(&2)]), Some(2));
+        assert_eq!(merge::<i32, 2>([None, None]), None);
+        assert_eq!(merge([None, Some(&vec![2]), Some(&vec![3])]), Some(vec![2]));
     }
 
     #[test]
     fn merge_undoes_switch() {
         for condition in [true, false] {
             let parted = switch(&3, &condition);
-            assert_eq!(merge(parted.on_true.as_ref(), parted.on_false.as_ref()), Some(3));
+            assert_eq!(merge([parted.on_true.as_ref(), parted.on_false.as_ref()]), Some(3));
         }
     }
 

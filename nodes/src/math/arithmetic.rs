@@ -43,18 +43,6 @@ pub fn sqrt<T: Float>(x: &T) -> T {
     x.sqrt()
 }
 
-/// Smaller of two values. If one is NaN, the other one.
-#[node]
-pub fn min<T: Float>(a: &T, b: &T) -> T {
-    a.min(*b)
-}
-
-/// Larger of two values. If one is NaN, the other one.
-#[node]
-pub fn max<T: Float>(a: &T, b: &T) -> T {
-    a.max(*b)
-}
-
 /// Value limited to the range from `lower` to `upper`. If `lower` exceeds `upper`, the result is at most `upper`.
 #[node]
 pub fn clamp<T: Float>(x: &T, #[param] lower: T, #[param] upper: T) -> T {
@@ -87,7 +75,6 @@ mod tests {
     fn basic_operations() {
         assert_eq!((add(&1.0, &2.0), sub(&1.0, &2.0), mul(&3.0, &2.0), div(&3.0, &2.0)), (3.0, -1.0, 6.0, 1.5));
         assert_eq!((neg(&1.0), abs(&-2.0), sqrt(&9.0)), (-1.0, 2.0, 3.0));
-        assert_eq!((min(&1.0, &2.0), max(&1.0, &2.0)), (1.0, 2.0));
         assert_eq!(add(&1.0_f32, &2.0_f32), 3.0_f32);
     }
 

@@ -19,18 +19,6 @@ pub fn within<T: Float>(x: &T, #[param] lower: T, #[param] upper: T) -> bool {
     *x >= lower && *x <= upper
 }
 
-/// Logical and: `true` if both inputs are `true`.
-#[node]
-pub fn and(a: &bool, b: &bool) -> bool {
-    *a && *b
-}
-
-/// Logical or: `true` if at least one input is `true`.
-#[node]
-pub fn or(a: &bool, b: &bool) -> bool {
-    *a || *b
-}
-
 /// Logical negation.
 #[node]
 pub fn not(a: &bool) -> bool {
@@ -72,7 +60,7 @@ mod tests {
         assert_eq!([0.4, 0.5, f64::NAN].map(|x| above(&x, 0.5)), [false, true, false]);
         assert_eq!([0.4, 0.5, f64::NAN].map(|x| below(&x, 0.5)), [true, false, false]);
         assert_eq!([0.0, 1.0, 1.1].map(|x| within(&x, 0.0, 1.0)), [true, true, false]);
-        assert!(and(&true, &true) && !and(&true, &false) && or(&true, &false) && not(&false));
+        assert!(not(&false) && !not(&true));
     }
 
     #[test]

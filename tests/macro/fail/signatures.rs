@@ -22,6 +22,20 @@ fn pattern((a, b): &(u64, u64)) {}
 fn one(x: &[u64; 1]) {}
 
 #[node]
+fn a_number_of_inputs(x: [&u64; 3]) {}
+
+#[node]
+fn unknown_number(x: [Option<&u64>; N]) {}
+
+#[node]
+fn number_used_twice<const N: usize>(x: [&u64; N], y: [&u64; N]) {}
+
+#[node]
+fn number_in_a_type<const N: usize>(x: [&u64; N]) -> Sized<N> {
+    Sized
+}
+
+#[node]
 fn returns(x: &u64) -> &u64 {
     x
 }

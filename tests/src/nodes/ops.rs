@@ -30,6 +30,41 @@ pub fn total_of_five(a: &i64, b: &i64, c: &i64, d: &i64, e: &i64) -> i64 {
     a + b + c + d + e
 }
 
+/// Sum of any number of values.
+#[node]
+pub fn total<const N: usize>(values: [&i64; N]) -> i64 {
+    values.into_iter().sum()
+}
+
+/// Weights the values that are there by their positions, `i + 1`, and adds the number of inputs times 1000.
+#[node]
+pub fn weigh<const N: usize>(offset: &i64, values: [Option<&i64>; N]) -> i64 {
+    let weighted = values.into_iter().enumerate().map(|(i, value)| (i as i64 + 1) * value.unwrap_or(&0));
+    1000 * N as i64 + offset + weighted.sum::<i64>()
+}
+
+/// Adds up the largest values of its firings, and counts the firings at which a value is missing.
+#[node]
+#[derive(Default)]
+pub struct Census {
+    sum: i64,
+    /// Number of firings without all values.
+    pub incomplete: i64,
+}
+
+#[node]
+impl Census {
+    fn process<const N: usize>(&mut self, values: [&i64; N]) -> i64 {
+        self.sum += values.into_iter().max().unwrap_or(&0);
+        self.sum % 1009
+    }
+
+    #[no_message]
+    fn missing(&mut self) {
+        self.incomplete += 1;
+    }
+}
+
 /// Passes even values.
 #[node]
 pub fn drop_odd(x: &i64) -> Option<i64> {

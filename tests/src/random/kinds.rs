@@ -77,6 +77,19 @@ pub const OPERATIONS: &[Kind] = &[
     plain("add", &["a", "b"], |_, _, t| vec![Some(value(t, 0) + value(t, 1))]),
     plain("offset", &["x", "by"], |_, _, t| vec![Some(value(t, 0) + value(t, 1))]),
     plain("total_of_five", &["a", "b", "c", "d", "e"], |_, _, t| vec![Some((0..5).map(|i| value(t, i)).sum())]),
+    plain("total", &["values", "values", "values"], |_, _, t| vec![Some((0..3).map(|i| value(t, i)).sum())]),
+    Kind {
+        optional: 4,
+        ..plain("weigh", &["offset", "values", "values", "values", "values"], |_, _, t| vec![Some(weighed(t))])
+    },
+    Kind {
+        told: true,
+        ..plain("Census", &["values", "values"], |s, _, t| {
+            let [Some(a), Some(b)] = t else { return vec![None] };
+            s.number += a.max(b);
+            vec![Some(s.number % 1009)]
+        })
+    },
     plain("drop_odd", &["x"], |_, _, t| vec![some_if(value(t, 0) % 2 == 0, value(t, 0))]),
     Kind {
         parameter: Some(("of", 2..4)),
@@ -158,6 +171,12 @@ pub const SINKS: &[Kind] = &[
 fn wind(state: &mut State, _: i64, tokens: &[Token]) -> Vec<Token> {
     state.tape.push(tokens[0]);
     vec![]
+}
+
+/// `weigh`
+fn weighed(tokens: &[Token]) -> i64 {
+    let weighted = (1..tokens.len()).map(|i| i as i64 * tokens[i].unwrap_or(0));
+    1000 * (tokens.len() as i64 - 1) + value(tokens, 0) + weighted.sum::<i64>()
 }
 
 fn switch(x: i64) -> Vec<Token> {

@@ -61,7 +61,9 @@ fn case(dice: &mut Dice) -> Case {
         let kind = dice.of(OPERATIONS);
         let optional = kind.inputs.len() - kind.optional..kind.inputs.len();
         let inputs = (0..kind.inputs.len()).map(|input| {
-            let open = optional.contains(&input) && dice.one_in(6);
+            // One of any number of inputs exists only with its connection.
+            let is_single = kind.inputs.iter().filter(|name| **name == kind.inputs[input]).count() == 1;
+            let open = optional.contains(&input) && is_single && dice.one_in(6);
             (!open).then(|| end(dice, &nodes))
         });
         let inputs = inputs.collect();
