@@ -7,7 +7,7 @@ use crate::{
 use apex_dsl::{
     analyse,
     catalog::Catalog,
-    graph::{Each, Graph, Library, Node, NodeId, NodeKind, PortId, ScopeId, Wire, WireEnd},
+    graph::{Each, Graph, Library, Node, NodeId, NodeKind, PortId, ScopeId, Subject, Wire, WireEnd},
     machine::Machines,
     syntax::tree::PortKind,
 };
@@ -101,7 +101,8 @@ impl<'a> Builder<'a> {
         let graph = self.graph;
         let drawn = |n: &NodeId| {
             let node = &graph.nodes[*n];
-            let hidden = matches!(node.kind, NodeKind::Boundary(_) | NodeKind::Relay | NodeKind::Probe);
+            use NodeKind::{Boundary, Interrupt, Probe, Relay};
+            let hidden = matches!(node.kind, Boundary(_) | Relay | Probe | Interrupt(_));
             node.scope == scope && !hidden
         };
         let nodes = graph.nodes.ids().filter(drawn).map(|n| (graph.nodes[n].span.start, Member::Node(n)));
@@ -198,8 +199,25 @@ impl<'a> Builder<'a> {
                 connected,
             }
         };
-        item.ports = shown.iter().map(port).collect();
-        (item, shown.into_iter().map(|p| places[p]).collect())
+        let mut ports: Vec<Port> = shown.iter().map(port).collect();
+        let mut places: Vec<WireEnd> = shown.into_iter().map(|p| places[p]).collect();
+        for place in self.interrupt_of(id) {
+            let port = self.graph.port(place);
+            let (name, side) = (port.name.clone(), shape_side(item.shape, port.kind));
+            ports.push(Port { name, side, docs: String::new(), connected: true });
+            places.push(WireEnd::Port(place));
+        }
+        item.ports = ports;
+        (item, places)
+    }
+
+    /// The ports `cancel`, `resume` and `cancelled` of a node, as far as they are connected.
+    fn interrupt_of(&self, id: NodeId) -> Vec<PortId> {
+        let interrupt = self.graph.nodes.position(|node| node.interrupts() == Some(Subject::Node(id)));
+        let ports = interrupt
+            .into_iter()
+            .flat_map(|node| (0..self.graph.nodes[node].ports.len()).map(move |port| PortId { node, port }));
+        ports.filter(|place| self.connected.contains(&WireEnd::Port(*place))).collect()
     }
 
     fn library(&self, node: &Node, library: &Library) -> Item {

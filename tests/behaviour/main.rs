@@ -6,6 +6,7 @@ mod active;
 mod activity;
 mod borders;
 mod by_name;
+mod cancel;
 mod claims;
 mod dataflow;
 mod each;

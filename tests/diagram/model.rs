@@ -2,7 +2,7 @@
 
 use crate::{Drawer, root};
 use apex_diagram::{Anchor, Flow, Frame, Item, READABLE, Shape, Side, diagram, folded, folded_states, states};
-use apex_dsl::graph::{Graph, NodeKind};
+use apex_dsl::graph::{Graph, NodeKind, Subject, WireEnd};
 
 const KINDS: &str = "
 use apex_nodes::flow::{ActivityGate, Relay, Wait};
@@ -243,9 +243,16 @@ fn long_chains_become_one_box() {
 
 /// Numbers of nodes and connections that a picture must have.
 fn expected(graph: &Graph) -> (usize, usize) {
-    let drawn = |n: &&apex_dsl::graph::Node| !matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Relay);
+    use NodeKind::{Boundary, Interrupt, Relay};
+    let drawn = |n: &&apex_dsl::graph::Node| !matches!(n.kind, Boundary(_) | Relay | Interrupt(_));
     let nodes = graph.nodes.iter().filter(drawn).count() + graph.scopes.len() - 1;
-    (nodes, graph.wires.len() + graph.nodes.iter().filter(|n| n.starts_active).count())
+    // A connection with the `cancel` of a nested graph ends at its frame.
+    let is_inside = |end: WireEnd| {
+        let WireEnd::Port(end) = end else { return false };
+        matches!(graph.nodes[end.node].kind, Interrupt(Subject::Scope(_)))
+    };
+    let lines = graph.wires.iter().filter(|wire| !is_inside(wire.from) && !is_inside(wire.to)).count();
+    (nodes, lines + graph.nodes.iter().filter(|n| n.starts_active).count())
 }
 
 /// Numbers of items and lines of a frame, without start dots and the contents of `each`.

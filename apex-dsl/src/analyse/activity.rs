@@ -17,12 +17,21 @@ pub fn reachable_within(graph: &Graph) -> BTreeSet<NodeId> {
     spread(graph, |kind| matches!(kind, NodeKind::Boundary(PortKind::Input | PortKind::Slot)))
 }
 
-/// Nodes that activity can reach from its origins, and from nodes of the kinds for which `enters` is `true`.
-fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId> {
+/// For each node, the nodes to which activity can go from it: over `=>`, or because it is cancelled.
+pub fn successors(graph: &Graph) -> IdVec<NodeId, Vec<NodeId>> {
     let mut next: IdVec<NodeId, Vec<NodeId>> = IdVec::from_elem(vec![], graph.nodes.len());
     for c in graph.connections.iter().filter(|c| c.active) {
         next[c.from.node].push(c.to.node);
     }
+    for (interrupt, nodes) in graph.interrupts() {
+        nodes.into_iter().for_each(|node| next[node].push(interrupt));
+    }
+    next
+}
+
+/// Nodes that activity can reach from its origins, and from nodes of the kinds for which `enters` is `true`.
+fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId> {
+    let next = successors(graph);
     let begins = |n: &NodeId| {
         let node = &graph.nodes[*n];
         let is_source = matches!(node.kind, NodeKind::Start | NodeKind::Receiver(_)) || enters(&node.kind);

@@ -79,8 +79,8 @@ impl Asynchronous {
                 slots.iter().filter(from_output).for_each(|c| has_occupancy_bit[*c] = true);
             }
         }
-        if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
-            sent_by_reset(graph).for_each(|c| has_occupancy_bit[c] = true);
+        for node in graph.nodes.ids().filter(|node| moves_activity(graph, *node)) {
+            sent_with_activity(graph, node).into_iter().for_each(|c| has_occupancy_bit[c] = true);
         }
         let delivery = if single { Delivery::Single } else { Delivery::Queued };
         Self { live, slots, may_block, has_occupancy_bit, endless: is_endless(&causes), delivery, is_tabled, causes }
@@ -143,14 +143,14 @@ impl Asynchronous {
     }
 
     /// Connections that may be occupied when the slot at the end of `connection` is due: those of its node's events
-    /// (R5), or for `reset` all connections on which a reset sends.
+    /// (R5), and for `reset` and `cancel` those on which they send for other nodes.
     pub fn not_yet_taken(&self, graph: &Graph, links: &Links, connection: ConnectionId) -> Vec<ConnectionId> {
         let node = graph.connections[connection].to.node;
-        let resets = matches!(graph.nodes[node].kind, NodeKind::Reset);
-        let all: Vec<ConnectionId> =
-            if resets { sent_by_reset(graph).collect() } else { events(graph, links, node).collect() };
+        let others = sent_with_activity(graph, node);
+        let all = events(graph, links, node).chain(others);
         // The token that `reset` takes has left its connection.
-        all.into_iter().filter(|c| self.has_occupancy_bit[*c] && !(resets && *c == connection)).collect()
+        let taken = |c: ConnectionId| moves_activity(graph, node) && c == connection;
+        all.filter(|c| self.has_occupancy_bit[*c] && !taken(*c)).collect()
     }
 }
 
@@ -159,11 +159,24 @@ pub fn events<'a>(graph: &'a Graph, links: &'a Links, node: NodeId) -> impl Iter
     links.sends[node].iter().copied().filter(|c| graph.port(graph.connections[*c].from).kind == PortKind::Event)
 }
 
-/// Connections on which a reset sends: those of `start`, and of the events `activated` and `deactivated`.
-fn sent_by_reset(graph: &Graph) -> impl Iterator<Item = ConnectionId> + '_ {
-    let sent =
-        |from: PortId| matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity();
-    graph.connections.ids().filter(move |c| sent(graph.connections[*c].from))
+/// Returns `true` if the slots of a node move the activity of other nodes: `reset`, `cancel` and `resume`.
+pub fn moves_activity(graph: &Graph, node: NodeId) -> bool {
+    matches!(graph.nodes[node].kind, NodeKind::Reset | NodeKind::Interrupt(_))
+}
+
+/// Connections on which the slots of a node send for other nodes: those of the events `activated` and `deactivated`,
+/// and for `reset` those of `start`.
+fn sent_with_activity(graph: &Graph, node: NodeId) -> Vec<ConnectionId> {
+    let nodes: Option<BTreeSet<NodeId>> = match graph.nodes[node].kind {
+        NodeKind::Reset => None,
+        NodeKind::Interrupt(subject) => Some(graph.nodes_of(subject).into_iter().collect()),
+        _ => return vec![],
+    };
+    let sent = |from: PortId| match &nodes {
+        None => matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity(),
+        Some(nodes) => graph.port(from).tells_of_activity() && nodes.contains(&from.node),
+    };
+    graph.connections.ids().filter(|c| sent(graph.connections[*c].from)).collect()
 }
 
 /// For each connection, `true` if it may stay occupied.
@@ -221,10 +234,10 @@ fn is_single(
             NodeKind::Library(library) if !by_process(&catalog.signatures[library.signature], graph, c.from) => {}
             _ => *by_region.entry(regions[c.from.node]).or_default() += 1,
         }
-        // Three cases are excluded: slots that may have to wait, for a region or for a port of the program; `reset`,
-        // which sends several tokens; standard events, which come in addition to other tokens.
+        // Three cases are excluded: slots that may have to wait, for a region or for a port of the program; `reset` and
+        // `cancel`, which may send several tokens; standard events, which come in addition to other tokens.
         let held_back = events(graph, links, c.to.node).any(|c| graph.flow(&graph.connections[c]) == Flow::ToInput);
-        let leaves = matches!(graph.nodes[c.to.node].kind, NodeKind::Boundary(_) | NodeKind::Reset);
+        let leaves = matches!(graph.nodes[c.to.node].kind, NodeKind::Boundary(_)) || moves_activity(graph, c.to.node);
         let standard = graph.port(c.from).standard.is_some();
         if !alone(&index) || held_back || leaves || standard || causes[index].iter().filter(|c| to_slot(c)).count() > 1
         {
@@ -267,6 +280,7 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: Connectio
     let sends = |port: usize| match (&node.kind, node.ports[port].kind, node.ports[port].standard) {
         // A delay sends its token in a later iteration, and a timeout comes at a later time.
         (NodeKind::Delay(_), ..) => false,
+        (NodeKind::Interrupt(_), ..) => Standard::Cancel.of_interrupt() == Some(to.port),
         (_, _, Some(Standard::Timeout)) => false,
         (_, _, Some(Standard::Processed)) => by_process,
         (_, _, Some(_)) => true,
@@ -282,5 +296,6 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: Connectio
         }
         _ => true,
     };
-    links.from(to.node).filter(|c| sends(graph.connections[*c].from.port)).collect()
+    let own = links.from(to.node).filter(|c| sends(graph.connections[*c].from.port));
+    own.chain(sent_with_activity(graph, to.node)).collect()
 }

@@ -5,7 +5,10 @@
 //! the code of `a` tests and calls the three slots one after another. If the order of two tokens depends on the
 //! presence of a third, the program has a queue.
 
-use super::{Analysis, Asynchronous, Links, asynchronous::events};
+use super::{
+    Analysis, Asynchronous, Links,
+    asynchronous::{events, moves_activity},
+};
 use crate::graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
 
@@ -26,7 +29,7 @@ const MAX_ORDERED: usize = 64;
 /// Returns `true` if slot tokens need no queue, although several of them may be in flight.
 pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
     let asynchronous = &analysis.asynchronous;
-    let resets = graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset));
+    let resets = graph.nodes.ids().any(|node| moves_activity(graph, node));
     let is_ordered = |sends: &Vec<ConnectionId>| ordered(graph, &analysis.links, asynchronous, sends).is_some();
     asynchronous.delivery == Delivery::Queued
         && !asynchronous.is_tabled

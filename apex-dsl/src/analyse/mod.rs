@@ -39,7 +39,7 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use activity::{reachable as active_nodes, reachable_within as active_nodes_within};
+pub use activity::{reachable as active_nodes, reachable_within as active_nodes_within, successors};
 pub use asynchronous::{Asynchronous, MANY};
 pub use characteristics::Characteristics;
 pub use clocks::{Clock, is_mandatory};
@@ -75,6 +75,8 @@ pub struct Analysis {
     pub stamps: Stamps,
     /// Nodes that activity can reach.
     pub active: BTreeSet<NodeId>,
+    /// Nodes whose activity can be cancelled.
+    pub cancelled: BTreeSet<NodeId>,
     /// Connections of each node.
     pub links: Links,
     /// Analysis of the body of each `each` node.
@@ -189,6 +191,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         asynchronous,
         stamps: Stamps::default(),
         active,
+        cancelled: graph.interrupts().flat_map(|(_, nodes)| nodes).collect(),
         links,
         bodies,
     };
@@ -238,6 +241,7 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
         | NodeKind::Watchdog
         | NodeKind::Exit(_)
         | NodeKind::Reset
+        | NodeKind::Interrupt(_)
         | NodeKind::Probe
         | NodeKind::Sender(_) => false,
     }
@@ -276,6 +280,7 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         | NodeKind::Watchdog
         | NodeKind::Exit(_)
         | NodeKind::Reset
+        | NodeKind::Interrupt(_)
         | NodeKind::Sender(_)
         | NodeKind::Receiver(_) => false,
     }

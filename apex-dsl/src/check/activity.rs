@@ -1,7 +1,7 @@
 //! Activity that never arrives, or never leaves.
 
 use crate::{
-    analyse::{active_nodes, active_nodes_within},
+    analyse::{active_nodes, active_nodes_within, successors},
     catalog::Catalog,
     graph::{Connection, ConnectionId, Graph, NodeId, NodeKind, WireEnd},
     index::IdVec,
@@ -22,7 +22,7 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     // A robot is never nested, whereas another graph may receive activity from the graph around it.
     let reached = if graph.robot { active_nodes(graph) } else { active_nodes_within(graph) };
     let (waiting, stuck) = (waiting(graph, catalog, &reached), stuck(graph, &reached));
-    let mut check = Check { graph, reached, waiting, stuck, next: next(graph) };
+    let mut check = Check { graph, reached, waiting, stuck, next: successors(graph) };
     check.report_gaps(diagnostics);
     check.report_waiting(diagnostics);
     for (node, first) in check.stuck {
@@ -66,17 +66,14 @@ fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, Connecti
             stuck.entry(c.from.node).or_insert(index);
         }
     }
-    stuck.retain(|node, _| !passes.contains(node));
+    // Activity also leaves nodes that are cancelled.
+    let is_called = |node: NodeId| graph.connections.iter().any(|c| c.to.node == node);
+    let cancelled = graph.interrupts().filter(|(interrupt, _)| is_called(*interrupt));
+    let cancelled: BTreeSet<NodeId> = cancelled.flat_map(|(_, nodes)| nodes).collect();
+    stuck.retain(|node, _| {
+        !passes.contains(node) && !cancelled.contains(node) && graph.nodes[*node].interrupts().is_none()
+    });
     stuck
-}
-
-/// Targets of the active connections of each node.
-fn next(graph: &Graph) -> IdVec<NodeId, Vec<NodeId>> {
-    let mut next = IdVec::from_elem(vec![], graph.nodes.len());
-    for c in graph.connections.iter().filter(|c| c.active) {
-        next[c.from.node].push(c.to.node);
-    }
-    next
 }
 
 struct Check<'a> {

@@ -96,7 +96,7 @@ fn failure(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Diagnos
             "connect the node at which the run ends by `=>`, so that activity can continue from there",
         ),
         ClaimKind::Conserved => {
-            let (left, given) = (end(model, run).len(), model.given);
+            let (left, given) = (end(model, run).into_iter().filter(|p| model.is_active(*p)).count(), model.given);
             let what = if left < given { "lost" } else { "multiplied" };
             (
                 format!("activity can be {what}: `start` creates {given}, and the run below ends with {left}"),

@@ -4,10 +4,10 @@
 use crate::{
     analyse::{active_nodes, takes_activity},
     catalog::Catalog,
-    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{Connection, ConnectionId, Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Number of a place in [`Model::places`].
 pub type PlaceId = u32;
@@ -21,6 +21,23 @@ pub enum Place {
     Node(NodeId),
     /// A connection, by number: it holds a token that carries activity.
     Connection(ConnectionId),
+    /// `cancel` has taken activity from the second node, and the first one can give it back. It is not active.
+    Remembered(NodeId, NodeId),
+}
+
+/// A `cancel` of a node or nested graph.
+#[derive(Debug)]
+pub struct Interrupt {
+    /// The node that stands for it.
+    pub node: NodeId,
+    /// Places from which it takes activity: nodes, and connections to them.
+    takes: Vec<PlaceId>,
+    /// For each place from which it takes activity, the place that remembers it. Empty without `resume`.
+    remembers: BTreeMap<PlaceId, PlaceId>,
+    /// For each place that remembers, the node that becomes active again.
+    gives: BTreeMap<PlaceId, PlaceId>,
+    /// The active connections of `cancelled`.
+    sends: Vec<PlaceId>,
 }
 
 /// A port over which a node passes its activity on.
@@ -45,6 +62,10 @@ pub enum Arrival {
     Ends,
     /// The program returns to its initial state.
     Restarts,
+    /// It arrives at a `cancel`, by its number in [`Model::interrupts`].
+    Cancels(usize),
+    /// It arrives at a `resume`.
+    Resumes(usize),
 }
 
 /// A step of a run.
@@ -58,6 +79,10 @@ pub enum Move {
     Take(PlaceId),
     /// The connection with this number takes away the activity at this place.
     Away(ConnectionId, PlaceId),
+    /// A token without activity arrives at a `cancel`.
+    Cancel(usize),
+    /// A token without activity arrives at a `resume`.
+    Resume(usize),
 }
 
 /// Places and moves of the activity of a graph.
@@ -75,6 +100,12 @@ pub struct Model {
     pub arrivals: Vec<Option<Arrival>>,
     /// Connections that can take activity away from each place.
     pub removers: Vec<Vec<ConnectionId>>,
+    /// Interrupts of the graph.
+    pub interrupts: Vec<Interrupt>,
+    /// Those to whose `cancel` a token without activity may come.
+    cancels: Vec<usize>,
+    /// Those to whose `resume` a token without activity may come.
+    resumes: Vec<usize>,
 }
 
 impl Model {
@@ -88,7 +119,18 @@ impl Model {
         };
         let connections = graph.connections.iter_enumerated();
         places.extend(connections.filter(|(_, c)| c.active && carries(c.from)).map(|(i, _)| Place::Connection(i)));
+        for (interrupt, nodes) in graph.interrupts() {
+            let remembered = |node: &NodeId| reached.contains(node) && is_called(graph, interrupt, Standard::Resume);
+            places.extend(nodes.into_iter().filter(remembered).map(|node| Place::Remembered(interrupt, node)));
+        }
         let number: BTreeMap<Place, PlaceId> = (0..).zip(&places).map(|(i, p)| (*p, i)).collect();
+        let interrupts: Vec<Interrupt> =
+            graph.interrupts().map(|(node, nodes)| Interrupt::new(graph, &places, &number, node, &nodes)).collect();
+        let plain = |standard: Standard| {
+            let is_plain = |interrupt: &Interrupt| has_plain(graph, interrupt.node, standard);
+            (0..interrupts.len()).filter(|i| is_plain(&interrupts[*i])).collect()
+        };
+        let (cancels, resumes) = (plain(Standard::Cancel), plain(Standard::Resume));
         let mut model = Self {
             initial: vec![],
             given: 0,
@@ -96,11 +138,14 @@ impl Model {
             arrivals: vec![None; places.len()],
             removers: vec![vec![]; places.len()],
             places,
+            interrupts,
+            cancels,
+            resumes,
         };
         for index in 0..model.places.len() {
             match model.places[index] {
                 Place::Node(node) if graph.nodes[node].starts_active => model.initial.push(index as PlaceId),
-                Place::Node(_) => {}
+                Place::Node(_) | Place::Remembered(..) => {}
                 Place::Connection(c) => model.add_connection(graph, &number, index, c),
             }
         }
@@ -118,13 +163,21 @@ impl Model {
         connection: ConnectionId,
     ) {
         let c = &graph.connections[connection];
+        let interrupt = self.interrupts.iter().position(|interrupt| interrupt.node == c.to.node);
+        let resumes = Standard::Resume.of_interrupt() == Some(c.to.port);
         self.arrivals[index] = Some(match (&graph.nodes[c.to.node].kind, number.get(&Place::Node(c.to.node))) {
+            (NodeKind::Interrupt(_), _) if resumes => Arrival::Resumes(interrupt.unwrap_or_default()),
+            (NodeKind::Interrupt(_), _) => Arrival::Cancels(interrupt.unwrap_or_default()),
             (_, Some(node)) => Arrival::Node(*node),
             (NodeKind::Exit(_), _) => Arrival::Ends,
             (NodeKind::Reset, _) => Arrival::Restarts,
             _ => Arrival::Leaves,
         });
         let place = index as PlaceId;
+        // `cancel` sends at once what it takes.
+        if graph.nodes[c.from.node].interrupts().is_some() {
+            return;
+        }
         let Some(from) = number.get(&Place::Node(c.from.node)) else {
             self.initial.push(place);
             return;
@@ -171,6 +224,15 @@ impl Model {
                 Some(Arrival::Node(node)) => each(Move::Take(place), with(without(place), &[node])),
                 Some(Arrival::Leaves) => each(Move::Take(place), without(place).collect()),
                 Some(Arrival::Restarts) => each(Move::Take(place), self.initial.clone()),
+                Some(Arrival::Cancels(number)) => {
+                    let before: State = without(place).collect();
+                    if let Some(after) = self.interrupts[number].cancel(&before, true) {
+                        each(Move::Take(place), after);
+                    }
+                }
+                Some(Arrival::Resumes(number)) => {
+                    each(Move::Take(place), self.interrupts[number].resume(&without(place).collect()));
+                }
                 Some(Arrival::Ends) | None => {}
             }
             for (number, emission) in self.emissions[place as usize].iter().enumerate() {
@@ -182,6 +244,22 @@ impl Model {
                 each(Move::Away(remover, place), without(place).collect());
             }
         }
+        for &number in &self.cancels {
+            if let Some(after) = self.interrupts[number].cancel(state, false).filter(|after| after != state) {
+                each(Move::Cancel(number), after);
+            }
+        }
+        for &number in &self.resumes {
+            let after = self.interrupts[number].resume(state);
+            if after != *state {
+                each(Move::Resume(number), after);
+            }
+        }
+    }
+
+    /// Returns `true` if there is activity at the place: it is not only remembered.
+    pub fn is_active(&self, place: PlaceId) -> bool {
+        !matches!(self.places[place as usize], Place::Remembered(..))
     }
 
     /// For each place, `true` if a path leads from it to one of `goals`. Other activity is ignored.
@@ -195,7 +273,18 @@ impl Model {
             match self.arrivals[place as usize] {
                 Some(Arrival::Node(node)) => before[node as usize].push(place),
                 Some(Arrival::Restarts) => restarts.push(place),
+                Some(Arrival::Cancels(number)) => {
+                    self.interrupts[number].sends.iter().for_each(|to| before[*to as usize].push(place));
+                }
+                Some(Arrival::Resumes(number)) => {
+                    self.interrupts[number].gives.values().for_each(|to| before[*to as usize].push(place));
+                }
                 _ => {}
+            }
+        }
+        for interrupt in &self.interrupts {
+            for to in &interrupt.sends {
+                before[*to as usize].extend(&interrupt.takes);
             }
         }
         for &place in &self.initial {
@@ -210,6 +299,77 @@ impl Model {
         }
         reaching
     }
+}
+
+impl Interrupt {
+    fn new(
+        graph: &Graph,
+        places: &[Place],
+        number: &BTreeMap<Place, PlaceId>,
+        interrupt: NodeId,
+        nodes: &[NodeId],
+    ) -> Self {
+        let nodes: BTreeSet<NodeId> = nodes.iter().copied().collect();
+        let mut made =
+            Self { node: interrupt, takes: vec![], remembers: BTreeMap::new(), gives: BTreeMap::new(), sends: vec![] };
+        for (place, of) in (0..).zip(places) {
+            let node = match *of {
+                Place::Node(node) => node,
+                Place::Connection(c) if graph.connections[c].from.node == interrupt => {
+                    made.sends.push(place);
+                    continue;
+                }
+                Place::Connection(c) => graph.connections[c].to.node,
+                Place::Remembered(..) => continue,
+            };
+            if nodes.contains(&node) {
+                made.takes.push(place);
+                if let Some(remembered) = number.get(&Place::Remembered(interrupt, node)) {
+                    made.remembers.insert(place, *remembered);
+                    made.gives.extend(number.get(&Place::Node(node)).map(|node| (*remembered, *node)));
+                }
+            }
+        }
+        made
+    }
+
+    /// The state after a `cancel`; `None` while a connection of `cancelled` is occupied. `brought` is `true` if the
+    /// token carried activity itself.
+    fn cancel(&self, state: &State, brought: bool) -> Option<State> {
+        if self.sends.iter().any(|place| state.binary_search(place).is_ok()) {
+            return None;
+        }
+        let taken: Vec<PlaceId> =
+            state.iter().copied().filter(|place| self.takes.binary_search(place).is_ok()).collect();
+        // Without activity there is nothing to remember instead.
+        let forgets = |place: &PlaceId| !taken.is_empty() && self.gives.contains_key(place);
+        let rest = state.iter().copied().filter(|place| !taken.contains(place) && !forgets(place));
+        let remembered = taken.iter().filter_map(|place| self.remembers.get(place)).copied();
+        let sent: &[PlaceId] = if brought || !taken.is_empty() { &self.sends } else { &[] };
+        Some(with(rest.chain(remembered), sent))
+    }
+
+    /// The state after a `resume`.
+    fn resume(&self, state: &State) -> State {
+        let (remembered, rest): (Vec<PlaceId>, Vec<PlaceId>) =
+            state.iter().copied().partition(|place| self.gives.contains_key(place));
+        let given: Vec<PlaceId> = remembered.iter().map(|place| self.gives[place]).collect();
+        with(rest.into_iter(), &given)
+    }
+}
+
+/// Returns `true` if a connection leads to a slot of a node that interrupts.
+fn is_called(graph: &Graph, interrupt: NodeId, standard: Standard) -> bool {
+    graph.connections.iter().any(|c| c.to.node == interrupt && standard.of_interrupt() == Some(c.to.port))
+}
+
+/// Returns `true` if a token without activity has an effect at a slot of a node that interrupts. Over `=>`, `resume`
+/// needs activity, and `start` always brings some.
+fn has_plain(graph: &Graph, interrupt: NodeId, standard: Standard) -> bool {
+    let is_meant = |c: &&Connection| c.to.node == interrupt && standard.of_interrupt() == Some(c.to.port);
+    let is_start = |c: &Connection| matches!(graph.nodes[c.from.node].kind, NodeKind::Start);
+    let needs_activity = |c: &Connection| c.active && (standard == Standard::Resume || is_start(c));
+    graph.connections.iter().filter(is_meant).any(|c| !needs_activity(c))
 }
 
 fn with(state: impl Iterator<Item = PlaceId>, more: &[PlaceId]) -> State {

@@ -90,7 +90,7 @@ impl Checks {
             }
         }
         let is_broken = |claim: &usize| match (self.kinds[*claim], found[*claim]) {
-            (ClaimKind::Conserved, _) => state.len() != model.given,
+            (ClaimKind::Conserved, _) => state.iter().filter(|place| model.is_active(**place)).count() != model.given,
             (ClaimKind::Reaches, (nearer, from)) => from && nearer.is_none(),
             (ClaimKind::Exclusive, (_, both)) => both,
         };
@@ -114,6 +114,7 @@ impl Checks {
 pub fn scopes_of(graph: &Graph, place: Place) -> Vec<ScopeId> {
     match place {
         Place::Node(node) => graph.scopes_of(node),
+        Place::Remembered(..) => vec![],
         Place::Connection(c) => {
             let c = &graph.connections[c];
             let from = graph.scopes_of(c.from.node);

@@ -58,9 +58,15 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
                 format!("`{}` takes it, but is already active: two become one", name(graph, model, node))
             }
             Some(Arrival::Node(node)) => format!("`{}` takes it and becomes active", name(graph, model, node)),
+            Some(Arrival::Cancels(number)) => {
+                format!("`{}.cancel` takes all activity away", subject(graph, model, number))
+            }
+            Some(Arrival::Resumes(number)) => format!("`{}.resume` gives activity back", subject(graph, model, number)),
             Some(Arrival::Restarts) => "`reset` restores the state after `start`".to_owned(),
             _ => format!("it leaves the program over `{}`", connection(graph, model, place)),
         },
+        Move::Cancel(number) => format!("`{}.cancel` takes all activity away", subject(graph, model, number)),
+        Move::Resume(number) => format!("`{}.resume` gives activity back", subject(graph, model, number)),
         Move::Away(remover, place) => {
             let c = &graph.connections[remover];
             format!("`{}` takes the activity of `{}` away", graph.path(c.from.node), name(graph, model, place))
@@ -68,9 +74,15 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
     }
 }
 
+/// Name of the node or nested graph from which an interrupt takes activity.
+fn subject(graph: &Graph, model: &Model, number: usize) -> String {
+    let interrupts = graph.nodes[model.interrupts[number].node].interrupts();
+    interrupts.map(|subject| graph.subject_name(subject)).unwrap_or_default()
+}
+
 fn given(graph: &Graph, model: &Model, place: PlaceId) -> String {
     match model.places[place as usize] {
-        Place::Node(node) => format!("`{}` becomes active", graph.path(node)),
+        Place::Node(node) | Place::Remembered(_, node) => format!("`{}` becomes active", graph.path(node)),
         Place::Connection(c) => {
             format!("activity is on its way to `{}`", graph.end_name(graph.connections[c].to))
         }
@@ -82,6 +94,8 @@ fn word(graph: &Graph, model: &Model, by: Move) -> String {
         Move::Start => "start".to_owned(),
         Move::Emit(place, number) => format!("emit {}", graph.end_name(model.emissions[place as usize][number].from)),
         Move::Take(place) => format!("take {}", connection(graph, model, place)),
+        Move::Cancel(number) => format!("cancel {}", subject(graph, model, number)),
+        Move::Resume(number) => format!("resume {}", subject(graph, model, number)),
         Move::Away(remover, _) => format!("away {}", arrow(graph, &graph.connections[remover])),
     }
 }
@@ -89,7 +103,7 @@ fn word(graph: &Graph, model: &Model, by: Move) -> String {
 /// The node or connection at a place.
 fn name(graph: &Graph, model: &Model, place: PlaceId) -> String {
     match model.places[place as usize] {
-        Place::Node(node) => graph.path(node),
+        Place::Node(node) | Place::Remembered(_, node) => graph.path(node),
         Place::Connection(c) => arrow(graph, &graph.connections[c]),
     }
 }

@@ -56,7 +56,8 @@ impl Generator<'_> {
             return Carries::Nothing;
         }
         match &graph.nodes[c.from.node].kind {
-            NodeKind::Start if checked => Carries::Sometimes,
+            // The activity of a token that waits can be cancelled.
+            NodeKind::Start if checked || analysis.cancelled.contains(&c.to.node) => Carries::Sometimes,
             NodeKind::Start => Carries::Always,
             _ if takes_activity(graph, self.catalog, c.from.node) => Carries::Away,
             _ if analysis.active.contains(&c.from.node) => Carries::Sometimes,
@@ -65,7 +66,7 @@ impl Generator<'_> {
     }
 
     /// The connections into the inputs of a node whose tokens may carry one of `what`.
-    fn inputs_carry(&self, view: ProgramView<'_>, node: NodeId, what: &[Carries]) -> bool {
+    pub fn inputs_carry(&self, view: ProgramView<'_>, node: NodeId, what: &[Carries]) -> bool {
         view.links.inputs[node].iter().any(|c| what.contains(&self.carries(view.graph, view.analysis, *c)))
     }
 
@@ -98,6 +99,11 @@ impl Generator<'_> {
         let slots = &view.wiring.slots;
         let carry = (0..slots.len()).filter(|slot| slots[*slot].carries == Carries::Sometimes).collect();
         set("carries", "slot tokens with activity", slots.len(), carry, false);
+        for interrupt in active().filter(|node| self.remembers(view, *node)) {
+            let (name, words) = (self.held(interrupt), count.div_ceil(64));
+            let (ty, make) = (quote!(::apex_rt::Bits<#words>), quote!(::apex_rt::Bits::NONE));
+            kept.push(StateField::new(Kind::Activity, graph.path(interrupt), name, ty, make));
+        }
         for node in active() {
             if let NodeKind::Delay(initial) = &graph.nodes[node].kind {
                 let (name, count) = (self.held_activity(node), initial.len());
@@ -285,5 +291,6 @@ impl Generator<'_> {
 
 /// Returns `true` if observers are notified of a node's activity. They are not if the node only passes tokens on.
 pub fn is_observed(graph: &Graph, node: NodeId) -> bool {
-    !matches!(graph.nodes[node].kind, NodeKind::Relay | NodeKind::Sender(_) | NodeKind::Receiver(_))
+    use NodeKind::{Interrupt, Receiver, Relay, Sender};
+    !matches!(graph.nodes[node].kind, Relay | Interrupt(_) | Sender(_) | Receiver(_))
 }

@@ -118,6 +118,7 @@ impl Generator<'_> {
         for (place, what) in (0..).zip(&model.places) {
             let flag = match *what {
                 Place::Node(node) => self.is_active_now(view, node),
+                Place::Remembered(..) => continue,
                 // Nothing is kept for connections that never carry a token.
                 Place::Connection(c) if !view.analysis.asynchronous.live[c] => continue,
                 Place::Connection(c) if self.carries(view.graph, view.analysis, c) != Carries::Sometimes => continue,

@@ -114,6 +114,7 @@ impl Generator<'_> {
                 }
             });
         }
+        code.extend(self.interrupts(view));
         if analysis.asynchronous.endless {
             code.extend(quote! {
                 /// Sets how many steps a reaction may take before it is reported as an endless loop.

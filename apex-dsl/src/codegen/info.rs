@@ -129,6 +129,7 @@ impl Generator<'_> {
             NodeKind::Watchdog => "hung",
             NodeKind::Exit(_) => "exit",
             NodeKind::Reset => "reset",
+            NodeKind::Interrupt(_) => "cancel",
             NodeKind::Sender(_) | NodeKind::Receiver(_) => "cell",
         };
         (role.to_owned(), String::new())

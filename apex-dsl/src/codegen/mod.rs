@@ -13,6 +13,7 @@ mod distinct;
 mod each;
 mod fire;
 mod info;
+mod interrupt;
 mod listing;
 mod machine;
 mod memory;

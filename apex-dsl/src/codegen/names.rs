@@ -50,12 +50,17 @@ impl Names {
     fn add(&mut self, node: NodeId, n: &Node, path: &str, used: &mut BTreeSet<String>) {
         for (port, p) in n.ports.iter().enumerate().filter(|(_, p)| p.kind.sends()) {
             let plain = p.name == "out" || matches!(n.kind, NodeKind::Boundary(_));
+            // `work.cancelled` is an event of `work`.
+            let path = if n.interrupts().is_some() { path.strip_suffix("_cancel").unwrap_or(path) } else { path };
             let name = if plain { path.to_owned() } else { format!("{path}_{}", p.name) };
             self.tokens.insert(PortId { node, port }, local(name, used));
         }
         if let NodeKind::Delay(_) = &n.kind {
             self.held.insert(node, local(format!("{path}_held"), used));
             self.held_activity.insert(node, local(format!("{path}_held_activity"), used));
+        }
+        if n.interrupts().is_some() {
+            self.held.insert(node, local(format!("{path}_remembered"), used));
         }
     }
 
@@ -147,8 +152,8 @@ impl Generator<'_> {
         self.names.held_activity.get(&node).map_or_else(|| self.nameless("the activity of a delay"), |name| ident(name))
     }
 
-    /// The name of the place where a delay holds tokens back.
+    /// The name of the place where a delay holds tokens back, or where `cancel` remembers nodes.
     pub fn held(&self, node: NodeId) -> Ident {
-        self.names.held.get(&node).map_or_else(|| self.nameless("a delay"), |name| ident(name))
+        self.names.held.get(&node).map_or_else(|| self.nameless("a delay or `cancel`"), |name| ident(name))
     }
 }

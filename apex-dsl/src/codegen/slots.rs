@@ -34,7 +34,7 @@ impl Generator<'_> {
     }
 
     /// The same for the events that activity came, or went.
-    fn tell(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+    pub fn tell(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         self.emit_from(view, node, &|end| view.graph.port(end).tells_of_activity())
     }
 
@@ -213,6 +213,19 @@ impl Generator<'_> {
             }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
             (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
+            (NodeKind::Interrupt(_), _) => {
+                let name = self.interrupt_function(view, c.to);
+                let call = quote! { Self::#name(nodes, state, ctx, observer); };
+                // Over `=>`, only activity is given back.
+                match c.active && Standard::Resume.of_interrupt() == Some(c.to.port) {
+                    true if !view.analysis.active.contains(&node) => quote!(),
+                    true => {
+                        let brought = self.is_set(Flag::Active(node));
+                        quote! { if #brought { #call } }
+                    }
+                    false => call,
+                }
+            }
             (NodeKind::Boundary(_), _) => {
                 let (port, token) = (ident(&graph.nodes[node].name), self.token(view, connection));
                 let room = view.wiring.bits.room().get(&node).map(|bit| quote! { state.dispatcher.clear(#bit); });
@@ -399,17 +412,25 @@ impl Generator<'_> {
                 let held = self.held_activity(node);
                 return quote! { state.#held.clear(); };
             }
-            let ports = 0..view.graph.nodes[node].ports.len();
-            let told = ports.map(|port| PortId { node, port }).filter(|end| view.graph.port(*end).tells_of_activity());
-            let names = told.filter(|end| self.is_sent_event(view, *end)).map(|end| self.name(end));
-            let deactivate = self.deactivate(view, node);
+            let (clear, deactivate) = (self.clear_told(view, node), self.deactivate(view, node));
             let tell = (!view.graph.nodes[node].starts_active).then(|| self.tell(view, node));
-            quote! { #(state.#names = None;)* #deactivate #tell }
+            quote! { #clear #deactivate #tell }
         });
         let sets = self.activity_state(view).into_iter().map(|kept| kept.name);
         let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
         let clears = clears.map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
+        let remembered = view.graph.interrupts().map(|(node, _)| node).filter(|node| self.remembers(view, *node));
+        let forgets =
+            remembered.map(|node| self.held(node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
         let begin = self.begin(view);
-        quote! { #(#deactivates)* #(#clears)* #begin }
+        quote! { #(#deactivates)* #(#clears)* #(#forgets)* #begin }
+    }
+
+    /// The events `activated` and `deactivated` of a node are empty before its activity changes.
+    pub fn clear_told(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let ports = 0..view.graph.nodes[node].ports.len();
+        let told = ports.map(|port| PortId { node, port }).filter(|end| view.graph.port(*end).tells_of_activity());
+        let names = told.filter(|end| self.is_sent_event(view, *end)).map(|end| self.name(end));
+        quote! { #(state.#names = None;)* }
     }
 }

@@ -133,6 +133,8 @@ impl Wiring {
             // What an output sent on is notified as soon as the slot took it.
             let settles = graph.port(c.from).kind == PortKind::Output && frees.is_some();
             let (from, to) = (generator.name(c.from), path(c.to.node));
+            let subject = graph.nodes[c.to.node].interrupts().and_then(|_| to.strip_suffix("_cancel"));
+            let to = subject.unwrap_or(&to);
             Slot {
                 name: named(format!("{from}_to_{to}_{}", graph.port(c.to).name)),
                 connection,

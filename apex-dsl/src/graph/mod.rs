@@ -258,6 +258,7 @@ impl Graph {
     pub fn end_name(&self, end: PortId) -> String {
         match self.nodes[end.node].kind {
             NodeKind::Boundary(_) | NodeKind::Sender(_) | NodeKind::Receiver(_) => self.path(end.node),
+            NodeKind::Interrupt(subject) => format!("{}.{}", self.subject_name(subject), self.port(end).name),
             _ => format!("{}.{}", self.path(end.node), self.port(end).name),
         }
     }
@@ -298,8 +299,31 @@ impl Graph {
     /// Returns `true` if a node can be active. `start` is an event in time without a state, and nodes that end the
     /// program or form its boundary hold no activity.
     pub fn can_hold_activity(&self, node: NodeId) -> bool {
-        use NodeKind::{Delay, Each, Library, Receiver, Relay, Sender};
-        matches!(self.nodes[node].kind, Library(_) | Each(_) | Relay | Delay(_) | Sender(_) | Receiver(_))
+        use NodeKind::{Delay, Each, Interrupt, Library, Receiver, Relay, Sender};
+        matches!(
+            self.nodes[node].kind,
+            Library(_) | Each(_) | Relay | Delay(_) | Interrupt(_) | Sender(_) | Receiver(_)
+        )
+    }
+
+    /// The nodes that take activity out of others, each with the nodes that it takes it from.
+    pub fn interrupts(&self) -> impl Iterator<Item = (NodeId, Vec<NodeId>)> + '_ {
+        self.nodes.iter_enumerated().filter_map(|(id, node)| Some((id, self.nodes_of(node.interrupts()?))))
+    }
+
+    /// A node, or the nodes in a nested graph, as far as they can hold activity.
+    pub fn nodes_of(&self, subject: Subject) -> Vec<NodeId> {
+        match subject {
+            Subject::Node(node) => vec![node],
+            Subject::Scope(scope) => {
+                let is_meant = |node: &NodeId| {
+                    self.can_hold_activity(*node)
+                        && self.nodes[*node].interrupts().is_none()
+                        && self.scopes_of(*node).contains(&scope)
+                };
+                self.nodes.ids().filter(is_meant).collect()
+            }
+        }
     }
 
     /// The connection into a port, if there is one.

@@ -1,6 +1,6 @@
 //! Nodes, their ports and their modifiers.
 
-use super::{Graph, NodeId, ScopeId, Value};
+use super::{Graph, NodeId, ScopeId, Subject, Value};
 use crate::{
     catalog::{SignatureId, Type},
     source::Span,
@@ -53,6 +53,8 @@ pub enum NodeKind {
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.
     Reset,
+    /// Takes all activity out of a node or nested graph, and gives it back. Its ports are [`Standard::OF_INTERRUPT`].
+    Interrupt(Subject),
     /// Sends tokens to another thread group: only in the graph of a group. Its input is occupied until the other group
     /// has taken the token, or has finished everything that the token causes there.
     Sender(CellEnd),
@@ -90,11 +92,17 @@ pub enum Standard {
     Timeout,
     /// Event: the node finished later after the firing of its source than its `deadline` allows.
     Late,
+    /// Slot: takes all activity out of the node, or out of everything in the nested graph.
+    Cancel,
+    /// Slot: gives the activity back to where the last `cancel` took it from.
+    Resume,
+    /// Event: `cancel` has taken activity, which goes along.
+    Cancelled,
 }
 
 impl Standard {
     /// All standard ports, in the order of their numbers.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Enable,
         Self::Disable,
         Self::Activated,
@@ -103,7 +111,13 @@ impl Standard {
         Self::Failed,
         Self::Timeout,
         Self::Late,
+        Self::Cancel,
+        Self::Resume,
+        Self::Cancelled,
     ];
+
+    /// The ports of a [`NodeKind::Interrupt`], in the order of their numbers.
+    pub const OF_INTERRUPT: [Self; 3] = [Self::Cancel, Self::Resume, Self::Cancelled];
 
     /// The name of the port.
     pub fn name(self) -> &'static str {
@@ -116,23 +130,35 @@ impl Standard {
             Self::Failed => "failed",
             Self::Timeout => "timeout",
             Self::Late => "late",
+            Self::Cancel => "cancel",
+            Self::Resume => "resume",
+            Self::Cancelled => "cancelled",
         }
     }
 
     /// Returns `true` if a nested graph has the port on behalf of all its nodes.
     pub fn is_shared(self) -> bool {
-        matches!(self, Self::Enable | Self::Disable | Self::Failed)
+        matches!(self, Self::Enable | Self::Disable | Self::Failed) || self.of_interrupt().is_some()
+    }
+
+    /// Number of the port of a [`NodeKind::Interrupt`] that stands for the port.
+    pub fn of_interrupt(self) -> Option<usize> {
+        Self::OF_INTERRUPT.iter().position(|port| *port == self)
     }
 
     /// Kind of the port: slot or event.
     pub fn kind(self) -> PortKind {
-        if matches!(self, Self::Enable | Self::Disable) { PortKind::Slot } else { PortKind::Event }
+        match self {
+            Self::Enable | Self::Disable | Self::Cancel | Self::Resume => PortKind::Slot,
+            _ => PortKind::Event,
+        }
     }
 
     /// Type of its tokens.
     pub fn ty(self) -> Type {
         match self {
             Self::Failed => Type::Named("apex_rt::Failure".to_owned(), vec![]),
+            Self::Cancel | Self::Resume => Type::Unknown("any type".to_owned()),
             _ => Type::unit(),
         }
     }
@@ -275,6 +301,11 @@ impl Node {
     /// Returns `true` if the node can be disabled.
     pub fn can_be_disabled(&self) -> bool {
         self.standard(Standard::Disable).is_some()
+    }
+
+    /// The node or nested graph whose activity the node takes away and gives back.
+    pub fn interrupts(&self) -> Option<Subject> {
+        if let NodeKind::Interrupt(subject) = self.kind { Some(subject) } else { None }
     }
 
     /// Returns `true` if the node is a delay.

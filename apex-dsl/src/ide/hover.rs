@@ -171,6 +171,9 @@ pub fn standard_docs(standard: Standard) -> &'static str {
         Standard::Processed => "`process` was called. Not triggered if the call was skipped because of ⊥.",
         Standard::Failed => "`process` or a slot failed; the token contains the reason.",
         Standard::Timeout => "The node has been active for the time of its modifier `timeout`.",
+        Standard::Cancel => "Takes all activity out of the node, or out of everything in the nested graph.",
+        Standard::Resume => "Gives the activity back to where the last `cancel` took it from.",
+        Standard::Cancelled => "`cancel` has taken activity, which this event takes along over `=>`.",
         Standard::Late => "The node finished later after the firing of its source than its `deadline` allows.",
     }
 }

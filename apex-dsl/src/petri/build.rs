@@ -393,6 +393,7 @@ pub fn has_process(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
         | NodeKind::Watchdog
         | NodeKind::Exit(_)
         | NodeKind::Reset
+        | NodeKind::Interrupt(_)
         | NodeKind::Sender(_)
         | NodeKind::Receiver(_) => false,
     }

@@ -171,8 +171,12 @@ impl<'a> Replay<'a> {
         self.check_debts(&what)?;
         self.prepare(handle, &what)?;
         let node = self.graph.connections[connection].to.node;
-        let resets = matches!(self.graph.nodes[node].kind, NodeKind::Reset);
-        self.check_early(&what, |bypass| resets || bypass == node)?;
+        let changes = |other: NodeId| match self.graph.nodes[node].kind {
+            NodeKind::Reset => true,
+            NodeKind::Interrupt(subject) => self.graph.nodes_of(subject).contains(&other),
+            _ => other == node,
+        };
+        self.check_early(&what, changes)?;
         self.forget_optional();
         self.run(handle);
         self.last = self.state.tokens_of(node);

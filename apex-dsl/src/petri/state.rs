@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     catalog::Catalog,
-    graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard, Subject},
     index::IdVec,
     syntax::tree::PortKind,
 };
@@ -84,6 +84,8 @@ pub struct State<'a> {
     /// Decisions of undecided ports: `None` for silence, else a token for each leg.
     decided: BTreeMap<PortId, Option<BTreeMap<PlaceId, Token>>>,
     changes: Vec<(NodeId, bool)>,
+    /// For each node that interrupts, those from which its last `cancel` took activity.
+    remembered: BTreeMap<NodeId, BTreeSet<NodeId>>,
     told: IdVec<NodeId, bool>,
     deactivates: IdVec<NodeId, bool>,
     into: BTreeMap<SegmentEnd, Vec<Link>>,
@@ -158,6 +160,7 @@ impl<'a> State<'a> {
             taken: BTreeMap::new(),
             decided: BTreeMap::new(),
             changes: nodes.clone().filter(|n| graph.nodes[*n].starts_active).map(|n| (n, true)).collect(),
+            remembered: BTreeMap::new(),
             told: nodes.clone().map(|n| library(n).is_some_and(|s| s.no_message.is_some())).collect(),
             deactivates: nodes.clone().map(|n| library(n).is_some_and(|s| s.deactivates)).collect(),
             into,
@@ -401,18 +404,22 @@ impl<'a> State<'a> {
             let end = PortId { node, port };
             let links: Vec<Link> =
                 links.iter().copied().filter(|l| self.graph.connections[l.connection].from == end).collect();
-            let value = taken.runs && self.sends(call, port);
+            let interrupts = self.graph.nodes[node].interrupts().is_some();
+            let value = taken.runs && (interrupts || self.sends(call, port));
             let has_active = links.iter().any(|l| self.graph.connections[l.connection].active);
             // A node that deactivates others sends −1 with its events. Any other node gives its own activity away.
             let modifier = match value && has_active {
                 true if self.deactivates[node] && p.kind == PortKind::Event => -1,
+                // It passes on what it has just taken.
+                true if interrupts => 1,
                 true if self.active[node] => {
                     self.set_active(node, false);
                     1
                 }
                 _ => 0,
             };
-            let origin = value.then(|| self.origin(call, end, taken));
+            // The token of `cancelled` says nothing.
+            let origin = (value && !interrupts).then(|| self.origin(call, end, taken));
             for link in links {
                 let active = self.graph.connections[link.connection].active;
                 let token = Token { origin: origin.flatten(), value, modifier: if active { modifier } else { 0 } };
@@ -463,10 +470,55 @@ impl<'a> State<'a> {
                 }
             }
             NodeKind::Exit(_) => {}
+            NodeKind::Interrupt(subject) => {
+                let brought = token.modifier > 0;
+                let resumes = Standard::Resume.of_interrupt() == Some(to.port);
+                // Over `=>`, only activity is given back.
+                let is_meant = !resumes || !self.graph.connections[connection].active || brought;
+                let taken = is_meant && self.interrupt(to, subject, brought);
+                self.taken.insert(to.node, Taken { slot: Some(to.port), runs: taken, tokens });
+                return BTreeMap::new();
+            }
             _ => self.activate(to.node, &tokens),
         }
         self.taken.insert(to.node, Taken { slot: Some(to.port), runs: true, tokens });
         BTreeMap::new()
+    }
+
+    /// Takes the activity of nodes and of the tokens on their way to them, or gives it back. Returns `true` if there
+    /// was any to take; `brought` is that of the token.
+    fn interrupt(&mut self, slot: PortId, subject: Subject, brought: bool) -> bool {
+        if Standard::Resume.of_interrupt() == Some(slot.port) {
+            for node in self.remembered.remove(&slot.node).unwrap_or_default() {
+                self.set_active(node, true);
+            }
+            return false;
+        }
+        let (mut taken, mut remembered) = (brought, BTreeSet::new());
+        for node in self.graph.nodes_of(subject) {
+            let mut found = self.active[node];
+            for place in self.places_before(node) {
+                for token in self.marking[place].iter_mut().filter(|token| token.modifier > 0) {
+                    token.modifier = 0;
+                    found = true;
+                }
+            }
+            if found {
+                remembered.insert(node);
+                self.set_active(node, false);
+            }
+            taken |= found;
+        }
+        if !remembered.is_empty() {
+            self.remembered.insert(slot.node, remembered);
+        }
+        taken
+    }
+
+    /// The places of tokens on their way to a node.
+    fn places_before(&self, node: NodeId) -> BTreeSet<PlaceId> {
+        let links = self.into.values().chain(self.from.values()).flatten();
+        links.filter(|link| self.graph.connections[link.connection].to.node == node).map(|link| link.token).collect()
     }
 
     fn handled(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {

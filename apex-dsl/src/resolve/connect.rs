@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{self, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Standard, Wire, WireEnd},
+    graph::{self, Node, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Standard, Subject, Wire, WireEnd},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef, PortsOf},
@@ -260,7 +260,10 @@ impl Builder<'_> {
     fn standard_port(&mut self, owner: Owner, port: &Ident) -> Option<Candidate> {
         let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text)?;
         let place = match owner {
-            Owner::Node(node) => WireEnd::Port(self.standard_end(node, standard)?),
+            Owner::Node(node) => match standard.of_interrupt() {
+                Some(number) => WireEnd::Port(PortId { node: self.interrupt_of_node(node, port.span)?, port: number }),
+                None => WireEnd::Port(self.standard_end(node, standard)?),
+            },
             Owner::Scope(scope) if standard.is_shared() => self.shared_port(scope, standard, port.span),
             Owner::Scope(_) => return None,
         };
@@ -291,6 +294,14 @@ impl Builder<'_> {
         let ty = Type::Unknown(String::new());
         self.pins.push(Pin { name: name.to_owned(), kind, ty, scope, span, docs, standard: true });
         let place = WireEnd::Pin(self.pins.len() - 1);
+        if let Some(port) = standard.of_interrupt() {
+            if let Some(node) = self.interrupt(Subject::Scope(scope), "cancel", scope, span) {
+                let inner = WireEnd::Port(PortId { node, port });
+                let (from, to) = if kind == PortKind::Slot { (place, inner) } else { (inner, place) };
+                self.wires.push(Wire { from, to, active: true, differs: false, span });
+            }
+            return place;
+        }
         let nodes: Vec<NodeId> = self.nodes.ids().filter(|n| self.nodes[*n].scope == scope).collect();
         let nested: Vec<ScopeId> = self.scopes.ids().skip(1).filter(|s| self.scopes[*s].parent == scope).collect();
         let mut inner: Vec<WireEnd> =
@@ -302,6 +313,27 @@ impl Builder<'_> {
             self.wires.push(Wire { from, to, active: kind == PortKind::Event, differs: false, span });
         }
         place
+    }
+
+    /// The node that takes the activity of a node away.
+    fn interrupt_of_node(&mut self, node: NodeId, span: Span) -> Option<NodeId> {
+        let Node { kind: NodeKind::Library(_), scope, ref name, ref modifiers, .. } = self.nodes[node] else {
+            return None;
+        };
+        let (name, group) = (format!("{name}.cancel"), modifiers.group.clone());
+        let made = self.interrupt(Subject::Node(node), &name, scope, span)?;
+        self.nodes[made].modifiers.group = group;
+        Some(made)
+    }
+
+    /// The node that takes the activity of `subject` away. It is made when one of its ports is first used.
+    fn interrupt(&mut self, subject: Subject, name: &str, scope: ScopeId, span: Span) -> Option<NodeId> {
+        let made = self.nodes.position(|node| node.interrupts() == Some(subject));
+        made.or_else(|| {
+            let port = |standard: Standard| Port::new(standard.name(), standard.kind(), standard.ty());
+            let ports = Standard::OF_INTERRUPT.map(port).to_vec();
+            self.node(&Ident { text: name.to_owned(), span }, scope, NodeKind::Interrupt(subject), ports, "")
+        })
     }
 
     /// Handles `start => node`: the node is initially active, and no token is sent. Returns `false` for any other
@@ -586,8 +618,11 @@ fn meant(end: &End, sends: bool) -> EndpointCandidates {
 
 /// Ports as text.
 pub fn list(ports: &[&Candidate]) -> String {
-    let words: Vec<String> = ports.iter().map(|p| format!("{} `{}: {}`", p.kind.word(), p.name, p.ty)).collect();
-    words.join(", ")
+    let word = |p: &&Candidate| match p.ty.to_string().as_str() {
+        "" => format!("{} `{}`", p.kind.word(), p.name),
+        ty => format!("{} `{}: {ty}`", p.kind.word(), p.name),
+    };
+    ports.iter().map(word).collect::<Vec<_>>().join(", ")
 }
 
 /// Converts a name to snake case: `JumpDistance` → `jump_distance`.

@@ -5,7 +5,7 @@ use super::{
     table::{Candidate, Owner, Symbol, Table},
 };
 use crate::{
-    graph::WireEnd,
+    graph::{Standard, WireEnd},
     report::{Diagnostic, nearest, nearest_within},
     source::Span,
     syntax::tree::{Ident, PortRef},
@@ -140,10 +140,16 @@ impl Builder<'_> {
         let error = unknown("unknown-port", message.clone(), port, &uses, &known)
             .unwrap_or_else(|| Diagnostic::error("unknown-port", port.span, message));
         let shown: Vec<&Candidate> = ports.iter().filter(|p| !p.parameter).collect();
-        self.diagnostics.push(error.note(match super::connect::list(&shown) {
+        let error = error.note(match super::connect::list(&shown) {
             ports if ports.is_empty() => format!("`{}` has no ports", node.text),
             ports => format!("`{}` has {ports}", node.text),
-        }));
+        });
+        let is_standard = Standard::ALL.iter().any(|standard| standard.name() == port.text);
+        self.diagnostics.push(match (is_standard, owner) {
+            (true, Owner::Scope(_)) => error.note("nodes have this port, but nested graphs do not"),
+            (true, Owner::Node(_)) => error.note("a node with `each` has only the ports of its body"),
+            _ => error,
+        });
     }
 
     /// The places in source file `file` that use the port name: behind the name of a node, or inside the graph at

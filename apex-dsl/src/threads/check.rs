@@ -2,7 +2,7 @@
 
 use crate::{
     analyse::{Analysis, circles, has_rates},
-    graph::{Connection, Crossing, Graph, NodeId, NodeKind, ScopeId},
+    graph::{Connection, Crossing, Graph, NodeId, NodeKind, PortId, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -100,18 +100,24 @@ fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
     }
 }
 
-/// Reports active nodes outside the group of `reset`, which takes all activity away at once.
+/// Reports active nodes outside the group of a `reset` or `cancel`, which takes their activity away at once.
 fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
-    let Some(reset) = graph.nodes.position(|n| matches!(n.kind, NodeKind::Reset)) else { return };
-    let own = graph.group(reset);
-    for &node in analysis.active.iter().filter(|n| graph.group(**n) != own) {
-        let message = format!(
-            "`reset` takes all activity away at once, but `{}` runs on thread `{}`, and `reset` on `{own}`",
-            graph.path(node),
-            graph.group(node)
-        );
-        let error = Diagnostic::error("threads", graph.nodes[node].span, message);
-        diagnostics.push(error.note("run all nodes that activity can reach on one thread"));
+    let reset = graph.nodes.position(|n| matches!(n.kind, NodeKind::Reset));
+    let reset = reset.map(|reset| (reset, "reset".to_owned(), analysis.active.iter().copied().collect()));
+    let cancel = |interrupt: NodeId| graph.end_name(PortId { node: interrupt, port: 0 });
+    let cancels = graph.interrupts().map(|(interrupt, nodes)| (interrupt, cancel(interrupt), nodes));
+    let takers: Vec<(NodeId, String, Vec<NodeId>)> = reset.into_iter().chain(cancels).collect();
+    for (taker, name, nodes) in takers {
+        let own = graph.group(taker);
+        for node in nodes.into_iter().filter(|n| analysis.active.contains(n) && graph.group(*n) != own) {
+            let message = format!(
+                "`{name}` takes activity away at once, but `{}` runs on thread `{}`, and `{name}` on `{own}`",
+                graph.path(node),
+                graph.group(node)
+            );
+            let error = Diagnostic::error("threads", graph.nodes[node].span, message);
+            diagnostics.push_once(error.note("run all nodes from which it takes activity on one thread"));
+        }
     }
 }
 

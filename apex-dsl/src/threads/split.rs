@@ -6,7 +6,7 @@ use crate::{
     catalog::Catalog,
     graph::{
         CellEnd, Connection, ConnectionId, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port,
-        PortId, ScopeId, WATCH_GROUP,
+        PortId, ScopeId, Subject, WATCH_GROUP,
     },
     index::IdVec,
     report::Diagnostics,
@@ -133,6 +133,15 @@ impl Splitter<'_> {
         for (id, node) in self.whole.nodes.iter_enumerated() {
             if let Some(group) = self.group_of[id] {
                 self.placed[id] = Some(self.drafts[group].add(node.clone(), Origin::Node(id)));
+            }
+        }
+        // Those whose activity a node takes away have other numbers now.
+        for (id, node) in self.whole.nodes.iter_enumerated() {
+            if let (Some(Subject::Node(of)), Some(group), Some(placed)) =
+                (node.interrupts(), self.group_of[id], self.placed[id])
+                && let Some(of) = self.placed[of]
+            {
+                self.drafts[group].graph.nodes[placed].kind = NodeKind::Interrupt(Subject::Node(of));
             }
         }
     }

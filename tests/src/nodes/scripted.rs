@@ -346,7 +346,8 @@ pub struct ScKick {
 impl ScKick {
     #[slot]
     fn s(&mut self, e: Event<i64>) {
-        let now = call(self.id, self.script, &mut self.calls, &[None]);
+        // The number of a token that no scripted node has sent.
+        let now = call(self.id, self.script, &mut self.calls, &[Some(7)]);
         now.event("e", e);
     }
 }

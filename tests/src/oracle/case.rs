@@ -86,6 +86,28 @@ pub struct Link {
     pub relayed: bool,
 }
 
+/// Something whose activity can be cancelled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// The node with this identifier.
+    Node(usize),
+    /// The nested graph with this index.
+    Group(usize),
+}
+
+/// Connections to `cancel` and `resume`, and from `cancelled`. All nodes are beside the target.
+#[derive(Debug, Clone)]
+pub struct Cancel {
+    /// The node or nested graph.
+    pub of: Target,
+    /// Port that cancels it, and `true` for `=>`.
+    pub by: ((usize, &'static str), bool),
+    /// Port that gives the activity back, and `true` for `=>`.
+    pub back: Option<((usize, &'static str), bool)>,
+    /// Node that is told of it, and `true` for `=>`.
+    pub tells: Option<(usize, bool)>,
+}
+
 /// A random graph.
 #[derive(Debug, Clone)]
 pub struct Case {
@@ -99,6 +121,8 @@ pub struct Case {
     pub links: Vec<Link>,
     /// For each nested graph, the index of the enclosing one; the first is the graph itself.
     pub groups: Vec<usize>,
+    /// Connections that cancel and resume.
+    pub cancels: Vec<Cancel>,
 }
 
 impl Case {
@@ -141,6 +165,17 @@ impl Case {
                 add(&|c| c.links[l].relayed = false);
             }
         }
+        for i in 0..self.cancels.len() {
+            add(&|c| {
+                c.cancels.remove(i);
+            });
+            if self.cancels[i].back.is_some() {
+                add(&|c| c.cancels[i].back = None);
+            }
+            if self.cancels[i].tells.is_some() {
+                add(&|c| c.cancels[i].tells = None);
+            }
+        }
         for g in 1..self.groups.len() {
             if self.nodes.iter().any(|n| n.group == g) {
                 add(&|c| c.nodes.iter_mut().filter(|n| n.group == g).for_each(|n| n.group = self.groups[g]));
@@ -175,8 +210,31 @@ impl Case {
                 n.ty.inputs.iter().filter(|i| !i.ends_with('?')).all(|i| fed(i))
             });
             if self.nodes.len() == count {
-                return;
+                break;
             }
         }
+        let Self { nodes, groups, cancels, .. } = self;
+        let group = |id: usize| nodes.iter().find(|n| n.id == id).map(|n| n.group);
+        let is_used = |wanted: usize| nodes.iter().any(|n| around(groups, n.group).contains(&wanted));
+        cancels.retain_mut(|cancel| {
+            let body = match cancel.of {
+                Target::Node(id) => group(id),
+                Target::Group(of) => is_used(of).then(|| groups[of]),
+            };
+            let is_beside = |id: usize| body.is_some() && group(id) == body;
+            cancel.back = cancel.back.filter(|((id, _), _)| is_beside(*id));
+            cancel.tells = cancel.tells.filter(|(id, _)| is_beside(*id));
+            is_beside(cancel.by.0.0)
+        });
     }
+}
+
+/// A nested graph and all around it, innermost first, without the graph itself. `groups` are the enclosing ones.
+pub fn around(groups: &[usize], mut group: usize) -> Vec<usize> {
+    let mut found = vec![];
+    while group != 0 {
+        found.push(group);
+        group = groups[group];
+    }
+    found
 }

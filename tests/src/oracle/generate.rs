@@ -2,7 +2,7 @@
 
 use super::{
     ALWAYS,
-    case::{Case, Instance, Link, NODE_TYPES, NodeType, node_type},
+    case::{Cancel, Case, Instance, Link, NODE_TYPES, NodeType, Target, node_type},
 };
 use crate::Dice;
 
@@ -41,7 +41,7 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
         delays: dice.one_in(3),
     };
     let limit = if dice.one_in(3) { 3 } else { 1 + dice.below(25) };
-    let mut case = Case { seed, limit, nodes: vec![], links: vec![], groups: vec![0] };
+    let mut case = Case { seed, limit, nodes: vec![], links: vec![], groups: vec![0], cancels: vec![] };
     nodes(&mut dice, &mut case, size, &flavour);
     if flavour.nested {
         nest(&mut dice, &mut case);
@@ -52,6 +52,9 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
     }
     if flavour.activity {
         activate(&mut dice, &mut case);
+        if dice.one_in(2) {
+            cancel(&mut dice, &mut case, &flavour);
+        }
     }
     case.clean();
     case
@@ -70,6 +73,8 @@ pub fn on_threads(mut case: Case) -> Case {
         group = node.group;
         node.thread = thread;
     }
+    // One thread takes all activity away at once.
+    case.cancels.clear();
     // For some lists, the body of an `each` is on another thread, but not for most.
     for at in 1..case.nodes.len() {
         if matches!(case.nodes[at].ty.name, "pass" | "ScListSink") && !dice.one_in(3) {
@@ -213,6 +218,57 @@ fn connect_slots(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
             }
         }
     }
+}
+
+/// Cancels some nodes and nested graphs, and resumes some of them.
+fn cancel(dice: &mut Dice, case: &mut Case, flavour: &Flavour) {
+    for _ in 0..1 + dice.below(3) {
+        let (of, group) = if case.groups.len() > 1 && dice.one_in(2) {
+            let group = 1 + dice.below(case.groups.len() - 1);
+            (Target::Group(group), case.groups[group])
+        } else {
+            let node = dice.below(case.nodes.len());
+            if case.nodes[node].ty.name == "pass" {
+                continue;
+            }
+            (Target::Node(case.nodes[node].id), case.nodes[node].group)
+        };
+        let is_told = dice.one_in(2);
+        let told = is_told.then(|| {
+            push(dice, case, node_type("ScKick"), flavour);
+            let told = case.nodes.len() - 1;
+            case.nodes[told].group = group;
+            connect_kick(dice, case, told, flavour);
+            (told, !dice.one_in(3))
+        });
+        let Some(by) = beside(dice, case, group) else { continue };
+        let back = if dice.one_in(2) { beside(dice, case, group) } else { None };
+        let by = (by, dice.one_in(2));
+        let back = back.map(|back| (back, dice.one_in(2)));
+        case.cancels.push(Cancel { of, by, back, tells: told });
+    }
+}
+
+/// Connects the event of a node that is told of a `cancel` with some slot.
+fn connect_kick(dice: &mut Dice, case: &mut Case, from: usize, flavour: &Flavour) {
+    let to = dice.below(case.nodes.len());
+    let slots: Vec<&'static str> = case.nodes[to].ty.slots.to_vec();
+    if to != from && case.nodes[to].ty.name != "ScKick" && !slots.is_empty() {
+        let slot = *dice.of(&slots);
+        link(dice, case, (from, "e"), (to, slot), flavour);
+    }
+}
+
+/// Random port of a node that sends, in the body of a nested graph.
+fn beside(dice: &mut Dice, case: &Case, group: usize) -> Option<(usize, &'static str)> {
+    for _ in 0..40 {
+        let node = dice.of(&case.nodes);
+        let ports = if dice.one_in(3) { node.ty.outputs } else { node.ty.events };
+        if node.group == group && !ports.is_empty() && !matches!(node.ty.name, "ScList" | "pass") {
+            return Some((node.id, *dice.of(ports)));
+        }
+    }
+    None
 }
 
 /// Activates some nodes at the start.

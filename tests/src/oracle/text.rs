@@ -1,6 +1,6 @@
 //! Writes a random graph as a source file.
 
-use super::case::{Case, Instance, Link};
+use super::case::{Cancel, Case, Instance, Link, Target, around};
 use std::{collections::BTreeMap, fmt::Write as _};
 
 impl Case {
@@ -18,6 +18,9 @@ impl Case {
         }
         for link in &self.links {
             bodies.link(link);
+        }
+        for cancel in &self.cancels {
+            bodies.cancel(cancel);
         }
         let mut names: Vec<&str> = self.nodes.iter().map(|n| n.ty.name).collect();
         names.sort_unstable();
@@ -73,13 +76,8 @@ impl Case {
     }
 
     /// A nested graph and all around it, innermost first, without the graph itself.
-    fn around(&self, mut group: usize) -> Vec<usize> {
-        let mut groups = vec![];
-        while group != 0 {
-            groups.push(group);
-            group = self.groups[group];
-        }
-        groups
+    fn around(&self, group: usize) -> Vec<usize> {
+        around(&self.groups, group)
     }
 }
 
@@ -114,6 +112,22 @@ struct Bodies<'a> {
 }
 
 impl Bodies<'_> {
+    fn cancel(&mut self, cancel: &Cancel) {
+        let (body, name) = match cancel.of {
+            Target::Node(id) => (self.case.node(id).map_or(0, |node| node.group), format!("n{id}")),
+            Target::Group(group) => (self.case.groups[group], format!("g{group}")),
+        };
+        let arrow = |active: bool| if active { "=>" } else { "->" };
+        let ((by, port), active) = cancel.by;
+        self.line(body, format!("n{by}.{port} {} {name}.cancel;", arrow(active)));
+        if let Some(((by, port), active)) = cancel.back {
+            self.line(body, format!("n{by}.{port} {} {name}.resume;", arrow(active)));
+        }
+        if let Some((told, active)) = cancel.tells {
+            self.line(body, format!("{name}.cancelled {} n{told}.s;", arrow(active)));
+        }
+    }
+
     fn link(&mut self, link: &Link) {
         let (Some(from), Some(to)) = (self.case.node(link.from.0), self.case.node(link.to.0)) else { return };
         let (leaves, enters) = (self.case.around(from.group), self.case.around(to.group));

@@ -1,0 +1,127 @@
+//! `cancel` and `resume`: activity is taken out of a node or nested graph, and given back.
+
+use super::{
+    Generator,
+    activity::{Carries, ProgramView},
+    types::ident,
+    wiring::Flag,
+};
+use crate::graph::{NodeId, PortId, Standard};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use syn::Ident;
+
+impl Generator<'_> {
+    /// Returns `true` if a node interrupts, and has to remember for its `resume` what it took.
+    pub fn remembers(&self, view: ProgramView<'_>, node: NodeId) -> bool {
+        let interrupts = view.graph.nodes[node].interrupts().is_some() && view.analysis.active.contains(&node);
+        interrupts && self.is_called(view, node, Standard::Resume)
+    }
+
+    fn is_called(&self, view: ProgramView<'_>, node: NodeId, standard: Standard) -> bool {
+        let called = |c: &crate::graph::ConnectionId| {
+            let to = view.graph.connections[*c].to;
+            to.node == node && standard.of_interrupt() == Some(to.port)
+        };
+        view.analysis.asynchronous.slots.iter().any(called)
+    }
+
+    /// Name of the function of `cancel` or `resume`: `deliver_cancel_7`.
+    pub fn interrupt_function(&self, view: ProgramView<'_>, slot: PortId) -> Ident {
+        let name = view.graph.end_name(slot).replace('.', "_");
+        ident(&format!("{name}_{}", slot.node.index()))
+    }
+
+    /// The functions of `cancel` and `resume`.
+    pub fn interrupts(&self, view: ProgramView<'_>) -> TokenStream {
+        let mut code = quote!();
+        for (node, nodes) in view.graph.interrupts() {
+            let nodes: Vec<NodeId> = nodes.into_iter().filter(|node| view.analysis.active.contains(node)).collect();
+            for standard in [Standard::Cancel, Standard::Resume] {
+                let Some(port) = standard.of_interrupt().filter(|_| self.is_called(view, node, standard)) else {
+                    continue;
+                };
+                let body = match standard {
+                    Standard::Cancel => self.cancel(view, node, &nodes),
+                    _ => self.resume(view, node, &nodes),
+                };
+                let end = PortId { node, port };
+                let (name, docs) = (self.interrupt_function(view, end), format!(" `{}`", view.graph.end_name(end)));
+                let (place, state) = (self.nodes_type(view), self.item(view.graph, "State"));
+                code.extend(quote! {
+                    #[doc = #docs]
+                    #[allow(unused_variables)]
+                    fn #name<O: ::apex_rt::Observer>(nodes: &mut #place, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                        #body
+                    }
+                });
+            }
+        }
+        code
+    }
+
+    /// Takes the activity of `nodes` and of the tokens on their way to them. If there was any, or if the token brought
+    /// some, the event of `interrupt` is triggered, and takes it along.
+    fn cancel(&self, view: ProgramView<'_>, interrupt: NodeId, nodes: &[NodeId]) -> TokenStream {
+        let is_reached = view.analysis.active.contains(&interrupt);
+        let brought = if is_reached { self.take(Flag::Active(interrupt)) } else { quote!(false) };
+        let remembered = self.remembers(view, interrupt).then(|| self.held(interrupt));
+        let forget = remembered.as_ref().map(|_| quote! { let mut remembered = ::apex_rt::Bits::NONE; });
+        // Without activity there is nothing to remember instead.
+        let keep = remembered.as_ref().map(|kept| quote! { if taken { state.#kept = remembered; } });
+        let takes = nodes.iter().map(|&node| {
+            let mut found = vec![];
+            if self.inputs_carry(view, node, &[Carries::Always, Carries::Sometimes]) {
+                found.push(self.take(Flag::Gains(node)));
+            }
+            let slots = view.wiring.slots.iter().enumerate();
+            let to_it = slots.filter(|(_, slot)| slot.node == node && slot.carries == Carries::Sometimes);
+            found.extend(to_it.map(|(number, _)| self.take(Flag::Carries(number))));
+            found.push(self.is_active_now(view, node));
+            if view.graph.nodes[node].is_delay() {
+                let held = self.held_activity(node);
+                return quote! { if #(#found)|* { taken = true; state.#held.clear(); } };
+            }
+            let bit = Literal::usize_unsuffixed(self.index(node));
+            let remember = remembered.as_ref().map(|_| quote! { remembered.set(#bit, true); });
+            let (clear, leave, tell) =
+                (self.clear_told(view, node), self.deactivate(view, node), self.tell(view, node));
+            quote! { if #(#found)|* { taken = true; #remember #clear #leave #tell } }
+        });
+        let event = PortId { node: interrupt, port: Standard::OF_INTERRUPT.len() - 1 };
+        let sends = self.is_sent_event(view, event).then(|| {
+            let name = self.name(event);
+            let passes = view.wiring.of(interrupt).iter().any(|port| port.is_active && port.passes.is_some());
+            let activity = (passes && is_reached).then(|| self.set(Flag::Active(interrupt), true));
+            quote! { if taken { state.#name = Some(()); #activity } }
+        });
+        let check = self.check_claims();
+        quote! {
+            #[allow(unused_mut)]
+            let mut taken = false;
+            #forget
+            #(#takes)*
+            #keep
+            let taken = #brought | taken;
+            #sends
+            #check
+        }
+    }
+
+    /// Gives activity back to the nodes from which `cancel` took it.
+    fn resume(&self, view: ProgramView<'_>, interrupt: NodeId, nodes: &[NodeId]) -> TokenStream {
+        if !self.remembers(view, interrupt) {
+            return quote!();
+        }
+        let (remembered, brought) = (self.held(interrupt), self.set(Flag::Active(interrupt), false));
+        let is_plain = |node: &&NodeId| !view.graph.nodes[**node].is_delay();
+        let gives = nodes.iter().filter(is_plain).map(|&node| {
+            let bit = Literal::usize_unsuffixed(self.index(node));
+            let (clear, activate, tell) =
+                (self.clear_told(view, node), self.activate(view, node), self.tell(view, node));
+            quote! { if state.#remembered.take(#bit) { #clear #activate #tell } }
+        });
+        let check = self.check_claims();
+        quote! { #brought #(#gives)* #check }
+    }
+}

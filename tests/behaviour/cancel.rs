@@ -1,0 +1,42 @@
+//! Activity is taken out of nodes and nested graphs, and given back.
+
+use apex_macros::graph;
+use apex_rt::prelude::*;
+use apex_tests::active;
+
+graph!("cancel.afg");
+
+#[test]
+fn hooks_and_events_of_a_single_node() {
+    let mut program = Single::new();
+    program.react(Time::ZERO);
+    assert_eq!(active(&program), "taker");
+    program.inputs().stop.put(1).unwrap();
+    program.react(Time::from_millis(5));
+    assert_eq!((active(&program).as_str(), program.nodes().taker.went), ("", 1));
+    assert_eq!((program.events().cancelled.take(), program.events().went.take()), (Some(()), Some(())));
+    program.inputs().stop.put(2).unwrap();
+    program.react(Time::from_millis(6));
+    assert_eq!((program.events().cancelled.take(), program.nodes().taker.went), (None, 1));
+    program.inputs().go.put(3).unwrap();
+    program.react(Time::from_millis(7));
+    assert_eq!((active(&program).as_str(), program.nodes().taker.came), ("taker", 2));
+}
+
+#[test]
+fn each_level_remembers_what_it_took() {
+    let mut program = Levels::new();
+    program.react(Time::ZERO);
+    assert_eq!(active(&program), "pair.left pair.right");
+    macro_rules! after {
+        ($slot:ident) => {{
+            program.inputs().$slot.put(()).unwrap();
+            program.react(Time::ZERO);
+            active(&program)
+        }};
+    }
+    assert_eq!(after!(inner), "pair.right");
+    assert_eq!(after!(outer), "");
+    assert_eq!(after!(again), "pair.left");
+    assert_eq!(after!(all), "pair.left pair.right");
+}
