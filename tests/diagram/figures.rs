@@ -65,7 +65,23 @@ fn written() -> BTreeMap<String, String> {
     files.insert("docs/images/competition.svg".to_owned(), svg(&mission.clone().closed(1)));
     let activity = states(&mission.closed(2)).expect("there is activity");
     files.insert("docs/images/competition_activity.svg".to_owned(), svg(&activity));
+    files.extend(patterns());
     files
+}
+
+/// Pictures of `docs/patterns.md`, each of the last graph of an example.
+fn patterns() -> BTreeMap<String, String> {
+    let folder = root().join("tests/docs/texts");
+    let page = fs::read_to_string(root().join("docs/patterns.md")).expect("it can be read");
+    let mut drawer = Drawer::new();
+    let names = page.lines().filter_map(|line| line.split_once("](images/patterns/")?.1.strip_suffix(".svg)"));
+    let picture = |name: &str| {
+        let text = fs::read_to_string(folder.join(format!("{name}.afg"))).expect("each picture has an example");
+        let graphs = drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}"));
+        let graph = graphs.last().expect("the example has a graph");
+        (format!("docs/images/patterns/{name}.svg"), svg(&diagram(graph, &drawer.1, &drawer.0)))
+    };
+    names.map(picture).collect()
 }
 
 /// Diagram of a graph of a robot.

@@ -14,16 +14,23 @@ macro_rules! texts {
 
 texts! {
     answers "texts/answers.afg"
+    arbitration "texts/arbitration.afg"
     charged "texts/charged.afg"
+    degraded "texts/degraded.afg"
     duty "texts/duty.afg"
+    exclusive "texts/exclusive.afg"
     filled "texts/filled.afg"
+    fusion "texts/fusion.afg"
     gate "texts/gate.afg"
     help "texts/help.afg"
     hours "texts/hours.afg"
     join "texts/join.afg"
     lamp "texts/lamp.afg"
+    merging "texts/merging.afg"
     mission "texts/mission.afg"
+    retry "texts/retry.afg"
     stop "texts/stop.afg"
     times "texts/times.afg"
     waiting "texts/waiting.afg"
+    watchdog "texts/watchdog.afg"
 }

@@ -54,6 +54,42 @@ impl<T> Wait<T> {
     fn activate(&mut self, _value: &T) {}
 }
 
+/// Action that another program, a driver or a person carries out. It is active from `begin` until it is
+/// done or has failed. Only activity counts: an order without activity is ignored, and so is a result that comes when
+/// the action is not active, for example after it was cancelled.
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Action<T> {
+    _goal: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T: Clone> Action<T> {
+    /// Begins: `started` takes the goal to the one who carries it out.
+    #[slot]
+    fn begin(&mut self, goal: &T, ctx: &Ctx, started: Event<T>) {
+        if ctx.active() {
+            started.emit(goal.clone());
+        }
+    }
+
+    /// Reports success, which triggers `done`.
+    #[slot]
+    fn succeed(&mut self, ctx: &Ctx, done: Event<()>) {
+        if ctx.active() {
+            done.emit(());
+        }
+    }
+
+    /// Reports failure, which triggers `gave_up`.
+    #[slot]
+    fn fail(&mut self, ctx: &Ctx, gave_up: Event<()>) {
+        if ctx.active() {
+            gave_up.emit(());
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,6 +102,20 @@ mod tests {
         node.activate();
         assert_eq!(node.process(&ctx, &1), None, "that is for the graph to say");
         assert_eq!(node.process(&ctx.of_node(true), &2), Some(2));
+    }
+
+    #[test]
+    fn an_action_reports_only_while_it_is_active() {
+        let (mut node, mut started, mut done) = (Action::default(), None, None);
+        let ctx = Ctx::new(Time::ZERO);
+        node.begin(&6, &ctx, apex_rt::event(&mut started));
+        assert_eq!(started, None);
+        node.begin(&7, &ctx.of_node(true), apex_rt::event(&mut started));
+        node.succeed(&ctx, apex_rt::event(&mut done));
+        assert_eq!((started, done), (Some(7), None));
+        node.succeed(&ctx.of_node(true), apex_rt::event(&mut done));
+        node.fail(&ctx, apex_rt::event(&mut None));
+        assert_eq!(done, Some(()));
     }
 
     #[test]

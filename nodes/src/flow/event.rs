@@ -1,6 +1,6 @@
 //! Signals: emitters from flow to events (thesis 3.6.3), and nodes from events to events.
 
-use apex_rt::{Event, node};
+use apex_rt::{Ctx, Event, Time, node};
 use core::marker::PhantomData;
 
 /// Triggers an event with every input value: an emitter (thesis 3.6.3).
@@ -100,9 +100,42 @@ impl Toggle {
     }
 }
 
+/// Passes a token on unless another one came less than `quiet` before: contacts that bounce, and buttons that are
+/// pressed twice.
+#[node]
+#[derive(Debug, Clone)]
+pub struct Debounce<T> {
+    /// Time without tokens after which one passes.
+    #[param(unit = "s", default = 0.05, range = 0.0..=3600.0)]
+    quiet: f32,
+    last: Option<Time>,
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T: Clone> Debounce<T> {
+    /// Triggers the event with this token if it is the first one for a while.
+    #[slot]
+    fn put(&mut self, value: &T, ctx: &Ctx, signal: Event<T>) {
+        let last = self.last.replace(ctx.now());
+        if last.is_none_or(|last| ctx.now().since(last).as_secs_f32() >= self.quiet) {
+            signal.emit(value.clone());
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use apex_rt::Construct;
+
+    #[test]
+    fn debounce_waits_for_silence() {
+        let mut node = Debounce::construct((0.1,));
+        let passed = [0, 50, 149, 249, 300, 1000]
+            .map(|ms| triggered(|signal| node.put(&ms, &Ctx::new(Time::from_millis(ms)), signal)));
+        assert_eq!(passed, [Some(0), None, None, Some(249), None, Some(1000)]);
+    }
 
     /// Token with which `call` triggers its event.
     fn triggered<T>(call: impl FnOnce(Event<'_, T>)) -> Option<T> {

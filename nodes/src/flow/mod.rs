@@ -9,9 +9,9 @@ mod event;
 mod pace;
 mod route;
 
-pub use activity::{ActivityGate, Deactivate, Wait};
+pub use activity::{Action, ActivityGate, Deactivate, Wait};
 pub use batch::{Collect, Delay, MAX_BATCH};
 pub use buffer::{Hold, Latch, Latest, constant};
-pub use event::{Counter, Relay, Signal, Toggle, either, emit, equals, tick};
+pub use event::{Counter, Debounce, Relay, Signal, Toggle, either, emit, equals, tick};
 pub use pace::{Changed, Count, Edge, Throttle};
 pub use route::{Branches, gate, merge, select, switch};

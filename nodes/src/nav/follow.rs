@@ -1,4 +1,4 @@
-use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on};
+use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on, twist::Halt};
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
@@ -87,6 +87,7 @@ pub struct PathFollower {
     path: Path,
     progress: Progress,
     motion: Motion,
+    halt: Halt,
 }
 
 /// Progress of a robot on its path.
@@ -135,22 +136,28 @@ impl PathFollower {
         if let Some(path) = path {
             self.begin(path);
         }
-        let (pose, goal) = (pose?, self.path.goal()?);
+        let Some(goal) = self.path.goal() else { return self.halt.rest() };
+        let pose = pose?;
         let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
         // A pose or a projection that is not finite is useless: the robot waits for a better one.
-        let Some(projection) = projection.filter(|_| pose.is_finite()) else { return Some(Twist::ZERO) };
+        let Some(projection) = projection.filter(|_| pose.is_finite()) else {
+            return self.halt.drive(Twist::ZERO);
+        };
         self.progress.segment = projection.segment;
         if let Some(scan) = scan {
             self.look(scan, pose, &projection, ctx.now());
         }
         match self.end(pose, goal, &projection, ctx.now()) {
-            None => return Some(self.drive(pose, goal, &projection, ctx.now())),
+            None => {
+                let twist = self.drive(pose, goal, &projection, ctx.now());
+                return self.halt.drive(twist);
+            }
             Some(End::Reached) => reached.emit(()),
             Some(End::Blocked) => blocked.emit(()),
             Some(End::OffPath) => off_path.emit(()),
         }
         self.give_up();
-        Some(Twist::ZERO)
+        self.halt.drive(Twist::ZERO)
     }
 
     /// Drops the path.

@@ -1,6 +1,7 @@
 //! Motion relative to sensor data, without a map (thesis 8.1.1). These nodes move the robot while they are active.
+//! A node that is interrupted sends a twist of zero, then ⊥.
 
-use super::Twist;
+use super::{Twist, twist::Halt};
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
@@ -37,12 +38,16 @@ pub struct MoveRobot {
     #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
     acceleration: f32,
     start: Option<Pose2>,
+    halt: Halt,
 }
 
 #[node]
 impl MoveRobot {
     fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
-        if !ctx.active() || !pose.is_finite() {
+        if !ctx.active() {
+            return self.halt.rest();
+        }
+        if !pose.is_finite() {
             return None;
         }
         let start = *self.start.get_or_insert(*pose);
@@ -52,7 +57,7 @@ impl MoveRobot {
         if remaining <= 0.0 {
             self.forget();
             done.emit(());
-            return Some(Twist::ZERO);
+            return self.halt.drive(Twist::ZERO);
         }
         // Counted from a little before the start, so that the robot starts faster than at the minimum speed.
         let travelled = self.distance - remaining;
@@ -60,7 +65,7 @@ impl MoveRobot {
         let speed = braking_speed(least, self.speed, self.acceleration);
         let to_goal = pose.to_inner(goal);
         let omega = TURN_GAIN * remainderf(start.theta - pose.theta, TAU);
-        Some(Twist::of(to_goal.scaled(speed / to_goal.norm()), omega))
+        self.halt.drive(Twist::of(to_goal.scaled(speed / to_goal.norm()), omega))
     }
 
     /// Discards the start pose: the next movement begins at the pose of the robot at that time.
@@ -94,22 +99,23 @@ pub struct MoveToObstacle {
     /// Deceleration before the obstacle.
     #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
     deceleration: f32,
+    halt: Halt,
 }
 
 #[node]
 impl MoveToObstacle {
     fn process(&mut self, ctx: &Ctx, scan: &Scan, done: Event<()>) -> Option<Twist> {
         if !ctx.active() {
-            return None;
+            return self.halt.rest();
         }
         let ahead = scan.points().map(|(_, p)| p).filter(|p| p.x > 0.0 && p.y.abs() <= self.half_width);
-        let Some(nearest) = ahead.map(|p| p.x).reduce(f32::min) else { return Some(Twist::ZERO) };
+        let Some(nearest) = ahead.map(|p| p.x).reduce(f32::min) else { return self.halt.drive(Twist::ZERO) };
         let gap = nearest - self.front - self.distance;
         if gap <= 0.0 {
             done.emit(());
-            return Some(Twist::ZERO);
+            return self.halt.drive(Twist::ZERO);
         }
-        Some(Twist::new(braking_speed(gap, self.speed, self.deceleration), 0.0, 0.0))
+        self.halt.drive(Twist::new(braking_speed(gap, self.speed, self.deceleration), 0.0, 0.0))
     }
 }
 
@@ -143,13 +149,14 @@ pub struct PositionToTarget {
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
     lost_timeout: f32,
     seen: Option<Time>,
+    halt: Halt,
 }
 
 #[node]
 impl PositionToTarget {
     fn process(&mut self, ctx: &Ctx, target: Option<&Pose2>, positioned: Event<()>, lost: Event<()>) -> Option<Twist> {
         if !ctx.active() {
-            return None;
+            return self.halt.rest();
         }
         let place = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI)));
         let Some(place) = place.filter(Pose2::is_finite) else {
@@ -157,18 +164,18 @@ impl PositionToTarget {
                 self.forget();
                 lost.emit(());
             }
-            return Some(Twist::ZERO);
+            return self.halt.drive(Twist::ZERO);
         };
         self.seen = Some(ctx.now());
         let distance = place.position().norm();
         if distance <= self.tolerance && place.theta.abs() <= self.heading_tolerance {
             self.forget();
             positioned.emit(());
-            return Some(Twist::ZERO);
+            return self.halt.drive(Twist::ZERO);
         }
         let factor = self.gain.min(self.speed / distance.max(f32::MIN_POSITIVE));
         let omega = (self.gain * place.theta).clamp(-self.max_rotation, self.max_rotation);
-        Some(Twist::of(place.position().scaled(factor), omega))
+        self.halt.drive(Twist::of(place.position().scaled(factor), omega))
     }
 
     /// Restarts the time that the target may be out of sight.
@@ -226,6 +233,15 @@ mod tests {
         assert_eq!(ahead.process(&ctx, &scan, Event::unconnected()), None);
         let mut position = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
         assert_eq!(position.process(&ctx, Some(&pose), Event::unconnected(), Event::unconnected()), None);
+    }
+
+    #[test]
+    fn a_motion_that_is_interrupted_ends_with_a_twist_of_zero() {
+        let (rest, pose) = (Ctx::new(Time::ZERO), Pose2::default());
+        let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5));
+        let mut twist = |ctx: &Ctx| node.process(ctx, &pose, Event::unconnected());
+        assert!(twist(&active(0)).is_some_and(|twist| twist.x > 0.0));
+        assert_eq!([twist(&rest), twist(&rest)], [Some(Twist::ZERO), None]);
     }
 
     #[test]

@@ -36,3 +36,22 @@ impl Twist {
         self.x.is_finite() && self.y.is_finite() && self.omega.is_finite()
     }
 }
+
+/// Stop of a node that drives: when it is interrupted, it sends a twist of zero before it is silent.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Halt {
+    is_moving: bool,
+}
+
+impl Halt {
+    /// Returns `twist`, which the node sends while it drives.
+    pub(super) fn drive(&mut self, twist: Twist) -> Option<Twist> {
+        self.is_moving = twist != Twist::ZERO;
+        Some(twist)
+    }
+
+    /// Returns the twist of a node that does not drive: zero if the last one was not, then none.
+    pub(super) fn rest(&mut self) -> Option<Twist> {
+        core::mem::take(&mut self.is_moving).then_some(Twist::ZERO)
+    }
+}
