@@ -26,7 +26,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
     for arg in &mut item.sig.inputs {
         if let FnArg::Typed(arg) = arg {
-            arg.attrs.retain(|a| !a.path().is_ident("param"));
+            arg.attrs.retain(|a| !a.path().is_ident("param") && !a.path().is_ident(signature::FAILURE));
         }
     }
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
@@ -35,7 +35,7 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let unbound = unbound(generics);
     let ports = ports(&callable, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
     let events: Vec<&Type> =
-        callable.args.iter().filter_map(|a| if let Form::Event(ty) = &a.form { Some(ty) } else { None }).collect();
+        callable.args.iter().filter_map(|a| if let Form::Event(ty, _) = &a.form { Some(ty) } else { None }).collect();
     let events = triggers(&events, &quote!(#impl_generics), &quote!(#name #type_args), &quote!(#bounds));
     let decls: Vec<&ParamDecl> =
         callable.args.iter().filter_map(|a| if let Form::Param(p) = &a.form { Some(&**p) } else { None }).collect();
@@ -144,6 +144,11 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
             continue;
         }
         method.attrs.retain(|a| !METHOD_MARKS.iter().any(|mark| a.path().is_ident(mark)));
+        for arg in &mut method.sig.inputs {
+            if let FnArg::Typed(arg) = arg {
+                arg.attrs.retain(|a| !a.path().is_ident(signature::FAILURE));
+            }
+        }
         method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg, clippy::too_many_arguments)]));
         if !signature::marked(&method.attrs, "inline") {
             method.attrs.push(syn::parse_quote!(#[inline]));

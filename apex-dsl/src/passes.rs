@@ -9,7 +9,7 @@ use crate::{
     graph::Graph,
     machine::Machines,
     program::Program,
-    report::Diagnostics,
+    report::{Diagnostics, Severity},
     resolve::{self, Link, SourceSet},
     source::{FileId, Sources, Span, World},
     threads,
@@ -68,6 +68,9 @@ pub fn check_all(
     }
     // With errors, connections may be missing, and claims would fail only for that reason.
     if !diagnostics.has_errors() {
+        for graph in programs.iter().map(|program| &program.graph).chain(&parts) {
+            check::check_lints(graph, catalog, diagnostics);
+        }
         for program in &mut programs {
             program.claims = claims::decide(&program.graph, catalog, states, diagnostics);
         }
@@ -77,6 +80,9 @@ pub fn check_all(
             program.split = threads::split(&program.graph, &program.analysis, catalog);
         }
     }
+    diagnostics.retain(|message| {
+        message.severity == Severity::Error || !sources.is_allowed(message.primary.span, message.code)
+    });
     Checked { texts: resolved.texts, links: resolved.links, programs, parts }
 }
 

@@ -100,6 +100,24 @@ impl Sources {
         &self.get(span.file).text[span.start as usize..span.end as usize]
     }
 
+    /// Returns `true` if a comment on the line of `span`, or directly above it, allows a warning:
+    /// `// allow(never-leaves): the last state`.
+    pub fn is_allowed(&self, span: Span, code: &str) -> bool {
+        let source = self.get(span.file);
+        let line = source.lines.partition_point(|start| *start <= span.start) - 1;
+        let text = |line: usize| {
+            let end = source.lines.get(line + 1).map_or(source.text.len(), |next| *next as usize);
+            source.text[source.lines[line] as usize..end].trim()
+        };
+        let allows = |comment: &str| {
+            let codes = comment.trim().strip_prefix("allow(").and_then(|rest| rest.split_once(')'));
+            codes.is_some_and(|(codes, _)| codes.split(',').any(|allowed| allowed.trim() == code))
+        };
+        let behind = text(line).rsplit_once("//").map(|(_, comment)| comment);
+        let above = (0..line).rev().map_while(|line| text(line).strip_prefix("//"));
+        behind.into_iter().chain(above).any(allows)
+    }
+
     /// Line and column of a position, both from 1, the column in characters.
     pub fn line_column(&self, file: FileId, offset: u32) -> (usize, usize) {
         let source = self.get(file);

@@ -32,8 +32,8 @@ pub enum Form {
     Input(InputForm),
     /// `&mut Out<T>` or `&mut Out<[T; N]>`.
     Out(Token),
-    /// `Event<T>`.
-    Event(Type),
+    /// `Event<T>`, and `true` if it is marked `#[failure]`.
+    Event(Type, bool),
     /// `&Ctx`.
     Ctx,
     /// A parameter of a function node.
@@ -112,6 +112,8 @@ pub struct Slot {
 
 /// Names of the attributes that mark methods of a node.
 pub const METHOD_MARKS: [&str; 4] = ["slot", "no_message", "on_activate", "on_deactivate"];
+/// The attribute that marks an event of failure.
+pub const FAILURE: &str = "failure";
 /// The attribute that marks a struct whose events take activity away instead of passing it on.
 pub const DEACTIVATES: &str = "deactivates";
 
@@ -175,7 +177,7 @@ impl Methods {
     /// several times.
     pub fn events(&self) -> impl Iterator<Item = (&str, &Type)> {
         let args = self.process.iter().flat_map(|p| &p.args).chain(self.slots.iter().flat_map(|s| &s.args));
-        args.filter_map(|arg| if let Form::Event(ty) = &arg.form { Some((arg.name.as_str(), ty)) } else { None })
+        args.filter_map(|arg| if let Form::Event(ty, _) = &arg.form { Some((arg.name.as_str(), ty)) } else { None })
     }
 }
 
@@ -236,7 +238,7 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
             {
                 token = Some(taken.ty.clone());
             }
-            Form::Event(_) | Form::Ctx => {}
+            Form::Event(..) | Form::Ctx => {}
             _ => {
                 return Err(syn::Error::new_spanned(
                     syntax,
@@ -272,7 +274,16 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
         };
         let form = match param(&arg.attrs, &arg.ty)? {
             Some(decl) => Form::Param(Box::new(decl)),
-            None => form(&arg.ty)?,
+            None => match (form(&arg.ty)?, marked(&arg.attrs, FAILURE)) {
+                (Form::Event(ty, _), fails) => Form::Event(ty, fails),
+                (form, false) => form,
+                (_, true) => {
+                    return Err(syn::Error::new_spanned(
+                        &arg.ty,
+                        "only an event can be marked `#[failure]`: `Event<T>`",
+                    ));
+                }
+            },
         };
         let name = name.ident.to_string();
         let name = name.strip_prefix("r#").unwrap_or(&name);
@@ -333,7 +344,7 @@ fn form(ty: &Type) -> syn::Result<Form> {
                 return Ok(Form::Input(input));
             }
             if let Some(inner) = wrapped(ty, "Event") {
-                return Ok(Form::Event(inner.clone()));
+                return Ok(Form::Event(inner.clone(), false));
             }
             Err(syn::Error::new_spanned(
                 ty,

@@ -173,6 +173,22 @@ impl<T: Clone> Latch<T> {
     }
 }
 
+/// Looks for something that may not be there.
+#[node]
+#[derive(Default)]
+pub struct Search;
+
+#[node]
+impl Search {
+    #[slot]
+    fn begin(&mut self, found: Event<u64>, #[failure] not_found: Event<()>) {
+        found.emit(1);
+        not_found.emit(());
+    }
+    #[on_activate]
+    fn look_around(&mut self) {}
+}
+
 /// A filter.
 #[node]
 pub fn maybe(x: &u64) -> Option<u64> {

@@ -197,8 +197,8 @@ pub enum ArgKind {
     Many(Ty, bool),
     /// `&mut Out<T>`
     Out(Ty, Option<usize>),
-    /// `Event<T>`
-    Event(Ty),
+    /// `Event<T>`, and `true` if it reports a failure.
+    Event(Ty, bool),
     /// `&Ctx`
     Ctx,
     /// The parameter with this number.
@@ -663,7 +663,7 @@ fn arguments(args: &[signature::Arg]) -> Vec<ArgItem> {
                 Form::Input(input) if input.optional => ArgKind::Optional(Ty::from_syn(&input.token.ty)),
                 Form::Input(input) => ArgKind::Input(Ty::from_syn(&input.token.ty), input.token.batch),
                 Form::Out(token) => ArgKind::Out(Ty::from_syn(&token.ty), token.batch),
-                Form::Event(ty) => ArgKind::Event(Ty::from_syn(ty)),
+                Form::Event(ty, fails) => ArgKind::Event(Ty::from_syn(ty), *fails),
                 Form::Ctx => ArgKind::Ctx,
                 Form::Param(_) => {
                     params += 1;

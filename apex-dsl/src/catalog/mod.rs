@@ -174,7 +174,7 @@ impl Catalog {
         let processes = process.into_iter().chain(methods.iter().filter_map(|m| m.process.as_ref()));
         processes.flat_map(|process| &process.args).chain(slots).find_map(|arg| match arg.kind {
             ArgKind::Ctx => self.own_type(def.module, "Ctx"),
-            ArgKind::Event(_) => self.own_type(def.module, "Event"),
+            ArgKind::Event(..) => self.own_type(def.module, "Event"),
             ArgKind::Out(..) => self.own_type(def.module, "Out"),
             ArgKind::Input(..) | ArgKind::Optional(_) | ArgKind::Many(..) | ArgKind::Param(_) => None,
         })
@@ -460,6 +460,7 @@ impl SignatureBuilder<'_> {
             optional,
             index,
             any_number: false,
+            failure: false,
             field: None,
             field_is_option: false,
             docs: String::new(),
@@ -489,7 +490,7 @@ impl SignatureBuilder<'_> {
                 ArgKind::Out(ty, batch) => {
                     ArgSig::Port(self.port(&arg.name, Output, ty, *batch, true, next(&mut outputs)))
                 }
-                ArgKind::Event(ty) => ArgSig::Port(self.event(&arg.name, ty)),
+                ArgKind::Event(ty, fails) => ArgSig::Port(self.event(&arg.name, ty, *fails)),
                 ArgKind::Ctx => ArgSig::Ctx,
                 ArgKind::Param(index) => ArgSig::Param(*index),
             });
@@ -527,20 +528,23 @@ impl SignatureBuilder<'_> {
     }
 
     /// Number of the port of an event. An event is one port, however many methods may trigger it.
-    fn event(&mut self, name: &str, ty: &Ty) -> usize {
+    fn event(&mut self, name: &str, ty: &Ty, fails: bool) -> usize {
         let kind = crate::syntax::tree::PortKind::Event;
         if let Some(known) = self.ports.iter().position(|p| p.kind == kind && p.name == name) {
+            self.ports[known].failure |= fails;
             return known;
         }
         self.events += 1;
-        self.port(name, kind, ty, None, false, self.events - 1)
+        let port = self.port(name, kind, ty, None, false, self.events - 1);
+        self.ports[port].failure = fails;
+        port
     }
 
     fn slot(&mut self, slot: &items::SlotItem, index: usize) -> SlotSig {
         let port = self.port(&slot.name, crate::syntax::tree::PortKind::Slot, &slot.ty, None, false, index);
         self.ports[port].docs.clone_from(&slot.docs);
         let args = slot.args.iter().map(|arg| match &arg.kind {
-            ArgKind::Event(ty) => ArgSig::Port(self.event(&arg.name, ty)),
+            ArgKind::Event(ty, fails) => ArgSig::Port(self.event(&arg.name, ty, *fails)),
             ArgKind::Ctx => ArgSig::Ctx,
             _ => ArgSig::Port(port),
         });

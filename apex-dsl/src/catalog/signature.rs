@@ -106,6 +106,8 @@ pub struct PortSig {
     pub optional: bool,
     /// `true` for an array of inputs: any number of connections, each with an input of its own.
     pub any_number: bool,
+    /// `true` for an event that reports a failure.
+    pub failure: bool,
     /// Number among the ports of its kind: in generated code the token type is `Input<index>`, `Output<index>`,
     /// `Slot<index>` or `Trigger<index>` of the node. All fields of a struct of outputs have the same number.
     pub index: usize,

@@ -3,6 +3,7 @@
 mod activity;
 mod asynchronous;
 mod inputs;
+mod lints;
 mod modifiers;
 mod parallel;
 mod rates;
@@ -15,6 +16,7 @@ use crate::{
     report::Diagnostics,
 };
 
+pub use lints::check_lints;
 pub use rates::check_rates;
 pub use types::compare as compare_types;
 

@@ -96,6 +96,7 @@ impl Machine {
             rate: 1,
             optional: false,
             any_number: false,
+            failure: false,
             index,
             field: None,
             field_is_option: false,

@@ -83,7 +83,7 @@ impl<T: Clone> Action<T> {
 
     /// Reports failure, which triggers `gave_up`.
     #[slot]
-    fn fail(&mut self, ctx: &Ctx, gave_up: Event<()>) {
+    fn fail(&mut self, ctx: &Ctx, #[failure] gave_up: Event<()>) {
         if ctx.active() {
             gave_up.emit(());
         }

@@ -130,8 +130,8 @@ impl PathFollower {
         path: Option<&Path>,
         scan: Option<&Scan>,
         reached: Event<()>,
-        blocked: Event<()>,
-        off_path: Event<()>,
+        #[failure] blocked: Event<()>,
+        #[failure] off_path: Event<()>,
     ) -> Option<Twist> {
         if let Some(path) = path {
             self.begin(path);

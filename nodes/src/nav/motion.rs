@@ -154,7 +154,13 @@ pub struct PositionToTarget {
 
 #[node]
 impl PositionToTarget {
-    fn process(&mut self, ctx: &Ctx, target: Option<&Pose2>, positioned: Event<()>, lost: Event<()>) -> Option<Twist> {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        target: Option<&Pose2>,
+        positioned: Event<()>,
+        #[failure] lost: Event<()>,
+    ) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }

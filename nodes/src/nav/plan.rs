@@ -84,7 +84,7 @@ impl PathPlanner {
         map: &Grid<Occupancy>,
         costs: Option<&Grid<f32>>,
         path: &mut Out<Path>,
-        no_path: Event<NoPath>,
+        #[failure] no_path: Event<NoPath>,
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: self.unknown_is_open };
         let smoothing = Smoothing { spacing: self.spacing, rounds: self.rounds };
