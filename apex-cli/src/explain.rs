@@ -2,7 +2,7 @@
 
 use crate::{Format, memory, project, times};
 use apex_dsl::{
-    explain::{explain, explain_json},
+    explain::{by_name, explain, explain_json},
     passes::listings,
     petri,
     report::{PAGES, nearest, page},
@@ -82,10 +82,11 @@ fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     match format {
-        Format::Text => checked
-            .programs
-            .iter()
-            .try_for_each(|p| project::print(&explain(p, &checked.texts.machines, &checked.catalog)))?,
+        Format::Text => {
+            let programs = checked.programs.iter().map(|p| explain(p, &checked.texts.machines, &checked.catalog));
+            let by_name = by_name(&checked.links, &checked.sources);
+            programs.chain((!by_name.is_empty()).then_some(by_name)).try_for_each(|text| project::print(&text))?;
+        }
         Format::Json => {
             let programs: Vec<_> = checked.programs.iter().map(|p| explain_json(p, &checked.catalog)).collect();
             project::print(&serde_json::to_string_pretty(&programs).map_err(|e| e.to_string())?)?;

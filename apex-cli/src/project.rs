@@ -8,7 +8,7 @@ use apex_dsl::{
     passes,
     program::Program,
     report::{Diagnostics, Severity, render},
-    resolve::SourceSet,
+    resolve::{Link, SourceSet},
     source::{Sources, World as _},
 };
 use apex_host::{Disk, Seen, Workspace};
@@ -29,6 +29,8 @@ pub struct Checked {
     pub programs: Vec<Program>,
     /// Graphs in the source file that are not programs.
     pub parts: Vec<Graph>,
+    /// Connections of the source file, as written.
+    pub links: Vec<Link>,
     /// It and the texts that it imports.
     pub texts: SourceSet,
     /// The node types it can use.
@@ -47,8 +49,8 @@ pub fn check(file: &Path) -> Result<Checked, String> {
     let text = checker.read(file)?;
     let (sources, diagnostics, checked) = checker.check(file, text);
     checker.save();
-    let passes::Checked { texts, programs, parts, .. } = checked;
-    Ok(Checked { sources, diagnostics, programs, parts, texts, catalog: checker.catalog })
+    let passes::Checked { texts, programs, parts, links } = checked;
+    Ok(Checked { sources, diagnostics, programs, parts, links, texts, catalog: checker.catalog })
 }
 
 /// Checker for the source files of one package, also with contents that differ from the disk.

@@ -8,11 +8,16 @@ use crate::{
     graph::{Flow, Graph, Node, NodeId, NodeKind, PortId},
     machine::{self, Machines},
     program::Program,
+    resolve::Link,
+    source::{Sources, Span},
     syntax::tree::PortKind,
     threads::Split,
 };
 use serde_json::{Value, json};
-use std::{collections::BTreeSet, fmt::Write as _};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fmt::Write as _,
+};
 
 /// Regions, guards, clusters, schedule, rates, pruning and memory of a program, as text.
 pub fn explain(program: &Program, machines: &Machines, catalog: &Catalog) -> String {
@@ -28,6 +33,21 @@ pub fn explain(program: &Program, machines: &Machines, catalog: &Catalog) -> Str
         text.push_str(&machine::translation(machine));
     }
     text
+}
+
+/// Connections that `.*` makes in a source file, by line; empty if there are none.
+pub fn by_name(links: &[Link], sources: &Sources) -> String {
+    let mut lines: BTreeMap<Span, Vec<String>> = BTreeMap::new();
+    for link in links.iter().filter(|link| link.by_name) {
+        lines.entry(link.arrow).or_default().push(format!("{} -> {}", link.from.name, link.to.name));
+    }
+    let mut text = String::new();
+    for (arrow, connections) in &lines {
+        let line = sources.line_column(arrow.file, arrow.start).0;
+        let _ = writeln!(text, "  line {line}");
+        connections.iter().for_each(|connection| _ = writeln!(text, "    {connection}"));
+    }
+    if text.is_empty() { text } else { format!("connections by name\n{text}") }
 }
 
 /// Writes the contents of each thread group, and the cells between them.

@@ -8,6 +8,7 @@ mod common;
 mod completions;
 mod doc;
 mod docs;
+mod explain;
 mod import;
 mod import_files;
 mod import_runs;

@@ -26,10 +26,9 @@ impl Generator<'_> {
         view.analysis.asynchronous.slots.iter().any(called)
     }
 
-    /// Name of the function of `cancel` or `resume`: `deliver_cancel_7`.
+    /// Name of the function of `cancel` or `resume`: `cancel_7`. No other function has such a name.
     pub fn interrupt_function(&self, view: ProgramView<'_>, slot: PortId) -> Ident {
-        let name = view.graph.end_name(slot).replace('.', "_");
-        ident(&format!("{name}_{}", slot.node.index()))
+        ident(&format!("{}_{}", view.graph.port(slot).name, slot.node.index()))
     }
 
     /// The functions of `cancel` and `resume`.

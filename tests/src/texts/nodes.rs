@@ -122,6 +122,12 @@ const SHAPES: &[Shape] = &[
         "{#}\n{V}struct {N} {\n    #[param]\n    level: {P},\n}\n\n{#}\nimpl {N} {\n    fn process(&mut self, {I}: &{T}) -> {T} {\n        loop {}\n    }\n}",
     ),
     shape("pair", "io", "{#}\n{V}fn {N}({I}: &[{T}; 2]) -> {T} {\n    loop {}\n}"),
+    shape("several", "io", "{#}\n{V}fn {N}<const COUNT: usize>({I}: [&{T}; COUNT]) -> {T} {\n    loop {}\n}"),
+    shape(
+        "Several",
+        "i2o",
+        "{STATE}    fn process<const COUNT: usize>(&mut self, second: &{T}, {I}: [Option<&{T}>; COUNT]) -> {T} {\n        loop {}\n    }\n}",
+    ),
     shape("double", "io", "{#}\n{V}fn {N}({I}: &{T}) -> [{T}; 2] {\n    loop {}\n}"),
 ];
 

@@ -207,7 +207,7 @@ impl Maker {
             events: events.iter().map(|n| port(n, ty)).collect(),
             params: vec![],
         };
-        let mut node = match self.dice.below(8) {
+        let mut node = match self.dice.below(10) {
             0 => plain("flow::Relay", &[], &["put"], &[], &["signal"], ty),
             1 => plain("flow::emit", &["value"], &[], &[], &["signal"], ty),
             2 => plain("flow::Latch", &[], &["set"], &["out"], &[], ty),
@@ -215,6 +215,8 @@ impl Maker {
             4 => plain("flow::ActivityGate", &["value"], &[], &["out"], &[], ty),
             5 => plain("math::add", &["a", "b"], &[], &["out"], &[], if self.has(Kind::Bounds) { ty } else { number }),
             6 => plain("math::clamp", &["x"], &[], &["out"], &[], number),
+            7 => plain("flow::merge", &["values", "values", "values"], &[], &["out"], &[], ty),
+            8 => plain("math::median", &["values", "values"], &[], &["out"], &[], number),
             _ => plain("flow::Latest", &[], &["set"], &["out"], &[], ty),
         };
         if node.name.ends_with("clamp") {
@@ -314,11 +316,21 @@ impl Maker {
     /// Uses ports that every node has.
     fn inherited(&mut self, sheet: &mut Sheet) {
         let Some((name, _)) = sheet.named.last().cloned() else { return };
-        let line = match self.dice.below(5) {
+        let active = sheet.active.last().and_then(|port| port.split('.').next()).map(str::to_owned);
+        let name = active.filter(|_| self.dice.one_in(2)).unwrap_or(name);
+        let wire = sheet.wires.first().map(|wire| wire.from.clone());
+        let line = match self.dice.below(8) {
             0 => format!("{name}.failed -> abort;"),
             1 => format!("{name}.processed -> exit;"),
             2 => format!("{name}.activated -> apex_nodes::flow::Signal() -> reset;"),
             3 => format!("start => {name}.enable;"),
+            4 => match wire {
+                Some(wire) if self.dice.one_in(2) => format!("{wire} -> {name}.cancel;\n{wire} => {name}.resume;"),
+                Some(wire) => format!("{wire} -> {name}.cancel;"),
+                None => return,
+            },
+            5 => format!("{name}.cancelled => apex_nodes::flow::Signal() -> exit;"),
+            6 => format!("{name}.cancelled -> {name}.resume;"),
             _ => match sheet.wires.first().cloned() {
                 Some(wire) => format!("{} -> apex_nodes::flow::Signal() -> {name}.disable;", wire.from),
                 None => return,
