@@ -81,7 +81,22 @@ impl<'t> Layout<'_, 't> {
         let start = if elements.is_empty() { Doc::NIL } else { Doc::SoftLine };
         let comma = elements.last().map_or(Doc::NIL, |last| self.last_comma(last, elements.len()));
         let body = [start, body(&elements), comma].into_iter().chain(inside).collect();
-        Doc::group(vec![self.kid(open), Doc::indent(body), Doc::SoftLine, close])
+        let (mut parts, open) = self.opening(open);
+        parts.push(Doc::group(vec![open, Doc::indent(body), Doc::SoftLine, close]));
+        Doc::Concat(parts)
+    }
+
+    /// The comments and the empty line before an opening bracket with which a statement begins, and the bracket. They
+    /// are not in one line with the list, whether it is broken or not.
+    fn opening(&self, open: &Child) -> (Vec<Doc<'t>>, Doc<'t>) {
+        let token = self.first(open);
+        if !token.begins {
+            return (vec![], self.kid(open));
+        }
+        let mut before: Vec<Doc<'t>> = token.before.iter().flat_map(Self::before).collect();
+        before.extend(token.blank.then_some(Doc::Blank));
+        let after = token.after.iter().map(Doc::comment);
+        (before, Doc::Concat([Doc::text(token.text)].into_iter().chain(after).collect()))
     }
 
     /// The elements with the commas between them.

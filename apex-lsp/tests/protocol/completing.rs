@@ -75,13 +75,13 @@ fn only_ports_that_fit() {
         // Certain completions come first.
         assert_eq!(found[0], "fast");
     }
-    assert_eq!(at("speed -> inner.|"), ["a", "c"]);
-    assert_eq!(at("inner.|"), ["d", "failed", "*"]);
+    assert_eq!(at("speed -> inner.|"), ["a", "c", "cancel", "resume"]);
+    assert_eq!(at("inner.|"), ["d", "failed", "cancelled", "*"]);
     // By name.
     assert_eq!(at("in.|"), ["*"]);
     assert_eq!(at("in.* -> inner.|"), ["*"]);
     assert_eq!(at("in.* -> [one.*, inner.|"), ["*"]);
-    assert_eq!(at("inner.d -> inner.|"), ["b"]);
+    assert_eq!(at("inner.d -> inner.|"), ["b", "cancel", "resume"]);
     // Only one of its ports fits, so its name is enough.
     has(&at("inner -> |"), &["inner"]);
     lacks(&at("inner -> |"), &["fast", "inner.a", "inner.b", "one"]);
