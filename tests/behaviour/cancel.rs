@@ -40,3 +40,21 @@ fn each_level_remembers_what_it_took() {
     assert_eq!(after!(again), "pair.left");
     assert_eq!(after!(all), "pair.left pair.right");
 }
+
+#[test]
+fn a_token_that_waits_in_front_of_a_nested_graph_is_on_its_way_into_it() {
+    let mut program = InFront::new();
+    program.inputs().begin.put(1).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!(active(&program), "");
+    program.inputs().stop.put(()).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!(program.events().stopped.take(), Some(()));
+    // The token itself goes on without activity.
+    program.inputs().b.put(2).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!((active(&program).as_str(), program.nodes().inner.k.seen.as_slice()), ("", &[3][..]));
+    program.inputs().go.put(()).unwrap();
+    program.react(Time::ZERO);
+    assert_eq!(active(&program), "inner.s");
+}

@@ -32,8 +32,8 @@ pub struct Interrupt {
     pub node: NodeId,
     /// Places from which it takes activity: nodes, and connections to them.
     takes: Vec<PlaceId>,
-    /// For each place from which it takes activity, the place that remembers it. Empty without `resume`.
-    remembers: BTreeMap<PlaceId, PlaceId>,
+    /// For each place from which it takes activity, the places that remember it. Empty without `resume`.
+    remembers: BTreeMap<PlaceId, Vec<PlaceId>>,
     /// For each place that remembers, the node that becomes active again.
     gives: BTreeMap<PlaceId, PlaceId>,
     /// The active connections of `cancelled`.
@@ -324,9 +324,11 @@ impl Interrupt {
             };
             if nodes.contains(&node) {
                 made.takes.push(place);
-                if let Some(remembered) = number.get(&Place::Remembered(interrupt, node)) {
-                    made.remembers.insert(place, *remembered);
-                    made.gives.extend(number.get(&Place::Node(node)).map(|node| (*remembered, *node)));
+                for node in graph.receivers(node).intersection(&nodes) {
+                    if let Some(remembered) = number.get(&Place::Remembered(interrupt, *node)) {
+                        made.remembers.entry(place).or_default().push(*remembered);
+                        made.gives.extend(number.get(&Place::Node(*node)).map(|node| (*remembered, *node)));
+                    }
                 }
             }
         }
@@ -344,7 +346,7 @@ impl Interrupt {
         // Without activity there is nothing to remember instead.
         let forgets = |place: &PlaceId| !taken.is_empty() && self.gives.contains_key(place);
         let rest = state.iter().copied().filter(|place| !taken.contains(place) && !forgets(place));
-        let remembered = taken.iter().filter_map(|place| self.remembers.get(place)).copied();
+        let remembered = taken.iter().filter_map(|place| self.remembers.get(place)).flatten().copied();
         let sent: &[PlaceId] = if brought || !taken.is_empty() { &self.sends } else { &[] };
         Some(with(rest.chain(remembered), sent))
     }

@@ -81,8 +81,7 @@ impl Generator<'_> {
                 let held = self.held_activity(node);
                 return quote! { if #(#found)|* { taken = true; state.#held.clear(); } };
             }
-            let bit = Literal::usize_unsuffixed(self.index(node));
-            let remember = remembered.as_ref().map(|_| quote! { remembered.set(#bit, true); });
+            let remember: TokenStream = remembered.iter().flat_map(|_| self.bits(view, node, nodes)).collect();
             let (clear, leave, tell) =
                 (self.clear_told(view, node), self.deactivate(view, node), self.tell(view, node));
             quote! { if #(#found)|* { taken = true; #remember #clear #leave #tell } }
@@ -105,6 +104,13 @@ impl Generator<'_> {
             #sends
             #check
         }
+    }
+
+    /// Remembers the nodes among `nodes` to which the activity of `node` is given back.
+    fn bits(&self, view: ProgramView<'_>, node: NodeId, nodes: &[NodeId]) -> Vec<TokenStream> {
+        let receivers = view.graph.receivers(node).into_iter().filter(|node| nodes.contains(node));
+        let bits = receivers.map(|node| Literal::usize_unsuffixed(self.index(node)));
+        bits.map(|bit| quote! { remembered.set(#bit, true); }).collect()
     }
 
     /// Gives activity back to the nodes from which `cancel` took it.

@@ -311,19 +311,55 @@ impl Graph {
         self.nodes.iter_enumerated().filter_map(|(id, node)| Some((id, self.nodes_of(node.interrupts()?))))
     }
 
-    /// A node, or the nodes in a nested graph, as far as they can hold activity.
+    /// A node, or the nodes in a nested graph, as far as they can hold activity; and the relays in the same thread group
+    /// whose tokens go only to them, because these are not in the source file.
     pub fn nodes_of(&self, subject: Subject) -> Vec<NodeId> {
-        match subject {
-            Subject::Node(node) => vec![node],
+        let is_meant = |node: &NodeId| match subject {
+            Subject::Node(of) => *node == of,
             Subject::Scope(scope) => {
-                let is_meant = |node: &NodeId| {
-                    self.can_hold_activity(*node)
-                        && self.nodes[*node].interrupts().is_none()
-                        && self.scopes_of(*node).contains(&scope)
-                };
-                self.nodes.ids().filter(is_meant).collect()
+                self.can_hold_activity(*node)
+                    && self.nodes[*node].interrupts().is_none()
+                    && self.scopes_of(*node).contains(&scope)
+            }
+        };
+        let mut found: BTreeSet<NodeId> = self.nodes.ids().filter(is_meant).collect();
+        let group = found.first().map(|node| self.group(*node));
+        let is_relay =
+            |node: &NodeId| matches!(self.nodes[*node].kind, NodeKind::Relay) && group == Some(self.group(*node));
+        let relays: Vec<(NodeId, Vec<NodeId>)> =
+            self.nodes.ids().filter(is_relay).map(|relay| (relay, self.successors(relay))).collect();
+        loop {
+            let leads_there = |(relay, next): &&(NodeId, Vec<NodeId>)| {
+                !found.contains(relay) && !next.is_empty() && next.iter().all(|node| found.contains(node))
+            };
+            let more: Vec<NodeId> = relays.iter().filter(leads_there).map(|(relay, _)| *relay).collect();
+            if more.is_empty() {
+                return found.into_iter().collect();
+            }
+            found.extend(more);
+        }
+    }
+
+    /// The nodes to which connections lead from a node.
+    fn successors(&self, node: NodeId) -> Vec<NodeId> {
+        self.connections.iter().filter(|c| c.from.node == node).map(|c| c.to.node).collect()
+    }
+
+    /// The nodes that receive the activity of a token that leads to `node`: itself, or those behind it if it is a
+    /// relay.
+    pub fn receivers(&self, node: NodeId) -> BTreeSet<NodeId> {
+        let (mut found, mut open, mut seen) = (BTreeSet::new(), vec![node], BTreeSet::new());
+        while let Some(node) = open.pop() {
+            match self.nodes[node].kind {
+                NodeKind::Relay if seen.insert(node) => {
+                    let active = self.connections.iter().filter(|c| c.active && c.from.node == node);
+                    open.extend(active.map(|c| c.to.node));
+                }
+                NodeKind::Relay => {}
+                _ => _ = found.insert(node),
             }
         }
+        found
     }
 
     /// The connection into a port, if there is one.

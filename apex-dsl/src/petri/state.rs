@@ -495,7 +495,8 @@ impl<'a> State<'a> {
             return false;
         }
         let (mut taken, mut remembered) = (brought, BTreeSet::new());
-        for node in self.graph.nodes_of(subject) {
+        let nodes: BTreeSet<NodeId> = self.graph.nodes_of(subject).into_iter().collect();
+        for &node in &nodes {
             let mut found = self.active[node];
             for place in self.places_before(node) {
                 for token in self.marking[place].iter_mut().filter(|token| token.modifier > 0) {
@@ -504,7 +505,7 @@ impl<'a> State<'a> {
                 }
             }
             if found {
-                remembered.insert(node);
+                remembered.extend(self.graph.receivers(node).intersection(&nodes));
                 self.set_active(node, false);
             }
             taken |= found;
