@@ -311,8 +311,8 @@ impl Graph {
         self.nodes.iter_enumerated().filter_map(|(id, node)| Some((id, self.nodes_of(node.interrupts()?))))
     }
 
-    /// A node, or the nodes in a nested graph, as far as they can hold activity; and the relays in the same thread group
-    /// whose tokens go only to them, because these are not in the source file.
+    /// A node, or the nodes in a nested graph, as far as they can hold activity; and the relays in the same thread
+    /// group whose tokens go only to them, because these are not in the source file.
     pub fn nodes_of(&self, subject: Subject) -> Vec<NodeId> {
         let is_meant = |node: &NodeId| match subject {
             Subject::Node(of) => *node == of,
