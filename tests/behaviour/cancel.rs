@@ -2,7 +2,7 @@
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
-use apex_tests::active;
+use apex_tests::{active, react};
 
 graph!("cancel.afg");
 
@@ -57,4 +57,16 @@ fn a_token_that_waits_in_front_of_a_nested_graph_is_on_its_way_into_it() {
     program.inputs().go.put(()).unwrap();
     program.react(Time::ZERO);
     assert_eq!(active(&program), "inner.s");
+}
+
+#[test]
+fn loops_through_reset_and_cancel_are_reported() {
+    let mut program = Endless::new();
+    program.set_budget(1000);
+    assert!(!react(&mut program, 1).endless.is_empty());
+    let mut program = Around::new();
+    program.set_budget(1000);
+    assert!(react(&mut program, 1).endless.is_empty());
+    program.inputs().begin.put(()).unwrap();
+    assert!(!react(&mut program, 1).endless.is_empty());
 }
