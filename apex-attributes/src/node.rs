@@ -24,11 +24,7 @@ pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> 
 /// Expands a function. It keeps its name; a type of the same name has the types of its ports.
 fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
-    for arg in &mut item.sig.inputs {
-        if let FnArg::Typed(arg) = arg {
-            arg.attrs.retain(|a| !a.path().is_ident("param") && !a.path().is_ident(signature::FAILURE));
-        }
-    }
+    remove_marks(&mut item.sig, &["param", signature::FAILURE]);
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
@@ -54,6 +50,15 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
         #events
         #params
     })
+}
+
+/// Removes attributes of arguments that only `#[node]` knows.
+fn remove_marks(function: &mut syn::Signature, marks: &[&str]) {
+    for arg in &mut function.inputs {
+        if let FnArg::Typed(arg) = arg {
+            arg.attrs.retain(|a| !marks.iter().any(|mark| a.path().is_ident(mark)));
+        }
+    }
 }
 
 /// Returns the type parameters without bounds: a type that does not satisfy them can still be named, so that rustc can
@@ -144,11 +149,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
             continue;
         }
         method.attrs.retain(|a| !METHOD_MARKS.iter().any(|mark| a.path().is_ident(mark)));
-        for arg in &mut method.sig.inputs {
-            if let FnArg::Typed(arg) = arg {
-                arg.attrs.retain(|a| !a.path().is_ident(signature::FAILURE));
-            }
-        }
+        remove_marks(&mut method.sig, &[signature::FAILURE]);
         method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg, clippy::too_many_arguments)]));
         if !signature::marked(&method.attrs, "inline") {
             method.attrs.push(syn::parse_quote!(#[inline]));

@@ -23,8 +23,8 @@ pub fn successors(graph: &Graph) -> IdVec<NodeId, Vec<NodeId>> {
     for c in graph.connections.iter().filter(|c| c.active) {
         next[c.from.node].push(c.to.node);
     }
-    for (interrupt, nodes) in graph.interrupts() {
-        nodes.into_iter().for_each(|node| next[node].push(interrupt));
+    for interrupt in graph.interrupts() {
+        interrupt.takes.into_iter().for_each(|node| next[node].push(interrupt.node));
     }
     next
 }

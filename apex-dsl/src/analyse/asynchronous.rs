@@ -280,7 +280,7 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: Connectio
     let sends = |port: usize| match (&node.kind, node.ports[port].kind, node.ports[port].standard) {
         // A delay sends its token in a later iteration, and a timeout comes at a later time.
         (NodeKind::Delay(_), ..) => false,
-        (NodeKind::Interrupt(_), ..) => Standard::Cancel.of_interrupt() == Some(to.port),
+        (NodeKind::Interrupt(_), ..) => Standard::Cancel.is_of_interrupt(to.port),
         (_, _, Some(Standard::Timeout)) => false,
         (_, _, Some(Standard::Processed)) => by_process,
         (_, _, Some(_)) => true,

@@ -191,7 +191,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         asynchronous,
         stamps: Stamps::default(),
         active,
-        cancelled: graph.interrupts().flat_map(|(_, nodes)| nodes).collect(),
+        cancelled: graph.cancelled(),
         links,
         bodies,
     };

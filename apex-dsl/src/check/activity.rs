@@ -68,8 +68,8 @@ fn stuck(graph: &Graph, reached: &BTreeSet<NodeId>) -> BTreeMap<NodeId, Connecti
     }
     // Activity also leaves nodes that are cancelled.
     let is_called = |node: NodeId| graph.connections.iter().any(|c| c.to.node == node);
-    let cancelled = graph.interrupts().filter(|(interrupt, _)| is_called(*interrupt));
-    let cancelled: BTreeSet<NodeId> = cancelled.flat_map(|(_, nodes)| nodes).collect();
+    let cancelled = graph.interrupts().filter(|interrupt| is_called(interrupt.node));
+    let cancelled: BTreeSet<NodeId> = cancelled.flat_map(|interrupt| interrupt.takes).collect();
     stuck.retain(|node, _| {
         !passes.contains(node) && !cancelled.contains(node) && graph.nodes[*node].interrupts().is_none()
     });

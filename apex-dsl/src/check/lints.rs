@@ -3,7 +3,8 @@
 use crate::{
     analyse::{active_nodes_within, may_be_missing},
     catalog::{Catalog, Signature},
-    graph::{Graph, NodeId, NodeKind, PortId, Standard, WireEnd},
+    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Standard, WireEnd},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
@@ -21,9 +22,11 @@ pub fn check_lints(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnosti
         catalog,
         sends: graph.wires.iter().map(|wire| wire.from).collect(),
         reached: active_nodes_within(graph),
-        cancelled: graph.interrupts().flat_map(|(_, nodes)| nodes).collect(),
+        cancelled: graph.cancelled(),
+        passes: graph.connections.iter().filter(|c| c.active).map(|c| c.from.node).collect(),
+        into: into(graph),
     };
-    let has_activity = graph.connections.iter().any(|c| c.active);
+    let has_activity = !lints.passes.is_empty();
     for node in graph.nodes.ids() {
         let NodeKind::Library(library) = &graph.nodes[node].kind else { continue };
         let signature = &catalog.signatures[library.signature];
@@ -48,6 +51,18 @@ struct Lints<'a> {
     reached: BTreeSet<NodeId>,
     /// Nodes whose activity can be cancelled.
     cancelled: BTreeSet<NodeId>,
+    /// Nodes from which `=>` leads on.
+    passes: BTreeSet<NodeId>,
+    /// Connections into each node.
+    into: IdVec<NodeId, Vec<ConnectionId>>,
+}
+
+fn into(graph: &Graph) -> IdVec<NodeId, Vec<ConnectionId>> {
+    let mut into = IdVec::from_elem(vec![], graph.nodes.len());
+    for (index, c) in graph.connections.iter_enumerated() {
+        into[c.to.node].push(index);
+    }
+    into
 }
 
 impl Lints<'_> {
@@ -55,7 +70,7 @@ impl Lints<'_> {
         self.sends.contains(&WireEnd::Port(PortId { node, port }))
     }
 
-    /// A function has no effect but its results.
+    /// Function without a used result. It has no other effect.
     fn unused(&self, node: NodeId, signature: &Signature) -> Option<Diagnostic> {
         let mut sends = (0..signature.ports.len()).filter(|port| signature.ports[*port].kind.sends()).peekable();
         let is_used = sends.peek().is_none() || sends.any(|port| self.is_used(node, port));
@@ -68,6 +83,7 @@ impl Lints<'_> {
         Some(Diagnostic::warning("unused-node", n.span, message).note(note))
     }
 
+    /// Node with an event of failure that leads nowhere.
     fn ignored_failure(&self, node: NodeId, signature: &Signature) -> Option<Diagnostic> {
         let n = &self.graph.nodes[node];
         let declared = (0..signature.ports.len()).filter(|port| signature.ports[*port].failure);
@@ -86,15 +102,19 @@ impl Lints<'_> {
         )
     }
 
-    /// A node takes activity at an input and passes it on only when its other inputs hold values, too.
+    /// Node that takes activity at an input, and passes it on only when its other inputs hold values, too.
     fn waits_forever(&self, node: NodeId) -> Option<Diagnostic> {
         let (graph, n) = (self.graph, &self.graph.nodes[node]);
-        let passes = graph.connections.iter().any(|c| c.from.node == node && c.active);
-        if !passes || !self.reached.contains(&node) || n.modifiers.timeout.is_some() || self.cancelled.contains(&node) {
+        if !self.passes.contains(&node)
+            || !self.reached.contains(&node)
+            || n.modifiers.timeout.is_some()
+            || self.cancelled.contains(&node)
+        {
             return None;
         }
         let is_mandatory = |port: usize| n.ports[port].kind == PortKind::Input && !n.ports[port].optional;
-        let inputs = || graph.connections.iter().filter(|c| c.to.node == node && is_mandatory(c.to.port));
+        let connections = || self.into[node].iter().map(|c| &graph.connections[*c]);
+        let inputs = || connections().filter(|c| is_mandatory(c.to.port));
         let brings = inputs().find(|c| c.active && self.reached.contains(&c.from.node))?;
         let lacks = inputs().find(|c| {
             c.from != brings.from && graph.is_synchronous(c) && may_be_missing(graph, self.catalog, c.from)
@@ -111,7 +131,7 @@ impl Lints<'_> {
         Some(warning.note("give it a `timeout` with a `=>` to another node, or make sure that there is always a value"))
     }
 
-    /// A node does something when it becomes active, and there is no activity at all.
+    /// Node with a method for its activation, which activity never reaches.
     fn without_activity(&self, node: NodeId, signature: &Signature) -> Option<Diagnostic> {
         let n = &self.graph.nodes[node];
         if signature.on_activate.is_none() || self.reached.contains(&node) || n.starts_active {

@@ -4,7 +4,7 @@
 use crate::{
     analyse::{active_nodes, takes_activity},
     catalog::Catalog,
-    graph::{Connection, ConnectionId, Graph, NodeId, NodeKind, PortId, Standard},
+    graph::{self, Connection, ConnectionId, Graph, NodeId, NodeKind, PortId, Standard, Subject},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,6 +30,8 @@ pub enum Place {
 pub struct Interrupt {
     /// The node that stands for it.
     pub node: NodeId,
+    /// The node or nested graph from which it takes activity.
+    pub subject: Subject,
     /// Places from which it takes activity: nodes, and connections to them.
     takes: Vec<PlaceId>,
     /// For each place from which it takes activity, the places that remember it. Empty without `resume`.
@@ -119,13 +121,14 @@ impl Model {
         };
         let connections = graph.connections.iter_enumerated();
         places.extend(connections.filter(|(_, c)| c.active && carries(c.from)).map(|(i, _)| Place::Connection(i)));
-        for (interrupt, nodes) in graph.interrupts() {
-            let remembered = |node: &NodeId| reached.contains(node) && is_called(graph, interrupt, Standard::Resume);
-            places.extend(nodes.into_iter().filter(remembered).map(|node| Place::Remembered(interrupt, node)));
+        let interrupts: Vec<graph::Interrupt> = graph.interrupts().collect();
+        for interrupt in interrupts.iter().filter(|interrupt| is_called(graph, interrupt.node, Standard::Resume)) {
+            let remembered = interrupt.takes.iter().filter(|node| reached.contains(*node));
+            places.extend(remembered.map(|node| Place::Remembered(interrupt.node, *node)));
         }
         let number: BTreeMap<Place, PlaceId> = (0..).zip(&places).map(|(i, p)| (*p, i)).collect();
         let interrupts: Vec<Interrupt> =
-            graph.interrupts().map(|(node, nodes)| Interrupt::new(graph, &places, &number, node, &nodes)).collect();
+            interrupts.iter().map(|interrupt| Interrupt::new(graph, &places, &number, interrupt)).collect();
         let plain = |standard: Standard| {
             let is_plain = |interrupt: &Interrupt| has_plain(graph, interrupt.node, standard);
             (0..interrupts.len()).filter(|i| is_plain(&interrupts[*i])).collect()
@@ -164,13 +167,14 @@ impl Model {
     ) {
         let c = &graph.connections[connection];
         let interrupt = self.interrupts.iter().position(|interrupt| interrupt.node == c.to.node);
-        let resumes = Standard::Resume.of_interrupt() == Some(c.to.port);
-        self.arrivals[index] = Some(match (&graph.nodes[c.to.node].kind, number.get(&Place::Node(c.to.node))) {
-            (NodeKind::Interrupt(_), _) if resumes => Arrival::Resumes(interrupt.unwrap_or_default()),
-            (NodeKind::Interrupt(_), _) => Arrival::Cancels(interrupt.unwrap_or_default()),
-            (_, Some(node)) => Arrival::Node(*node),
-            (NodeKind::Exit(_), _) => Arrival::Ends,
-            (NodeKind::Reset, _) => Arrival::Restarts,
+        let resumes = Standard::Resume.is_of_interrupt(c.to.port);
+        let node = number.get(&Place::Node(c.to.node));
+        self.arrivals[index] = Some(match (interrupt, &graph.nodes[c.to.node].kind, node) {
+            (Some(interrupt), ..) if resumes => Arrival::Resumes(interrupt),
+            (Some(interrupt), ..) => Arrival::Cancels(interrupt),
+            (_, _, Some(node)) => Arrival::Node(*node),
+            (_, NodeKind::Exit(_), _) => Arrival::Ends,
+            (_, NodeKind::Reset, _) => Arrival::Restarts,
             _ => Arrival::Leaves,
         });
         let place = index as PlaceId;
@@ -302,16 +306,17 @@ impl Model {
 }
 
 impl Interrupt {
-    fn new(
-        graph: &Graph,
-        places: &[Place],
-        number: &BTreeMap<Place, PlaceId>,
-        interrupt: NodeId,
-        nodes: &[NodeId],
-    ) -> Self {
-        let nodes: BTreeSet<NodeId> = nodes.iter().copied().collect();
-        let mut made =
-            Self { node: interrupt, takes: vec![], remembers: BTreeMap::new(), gives: BTreeMap::new(), sends: vec![] };
+    fn new(graph: &Graph, places: &[Place], number: &BTreeMap<Place, PlaceId>, of: &graph::Interrupt) -> Self {
+        let (interrupt, subject) = (of.node, of.subject);
+        let nodes: BTreeSet<NodeId> = of.takes.iter().copied().collect();
+        let mut made = Self {
+            node: interrupt,
+            subject,
+            takes: vec![],
+            remembers: BTreeMap::new(),
+            gives: BTreeMap::new(),
+            sends: vec![],
+        };
         for (place, of) in (0..).zip(places) {
             let node = match *of {
                 Place::Node(node) => node,
@@ -362,16 +367,20 @@ impl Interrupt {
 
 /// Returns `true` if a connection leads to a slot of a node that interrupts.
 fn is_called(graph: &Graph, interrupt: NodeId, standard: Standard) -> bool {
-    graph.connections.iter().any(|c| c.to.node == interrupt && standard.of_interrupt() == Some(c.to.port))
+    calls(graph, interrupt, standard).next().is_some()
+}
+
+/// Connections to a slot of a node that interrupts.
+fn calls(graph: &Graph, interrupt: NodeId, standard: Standard) -> impl Iterator<Item = &Connection> {
+    graph.connections.iter().filter(move |c| c.to.node == interrupt && standard.is_of_interrupt(c.to.port))
 }
 
 /// Returns `true` if a token without activity has an effect at a slot of a node that interrupts. Over `=>`, `resume`
 /// needs activity, and `start` always brings some.
 fn has_plain(graph: &Graph, interrupt: NodeId, standard: Standard) -> bool {
-    let is_meant = |c: &&Connection| c.to.node == interrupt && standard.of_interrupt() == Some(c.to.port);
     let is_start = |c: &Connection| matches!(graph.nodes[c.from.node].kind, NodeKind::Start);
     let needs_activity = |c: &Connection| c.active && (standard == Standard::Resume || is_start(c));
-    graph.connections.iter().filter(is_meant).any(|c| !needs_activity(c))
+    calls(graph, interrupt, standard).any(|c| !needs_activity(c))
 }
 
 fn with(state: impl Iterator<Item = PlaceId>, more: &[PlaceId]) -> State {

@@ -58,15 +58,13 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
                 format!("`{}` takes it, but is already active: two become one", name(graph, model, node))
             }
             Some(Arrival::Node(node)) => format!("`{}` takes it and becomes active", name(graph, model, node)),
-            Some(Arrival::Cancels(number)) => {
-                format!("`{}.cancel` takes all activity away", subject(graph, model, number))
-            }
-            Some(Arrival::Resumes(number)) => format!("`{}.resume` gives activity back", subject(graph, model, number)),
+            Some(Arrival::Cancels(number)) => cancels(graph, model, number),
+            Some(Arrival::Resumes(number)) => resumes(graph, model, number),
             Some(Arrival::Restarts) => "`reset` restores the state after `start`".to_owned(),
             _ => format!("it leaves the program over `{}`", connection(graph, model, place)),
         },
-        Move::Cancel(number) => format!("`{}.cancel` takes all activity away", subject(graph, model, number)),
-        Move::Resume(number) => format!("`{}.resume` gives activity back", subject(graph, model, number)),
+        Move::Cancel(number) => cancels(graph, model, number),
+        Move::Resume(number) => resumes(graph, model, number),
         Move::Away(remover, place) => {
             let c = &graph.connections[remover];
             format!("`{}` takes the activity of `{}` away", graph.path(c.from.node), name(graph, model, place))
@@ -76,8 +74,15 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
 
 /// Name of the node or nested graph from which an interrupt takes activity.
 fn subject(graph: &Graph, model: &Model, number: usize) -> String {
-    let interrupts = graph.nodes[model.interrupts[number].node].interrupts();
-    interrupts.map(|subject| graph.subject_name(subject)).unwrap_or_default()
+    graph.subject_name(model.interrupts[number].subject)
+}
+
+fn cancels(graph: &Graph, model: &Model, number: usize) -> String {
+    format!("`{}.cancel` takes all activity away", subject(graph, model, number))
+}
+
+fn resumes(graph: &Graph, model: &Model, number: usize) -> String {
+    format!("`{}.resume` gives activity back", subject(graph, model, number))
 }
 
 fn given(graph: &Graph, model: &Model, place: PlaceId) -> String {

@@ -6,7 +6,7 @@ use super::{
     types::ident,
     wiring::Flag,
 };
-use crate::graph::{NodeId, PortId, Standard};
+use crate::graph::{ConnectionId, Interrupt, NodeId, PortId, Standard};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::Ident;
@@ -19,9 +19,9 @@ impl Generator<'_> {
     }
 
     fn is_called(&self, view: ProgramView<'_>, node: NodeId, standard: Standard) -> bool {
-        let called = |c: &crate::graph::ConnectionId| {
+        let called = |c: &ConnectionId| {
             let to = view.graph.connections[*c].to;
-            to.node == node && standard.of_interrupt() == Some(to.port)
+            to.node == node && standard.is_of_interrupt(to.port)
         };
         view.analysis.asynchronous.slots.iter().any(called)
     }
@@ -34,8 +34,8 @@ impl Generator<'_> {
     /// The functions of `cancel` and `resume`.
     pub fn interrupts(&self, view: ProgramView<'_>) -> TokenStream {
         let mut code = quote!();
-        for (node, nodes) in view.graph.interrupts() {
-            let nodes: Vec<NodeId> = nodes.into_iter().filter(|node| view.analysis.active.contains(node)).collect();
+        for Interrupt { node, takes, .. } in view.graph.interrupts() {
+            let nodes: Vec<NodeId> = takes.into_iter().filter(|node| view.analysis.active.contains(node)).collect();
             for standard in [Standard::Cancel, Standard::Resume] {
                 let Some(port) = standard.of_interrupt().filter(|_| self.is_called(view, node, standard)) else {
                     continue;
@@ -86,8 +86,8 @@ impl Generator<'_> {
                 (self.clear_told(view, node), self.deactivate(view, node), self.tell(view, node));
             quote! { if #(#found)|* { taken = true; #remember #clear #leave #tell } }
         });
-        let event = PortId { node: interrupt, port: Standard::OF_INTERRUPT.len() - 1 };
-        let sends = self.is_sent_event(view, event).then(|| {
+        let event = Standard::Cancelled.of_interrupt().map(|port| PortId { node: interrupt, port });
+        let sends = event.filter(|event| self.is_sent_event(view, *event)).map(|event| {
             let name = self.name(event);
             let passes = view.wiring.of(interrupt).iter().any(|port| port.is_active && port.passes.is_some());
             let activity = (passes && is_reached).then(|| self.set(Flag::Active(interrupt), true));

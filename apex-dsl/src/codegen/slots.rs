@@ -100,12 +100,18 @@ impl Generator<'_> {
 
     /// Events of a node that are connected are empty before it may trigger them.
     pub fn clear_events(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let ports = 0..view.graph.nodes[node].ports.len();
-        let clears = ports.map(|port| PortId { node, port }).filter(|end| self.is_sent_event(view, *end)).map(|end| {
-            let name = self.name(end);
-            quote! { state.#name = None; }
-        });
-        clears.collect()
+        self.clear(view, node, &|_| true)
+    }
+
+    /// The events `activated` and `deactivated` of a node are empty before its activity changes.
+    pub fn clear_told(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        self.clear(view, node, &|end| view.graph.port(end).tells_of_activity())
+    }
+
+    fn clear(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
+        let ends = (0..view.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
+        let names = ends.filter(|end| wanted(*end) && self.is_sent_event(view, *end)).map(|end| self.name(end));
+        quote! { #(state.#names = None;)* }
     }
 
     /// Returns `true` if an event is connected.
@@ -217,7 +223,7 @@ impl Generator<'_> {
                 let name = self.interrupt_function(view, c.to);
                 let call = quote! { Self::#name(nodes, state, ctx, observer); };
                 // Over `=>`, only activity is given back.
-                match c.active && Standard::Resume.of_interrupt() == Some(c.to.port) {
+                match c.active && Standard::Resume.is_of_interrupt(c.to.port) {
                     true if !view.analysis.active.contains(&node) => quote!(),
                     true => {
                         let brought = self.is_set(Flag::Active(node));
@@ -419,18 +425,10 @@ impl Generator<'_> {
         let sets = self.activity_state(view).into_iter().map(|kept| kept.name);
         let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
         let clears = clears.map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
-        let remembered = view.graph.interrupts().map(|(node, _)| node).filter(|node| self.remembers(view, *node));
+        let remembered = view.analysis.active.iter().filter(|node| self.remembers(view, **node));
         let forgets =
-            remembered.map(|node| self.held(node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
+            remembered.map(|node| self.held(*node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
         let begin = self.begin(view);
         quote! { #(#deactivates)* #(#clears)* #(#forgets)* #begin }
-    }
-
-    /// The events `activated` and `deactivated` of a node are empty before its activity changes.
-    pub fn clear_told(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let ports = 0..view.graph.nodes[node].ports.len();
-        let told = ports.map(|port| PortId { node, port }).filter(|end| view.graph.port(*end).tells_of_activity());
-        let names = told.filter(|end| self.is_sent_event(view, *end)).map(|end| self.name(end));
-        quote! { #(state.#names = None;)* }
     }
 }

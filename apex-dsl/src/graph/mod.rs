@@ -12,7 +12,10 @@ use crate::{
     source::Span,
     syntax::tree::PortKind,
 };
-use std::{collections::BTreeSet, time::Duration};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 pub use condition::{Condition, is_arithmetic};
 pub use names::camel;
@@ -76,6 +79,17 @@ pub struct Graph {
     pub open_pins: BTreeSet<NodeId>,
     /// Inputs whose connection could not be made; the error has been reported.
     pub suppressed: BTreeSet<PortId>,
+}
+
+/// A node that takes activity out of others, and gives it back.
+#[derive(Debug, Clone)]
+pub struct Interrupt {
+    /// The node.
+    pub node: NodeId,
+    /// The node or nested graph that is meant.
+    pub subject: Subject,
+    /// Nodes from which it takes activity.
+    pub takes: Vec<NodeId>,
 }
 
 /// A `record` statement: the file, and the ports that are recorded in addition to the inputs of the program.
@@ -306,9 +320,17 @@ impl Graph {
         )
     }
 
-    /// The nodes that take activity out of others, each with the nodes that it takes it from.
-    pub fn interrupts(&self) -> impl Iterator<Item = (NodeId, Vec<NodeId>)> + '_ {
-        self.nodes.iter_enumerated().filter_map(|(id, node)| Some((id, self.nodes_of(node.interrupts()?))))
+    /// The nodes that take activity out of others.
+    pub fn interrupts(&self) -> impl Iterator<Item = Interrupt> + '_ {
+        self.nodes.iter_enumerated().filter_map(|(node, n)| {
+            let subject = n.interrupts()?;
+            Some(Interrupt { node, subject, takes: self.nodes_of(subject) })
+        })
+    }
+
+    /// Nodes whose activity can be cancelled.
+    pub fn cancelled(&self) -> BTreeSet<NodeId> {
+        self.interrupts().flat_map(|interrupt| interrupt.takes).collect()
     }
 
     /// A node, or the nodes in a nested graph, as far as they can hold activity; and the relays in the same thread
@@ -326,11 +348,13 @@ impl Graph {
         let group = found.first().map(|node| self.group(*node));
         let is_relay =
             |node: &NodeId| matches!(self.nodes[*node].kind, NodeKind::Relay) && group == Some(self.group(*node));
-        let relays: Vec<(NodeId, Vec<NodeId>)> =
-            self.nodes.ids().filter(is_relay).map(|relay| (relay, self.successors(relay))).collect();
+        let mut relays: BTreeMap<NodeId, Vec<NodeId>> = BTreeMap::new();
+        for c in self.connections.iter().filter(|c| is_relay(&c.from.node)) {
+            relays.entry(c.from.node).or_default().push(c.to.node);
+        }
         loop {
-            let leads_there = |(relay, next): &&(NodeId, Vec<NodeId>)| {
-                !found.contains(relay) && !next.is_empty() && next.iter().all(|node| found.contains(node))
+            let leads_there = |(relay, next): &(&NodeId, &Vec<NodeId>)| {
+                !found.contains(*relay) && next.iter().all(|node| found.contains(node))
             };
             let more: Vec<NodeId> = relays.iter().filter(leads_there).map(|(relay, _)| *relay).collect();
             if more.is_empty() {
@@ -338,11 +362,6 @@ impl Graph {
             }
             found.extend(more);
         }
-    }
-
-    /// The nodes to which connections lead from a node.
-    fn successors(&self, node: NodeId) -> Vec<NodeId> {
-        self.connections.iter().filter(|c| c.from.node == node).map(|c| c.to.node).collect()
     }
 
     /// The nodes that receive the activity of a token that leads to `node`: itself, or those behind it if it is a

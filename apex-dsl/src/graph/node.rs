@@ -146,6 +146,11 @@ impl Standard {
         Self::OF_INTERRUPT.iter().position(|port| *port == self)
     }
 
+    /// Returns `true` if this is the port with this number of a [`NodeKind::Interrupt`].
+    pub fn is_of_interrupt(self, port: usize) -> bool {
+        self.of_interrupt() == Some(port)
+    }
+
     /// Kind of the port: slot or event.
     pub fn kind(self) -> PortKind {
         match self {

@@ -472,7 +472,7 @@ impl<'a> State<'a> {
             NodeKind::Exit(_) => {}
             NodeKind::Interrupt(subject) => {
                 let brought = token.modifier > 0;
-                let resumes = Standard::Resume.of_interrupt() == Some(to.port);
+                let resumes = Standard::Resume.is_of_interrupt(to.port);
                 // Over `=>`, only activity is given back.
                 let is_meant = !resumes || !self.graph.connections[connection].active || brought;
                 let taken = is_meant && self.interrupt(to, subject, brought);
@@ -488,8 +488,8 @@ impl<'a> State<'a> {
     /// Takes the activity of nodes and of the tokens on their way to them, or gives it back. Returns `true` if there
     /// was any to take; `brought` is that of the token.
     fn interrupt(&mut self, slot: PortId, subject: Subject, brought: bool) -> bool {
-        if Standard::Resume.of_interrupt() == Some(slot.port) {
-            for node in self.remembered.remove(&slot.node).unwrap_or_default() {
+        if Standard::Resume.is_of_interrupt(slot.port) {
+            for node in self.remembered.remove(&slot.node).into_iter().flatten() {
                 self.set_active(node, true);
             }
             return false;

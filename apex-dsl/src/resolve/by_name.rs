@@ -2,8 +2,9 @@
 //! and has the same name.
 
 use super::{
-    connect::{Chosen, End, own_node, without_ports},
+    connect::{Chosen, End, without_ports},
     instance::{Body, Builder},
+    standard::own_node,
     table::{Candidate, Symbol, Table},
 };
 use crate::{

@@ -2,9 +2,9 @@
 
 use super::{
     MAX_CLAIMS,
-    connect::own_node,
     instance::{Body, Builder},
     names::suggest,
+    standard::own_node,
     table::{Symbol, Table},
 };
 use crate::{

@@ -15,6 +15,7 @@ mod machine;
 mod names;
 mod nodes;
 mod record;
+mod standard;
 mod table;
 mod testing;
 mod threads;

@@ -105,7 +105,7 @@ fn check_reset(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics
     let reset = graph.nodes.position(|n| matches!(n.kind, NodeKind::Reset));
     let reset = reset.map(|reset| (reset, "reset".to_owned(), analysis.active.iter().copied().collect()));
     let cancel = |interrupt: NodeId| graph.end_name(PortId { node: interrupt, port: 0 });
-    let cancels = graph.interrupts().map(|(interrupt, nodes)| (interrupt, cancel(interrupt), nodes));
+    let cancels = graph.interrupts().map(|interrupt| (interrupt.node, cancel(interrupt.node), interrupt.takes));
     let takers: Vec<(NodeId, String, Vec<NodeId>)> = reset.into_iter().chain(cancels).collect();
     for (taker, name, nodes) in takers {
         let own = graph.group(taker);
