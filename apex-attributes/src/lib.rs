@@ -1,4 +1,4 @@
-//! `#[node]` and `#[derive(Outputs)]`, which `apex-rt` re-exports.
+//! `#[node]`, `#[derive(Outputs)]` and `#[derive(Units)]`, which `apex-rt` re-exports.
 
 mod node;
 mod outputs;
@@ -12,7 +12,15 @@ pub fn node(args: TokenStream, item: TokenStream) -> TokenStream {
 }
 
 /// Makes every field of a struct an output of the node that returns it. A field of type `Option<T>` may be ⊥.
-#[proc_macro_derive(Outputs)]
+/// `#[unit("m")]` is the unit of a field.
+#[proc_macro_derive(Outputs, attributes(unit))]
 pub fn outputs(item: TokenStream) -> TokenStream {
     outputs::expand(item.into()).unwrap_or_else(|error| error.into_compile_error()).into()
+}
+
+/// Gives the fields of a struct units: `#[unit("m")]`. They are checked where a source file writes the struct as a
+/// value: `Pose2 { x: 1m, y: 0m, theta: 90deg }`.
+#[proc_macro_derive(Units, attributes(unit))]
+pub fn units(item: TokenStream) -> TokenStream {
+    outputs::units(item.into()).unwrap_or_else(|error| error.into_compile_error()).into()
 }

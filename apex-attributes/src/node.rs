@@ -24,7 +24,8 @@ pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> 
 /// Expands a function. It keeps its name; a type of the same name has the types of its ports.
 fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
-    remove_marks(&mut item.sig, &["param", signature::FAILURE]);
+    remove_marks(&mut item.sig, &["param", signature::FAILURE, signature::UNIT]);
+    item.attrs.retain(|a| !a.path().is_ident(signature::UNIT));
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
@@ -148,8 +149,8 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
         if method.sig.ident != "process" && !marks {
             continue;
         }
-        method.attrs.retain(|a| !METHOD_MARKS.iter().any(|mark| a.path().is_ident(mark)));
-        remove_marks(&mut method.sig, &[signature::FAILURE]);
+        method.attrs.retain(|a| !METHOD_MARKS.iter().chain(&[signature::UNIT]).any(|mark| a.path().is_ident(mark)));
+        remove_marks(&mut method.sig, &[signature::FAILURE, signature::UNIT]);
         method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg, clippy::too_many_arguments)]));
         if !signature::marked(&method.attrs, "inline") {
             method.attrs.push(syn::parse_quote!(#[inline]));

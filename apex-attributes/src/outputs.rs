@@ -1,4 +1,4 @@
-//! `#[derive(Outputs)]`.
+//! `#[derive(Outputs)]` and `#[derive(Units)]`.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -19,6 +19,7 @@ pub fn expand(item: TokenStream) -> syn::Result<TokenStream> {
         },
         _ => return Err(syn::Error::new(input.ident.span(), "`Outputs` can only be derived for structs")),
     };
+    named.iter().try_for_each(|field| apex_signature::unit(&field.attrs).map(drop))?;
     let name = &input.ident;
     let (generics, args, bounds) = input.generics.split_for_impl();
     let fields = named.iter().enumerate().map(|(i, field)| {
@@ -28,4 +29,14 @@ pub fn expand(item: TokenStream) -> syn::Result<TokenStream> {
         }
     });
     Ok(quote! { #(#fields)* })
+}
+
+/// Checks the form of the units. Only the compiler of Apex reads them.
+pub fn units(item: TokenStream) -> syn::Result<TokenStream> {
+    let input: DeriveInput = syn::parse2(item)?;
+    let Data::Struct(data) = &input.data else {
+        return Err(syn::Error::new(input.ident.span(), "only the fields of structs have units"));
+    };
+    data.fields.iter().try_for_each(|field| apex_signature::unit(&field.attrs).map(drop))?;
+    Ok(TokenStream::new())
 }

@@ -83,6 +83,7 @@ pub fn value(given: &Value, unit: Option<&str>) -> String {
         }
         Value::Unit => "()".to_owned(),
         Value::Duration(d) => duration(*d),
+        Value::Struct(_) => given.text(),
         Value::Path(path, _) => path.last().cloned().unwrap_or_default(),
         Value::RustDefault => "…".to_owned(),
     }

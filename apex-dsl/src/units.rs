@@ -147,6 +147,11 @@ pub fn parse(text: &str) -> Result<Unit, &str> {
     Ok(unit)
 }
 
+/// The product of a value and the size of a unit. It is rounded so that `15cm` is exactly 0.15.
+pub fn scaled(value: f64, factor: f64) -> f64 {
+    if factor == 1.0 { value } else { format!("{:.14e}", value * factor).parse().unwrap_or(value * factor) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -40,6 +40,8 @@ impl Encoding {
 pub struct Lines {
     /// Byte offsets of the line starts.
     starts: Vec<usize>,
+    /// Byte offsets of the line ends, before their CR and LF.
+    ends: Vec<usize>,
     /// Characters of several bytes.
     wide: Vec<Wide>,
     /// Length of the text in bytes.
@@ -56,25 +58,28 @@ struct Wide {
 }
 
 impl Lines {
-    /// Lines of `text`. A line ends with `
-    /// `, `\r
-    /// ` or `\r`.
+    /// Lines of `text`. A line ends with LF, CR LF or CR.
     pub fn new(text: &str, encoding: Encoding) -> Self {
         let bytes = text.as_bytes();
-        let ends = |i: usize| bytes[i] == b'\n' || bytes[i] == b'\r' && bytes.get(i + 1) != Some(&b'\n');
-        let starts = std::iter::once(0).chain((0..bytes.len()).filter(|i| ends(*i)).map(|i| i + 1)).collect();
+        let breaks = |i: &usize| bytes[*i] == b'\n' || bytes[*i] == b'\r' && bytes.get(*i + 1) != Some(&b'\n');
+        let starts: Vec<usize> = std::iter::once(0).chain((0..bytes.len()).filter(breaks).map(|i| i + 1)).collect();
+        let next = starts.iter().skip(1).copied().chain([bytes.len()]);
+        let end = |(start, next): (&usize, usize)| start + text[*start..next].trim_end_matches(['\r', '\n']).len();
+        let ends = starts.iter().zip(next).map(end).collect();
         let mut surplus = 0;
         let wide = text.char_indices().filter(|(_, c)| !c.is_ascii()).map(|(start, c)| {
             surplus += c.len_utf8() - encoding.width(c);
             Wide { start, end: start + c.len_utf8(), surplus }
         });
-        Self { starts, wide: wide.collect(), length: text.len() }
+        Self { starts, ends, wide: wide.collect(), length: text.len() }
     }
 
-    /// Position of a byte offset. An offset after the end of the text is treated as the end.
+    /// Position of a byte offset. An offset after the end of the text is treated as the end, one inside a CR LF as the
+    /// end of the line.
     pub fn position(&self, offset: usize) -> Position {
         let offset = offset.min(self.length);
         let line = self.starts.partition_point(|start| *start <= offset) - 1;
+        let offset = offset.min(self.ends[line]);
         let column = self.columns(offset) - self.columns(self.starts[line]);
         Position::new(line as u32, column as u32)
     }
@@ -94,8 +99,7 @@ impl Lines {
     /// the end of the line, a line after the end of the text as the end of the text.
     pub fn offset(&self, text: &str, encoding: Encoding, position: Position) -> usize {
         let Some(&start) = self.starts.get(position.line as usize) else { return text.len() };
-        let end = self.starts.get(position.line as usize + 1).copied().unwrap_or(text.len());
-        let line = text[start..end].trim_end_matches(['\r', '\n']);
+        let line = &text[start..self.ends[position.line as usize]];
         let mut column = 0;
         for (i, c) in line.char_indices() {
             if column >= position.character as usize {
@@ -129,6 +133,7 @@ mod tests {
             assert_eq!(lines.offset(text, encoding, Position::new(0, 99)), 3);
             assert_eq!(lines.offset(text, encoding, Position::new(99, 0)), text.len());
             assert_eq!(lines.position(99), Position::new(3, 0));
+            assert_eq!(lines.position(4), lines.position(3), "between CR and LF");
         }
     }
 

@@ -48,7 +48,7 @@ mod time;
 mod timer;
 mod token;
 
-pub use apex_attributes::{Outputs, node};
+pub use apex_attributes::{Outputs, Units, node};
 
 pub use cell::{CellReceiver, CellSender, TokenCell};
 #[cfg(feature = "std")]
@@ -91,8 +91,8 @@ pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 /// The items that most users of Apex need besides `apex_macros::graph`.
 pub mod prelude {
     pub use crate::{
-        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, node,
-        run,
+        Clock, Ctx, Event, Failure, Mailbox, Next, Observer, Out, Outputs, Parameters, Program, SimClock, Time, Units,
+        node, run,
     };
     #[cfg(feature = "std")]
     pub use crate::{StdErr, WallClock};

@@ -24,6 +24,8 @@ pub struct Arg {
     pub name: String,
     /// Role.
     pub form: Form,
+    /// Unit of the tokens: `#[unit("m")]`.
+    pub unit: Option<String>,
 }
 
 /// Role of an argument.
@@ -67,6 +69,8 @@ pub struct Returns {
     pub maybe: bool,
     /// `Result<…, E>`: may fail.
     pub fallible: bool,
+    /// Unit of the tokens: `#[unit("m")]` before the function.
+    pub unit: Option<String>,
 }
 
 /// `#[param(…)]` with the type of its argument or field.
@@ -102,6 +106,8 @@ pub struct Slot {
     pub name: String,
     /// Type of the token; `None` for a slot that takes no value.
     pub token: Option<Type>,
+    /// Unit of the token.
+    pub unit: Option<String>,
     /// Documentation.
     pub docs: String,
     /// All arguments in order: the token, events and the context.
@@ -114,12 +120,14 @@ pub struct Slot {
 pub const METHOD_MARKS: [&str; 4] = ["slot", "no_message", "on_activate", "on_deactivate"];
 /// The attribute that marks an event of failure.
 pub const FAILURE: &str = "failure";
+/// The attribute with the unit of the tokens of a port.
+pub const UNIT: &str = "unit";
 /// The attribute that marks a struct whose events take activity away instead of passing it on.
 pub const DEACTIVATES: &str = "deactivates";
 
 /// The interface of a function node.
 pub fn function(item: &ItemFn) -> syn::Result<Callable> {
-    callable(&item.sig)
+    callable(&item.sig, &item.attrs)
 }
 
 /// The parameters of a struct node, by field.
@@ -142,7 +150,7 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
     for item in &item.items {
         let ImplItem::Fn(method) = item else { continue };
         if method.sig.ident == "process" {
-            methods.process = Some(callable(&method.sig)?);
+            methods.process = Some(callable(&method.sig, &method.attrs)?);
         } else if marked(&method.attrs, "slot") {
             methods.slots.push(slot(method)?);
         } else if let Some(mark) = METHOD_MARKS.iter().find(|mark| marked(&method.attrs, mark)) {
@@ -223,20 +231,21 @@ fn unindented(line: &str) -> String {
 }
 
 fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
-    let callable = callable(&method.sig)?;
+    let callable = callable(&method.sig, &method.attrs)?;
     if callable.returns.token.is_some() {
         return Err(syn::Error::new_spanned(
             &method.sig.output,
             "a slot returns nothing (or `Result<(), E>` if it may fail); send its result over an event",
         ));
     }
-    let mut token = None;
+    let (mut token, mut unit) = (None, None);
     for (arg, syntax) in callable.args.iter().zip(method.sig.inputs.iter().skip(1)) {
         match &arg.form {
             Form::Input(InputForm { token: taken, optional: false, count: None })
                 if token.is_none() && taken.batch.is_none() =>
             {
                 token = Some(taken.ty.clone());
+                unit.clone_from(&arg.unit);
             }
             Form::Event(..) | Form::Ctx => {}
             _ => {
@@ -250,10 +259,10 @@ fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
     let fallible = callable.returns.fallible;
     let name = method.sig.ident.to_string();
     let name = name.strip_prefix("r#").unwrap_or(&name).to_owned();
-    Ok(Slot { name, token, docs: docs(&method.attrs), args: callable.args, fallible })
+    Ok(Slot { name, token, unit, docs: docs(&method.attrs), args: callable.args, fallible })
 }
 
-fn callable(sig: &Signature) -> syn::Result<Callable> {
+fn callable(sig: &Signature, attrs: &[Attribute]) -> syn::Result<Callable> {
     if let Some(token) = &sig.asyncness {
         return Err(syn::Error::new(token.span(), "a node runs to completion and cannot be `async`"));
     }
@@ -287,10 +296,19 @@ fn callable(sig: &Signature) -> syn::Result<Callable> {
         };
         let name = name.ident.to_string();
         let name = name.strip_prefix("r#").unwrap_or(&name);
-        args.push(Arg { name: name.strip_prefix('_').unwrap_or(name).to_owned(), form });
+        let unit = unit(&arg.attrs)?;
+        if unit.is_some() && matches!(form, Form::Ctx | Form::Param(_)) {
+            let message = "only a port has a `#[unit]`; that of a parameter is `#[param(unit = \"m\")]`";
+            return Err(syn::Error::new_spanned(&arg.pat, message));
+        }
+        args.push(Arg { name: name.strip_prefix('_').unwrap_or(name).to_owned(), form, unit });
     }
     let counts = counts(sig, &args)?;
-    Ok(Callable { args, returns: returns(&sig.output)?, counts })
+    let returns = Returns { unit: unit(attrs)?, ..returns(&sig.output)? };
+    if returns.unit.is_some() && returns.token.is_none() {
+        return Err(syn::Error::new(sig.ident.span(), "`#[unit]` before a function is that of the returned value"));
+    }
+    Ok(Callable { args, returns, counts })
 }
 
 /// The const parameters that stand for numbers of inputs. The number is known only where the node is called, so that no
@@ -417,7 +435,7 @@ fn returns(output: &ReturnType) -> syn::Result<Returns> {
     }
     let is_unit = matches!(ty, Type::Tuple(t) if t.elems.is_empty());
     let token = if is_unit { None } else { Some(token(ty)?) };
-    Ok(Returns { token, maybe, fallible })
+    Ok(Returns { token, maybe, fallible, unit: None })
 }
 
 /// `T` of `Name<T, …>`.
@@ -433,6 +451,12 @@ fn wrapped<'a>(ty: &'a Type, name: &str) -> Option<&'a Type> {
 
 fn is_named(ty: &Type, name: &str) -> bool {
     matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == name))
+}
+
+/// The unit in `#[unit("m")]`.
+pub fn unit(attrs: &[Attribute]) -> syn::Result<Option<String>> {
+    let unit = attrs.iter().find(|a| a.path().is_ident(UNIT));
+    unit.map(|attr| attr.parse_args::<syn::LitStr>().map(|unit| unit.value())).transpose()
 }
 
 fn param(attrs: &[Attribute], ty: &Type) -> syn::Result<Option<ParamDecl>> {

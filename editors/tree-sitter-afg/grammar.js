@@ -61,7 +61,7 @@ module.exports = grammar({
       seq(
         field('kind', choice('in', 'out', 'slot', 'event')),
         field('name', $.identifier),
-        optional(seq(':', field('type', $._type))),
+        optional(seq(':', field('type', $._type), optional(seq('[', field('unit', $.unit_text), ']')))),
         ';',
       ),
     node: ($) =>
@@ -171,7 +171,10 @@ module.exports = grammar({
     expression: ($) => seq($._operand, repeat(seq($.operator, $._operand))),
     _operand: ($) => seq(repeat(choice('!', '-')), $._primary),
     operator: () => choice('==', '!=', '<=', '>=', '&&', '||', '<', '>', '+', '-', '*', '/', '%'),
-    _primary: ($) => choice($.number, $.string, $.boolean, $.values, seq('(', $.expression, ')'), $.path),
+    _primary: ($) =>
+      choice($.number, $.string, $.boolean, $.values, seq('(', $.expression, ')'), $.structure, $.path),
+    structure: ($) => seq(field('type', $.path), '{', list($.field), '}'),
+    field: ($) => seq(field('name', $.identifier), ':', field('value', $.expression)),
     values: ($) => seq('[', list($.expression), ']'),
     boolean: () => choice('true', 'false'),
     number: ($) => seq($._digits, optional($.unit)),

@@ -24,6 +24,7 @@ fn spell(ty: &Type, catalog: &Catalog) -> Option<String> {
         Type::Alias(def, ..) => Some(catalog.path(*def)?.join("::").trim_start_matches("::").to_owned()),
         Type::Tuple(parts) => all(parts).map(|parts| format!("({parts})")),
         Type::Unknown(number) if number.parse::<u64>().is_ok() => Some(number.clone()),
+        Type::Measured(number, unit) => Some(format!("{}[{unit}]", spell(number, catalog)?)),
         Type::Array(..) | Type::Ref(_) | Type::Unknown(_) => None,
     }
 }

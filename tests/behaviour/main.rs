@@ -31,5 +31,6 @@ mod rates;
 mod reported;
 mod scale;
 mod scripts;
+mod structs;
 mod timing;
 mod variants;

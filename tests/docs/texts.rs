@@ -30,7 +30,9 @@ texts! {
     mission "texts/mission.afg"
     retry "texts/retry.afg"
     stop "texts/stop.afg"
+    structs "texts/structs.afg"
     times "texts/times.afg"
+    units "texts/units.afg"
     waiting "texts/waiting.afg"
     watchdog "texts/watchdog.afg"
 }

@@ -322,3 +322,21 @@ pub fn word(x: &u64) -> Option<&'static str> {
 pub fn read(word: &&'static str) {
     let _ = word;
 }
+
+#[derive(Debug, Clone, Copy, PartialEq, Default, Units)]
+pub struct Place {
+    #[unit("m")]
+    pub x: f32,
+    #[unit("m")]
+    pub y: f32,
+}
+
+#[node]
+pub fn keep(#[param] place: Place) -> Place {
+    place
+}
+
+#[node]
+pub fn show_place(place: &Place) {
+    let _ = place;
+}

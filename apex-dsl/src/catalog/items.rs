@@ -92,6 +92,21 @@ pub struct TypeItem {
     pub values: Vec<String>,
     /// Last segments of the paths of the derived traits.
     pub derives: Vec<String>,
+    /// Names of its type parameters and constants.
+    pub generics: Vec<String>,
+    /// The fields of a struct, if source files can write it as a value: all of them have names, and exist always.
+    pub fields: Option<Vec<FieldItem>>,
+}
+
+/// A field of a struct.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FieldItem {
+    /// Name.
+    pub name: String,
+    /// Visibility.
+    pub seen: Seen,
+    /// Type, with the unit of `#[unit("m")]`.
+    pub ty: Ty,
 }
 
 /// A field of a `#[derive(Outputs)]` struct.
@@ -319,13 +334,8 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
                 let variants = e.variants.iter().filter(|v| v.fields.is_empty() && v.attrs.iter().all(|a| !is_cfg(a)));
                 let values = variants.map(|v| v.ident.to_string()).collect();
                 let (arguments, derives) = (arguments_of(&e.generics), derives(&e.attrs));
-                let kind = ItemKind::Type(TypeItem {
-                    outputs: None,
-                    arguments,
-                    numbers: numbers_of(&e.generics),
-                    values,
-                    derives,
-                });
+                let numbers = numbers_of(&e.generics);
+                let kind = ItemKind::Type(TypeItem { arguments, numbers, values, derives, ..TypeItem::default() });
                 list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), kind))
             }
             Syn::Union(u) => {
@@ -370,14 +380,17 @@ fn entry(name: String, vis: &Visibility, attrs: &[Attribute], span: proc_macro2:
         .filter_map(|a| a.parse_args::<proc_macro2::TokenStream>().ok())
         .map(|tokens| tokens.to_string())
         .collect();
-    let seen = match vis {
+    Item { name: unraw(name), seen: seen(vis), line: span.start().line, cfg, kind }
+}
+
+fn seen(vis: &Visibility) -> Seen {
+    match vis {
         Visibility::Public(_) => Seen::Everywhere,
         Visibility::Restricted(within) if within.path.is_ident("crate") => Seen::InCrate,
         Visibility::Restricted(within) if within.path.is_ident("self") => Seen::InModule,
         Visibility::Restricted(within) => Seen::Within(within.path.segments.iter().map(|s| plain(&s.ident)).collect()),
         Visibility::Inherited => Seen::InModule,
-    };
-    Item { name: unraw(name), seen, line: span.start().line, cfg, kind }
+    }
 }
 
 /// Name without `r#`, which generated code adds again where Rust needs it.
@@ -485,7 +498,8 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
     let outputs = derives.iter().any(|name| name == "Outputs").then(|| item.fields.iter().map(output_field).collect());
     let values = if matches!(item.fields, syn::Fields::Unit) { vec![String::new()] } else { vec![] };
     let (arguments, numbers) = (arguments_of(&item.generics), numbers_of(&item.generics));
-    let ty = TypeItem { outputs, arguments, numbers, values, derives };
+    let (generics_of, fields) = (generics(&item.generics), fields(item));
+    let ty = TypeItem { outputs, arguments, numbers, values, derives, generics: generics_of, fields };
     list.push(entry(name.clone(), &item.vis, &item.attrs, span, ItemKind::Type(ty)));
     if !signature::is_node(&item.attrs) {
         return;
@@ -521,11 +535,28 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
     list.push(entry(name, &item.vis, &item.attrs, span, ItemKind::Struct(node)));
 }
 
+/// The fields of a struct that can be written as a value.
+fn fields(item: &syn::ItemStruct) -> Option<Vec<FieldItem>> {
+    let syn::Fields::Named(named) = &item.fields else { return None };
+    let has = |attrs: &[Attribute], name: &str| attrs.iter().any(|attr| attr.path().is_ident(name));
+    if has(&item.attrs, "non_exhaustive") || named.named.iter().any(|field| has(&field.attrs, "cfg")) {
+        return None;
+    }
+    let field = |field: &syn::Field| FieldItem {
+        name: field.ident.as_ref().map(plain).unwrap_or_default(),
+        seen: seen(&field.vis),
+        // The attribute macros report a wrong unit.
+        ty: Ty::from_syn(&field.ty).measured(signature::unit(&field.attrs).unwrap_or_default()),
+    };
+    Some(named.named.iter().map(field).collect())
+}
+
 fn output_field(field: &syn::Field) -> OutputField {
     let inner = signature::option_of(&field.ty);
     OutputField {
         name: field.ident.as_ref().map(plain).unwrap_or_default(),
-        ty: Ty::from_syn(inner.unwrap_or(&field.ty)),
+        // `derive(Outputs)` reports a wrong attribute.
+        ty: Ty::from_syn(inner.unwrap_or(&field.ty)).measured(signature::unit(&field.attrs).unwrap_or_default()),
         maybe: inner.is_some(),
         docs: signature::docs(&field.attrs),
     }
@@ -627,7 +658,7 @@ fn methods(item: &syn::ItemImpl, name: &str) -> syn::Result<NodeMethods> {
         .iter()
         .map(|slot| SlotItem {
             name: slot.name.clone(),
-            ty: slot.token.as_ref().map_or_else(Ty::unit, Ty::from_syn),
+            ty: slot.token.as_ref().map_or_else(Ty::unit, Ty::from_syn).measured(slot.unit.clone()),
             docs: slot.docs.clone(),
             args: arguments(&slot.args),
             fallible: slot.fallible,
@@ -646,7 +677,8 @@ fn methods(item: &syn::ItemImpl, name: &str) -> syn::Result<NodeMethods> {
 }
 
 fn process(callable: &signature::Callable) -> Process {
-    let returns = callable.returns.token.as_ref().map(|t| (Ty::from_syn(&t.ty), t.batch));
+    let unit = &callable.returns.unit;
+    let returns = callable.returns.token.as_ref().map(|t| (Ty::from_syn(&t.ty).measured(unit.clone()), t.batch));
     let args = arguments(&callable.args);
     Process { args, returns, maybe: callable.returns.maybe, fallible: callable.returns.fallible }
 }
@@ -656,14 +688,13 @@ fn arguments(args: &[signature::Arg]) -> Vec<ArgItem> {
     let mut params = 0;
     args.iter()
         .map(|arg| {
+            let token = |ty: &syn::Type| Ty::from_syn(ty).measured(arg.unit.clone());
             let kind = match &arg.form {
-                Form::Input(input) if input.count.is_some() => {
-                    ArgKind::Many(Ty::from_syn(&input.token.ty), input.optional)
-                }
-                Form::Input(input) if input.optional => ArgKind::Optional(Ty::from_syn(&input.token.ty)),
-                Form::Input(input) => ArgKind::Input(Ty::from_syn(&input.token.ty), input.token.batch),
-                Form::Out(token) => ArgKind::Out(Ty::from_syn(&token.ty), token.batch),
-                Form::Event(ty, fails) => ArgKind::Event(Ty::from_syn(ty), *fails),
+                Form::Input(input) if input.count.is_some() => ArgKind::Many(token(&input.token.ty), input.optional),
+                Form::Input(input) if input.optional => ArgKind::Optional(token(&input.token.ty)),
+                Form::Input(input) => ArgKind::Input(token(&input.token.ty), input.token.batch),
+                Form::Out(written) => ArgKind::Out(token(&written.ty), written.batch),
+                Form::Event(ty, fails) => ArgKind::Event(token(ty), *fails),
                 Form::Ctx => ArgKind::Ctx,
                 Form::Param(_) => {
                     params += 1;

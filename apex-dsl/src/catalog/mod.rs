@@ -8,6 +8,7 @@ mod items;
 pub mod library;
 mod reach;
 mod signature;
+mod structs;
 mod traits;
 mod tree;
 mod ty;
@@ -26,6 +27,7 @@ pub use docs::{first_sentence, linkless};
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use reach::Site;
 pub use signature::{ArgSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig};
+pub use structs::{Field, Struct, Structure};
 pub use traits::Trait;
 pub use tree::{DefId, ModuleId, Need};
 pub use ty::Ty;
@@ -149,13 +151,18 @@ impl Catalog {
                 }
                 _ => continue,
             };
-            match self.other_type(def, methods) {
-                Some(name) => refused.push((id, name)),
-                None => found.push((id, self.signature(id, node, methods))),
+            if let Some(name) = self.other_type(def, methods) {
+                let reason = format!("its `{name}` is not the `{name}` of Apex: give the other type a different name");
+                refused.push((id, reason));
+                continue;
+            }
+            let signature = self.signature(id, node, methods);
+            match signature.wrong_unit() {
+                Some(reason) => refused.push((id, reason)),
+                None => found.push((id, signature)),
             }
         }
-        for (id, name) in refused {
-            let reason = format!("its `{name}` is not the `{name}` of Apex: give the other type a different name");
+        for (id, reason) in refused {
             self.tree.defs[id].kind = ItemKind::Refused(reason);
         }
         for (def, signature) in found {
@@ -343,6 +350,11 @@ impl Catalog {
             }
             _ => None,
         })
+    }
+
+    /// Returns `true` if `path` names an item that is marked `#[node]` but is not a node.
+    pub fn is_refused(&self, path: &[String]) -> bool {
+        self.defs(path).iter().any(|def| matches!(self.tree.defs[*def].kind, ItemKind::Refused(_)))
     }
 
     /// Names that may follow `path`, for suggestions.

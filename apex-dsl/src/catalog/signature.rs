@@ -1,7 +1,7 @@
 //! Signature of a node: what the catalog has read of a function or struct with `#[node]`.
 
 use super::{DefaultValue, Need, Type};
-use crate::{index::id, syntax::tree::PortKind};
+use crate::{index::id, syntax::tree::PortKind, units};
 use std::path::PathBuf;
 
 id! {
@@ -68,6 +68,23 @@ pub struct SlotSig {
 }
 
 impl Signature {
+    /// Reason why the unit of a port or parameter is wrong, if one is.
+    pub fn wrong_unit(&self) -> Option<String> {
+        let unknown = |name: &str, unit: &str| {
+            let part = units::parse(unit).err()?;
+            Some(format!("there is no unit `{part}`, which its `{name}` has"))
+        };
+        let of_port = |port: &PortSig| match &port.ty {
+            Type::Measured(number, _) if !number.may_be_a_number() => {
+                Some(format!("only a number has a unit, but the tokens of its `{}` are of type `{number}`", port.name))
+            }
+            Type::Measured(_, unit) => unknown(&port.name, unit),
+            _ => None,
+        };
+        let of_param = |param: &ParamSig| unknown(&param.name, param.unit.as_deref()?);
+        self.ports.iter().find_map(of_port).or_else(|| self.params.iter().find_map(of_param))
+    }
+
     /// Returns `true` if the tokens of a firing at this port are in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1

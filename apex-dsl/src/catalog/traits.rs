@@ -35,7 +35,7 @@ impl Catalog {
                 };
                 item.derives.iter().any(|name| name == derived) && all(args)
             }
-            Type::Alias(_, _, target) => self.has_trait(target, wanted),
+            Type::Alias(_, _, target) | Type::Measured(target, _) => self.has_trait(target, wanted),
             Type::Array(item, Some(_)) => wanted != Trait::Default && self.has_trait(item, wanted),
             Type::Tuple(parts) => all(parts),
             Type::Array(_, None) | Type::Ref(_) | Type::Param(_) | Type::Unknown(_) => false,

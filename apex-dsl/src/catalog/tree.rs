@@ -268,6 +268,20 @@ impl Tree {
         }
     }
 
+    /// Returns `true` if an item that can be named only inside the module `within` can be named at `site`.
+    fn is_seen(&self, within: Option<ModuleId>, site: Option<ModuleId>) -> bool {
+        match (within, site) {
+            (None, _) => true,
+            (Some(within), Some(site)) => self.is_inside(site, within),
+            (Some(_), None) => false,
+        }
+    }
+
+    /// Returns `true` if code at `site` can use a field of a struct in `module`.
+    pub fn sees_field(&self, module: ModuleId, seen: &Seen, site: Option<ModuleId>) -> bool {
+        self.is_seen(self.within(module, seen), site)
+    }
+
     /// Returns `true` if the module at `path` may have items that the scan does not see: from a macro, or from a glob
     /// import.
     pub fn may_hide(&self, from: ModuleId, path: &[String]) -> bool {
@@ -342,11 +356,7 @@ impl Tree {
         paths: &mut BTreeMap<DefId, Vec<String>>,
         queue: &mut std::collections::VecDeque<(ModuleId, Vec<String>)>,
     ) {
-        let is_seen = |within: Option<ModuleId>| match (within, site) {
-            (None, _) => true,
-            (Some(within), Some(site)) => self.is_inside(site, within),
-            (Some(_), None) => false,
-        };
+        let is_seen = |within: Option<ModuleId>| self.is_seen(within, site);
         for (name, entries) in &self.modules[module].names {
             for entry in entries.iter().filter(|e| is_seen(e.within)) {
                 let here: Vec<String> = path.iter().cloned().chain([name.clone()]).collect();

@@ -12,6 +12,8 @@ pub enum Ty {
     Tuple(Vec<Ty>),
     /// `&T`
     Ref(Box<Ty>),
+    /// A number with a unit: `f32[m]` in a source file, `#[unit("m")]` in Rust.
+    Measured(Box<Ty>, String),
     /// Anything else, as tokens.
     Other(String),
 }
@@ -49,6 +51,14 @@ impl Ty {
         }
     }
 
+    /// The type with a unit, if there is one.
+    pub fn measured(self, unit: Option<String>) -> Self {
+        match unit {
+            Some(unit) => Self::Measured(Box::new(self), unit),
+            None => self,
+        }
+    }
+
     fn from_argument(argument: &syn::GenericArgument) -> Option<Self> {
         use quote::ToTokens as _;
         match argument {
@@ -77,7 +87,7 @@ impl Ty {
             Self::Path(_, args) => self.is_parameter(name) || args.iter().any(|a| a.mentions(name)),
             Self::Array(inner, len) => inner.mentions(name) || len.as_deref() == Some(name),
             Self::Tuple(parts) => parts.iter().any(|p| p.mentions(name)),
-            Self::Ref(inner) => inner.mentions(name),
+            Self::Ref(inner) | Self::Measured(inner, _) => inner.mentions(name),
             Self::Other(text) => text == name,
         }
     }
@@ -103,6 +113,7 @@ impl fmt::Display for Ty {
                 f.write_str(")")
             }
             Self::Ref(inner) => write!(f, "&{inner}"),
+            Self::Measured(inner, unit) => write!(f, "{inner}[{unit}]"),
             Self::Other(text) => f.write_str(text),
         }
     }

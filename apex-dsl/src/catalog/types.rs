@@ -1,4 +1,5 @@
 use super::{Catalog, DefId, ModuleId, Need, Ty, library};
+use crate::units;
 use std::fmt;
 
 /// A type whose names have been looked up as far as the scan can see.
@@ -19,6 +20,8 @@ pub enum Type {
     Tuple(Vec<Type>),
     /// `&T`
     Ref(Box<Type>),
+    /// A number in a unit: the type of tokens only, never a part of another type.
+    Measured(Box<Type>, String),
     /// A type parameter of the signature around it.
     Param(String),
     /// Any other type, as it was written.
@@ -72,7 +75,32 @@ impl Type {
         match self {
             Self::Primitive(name) | Self::Def(_, name, _) | Self::Alias(_, name, _) | Self::Param(name) => name,
             Self::Named(text, _) | Self::Unknown(text) => text.rsplit("::").next().unwrap_or(text),
+            Self::Measured(number, _) => number.name(),
             _ => "",
+        }
+    }
+
+    /// The type in Rust, which knows no units.
+    pub fn without_unit(&self) -> &Self {
+        match self {
+            Self::Measured(number, _) => number,
+            other => other,
+        }
+    }
+
+    /// The unit of the tokens, if it is declared and known.
+    pub fn measured_in(&self) -> Option<units::Unit> {
+        match self {
+            Self::Measured(_, unit) => units::parse(unit).ok(),
+            _ => None,
+        }
+    }
+
+    /// Returns `true` for a number, and for a type that may be one.
+    pub fn may_be_a_number(&self) -> bool {
+        match self {
+            Self::Primitive(name) => !["bool", "char", "str"].contains(&name.as_str()),
+            _ => self.may_be_another(),
         }
     }
 
@@ -90,15 +118,21 @@ impl Type {
                 own.map(|need| (need, self.to_string())).or_else(|| of_all(args))
             }
             Self::Def(_, _, args) | Self::Tuple(args) => of_all(args),
-            Self::Alias(_, _, inner) | Self::Array(inner, _) | Self::Ref(inner) => inner.needs(),
+            Self::Alias(_, _, inner) | Self::Array(inner, _) | Self::Ref(inner) | Self::Measured(inner, _) => {
+                inner.needs()
+            }
             Self::Primitive(_) | Self::Param(_) | Self::Unknown(_) => None,
         }
     }
 
     /// Compares two types as far as the scan knows them.
     pub fn compare(&self, other: &Self) -> Match {
-        use Type::{Alias, Array, Def, Named, Param, Primitive, Ref, Tuple, Unknown};
+        use Type::{Alias, Array, Def, Measured, Named, Param, Primitive, Ref, Tuple, Unknown};
         match (self, other) {
+            (Measured(a, x), Measured(b, y)) if x == y || self.measured_in() == other.measured_in() => a.compare(b),
+            (Measured(..), Measured(..)) => Match::Different,
+            // A port without a unit fits all.
+            (Measured(number, _), other) | (other, Measured(number, _)) => number.compare(other),
             (Alias(a, ..), Alias(b, ..)) if a == b => Match::Same,
             (Alias(.., target), other) | (other, Alias(.., target)) => target.compare(other),
             (Unknown(_) | Param(_), _) | (_, Unknown(_) | Param(_)) => Match::Unknown,
@@ -133,6 +167,7 @@ impl Type {
             }
             Self::Tuple(parts) => Self::Tuple(each(parts)),
             Self::Ref(inner) => Self::Ref(Box::new(inner.substitute(lookup))),
+            Self::Measured(inner, unit) => Self::Measured(Box::new(inner.substitute(lookup)), unit.clone()),
             Self::Primitive(_) | Self::Alias(..) | Self::Unknown(_) => self.clone(),
         }
     }
@@ -142,8 +177,10 @@ impl Type {
         self.substitute(&|name| names.iter().find(|(from, _)| from == name).map(|(_, to)| Self::Param(to.clone())))
     }
 
-    /// The type that the type parameter `name` must have for `self` to match `concrete`.
+    /// The type that the type parameter `name` must have for `self` to match `concrete`. It has no unit, because the
+    /// node may compute anything from it.
     pub fn bind(&self, name: &str, concrete: &Self) -> Option<Type> {
+        let concrete = concrete.without_unit();
         let pairs = |a: &[Self], b: &[Self]| a.iter().zip(b).find_map(|(a, b)| a.bind(name, b));
         match (self, concrete) {
             (Self::Param(param), _) if param == name => Some(concrete.clone()),
@@ -151,6 +188,7 @@ impl Type {
             (Self::Def(a, _, x), Self::Def(b, _, y)) if a == b => pairs(x, y),
             (Self::Tuple(x), Self::Tuple(y)) => pairs(x, y),
             (Self::Array(a, _), Self::Array(b, _)) | (Self::Ref(a), Self::Ref(b)) => a.bind(name, b),
+            (Self::Measured(number, _), concrete) => number.bind(name, concrete),
             _ => None,
         }
     }
@@ -160,6 +198,7 @@ impl Type {
         match self {
             Self::Unknown(_) | Self::Alias(..) | Self::Param(_) => true,
             Self::Named(name, _) => !library::is_standard(name),
+            Self::Measured(number, _) => number.may_be_another(),
             _ => false,
         }
     }
@@ -170,7 +209,7 @@ impl Type {
             Self::Unknown(_) | Self::Param(_) => true,
             Self::Named(_, args) | Self::Def(_, _, args) | Self::Tuple(args) => args.iter().any(Self::is_open),
             Self::Array(inner, len) => inner.is_open() || len.as_ref().is_some_and(|n| n.parse::<u64>().is_err()),
-            Self::Ref(inner) => inner.is_open(),
+            Self::Ref(inner) | Self::Measured(inner, _) => inner.is_open(),
             Self::Primitive(_) | Self::Alias(..) => false,
         }
     }
@@ -183,7 +222,7 @@ impl Type {
             Self::Unknown(text) => !text.is_empty(),
             Self::Named(_, args) | Self::Def(_, _, args) | Self::Tuple(args) => any(args),
             Self::Array(inner, len) => inner.may_mention(name) || len.as_deref() == Some(name),
-            Self::Alias(_, _, inner) | Self::Ref(inner) => inner.may_mention(name),
+            Self::Alias(_, _, inner) | Self::Ref(inner) | Self::Measured(inner, _) => inner.may_mention(name),
             Self::Primitive(_) => false,
         }
     }
@@ -252,6 +291,7 @@ impl fmt::Display for Type {
                 f.write_str(")")
             }
             Self::Ref(inner) => write!(f, "&{inner}"),
+            Self::Measured(number, unit) => write!(f, "{number}[{unit}]"),
         }
     }
 }
@@ -276,6 +316,7 @@ impl Catalog {
             Ty::Array(element, len) => Type::Array(Box::new(inner(element)), len.clone()),
             Ty::Tuple(parts) => Type::Tuple(parts.iter().map(inner).collect()),
             Ty::Ref(target) => Type::Ref(Box::new(inner(target))),
+            Ty::Measured(number, unit) => Type::Measured(Box::new(inner(number)), unit.clone()),
             Ty::Other(text) => Type::Unknown(text.clone()),
             Ty::Path(path, args) => {
                 let name = path.last().map_or("", String::as_str);

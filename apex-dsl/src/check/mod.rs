@@ -14,6 +14,7 @@ use crate::{
     catalog::Catalog,
     graph::{Graph, NodeKind},
     report::Diagnostics,
+    resolve::check_origins,
 };
 
 pub use lints::check_lints;
@@ -24,6 +25,7 @@ pub use types::compare as compare_types;
 pub fn check(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     inputs::check_open_inputs(graph, catalog, diagnostics);
     types::check_types(graph, catalog, diagnostics);
+    check_origins(graph, diagnostics);
     modifiers::check_modifiers(graph, catalog, diagnostics);
     asynchronous::check_asynchronous(graph, catalog, diagnostics);
     activity::check_activity(graph, catalog, diagnostics);

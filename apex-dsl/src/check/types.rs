@@ -1,10 +1,10 @@
 //! Comparison of the types at both ends of a connection.
 
-use crate::resolve::token_type;
 use crate::{
     catalog::{Catalog, Match, Type, library},
     graph::{Connection, Graph, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
+    resolve::{mismatch, token_type},
 };
 
 /// Reports connections whose ends certainly differ. All others are left to rustc.
@@ -21,13 +21,14 @@ pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnosti
             graph.end_name(connection.from),
             graph.end_name(connection.to)
         );
-        let error = Diagnostic::error("type-mismatch", connection.span, message)
+        let taken = &graph.port(connection.to).ty;
+        let error = Diagnostic::error(mismatch::code(&from, taken), connection.span, message)
             .also(graph.nodes[connection.from.node].span, format!("sends `{from}`"))
             .also(graph.nodes[connection.to.node].span, format!("takes {takes}"))
             .note(declared(graph, catalog, connection.from))
-            .note(declared(graph, catalog, connection.to))
-            .note("types are not converted implicitly: insert a node that converts the token");
-        diagnostics.push(error);
+            .note(declared(graph, catalog, connection.to));
+        let (arrow, active) = (connection.span, connection.active);
+        diagnostics.push(mismatch::remedy(error, &from, taken, arrow, active, catalog));
     }
 }
 

@@ -21,7 +21,7 @@ pub fn holds(condition: &Condition, ty: &Type) -> TokenStream {
 }
 
 fn is_integer(ty: &Type) -> bool {
-    matches!(ty, Type::Primitive(name) if name.starts_with(['i', 'u']))
+    matches!(ty.without_unit(), Type::Primitive(name) if name.starts_with(['i', 'u']))
 }
 
 /// The type in which tokens of type `ty` are computed with.

@@ -76,7 +76,7 @@ fn states(machine: &Machine) -> Vec<Ident> {
 }
 
 fn token_type(ty: &Type, catalog: &Catalog) -> TokenStream {
-    to_rust(ty, catalog).unwrap_or_else(|| ty.to_string().parse().unwrap_or_default())
+    to_rust(ty, catalog).unwrap_or_else(|| ty.without_unit().to_string().parse().unwrap_or_default())
 }
 
 /// The arguments for the events that a method may trigger.

@@ -134,7 +134,7 @@ impl Generator<'_> {
         let NodeKind::Delay(initial) = &graph.nodes[node].kind else { return None };
         let end = PortId { node, port: 1 };
         let (ty, count) = (self.token_type(graph, end), initial.len());
-        let port_ty = &graph.port(graph.incoming(PortId { node, port: 0 }).map_or(end, |c| c.from)).ty;
+        let port_ty = &graph.port(graph.incoming(PortId { node, port: 0 }).map_or(end, |c| graph.origin(c.from))).ty;
         let values = initial.iter().map(|value| match value {
             Some(value) => constant(value, port_ty),
             None => self.first_token(graph, node),

@@ -47,6 +47,7 @@ pub fn to_rust(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
             "Option" => with(quote!(::core::option::Option), args),
             _ => with(format!("::{name}").parse().ok()?, args),
         },
+        Type::Measured(number, _) => to_rust(number, catalog),
         Type::Alias(def, ..) => Some(path(catalog.path(*def)?)),
         Type::Def(def, _, args) => with(path(catalog.path(*def)?), args),
         Type::Array(element, Some(len)) => {
@@ -105,7 +106,8 @@ impl Generator<'_> {
                 Some(ty) => ty,
                 None => self.projection(graph, library, end),
             },
-            _ => to_rust(&port.ty, self.catalog).unwrap_or_else(|| self.parsed(graph, &port.ty.to_string())),
+            _ => to_rust(&port.ty, self.catalog)
+                .unwrap_or_else(|| self.parsed(graph, &port.ty.without_unit().to_string())),
         }
     }
 
@@ -203,7 +205,10 @@ impl Generator<'_> {
 /// A constant as an expression of type `ty`.
 pub fn constant(value: &Value, ty: &Type) -> TokenStream {
     match value {
-        Value::Number(n) => number(n, ty),
+        Value::Number(n) => match ty.measured_in() {
+            Some(unit) => number(&n.in_unit(unit), ty),
+            None => number(n, ty),
+        },
         Value::Bool(b) => quote!(#b),
         Value::Unit => quote!(()),
         Value::Text(text) if matches!(ty, Type::Named(name, _) if name == "String") => {
@@ -212,6 +217,14 @@ pub fn constant(value: &Value, ty: &Type) -> TokenStream {
         Value::Text(text) => quote!(#text),
         Value::Duration(time) => duration(*time),
         Value::Path(segments, _) => path(segments),
+        Value::Struct(given) => {
+            let (name, by_reference) = (path(&given.path), matches!(ty, Type::Ref(_)));
+            let fields = given.fields.iter().map(|field| {
+                let (name, value) = (ident(&field.name), constant(&field.value, &field.ty));
+                quote!(#name: #value)
+            });
+            if by_reference { quote!(&#name { #(#fields),* }) } else { quote!(#name { #(#fields),* }) }
+        }
         Value::List(items) => {
             let (element, by_reference) = match ty {
                 Type::Ref(inner) => (inner.as_ref(), true),

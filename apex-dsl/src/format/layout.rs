@@ -46,6 +46,7 @@ impl<'a, 't> Layout<'a, 't> {
             claim_stmt => self.claim(node),
             thread_stmt => self.settings(node),
             params | args | list | list_expr | use_group | generics | type_args | tuple_ty => self.list(node),
+            fields => self.fields(node),
             _ => self.words(&node.kids),
         }
     }

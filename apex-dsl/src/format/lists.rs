@@ -73,6 +73,21 @@ impl<'t> Layout<'_, 't> {
         Doc::group(vec![self.words(head), Doc::indent(body), end, close])
     }
 
+    /// The fields of a struct: `{ x: 1m, y: 0m }`
+    pub fn fields(&self, node: &Node) -> Doc<'t> {
+        let [open, inner @ .., close] = &node.kids[..] else { return self.words(&node.kids) };
+        let (fields, (inside, close)) = (elements(inner), self.closing(close));
+        let mut body = vec![];
+        for (number, field) in fields.iter().enumerate() {
+            let is_last = number + 1 == fields.len();
+            let comma = self.comma(field, if is_last { Comma::IfBroken } else { Comma::Stays });
+            body.extend([Doc::Line, self.kid(field.value), comma]);
+        }
+        body.extend(inside);
+        let end = if fields.is_empty() { Doc::SoftLine } else { Doc::Line };
+        Doc::group(vec![self.kid(open), Doc::indent(body), end, close])
+    }
+
     /// A list in brackets: `kids` from the opening bracket to the closing one.
     fn brackets(&self, kids: &[Child], body: impl FnOnce(&[Element<'_>]) -> Doc<'t>) -> Doc<'t> {
         let [open, inner @ .., close] = kids else { return self.words(kids) };

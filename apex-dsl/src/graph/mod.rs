@@ -20,7 +20,7 @@ use std::{
 pub use condition::{Condition, is_arithmetic};
 pub use names::camel;
 pub use node::{CellEnd, Each, Library, Modifiers, Node, NodeKind, Port, PortId, Standard, TypeArg};
-pub use value::{Claim, ClaimKind, Number, Subject, Value};
+pub use value::{Claim, ClaimKind, FieldValue, Number, StructValue, Subject, Value};
 
 id! {
     /// Number of a node in [`Graph::nodes`].

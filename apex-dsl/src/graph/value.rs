@@ -1,7 +1,11 @@
 //! Constants, and claims about activity.
 
 use super::{NodeId, ScopeId};
-use crate::{catalog::Type, source::Span, units::Dimension};
+use crate::{
+    catalog::Type,
+    source::Span,
+    units::{self, Dimension, Unit},
+};
 use std::time::Duration;
 
 /// A claim about activity.
@@ -66,6 +70,8 @@ pub enum Value {
     Duration(Duration),
     /// A constant of Rust: the path that generated code uses, and its type.
     Path(Vec<String>, Type),
+    /// A struct of Rust.
+    Struct(StructValue),
     /// A default that is written in Rust, which only rustc can evaluate.
     RustDefault,
 }
@@ -81,9 +87,36 @@ impl Value {
             Self::Unit => "()".to_owned(),
             Self::Duration(time) => format!("{}s", time.as_secs_f64()),
             Self::Path(path, _) => path.join("::").trim_start_matches("::").to_owned(),
+            Self::Struct(given) => {
+                let fields = given.fields.iter().map(|field| format!("{}: {}", field.name, field.value.text()));
+                let name = given.path.last().map_or("", String::as_str);
+                format!("{name} {{ {} }}", fields.collect::<Vec<_>>().join(", "))
+            }
             Self::RustDefault => "…".to_owned(),
         }
     }
+}
+
+/// A struct of Rust with the values of its fields.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StructValue {
+    /// The path that generated code uses.
+    pub path: Vec<String>,
+    /// Its type; type parameters stand for themselves.
+    pub ty: Type,
+    /// Its fields.
+    pub fields: Vec<FieldValue>,
+}
+
+/// The value of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldValue {
+    /// Name of the field.
+    pub name: String,
+    /// Type of the field.
+    pub ty: Type,
+    /// Its value.
+    pub value: Value,
 }
 
 /// A number in SI units.
@@ -95,4 +128,13 @@ pub struct Number {
     pub integer: Option<i128>,
     /// Dimension of the quantity.
     pub dimension: Dimension,
+}
+
+impl Number {
+    /// The number of units that the quantity is, as a plain number.
+    pub fn in_unit(self, unit: Unit) -> Self {
+        let value = units::scaled(self.value, 1.0 / unit.factor);
+        let integer = (value.fract() == 0.0 && value.abs() < 2f64.powi(63)).then_some(value as i128);
+        Self { value, integer, dimension: Dimension::NONE }
+    }
 }

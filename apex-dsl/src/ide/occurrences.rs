@@ -367,6 +367,10 @@ impl<'a> Walker<'a, '_> {
         match &expr.kind {
             ExprKind::Path(path) => self.value(around, path),
             ExprKind::List(items) => items.iter().for_each(|e| self.expr(around, e)),
+            ExprKind::Struct(path, fields) => {
+                self.named_type(path);
+                fields.iter().for_each(|(_, e)| self.expr(around, e));
+            }
             ExprKind::Unary(_, e) => self.expr(around, e),
             ExprKind::Binary(_, a, b) => {
                 self.expr(around, a);
@@ -383,6 +387,13 @@ impl<'a> Walker<'a, '_> {
         param.iter().for_each(|definition| self.used(name, *definition));
     }
 
+    fn named_type(&mut self, path: &PathExpr) {
+        let Some(last) = path.segments.last() else { return };
+        let full = self.view.texts.full_path(path);
+        let definition = self.view.catalog.types(&full).first().map(|def| Definition::Type(*def));
+        definition.iter().for_each(|d| self.used(last, *d));
+    }
+
     fn ty(&mut self, around: Option<GraphId>, ty: &TypeExpr) {
         match &ty.kind {
             TypeKind::Path(path, args) => {
@@ -393,11 +404,9 @@ impl<'a> Walker<'a, '_> {
                 if let (Some(id), Some(i), [_]) = (around, generic, path.segments.as_slice()) {
                     return self.used(last, Definition::Generic(id, i));
                 }
-                let full = self.view.texts.full_path(path);
-                let definition = self.view.catalog.types(&full).first().map(|def| Definition::Type(*def));
-                definition.iter().for_each(|d| self.used(last, *d));
+                self.named_type(path);
             }
-            TypeKind::Array(element, _) => self.ty(around, element),
+            TypeKind::Array(element, _) | TypeKind::Measured(element, _) => self.ty(around, element),
             TypeKind::Tuple(parts) => parts.iter().for_each(|ty| self.ty(around, ty)),
             TypeKind::Const(_) => {}
         }

@@ -73,6 +73,7 @@ pages! {
     "waits-forever"
     "wrong-claim"
     "wrong-direction"
+    "wrong-field"
     "wrong-modifier"
     "wrong-record"
     "wrong-unit"

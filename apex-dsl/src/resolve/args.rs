@@ -3,7 +3,7 @@
 use super::{
     condition::names_in,
     names::suggest,
-    value::{Evaluated, Scope, Wanted, duration, evaluate, scaled, seconds},
+    value::{Evaluated, RustNames, Scope, Wanted, declared_unit, duration, evaluate, seconds},
 };
 use crate::{
     catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
@@ -11,7 +11,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Arg, Expr, ExprKind, Ident, Modifier, ModifierKind, ParamItem},
-    units::{self, Dimension},
+    units::{self, Dimension, scaled},
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -195,10 +195,11 @@ pub fn of_graph(
     name: &Ident,
     params: &[(&ParamItem, Type)],
     given: Option<(&[Arg], &Scope<'_>)>,
+    rust: RustNames<'_>,
     at: Span,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Value> {
-    of_graph_inside(name, params, given, &Origins::new(), at, diagnostics)
+    of_graph_inside(name, params, given, rust, &Origins::new(), at, diagnostics)
 }
 
 /// Values of all parameters of a graph, given with their types. `origins` are those of the graph around.
@@ -206,6 +207,7 @@ pub fn of_graph_inside(
     name: &Ident,
     params: &[(&ParamItem, Type)],
     given: Option<(&[Arg], &Scope<'_>)>,
+    rust: RustNames<'_>,
     origins: &Origins,
     at: Span,
     diagnostics: &mut Diagnostics,
@@ -218,16 +220,17 @@ pub fn of_graph_inside(
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
     for (param, ty) in params {
         // If the default does not fit its own parameter, only that is reported: arguments cannot be checked then.
-        let default = graph_default(name, param, ty, at, &values, false);
+        let default = graph_default(name, (param, ty), at, &Scope { params: &values, rust }, false);
         let value = match (exprs.get(param.name.text.as_str()), given) {
             (Some(_), Some(_)) if default.is_err() => default,
             (Some(expr), Some((_, scope))) => {
-                let fitting = graph_param(param, ty, &values).and_then(|w| w.fit(evaluate(expr, scope)?, expr));
+                let fitting = graph_param(param, ty, &Scope { params: &values, rust })
+                    .and_then(|w| w.fit(evaluate(expr, scope)?, expr));
                 fitting.map_err(|error| handed_down(error, expr, origins))
             }
             _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
             // The parameters of a graph need no value while it is not used.
-            _ => graph_default(name, param, ty, at, &values, given.is_some()),
+            _ => graph_default(name, (param, ty), at, &Scope { params: &values, rust }, given.is_some()),
         };
         match value {
             Ok(value) => {
@@ -242,7 +245,7 @@ pub fn of_graph_inside(
     values
 }
 
-fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String, Value>) -> Evaluated<Wanted<'a>> {
+fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &Scope<'_>) -> Evaluated<Wanted<'a>> {
     let range = match &param.range {
         None => None,
         Some(range) => {
@@ -255,15 +258,7 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
             Some((bound(&range.low)?, bound(&range.high)?, range.inclusive))
         }
     };
-    if let Some(unit) = &param.unit
-        && units::parse(&unit.text).is_err()
-    {
-        return Err(Box::new(Diagnostic::error(
-            "unknown-unit",
-            unit.span,
-            format!("there is no unit `{}`", unit.text),
-        )));
-    }
+    param.unit.as_ref().map(declared_unit).transpose()?;
     let unit = param.unit.as_ref().map(|u| u.text.as_str());
     Ok(Wanted {
         name: &param.name.text,
@@ -276,8 +271,8 @@ fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &BTreeMap<String,
 
 /// A value in the declaration of a parameter, where a plain number has the unit of the parameter. Values of other
 /// parameters are already converted: their dimension shows it, except for dimensionless units such as `%`.
-fn declared(param: &ParamItem, expr: &Expr, before: &BTreeMap<String, Value>) -> Evaluated<Value> {
-    let value = evaluate(expr, &Scope { params: before, constant: &|_| None })?;
+fn declared(param: &ParamItem, expr: &Expr, before: &Scope<'_>) -> Evaluated<Value> {
+    let value = evaluate(expr, before)?;
     let unit = param.unit.as_ref().and_then(|unit| units::parse(&unit.text).ok());
     Ok(match unit {
         Some(unit) if !(unit.dimension.is_none() && names_parameter(expr)) => in_unit(value, unit),
@@ -290,6 +285,7 @@ fn names_parameter(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Path(_) => true,
         ExprKind::List(items) => items.iter().any(names_parameter),
+        ExprKind::Struct(_, fields) => fields.iter().any(|(_, value)| names_parameter(value)),
         ExprKind::Unary(_, inner) => names_parameter(inner),
         ExprKind::Binary(_, left, right) => names_parameter(left) || names_parameter(right),
         ExprKind::Number(..) | ExprKind::Text(_) | ExprKind::Bool(_) => false,
@@ -308,10 +304,9 @@ fn in_unit(value: Value, unit: units::Unit) -> Value {
 
 fn graph_default(
     name: &Ident,
-    param: &ParamItem,
-    ty: &Type,
+    (param, ty): (&ParamItem, &Type),
     at: Span,
-    before: &BTreeMap<String, Value>,
+    before: &Scope<'_>,
     is_used: bool,
 ) -> Evaluated<Value> {
     let wanted = graph_param(param, ty, before)?;

@@ -145,6 +145,11 @@ impl Conditions<'_> {
             return Err(Box::new(Diagnostic::error("bad-number", span, "division by zero")));
         }
         let computes = is_arithmetic(operator) || left.computes() || right.computes();
+        if computes && matches!(self.ty, Type::Measured(..)) {
+            let message =
+                format!("the token is in a unit (`{}`): it can be compared, but not be calculated with", self.ty);
+            return Err(Box::new(Diagnostic::error("wrong-unit", span, message)));
+        }
         let (left, right) = (self.fit(left, left_expr, computes)?, self.fit(right, right_expr, computes)?);
         Ok((Condition::Binary(Box::new(left), operator, Box::new(right)), result))
     }
@@ -170,10 +175,13 @@ impl Conditions<'_> {
         if computes && let Value::Number(n) = value {
             return self.number(n, expr).map(Condition::Constant);
         }
-        if matches!(self.ty, Type::Def(..)) && !matches!(value, Value::Path(..) | Value::RustDefault) {
+        if matches!(self.ty, Type::Def(..)) && !matches!(value, Value::Path(..) | Value::Struct(_) | Value::RustDefault)
+        {
             let message = format!("the token is a `{}`, but this is {}", self.ty, describe(&value));
             let error = Diagnostic::error("wrong-value", expr.span, message);
-            return Err(Box::new(error.note("compare it with a Rust constant of this type, written with its path")));
+            return Err(Box::new(
+                error.note("compare it with a Rust constant of this type, or with `Name { field: value }`"),
+            ));
         }
         let declared = format!("a token of `{}` is a `{}`", self.name, self.ty);
         let wanted = Wanted { name: self.name, ty: self.ty, unit: None, range: None, declared };
@@ -200,7 +208,7 @@ impl Conditions<'_> {
 }
 
 fn is_number(ty: &Type) -> bool {
-    matches!(ty, Type::Primitive(name) if matches!(name.as_str(), "f32" | "f64") || limits(name).is_some())
+    matches!(ty.without_unit(), Type::Primitive(name) if matches!(name.as_str(), "f32" | "f64") || limits(name).is_some())
 }
 
 fn mentions(expr: &Expr, name: &str) -> bool {
@@ -217,6 +225,7 @@ pub fn names_in(expr: &Expr) -> Vec<&Ident> {
         ExprKind::Unary(_, inner) => names_in(inner),
         ExprKind::Binary(_, a, b) => [names_in(a), names_in(b)].concat(),
         ExprKind::List(items) => items.iter().flat_map(names_in).collect(),
+        ExprKind::Struct(_, fields) => fields.iter().flat_map(|(_, value)| names_in(value)).collect(),
         ExprKind::Number(..) | ExprKind::Text(_) | ExprKind::Bool(_) => vec![],
     }
 }

@@ -4,6 +4,7 @@ use super::{
     by_name::All,
     instance::{Body, Builder},
     link::{Link, Side},
+    mismatch,
     standard::own_node,
     table::{Candidate, Symbol, Table},
 };
@@ -272,7 +273,7 @@ impl Builder<'_> {
     pub fn wire(&mut self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow, by_name: bool) {
         let differs = from.port.ty.compare(&to.port.ty) == Match::Different;
         if differs {
-            let error = self.mismatch(from, to, arrow.span);
+            let error = self.mismatch(from, to, arrow);
             let name = &to.port.name;
             match by_name {
                 true => {
@@ -410,15 +411,16 @@ impl Builder<'_> {
     }
 
     /// The error for ends with different types.
-    fn mismatch(&self, from: Chosen<'_>, to: Chosen<'_>, span: Span) -> Diagnostic {
+    fn mismatch(&self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow) -> Diagnostic {
         let (a, b) = (self.describe(from.port, from.text), self.describe(to.port, to.text));
         let (sent, taken) = (&from.port.ty, &to.port.ty);
-        Diagnostic::error("type-mismatch", span, format!("{a} sends `{sent}`, but {b} takes `{taken}`"))
+        let message = format!("{a} sends `{sent}`, but {b} takes `{taken}`");
+        let error = Diagnostic::error(mismatch::code(sent, taken), arrow.span, message)
             .also(from.span, format!("sends `{sent}`"))
             .also(to.span, format!("takes `{taken}`"))
             .note(self.declared(from.port, &a))
-            .note(self.declared(to.port, &b))
-            .note("types are not converted implicitly: insert a node that converts the token")
+            .note(self.declared(to.port, &b));
+        mismatch::remedy(error, sent, taken, arrow.span, arrow.active, self.catalog)
     }
 
     fn describe(&self, candidate: &Candidate, written: &str) -> String {

@@ -129,7 +129,7 @@ fn settle_node(
 
 /// The argument for `name` that follows from the connection between `mine`, whose type mentions `name`, and `other`.
 fn argument_from(graph: &Graph, name: &str, mine: PortId, other: PortId) -> Option<TypeArg> {
-    let pattern = &graph.port(mine).ty;
+    let pattern = graph.port(mine).ty.without_unit();
     let other = graph.origin(other);
     let known = match &graph.nodes[other.node].kind {
         NodeKind::Each(_) => Type::Unknown(String::new()),

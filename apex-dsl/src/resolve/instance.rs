@@ -9,7 +9,7 @@ use super::{
     names::{Constructor, GraphId, SourceSet},
     nodes::require_function_params,
     table::{Symbol, Table},
-    value::Scope as Names,
+    value::{RustNames, Scope as Names},
 };
 use crate::{
     catalog::{Catalog, Type},
@@ -17,7 +17,7 @@ use crate::{
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr},
+    syntax::tree::{Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PortKind, TypeExpr},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -141,7 +141,8 @@ impl<'a> Builder<'a> {
         self.check_complete(item);
         let values = given.unwrap_or_else(|| {
             let params = self.param_types(id);
-            args::of_graph(&item.name, &params, None, item.name.span, self.diagnostics)
+            let rust = RustNames { texts: self.texts, catalog: self.catalog };
+            args::of_graph(&item.name, &params, None, rust, item.name.span, self.diagnostics)
         });
         self.scopes.push(Scope::top(&item.name.text, item.name.span));
         let mut table = Table::new();
@@ -285,6 +286,14 @@ impl<'a> Builder<'a> {
         self.budget.exceeded || self.diagnostics.is_full()
     }
 
+    /// Meaning of the names in the expressions of a graph whose parameters have these values.
+    pub fn names<'s>(&self, values: &'s BTreeMap<String, Value>) -> Names<'s>
+    where
+        'a: 's,
+    {
+        Names { params: values, rust: RustNames { texts: self.texts, catalog: self.catalog } }
+    }
+
     fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {
         self.texts.graph(id).params.iter().map(|p| (p, self.ty(id, &p.ty))).collect()
     }
@@ -365,13 +374,12 @@ impl<'a> Builder<'a> {
 
     fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
         let params = self.param_types(id);
-        let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-        let scope = Names { params: &body.values, constant: &constant };
+        let scope = self.names(&body.values);
         args::of_graph_inside(
             &self.texts.graph(id).name,
             &params,
             Some((&instance.args, &scope)),
+            scope.rust,
             &body.origins,
             instance.span,
             self.diagnostics,

@@ -2,10 +2,11 @@
 
 use crate::{
     catalog::{Match, Type},
-    graph::{Graph, NodeKind, PortId},
+    graph::{Graph, NodeId, NodeKind, PortId},
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
+use std::collections::BTreeSet;
 
 /// Chooses the list of each `each` by the types, if it is not written.
 pub fn resolve(graph: &mut Graph, diagnostics: &mut Diagnostics) {
@@ -50,13 +51,67 @@ fn is_list(graph: &Graph, input: PortId) -> bool {
 pub fn token_type(graph: &Graph, from: PortId) -> Type {
     let ty = &graph.port(from).ty;
     match &graph.nodes[from.node].kind {
-        NodeKind::Each(each) => {
-            let list = each.list.and_then(|port| graph.incoming(PortId { node: from.node, port }));
-            match list.map(|c| token_type(graph, c.from)) {
-                Some(Type::Named(name, args)) if args.len() == 1 => Type::Named(name, vec![ty.clone()]),
-                _ => Type::Unknown(format!("list of {ty}")),
-            }
-        }
+        NodeKind::Each(_) => match first_lists(graph, from.node) {
+            Some(Type::Named(name, args)) if args.len() == 1 => Type::Named(name.clone(), vec![ty.clone()]),
+            _ => Type::Unknown(format!("list of {ty}")),
+        },
         _ => ty.clone(),
     }
+}
+
+/// The type of the lists that reach an `each`, where they begin. `None` if they begin nowhere.
+fn first_lists(graph: &Graph, each: NodeId) -> Option<&Type> {
+    let mut node = each;
+    for _ in 0..graph.nodes.len() {
+        let from = passed_on(graph, node)?;
+        if passed_on(graph, from.node).is_none() {
+            return Some(&graph.port(from).ty);
+        }
+        node = from.node;
+    }
+    None
+}
+
+/// The origin of the lists that an `each` iterates over, or that a delay holds back: both send the kind of list that
+/// they take.
+fn passed_on(graph: &Graph, node: NodeId) -> Option<PortId> {
+    let port = match &graph.nodes[node].kind {
+        NodeKind::Each(each) => each.list?,
+        NodeKind::Delay(_) => 0,
+        _ => return None,
+    };
+    Some(graph.incoming(PortId { node, port })?.from)
+}
+
+/// Reports every `each` whose list is made from its own output of earlier firings and from nothing else: no node says
+/// which kind of list it is.
+pub fn check_origins(graph: &Graph, diagnostics: &mut Diagnostics) {
+    let is_each = |node: &NodeId| matches!(graph.nodes[*node].kind, NodeKind::Each(_));
+    let mut seen = BTreeSet::new();
+    for id in graph.nodes.ids().filter(is_each) {
+        let circle = circle(graph, id, &mut seen);
+        // Without a delay, the nodes wait for each other, which is reported as such.
+        if !circle.iter().any(|node| graph.nodes[*node].is_delay()) {
+            continue;
+        }
+        let node = &graph.nodes[circle.into_iter().find(is_each).unwrap_or(id)];
+        let message = format!("`{}` repeats a list that only it sends, so that its type is not known", node.name);
+        let error = Diagnostic::error("each-port", node.span, message);
+        diagnostics.push(error.note("connect its input with a node that sends the first list"));
+    }
+}
+
+/// The nodes that pass lists on in a circle, on the way from `each` back to where its lists begin. Nodes that were
+/// `seen` before are left out.
+fn circle(graph: &Graph, each: NodeId, seen: &mut BTreeSet<NodeId>) -> Vec<NodeId> {
+    let (mut path, mut at) = (vec![], Some(each));
+    while let Some(node) = at {
+        if !seen.insert(node) {
+            let start = path.iter().position(|passed| *passed == node).unwrap_or(path.len());
+            return path.split_off(start);
+        }
+        path.push(node);
+        at = passed_on(graph, node).map(|from| from.node);
+    }
+    vec![]
 }

@@ -12,10 +12,12 @@ mod instance;
 mod link;
 mod lists;
 mod machine;
+pub mod mismatch;
 mod names;
 mod nodes;
 mod record;
 mod standard;
+mod structs;
 mod table;
 mod testing;
 mod threads;
@@ -36,7 +38,7 @@ use crate::{
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use link::{Link, Side};
-pub use lists::token_type;
+pub use lists::{check_origins, token_type};
 pub use names::{Constructor, GraphId, Resolution, SourceSet, suggest};
 pub(crate) use unknown::{Known, everywhere, unknown};
 

@@ -17,7 +17,7 @@ use std::{
 
 use super::{
     unknown::{Known, everywhere, unknown},
-    value::Scope,
+    value::{RustNames, Scope},
     variants::{self, Variant},
 };
 
@@ -120,8 +120,7 @@ impl SourceSet {
         let mut machines = vec![];
         let (file_id, tree) = &self.files[file];
         for (item, &signature) in tree.machines.iter().zip(&self.machine_nodes[file]) {
-            let constant = |path: &PathExpr| self.constant(path, catalog);
-            let scope = Scope { params: &BTreeMap::new(), constant: &constant };
+            let scope = Scope { params: &BTreeMap::new(), rust: RustNames { texts: self, catalog } };
             let ty = |port: &PortItem| match &port.ty {
                 Some(ty) => catalog.type_in_text(&self.ty(ty), &[]),
                 None => Type::unit(),
@@ -241,7 +240,10 @@ impl SourceSet {
         let (Some(first), Some(last)) = (path.first(), path.last()) else { return Err(None) };
         if catalog.is_crate(&first.text) {
             let is_constant = || matches!(catalog.constant(&words), Constant::Known(..) | Constant::Hidden(_));
-            if catalog.nodes(&words).is_empty() && catalog.types(&words).is_empty() && !is_constant() {
+            // An item that is marked `#[node]` but is not a node is reported where it is used.
+            let is_there =
+                !catalog.nodes(&words).is_empty() || !catalog.types(&words).is_empty() || catalog.is_refused(&words);
+            if !is_there && !is_constant() {
                 return Err(Some(Box::new(unknown_import(&words, last, catalog))));
             }
             return Ok(Resolution::Rust(words));
@@ -481,8 +483,14 @@ impl SourceSet {
             TypeKind::Path(path, args) => Ty::Path(self.full_path(path), args.iter().map(|a| self.ty(a)).collect()),
             TypeKind::Array(element, len) => Ty::Array(Box::new(self.ty(element)), len.clone()),
             TypeKind::Tuple(parts) => Ty::Tuple(parts.iter().map(|p| self.ty(p)).collect()),
+            TypeKind::Measured(number, unit) => Ty::Measured(Box::new(self.ty(number)), unit.text.clone()),
             TypeKind::Const(number) => Ty::Other(number.clone()),
         }
+    }
+
+    /// The names that the source file of a place declares and imports.
+    pub fn imported(&self, at: Span) -> impl Iterator<Item = &str> {
+        self.names[self.file_of(at)].keys().map(String::as_str)
     }
 
     /// The constant of Rust that a path names; `None` for a name of the source file itself.

@@ -6,15 +6,15 @@ use super::{
     names::Constructor,
     table::Symbol,
     types,
-    value::Scope as Names,
 };
 use crate::{
-    catalog::{Catalog, Signature, SignatureId, Type},
+    catalog::{Catalog, ParamSig, Signature, SignatureId, Type},
     graph::{Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg, Value, Wire, WireEnd},
     machine::Machine,
     report::Diagnostic,
     source::Span,
-    syntax::tree::{Ident, Instance, Modifier, PathExpr, PortKind, TypeExpr, TypeKind},
+    syntax::tree::{Ident, Instance, Modifier, PortKind, TypeExpr, TypeKind},
+    units,
 };
 
 impl Builder<'_> {
@@ -32,9 +32,7 @@ impl Builder<'_> {
         if signature.name.is_empty() {
             return None;
         }
-        let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-        let scope = Names { params: &body.values, constant: &constant };
+        let scope = self.names(&body.values);
         let fed = |param: &str| body.fed.contains(&(name.text.as_str(), param));
         let at = instance.span;
         let params = args::of_node(signature, &instance.args, at, &scope, &body.origins, &fed, self.diagnostics);
@@ -121,9 +119,7 @@ impl Builder<'_> {
                 let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: true });
                 let docs = if docs.is_empty() { &signature.docs } else { docs };
                 let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
-                let texts = self.texts;
-                let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-                let scope = Names { params: &body.values, constant: &constant };
+                let scope = self.names(&body.values);
                 self.nodes[node].modifiers = args::modifiers(modifiers, &scope, &body.origins, self.diagnostics);
                 Some(Symbol::of_node(node, &self.nodes[node]))
             }
@@ -154,6 +150,15 @@ pub fn require_function_params(graph: &mut Graph, catalog: &Catalog) {
     }
 }
 
+/// The type of the tokens at the port of a parameter, whose value is in SI units.
+fn in_si(param: &ParamSig) -> Type {
+    let dimension = param.unit.as_deref().and_then(|unit| units::parse(unit).ok()).map(|unit| unit.dimension);
+    match dimension.filter(|dimension| !dimension.is_none() && param.ty.may_be_a_number()) {
+        Some(dimension) => Type::Measured(Box::new(param.ty.clone()), dimension.to_string()),
+        None => param.ty.clone(),
+    }
+}
+
 /// The ports of a node: those of the signature, then an input and an output for each parameter.
 fn library_ports(signature: &Signature) -> Vec<Port> {
     let ports = signature.ports.iter().enumerate().map(|(i, p)| Port {
@@ -171,7 +176,7 @@ fn library_ports(signature: &Signature) -> Vec<Port> {
         [PortKind::Input, PortKind::Output].map(|kind| Port {
             name: p.name.clone(),
             kind,
-            ty: p.ty.clone(),
+            ty: in_si(p),
             rate: 1,
             optional: kind == PortKind::Input,
             element_of: None,

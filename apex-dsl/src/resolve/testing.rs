@@ -6,7 +6,7 @@ use super::{
     instance::{Builder, Purpose},
     names::{Constructor, GraphId, SourceSet, suggest},
     record::sending_port,
-    value::{Scope, Wanted, duration, element_of, evaluate},
+    value::{RustNames, Scope, Wanted, duration, element_of, evaluate},
 };
 use crate::{
     catalog::{Catalog, Type},
@@ -14,7 +14,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
     script::{Script, Seen, Step, Until, What},
     source::{Sources, Span},
-    syntax::tree::{Condition, Expr, Ident, Limit, PathExpr, PortKind, PortRef, TestItem, TestStep},
+    syntax::tree::{Condition, Expr, Ident, Limit, PortKind, PortRef, TestItem, TestStep},
 };
 use std::{collections::BTreeMap, time::Duration};
 
@@ -50,8 +50,7 @@ pub fn test(
         diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
         return None;
     }
-    let constant = |path: &PathExpr| texts.constant(path, catalog);
-    let scope = Scope { params: &BTreeMap::new(), constant: &constant };
+    let scope = Scope { params: &BTreeMap::new(), rust: RustNames { texts, catalog } };
     let values = arguments(texts, catalog, item, id, &scope, diagnostics);
     let mut builder = Builder::new(texts, catalog, diagnostics, vec![], budget);
     builder.replaced = item.replaced.iter().map(|(of, instance)| (of.text(), instance)).collect();
@@ -76,7 +75,7 @@ fn arguments(
 ) -> BTreeMap<String, Value> {
     let graph = texts.graph(id);
     let params: Vec<_> = graph.params.iter().map(|p| (p, catalog.type_in_text(&texts.ty(&p.ty), &[]))).collect();
-    args::of_graph(&graph.name, &params, Some((&item.args, scope)), item.span, diagnostics)
+    args::of_graph(&graph.name, &params, Some((&item.args, scope)), scope.rust, item.span, diagnostics)
 }
 
 struct Writer<'a> {

@@ -3,13 +3,13 @@
 use super::{
     instance::Builder,
     names::suggest,
-    value::{Evaluated, Scope as Names, evaluate},
+    value::{Evaluated, evaluate},
 };
 use crate::{
     graph::{self, MAIN_GROUP, Scope, ThreadSettings, Value},
     report::{Diagnostic, nearest},
     source::Span,
-    syntax::tree::{Expr, ExprKind, GraphItem, Ident, PathExpr, ThreadItem},
+    syntax::tree::{Expr, ExprKind, GraphItem, Ident, ThreadItem},
 };
 use std::{collections::BTreeMap, time::Duration};
 
@@ -85,9 +85,7 @@ impl Builder<'_> {
         name: &Ident,
         value: &Expr,
     ) -> Evaluated<()> {
-        let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-        let scope = Names { params: values, constant: &constant };
+        let scope = self.names(values);
         match name.text.as_str() {
             "cores" => match evaluate(value, &scope)? {
                 Value::List(cores) if !cores.is_empty() => {

@@ -1,11 +1,14 @@
 //! Checks of the types in source files: each is examined once, however often the graph around it is used.
 
-use super::names::{SourceSet, suggest};
+use super::{
+    names::{SourceSet, suggest},
+    value::declared_unit,
+};
 use crate::{
-    catalog::{Catalog, DURATION, PRIMITIVES, STD, is_path, library},
+    catalog::{Catalog, DURATION, PRIMITIVES, STD, Type, is_path, library},
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Endpoint, GraphItem, Instance, NodeBody, PathExpr, TypeExpr, TypeKind},
+    syntax::tree::{Endpoint, GraphItem, Ident, Instance, NodeBody, PathExpr, TypeExpr, TypeKind},
 };
 use std::collections::BTreeSet;
 
@@ -44,7 +47,7 @@ fn unsized_part(ty: &TypeExpr) -> Option<Span> {
         TypeKind::Array(_, None) => Some(ty.span),
         TypeKind::Array(element, Some(_)) => unsized_part(element),
         TypeKind::Tuple(parts) => parts.iter().find_map(unsized_part),
-        TypeKind::Path(..) | TypeKind::Const(_) => None,
+        TypeKind::Path(..) | TypeKind::Const(_) | TypeKind::Measured(..) => None,
     }
 }
 
@@ -120,10 +123,27 @@ impl Checker<'_> {
                 let message = format!("expected a type, but `{number}` is a number");
                 self.diagnostics.push(Diagnostic::error("unknown-type", ty.span, message));
             }
+            TypeKind::Measured(number, unit) => {
+                self.ty(number);
+                self.unit(number, unit);
+            }
             TypeKind::Path(path, args) => {
                 args.iter().for_each(|arg| self.argument(arg));
                 self.path(path, args);
             }
+        }
+    }
+
+    /// The unit of a port. It must exist, and the tokens must be numbers.
+    fn unit(&mut self, ty: &TypeExpr, unit: &Ident) {
+        if let Err(error) = declared_unit(unit) {
+            return self.diagnostics.push(*error);
+        }
+        let generics: Vec<String> = self.generics.iter().map(|name| (*name).to_owned()).collect();
+        let number = self.catalog.type_in_text(&self.texts.ty(ty), &generics);
+        if !number.may_be_a_number() || matches!(number, Type::Param(_)) {
+            let message = format!("only a number has a unit, but the tokens are of type `{number}`");
+            self.diagnostics.push(Diagnostic::error("wrong-unit", unit.span, message));
         }
     }
 

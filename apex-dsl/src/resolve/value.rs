@@ -1,16 +1,16 @@
 //! Constant expressions, and conversion of values to the types of parameters.
 
 use crate::{
-    catalog::{Constant, Match, Type},
+    catalog::{Catalog, Constant, Match, Type},
     graph::{Number, Value},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Expr, ExprKind, Ident, PathExpr},
-    units::{self, Dimension},
+    units::{self, Dimension, Unit, scaled},
 };
 use std::{collections::BTreeMap, time::Duration};
 
-use super::names::suggest;
+use super::names::{SourceSet, suggest};
 
 /// Error or value; the error is boxed because it is much larger than most values.
 pub type Evaluated<T> = Result<T, Box<Diagnostic>>;
@@ -19,8 +19,17 @@ pub type Evaluated<T> = Result<T, Box<Diagnostic>>;
 pub struct Scope<'a> {
     /// Parameters of the graph that contains the expression.
     pub params: &'a BTreeMap<String, Value>,
-    /// The constant of Rust that a path names, if there is one.
-    pub constant: &'a dyn Fn(&PathExpr) -> Option<Constant>,
+    /// Names of Rust.
+    pub rust: RustNames<'a>,
+}
+
+/// Names of Rust in source files.
+#[derive(Clone, Copy)]
+pub struct RustNames<'a> {
+    /// The source files, with their imports.
+    pub texts: &'a SourceSet,
+    /// The types and constants.
+    pub catalog: &'a Catalog,
 }
 
 fn error<T>(code: &'static str, span: Span, message: impl Into<String>) -> Evaluated<T> {
@@ -40,6 +49,7 @@ pub fn evaluate(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Value> {
             [name] if scope.params.contains_key(&name.text) => Ok(scope.params[&name.text].clone()),
             _ => constant(path, scope),
         },
+        ExprKind::Struct(path, fields) => super::structs::evaluate(path, fields, scope),
         ExprKind::Unary(operator, inner) => unary(operator, evaluate(inner, scope)?, expr.span),
         ExprKind::Binary(operator, left, right) => {
             let (a, b) = (evaluate(left, scope)?, evaluate(right, scope)?);
@@ -49,7 +59,7 @@ pub fn evaluate(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Value> {
 }
 
 fn constant(path: &PathExpr, scope: &Scope<'_>) -> Evaluated<Value> {
-    match (scope.constant)(path) {
+    match scope.rust.texts.constant(path, scope.rust.catalog) {
         Some(Constant::Known(path, ty)) => Ok(Value::Path(path, ty)),
         Some(Constant::Unknown(path)) => Ok(Value::Path(path, Type::Unknown(String::new()))),
         Some(Constant::Hidden(place)) => {
@@ -103,13 +113,25 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
         Err(part) => {
             // `part` is a piece of `unit`, which ends the number.
             let start = span.end as usize - unit.len() + (part.as_ptr() as usize - unit.as_ptr() as usize);
-            let word = Ident { text: part.to_owned(), span: Span::new(span.file, start, start + part.len()) };
-            let diagnostic = Diagnostic::error("unknown-unit", word.span, format!("there is no unit `{part}`")).note(
-                "units are for example `m`, `cm`, `s`, `ms`, `Hz`, `deg`, `rad`, `kg`, `m/s`, `rad/s`, `m/s^2`, `%`",
-            );
-            Err(Box::new(suggest(diagnostic, &word, units::names())))
+            Err(Box::new(unknown_unit(part, Span::new(span.file, start, start + part.len()))))
         }
     }
+}
+
+/// The error at a unit that does not exist.
+fn unknown_unit(unit: &str, span: Span) -> Diagnostic {
+    let word = Ident { text: unit.to_owned(), span };
+    let error = Diagnostic::error("unknown-unit", span, format!("there is no unit `{unit}`"))
+        .note("units are for example `m`, `cm`, `s`, `ms`, `Hz`, `deg`, `rad`, `kg`, `m/s`, `rad/s`, `m/s^2`, `%`");
+    suggest(error, &word, units::names())
+}
+
+/// The unit behind a type.
+pub fn declared_unit(unit: &Ident) -> Evaluated<Unit> {
+    units::parse(&unit.text).map_err(|part| {
+        let start = unit.span.start as usize + (part.as_ptr() as usize - unit.text.as_ptr() as usize);
+        Box::new(unknown_unit(part, Span::new(unit.span.file, start, start + part.len())))
+    })
 }
 
 fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
@@ -210,6 +232,7 @@ pub fn describe(value: &Value) -> String {
         Value::Duration(_) => "a time".to_owned(),
         Value::Unit => "`()`".to_owned(),
         Value::Path(..) => format!("`{}`", value.text()),
+        Value::Struct(given) => format!("a `{}`", given.ty.name()),
         Value::RustDefault => "a default".to_owned(),
     }
 }
@@ -248,6 +271,9 @@ impl Wanted<'_> {
     }
 
     fn fit_type(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
+        if let Type::Measured(number, unit) = ty {
+            return self.fit_measured(value, number, unit, expr);
+        }
         match ty.name() {
             "Duration" if !matches!(ty, Type::Def(..)) => return self.fit_duration(value, ty, expr),
             "f32" | "f64" => return self.fit_number(value, ty, expr),
@@ -277,10 +303,23 @@ impl Wanted<'_> {
                     .collect::<Evaluated<_>>()
                     .map(Value::List)
             }
+            (_, Value::Struct(given)) if given.ty.compare(ty) != Match::Different => {
+                super::structs::fit(given, ty, expr)
+            }
             // Only rustc knows the type behind another name, which may be a number.
             _ if ty.may_be_another() && !matches!(value, Value::List(_)) => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
         }
+    }
+
+    /// A value for a token of type `ty` in `unit`. It stays in SI: generated code has it in the unit.
+    fn fit_measured(&self, value: Value, ty: &Type, unit: &str, expr: &Expr) -> Evaluated<Value> {
+        let (Value::Number(n), Ok(measure)) = (&value, units::parse(unit)) else {
+            return self.fit_type(value, ty, expr);
+        };
+        Wanted { unit: Some(unit), declared: String::new(), ..*self }.check_unit(*n, expr)?;
+        self.fit_type(Value::Number(n.in_unit(measure)), ty, expr)?;
+        Ok(value)
     }
 
     fn check_unit(&self, n: Number, expr: &Expr) -> Evaluated<()> {
@@ -292,7 +331,7 @@ impl Wanted<'_> {
         if n.dimension.is_none() {
             let unit = self.unit.unwrap_or_default();
             let message = format!("`{}` is {}: the unit is missing", self.name, wanted.noun());
-            let ty = self.ty.to_string().replace("core::time::", "");
+            let ty = self.ty.without_unit().to_string().replace("core::time::", "");
             let declared = if ty.contains("Duration") { ty } else { format!("{ty}[{unit}]") };
             return Err(Box::new(missing_unit(message, expr, &declared, &[(&format!("`{unit}`"), unit)])));
         }
@@ -432,11 +471,6 @@ pub fn seconds(value: f64, span: Span) -> Evaluated<Duration> {
         return error("out-of-range", span, "this time is negative or longer than 292 years");
     }
     Ok(Duration::from_nanos(nanos as u64))
-}
-
-/// The value of a quantity in SI units. It is rounded so that `15cm` is exactly 0.15.
-pub fn scaled(value: f64, factor: f64) -> f64 {
-    if factor == 1.0 { value } else { format!("{:.14e}", value * factor).parse().unwrap_or(value * factor) }
 }
 
 /// The smallest and the largest value of an integer type.

@@ -5,7 +5,7 @@ use super::{
     instance::{Body, Builder},
     lists::token_type,
     table::Symbol,
-    value::{Scope as Names, Wanted, element_of, evaluate},
+    value::{Wanted, element_of, evaluate},
 };
 use crate::{
     catalog::{SignatureId, Type},
@@ -13,7 +13,7 @@ use crate::{
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Expr, Ident, Instance, Modifier, ModifierKind, PathExpr, PortKind},
+    syntax::tree::{Expr, Ident, Instance, Modifier, ModifierKind, PortKind},
 };
 use std::collections::BTreeSet;
 
@@ -167,9 +167,7 @@ impl Builder<'_> {
         else {
             return Some(symbol);
         };
-        let texts = self.texts;
-        let constant = |path: &PathExpr| texts.constant(path, self.catalog);
-        let scope = Names { params: &body.values, constant: &constant };
+        let scope = self.names(&body.values);
         let initial = match expr.as_ref().map(|e| evaluate(e, &scope)) {
             None => vec![None],
             Some(Ok(Value::List(values))) if !values.is_empty() => values.into_iter().map(Some).collect(),

@@ -3,18 +3,19 @@ use num_traits::{Float, FloatConst};
 
 /// Sine of an angle in rad.
 #[node]
-pub fn sin<T: Float>(angle: &T) -> T {
+pub fn sin<T: Float>(#[unit("rad")] angle: &T) -> T {
     angle.sin()
 }
 
 /// Cosine of an angle in rad.
 #[node]
-pub fn cos<T: Float>(angle: &T) -> T {
+pub fn cos<T: Float>(#[unit("rad")] angle: &T) -> T {
     angle.cos()
 }
 
 /// Direction of the vector (`x`, `y`) in (−π, π] rad.
 #[node]
+#[unit("rad")]
 pub fn atan2<T: Float>(y: &T, x: &T) -> T {
     y.atan2(*x)
 }
@@ -27,7 +28,8 @@ pub fn hypot<T: Float>(x: &T, y: &T) -> T {
 
 /// Angle normalized to [−π, π) rad.
 #[node]
-pub fn normalize_angle<T: Float + FloatConst>(angle: &T) -> T {
+#[unit("rad")]
+pub fn normalize_angle<T: Float + FloatConst>(#[unit("rad")] angle: &T) -> T {
     let turn = T::TAU();
     // The remainder keeps the sign of the angle; the second step makes negative ones positive.
     let positive = ((*angle + T::PI()) % turn + turn) % turn;
@@ -36,19 +38,22 @@ pub fn normalize_angle<T: Float + FloatConst>(angle: &T) -> T {
 
 /// Smallest rotation from `from` to `to`, in [−π, π) rad.
 #[node]
-pub fn angle_difference<T: Float + FloatConst>(from: &T, to: &T) -> T {
+#[unit("rad")]
+pub fn angle_difference<T: Float + FloatConst>(#[unit("rad")] from: &T, #[unit("rad")] to: &T) -> T {
     normalize_angle(&(*to - *from))
 }
 
 /// Angle in degrees, from rad.
 #[node]
-pub fn degrees<T: Float>(angle: &T) -> T {
+#[unit("deg")]
+pub fn degrees<T: Float>(#[unit("rad")] angle: &T) -> T {
     angle.to_degrees()
 }
 
 /// Angle in rad, from degrees.
 #[node]
-pub fn radians<T: Float>(angle: &T) -> T {
+#[unit("rad")]
+pub fn radians<T: Float>(#[unit("deg")] angle: &T) -> T {
     angle.to_radians()
 }
 

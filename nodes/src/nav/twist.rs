@@ -1,14 +1,18 @@
 use crate::scan::Point2;
+use apex_rt::Units;
 
 /// Velocity of a robot in the plane, in its own frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Units)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Twist {
     /// Forward velocity, in m/s.
+    #[unit("m/s")]
     pub x: f32,
     /// Velocity to the left, in m/s.
+    #[unit("m/s")]
     pub y: f32,
     /// Angular velocity, counter-clockwise, in rad/s.
+    #[unit("rad/s")]
     pub omega: f32,
 }
 

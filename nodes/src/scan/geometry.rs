@@ -1,15 +1,18 @@
+use apex_rt::Units;
 use core::{
     f32::consts::{PI, TAU},
     ops::{Add, Sub},
 };
 
 /// Point or vector in the plane, in m.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Units)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Point2 {
     /// Forward coordinate, in m.
+    #[unit("m")]
     pub x: f32,
     /// Coordinate to the left, in m.
+    #[unit("m")]
     pub y: f32,
 }
 
@@ -79,14 +82,17 @@ impl Sub for Point2 {
 }
 
 /// Pose in the plane: position and orientation of a frame in an outer frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Units)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose2 {
     /// Forward position, in m.
+    #[unit("m")]
     pub x: f32,
     /// Position to the left, in m.
+    #[unit("m")]
     pub y: f32,
     /// Heading, counter-clockwise from the x axis, in rad.
+    #[unit("rad")]
     pub theta: f32,
 }
 

@@ -80,6 +80,7 @@ impl Builder<'_> {
             Rule::list_expr => {
                 ExprKind::List(inner.into_inner().filter(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p)).collect())
             }
+            Rule::struct_expr => self.structure(inner),
             Rule::expr => return Expr { span, ..self.expr(inner) },
             // Pairs include the white space behind a word.
             _ => match inner.as_str().trim_end() {
@@ -89,6 +90,22 @@ impl Builder<'_> {
             },
         };
         Expr { kind, span }
+    }
+}
+
+impl Builder<'_> {
+    /// `Pose2 { x: 1m, y: 0m }`
+    fn structure(&mut self, pair: Pair<'_, Rule>) -> ExprKind {
+        let mut parts = pair.into_inner();
+        let Some(path) = parts.next().map(|path| self.path(path)) else { return ExprKind::Bool(false) };
+        let mut fields = vec![];
+        for field in parts.flat_map(Pair::into_inner).filter(|p| p.as_rule() == Rule::field) {
+            let mut parts = field.into_inner();
+            let name = parts.next().map(|name| self.ident(&name));
+            let value = parts.find(|p| p.as_rule() == Rule::expr).map(|value| self.expr(value));
+            fields.extend(name.zip(value));
+        }
+        ExprKind::Struct(path, fields)
     }
 }
 

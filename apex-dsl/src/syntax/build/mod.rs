@@ -271,6 +271,13 @@ impl<'a> Builder<'a> {
         Some(RecordItem { file: expr::unescape(file.as_str()), ports, span })
     }
 
+    /// A type with the unit behind it.
+    fn measured(&self, ty: Option<TypeExpr>, tag: Pair<'_, Rule>) -> Option<TypeExpr> {
+        let (ty, span) = (ty?, self.span(&tag));
+        let unit = self.ident(&tag.into_inner().next()?);
+        Some(TypeExpr { span: ty.span.to(span), kind: TypeKind::Measured(Box::new(ty), unit) })
+    }
+
     fn port(&self, pair: Pair<'_, Rule>) -> Option<PortItem> {
         let mut docs = String::new();
         let (mut kind, mut name, mut ty) = (PortKind::Input, None, None);
@@ -287,6 +294,7 @@ impl<'a> Builder<'a> {
                 }
                 Rule::ident => name = Some(self.ident(&part)),
                 Rule::ty => ty = Some(self.ty(part)),
+                Rule::unit_tag => ty = self.measured(ty, part),
                 _ => {}
             }
         }

@@ -1,6 +1,6 @@
 //! Types and constant expressions.
 
-use super::PathExpr;
+use super::{Ident, PathExpr};
 use crate::source::Span;
 
 /// A type as written.
@@ -21,6 +21,8 @@ pub enum TypeKind {
     Array(Box<TypeExpr>, Option<String>),
     /// `(A, B)`
     Tuple(Vec<TypeExpr>),
+    /// `T[unit]`: the type of a port whose tokens are numbers in this unit.
+    Measured(Box<TypeExpr>, Ident),
     /// A number as a type argument.
     Const(String),
 }
@@ -47,6 +49,8 @@ pub enum ExprKind {
     Path(PathExpr),
     /// `[a, b]`
     List(Vec<Expr>),
+    /// `Pose2 { x: 1m, y: 0m }`
+    Struct(PathExpr, Vec<(Ident, Expr)>),
     /// `-a`, `!a`
     Unary(&'static str, Box<Expr>),
     /// `a + b`

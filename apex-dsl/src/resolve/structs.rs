@@ -1,0 +1,118 @@
+//! Structs of Rust that a source file writes as values: `Pose2 { x: 1m, y: 0m, heading: 90deg }`.
+
+use super::{
+    names::suggest,
+    value::{self, Evaluated, Scope, Wanted},
+};
+use crate::{
+    catalog::{Field, Struct, Structure, Type},
+    graph::{FieldValue, StructValue, Value},
+    report::Diagnostic,
+    source::Span,
+    syntax::tree::{Expr, ExprKind, Ident, PathExpr},
+};
+
+/// Evaluates a struct with these fields.
+pub fn evaluate(path: &PathExpr, fields: &[(Ident, Expr)], scope: &Scope<'_>) -> Evaluated<Value> {
+    // An import that failed has been reported.
+    if scope.rust.texts.is_unclear(path) {
+        return Ok(Value::RustDefault);
+    }
+    let declared = match scope.rust.catalog.structure(&scope.rust.texts.full_path(path)) {
+        Structure::Known(declared) => declared,
+        Structure::Missing(elsewhere) => return Err(Box::new(unknown(path, &elsewhere, scope))),
+        Structure::Other(ty) => {
+            let message = format!("a `{ty}` cannot be written with fields");
+            let error = Diagnostic::error("wrong-value", path.span, message)
+                .note("only a struct whose fields have names can, neither `#[cfg]` nor `#[non_exhaustive]`");
+            return Err(Box::new(error.note("use a Rust constant of this type")));
+        }
+    };
+    let Some(spelled) = declared.path.clone() else {
+        let message = format!("the type `{}` is not accessible from the program", path.text());
+        let error = Diagnostic::error("unknown-type", path.span, message);
+        return Err(Box::new(error.note(format!("declared at {}; it needs `pub` and a `pub use`", declared.place))));
+    };
+    check_names(&declared, fields, path.span)?;
+    let field = |(name, expr): &(Ident, Expr)| {
+        let ty = declared.fields.iter().find(|field| field.name == name.text).map(|field| field.ty.clone());
+        let value = value::evaluate(expr, scope)?;
+        Ok(FieldValue { name: name.text.clone(), ty: ty.unwrap_or_else(Type::unit), value })
+    };
+    let fields = fields.iter().map(field).collect::<Evaluated<_>>()?;
+    Ok(Value::Struct(StructValue { path: spelled, ty: declared.ty, fields }))
+}
+
+fn unknown(path: &PathExpr, elsewhere: &[String], scope: &Scope<'_>) -> Diagnostic {
+    let message = format!("there is no type `{}`", path.text());
+    let error = Diagnostic::error("unknown-type", path.span, message);
+    let error = match path.segments.as_slice() {
+        [name] if elsewhere.is_empty() => suggest(error, name, scope.rust.texts.imported(name.span)),
+        _ => error,
+    };
+    elsewhere.iter().take(4).fold(error, |error, path| error.note(format!("import it: `use {path};`")))
+}
+
+/// Reports fields that the struct does not have, that are given twice or not at all, or that are private.
+fn check_names(declared: &Struct, given: &[(Ident, Expr)], at: Span) -> Evaluated<()> {
+    let error = |span: Span, message: String| Diagnostic::error("wrong-field", span, message);
+    let (ty, place) = (declared.ty.name(), format!("`{}` is declared at {}", declared.ty.name(), declared.place));
+    for (number, (name, _)) in given.iter().enumerate() {
+        let Some(field) = declared.fields.iter().find(|field| field.name == name.text) else {
+            let names: Vec<&str> = declared.fields.iter().map(|field| field.name.as_str()).collect();
+            let error = error(name.span, format!("`{ty}` has no field `{}`", name.text));
+            let error = suggest(error, name, names.iter().copied()).note(match names.as_slice() {
+                [] => format!("`{ty}` has no fields"),
+                names => format!("its fields are `{}`", names.join("`, `")),
+            });
+            return Err(Box::new(error));
+        };
+        if !field.is_visible {
+            let error = error(name.span, format!("the field `{}` of `{ty}` is private", name.text));
+            return Err(Box::new(error.note(place)));
+        }
+        if let Some((first, _)) = given[..number].iter().find(|(other, _)| other.text == name.text) {
+            let error = error(name.span, format!("`{}` is given twice", name.text));
+            return Err(Box::new(error.also(first.span, "first given here")));
+        }
+    }
+    let is_given = |field: &&Field| given.iter().any(|(name, _)| name.text == field.name);
+    let missing: Vec<String> = declared
+        .fields
+        .iter()
+        .filter(|f| !is_given(f))
+        .map(|field| format!("`{}: {}`", field.name, field.ty))
+        .collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    Err(Box::new(error(at, format!("`{ty}` needs a value for {}", missing.join(", "))).note(place)))
+}
+
+/// The struct with fields that fit its declaration. The type arguments are those of `ty`, as far as it has any.
+pub fn fit(given: &StructValue, ty: &Type, expr: &Expr) -> Evaluated<Value> {
+    let argument = |name: &str| match (&given.ty, ty) {
+        (Type::Def(_, _, params), Type::Def(_, _, args)) => {
+            let position = params.iter().position(|param| matches!(param, Type::Param(param) if param == name));
+            position.and_then(|position| args.get(position).cloned())
+        }
+        _ => None,
+    };
+    let field = |field: &FieldValue| {
+        let ty = field.ty.substitute(&argument);
+        let declared = format!("`{}: {ty}` is a field of `{}`", field.name, given.ty.name());
+        let wanted = Wanted { name: &field.name, ty: &ty, unit: None, range: None, declared };
+        let value = wanted.fit(field.value.clone(), value_of(expr, &field.name))?;
+        Ok(FieldValue { name: field.name.clone(), ty: ty.clone(), value })
+    };
+    let fields = given.fields.iter().map(field).collect::<Evaluated<_>>()?;
+    Ok(Value::Struct(StructValue { fields, ..given.clone() }))
+}
+
+/// The expression of a field, if it is written here.
+fn value_of<'a>(expr: &'a Expr, name: &str) -> &'a Expr {
+    match &expr.kind {
+        ExprKind::Struct(_, fields) => fields.iter().find(|(field, _)| field.text == name).map_or(expr, |(_, at)| at),
+        _ => expr,
+    }
+}
