@@ -156,6 +156,9 @@ impl Maker {
         if self.strikes(Kind::WrongTypes, 4) {
             return (*self.dice.of(WRONG)).to_owned();
         }
+        if ["f64", "u8", "i64"].contains(&ty.name) && self.dice.one_in(12) {
+            return format!("{}[{}]", ty.name, self.dice.of(&["m", "mm", "rad", "m/s^2", "%"]));
+        }
         let own = !ty.item.is_empty() && !ty.name.contains("::") && !ty.name.contains("Vec");
         if own && self.dice.one_in(5) { format!("crate::{}", ty.name) } else { ty.name.to_owned() }
     }
@@ -210,8 +213,23 @@ impl Maker {
     /// Value of a token, if the language has a notation for it.
     pub fn token(&mut self, ty: &Type) -> Option<String> {
         if self.strikes(Kind::Values, 2) {
-            let odd =
-                ["300", "-1", "1e40", "1.5", "\"s\"", "true", "[1]", "5m", "9223372036854775808", "1 / 0", "1 % 0"];
+            let odd = [
+                "300",
+                "-1",
+                "1e40",
+                "1.5",
+                "\"s\"",
+                "true",
+                "[1]",
+                "5m",
+                "9223372036854775808",
+                "1 / 0",
+                "1 % 0",
+                "crate::Pose { x: 1 }",
+                "Pair { a: 1, b: true }",
+                "Nope { }",
+                "u8 { x: 1 }",
+            ];
             return Some((*self.dice.of(&odd)).to_owned());
         }
         if self.strikes(Kind::Constants, 2) {

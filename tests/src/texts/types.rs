@@ -32,9 +32,9 @@ pub const PLAIN: &[Type] = &[
     ty("String", "", &["\"a text\"", "\"\""]),
     ty("Vec<f64>", "", &[]),
     ty("(f64, u8)", "", &[]),
-    ty("Pose", POSE, &["crate::HOME"]),
+    ty("Pose", POSE, &["crate::HOME", "crate::Pose { x: 1.5 }", "Pose { x: -2, }"]),
     ty("Phase", PHASE, &["crate::Phase::Idle", "crate::Phase::Busy"]),
-    ty("Pair<i64>", PAIR, &[]),
+    ty("Pair<i64>", PAIR, &["Pair { a: 3, b: -1 }", "crate::Pair { b: 2 * 3, a: 9_000 }"]),
     ty("Meters", "pub type Meters = f64;", &["2.5"]),
     ty("u32", "", &["70000", "1"]),
 ];
