@@ -173,8 +173,8 @@ fn transition(frame: &mut Frame, from: usize, to: usize, label: String) {
 /// Label of a transition: `slot [guard] / events`.
 fn label(machine: &Machine, slot: &Slot, arm: &Arm) -> String {
     let mut text = slot.name.clone();
-    if let Some(guard) = &arm.guard {
-        text += &format!(" [{}]", guard.text(&slot.name));
+    if let Some(condition) = machine.condition(slot, arm) {
+        text += &format!(" [{condition}]");
     }
     text + &sends(machine, &arm.sends)
 }

@@ -114,7 +114,7 @@ module.exports = grammar({
         'on',
         field('slot', $.identifier),
         optional(seq('if', field('guard', $.expression))),
-        optional(seq('=>', field('target', $.identifier))),
+        optional(seq('=>', optional('resume'), field('target', $.identifier))),
         optional($._actions),
         ';',
       ),

@@ -38,3 +38,29 @@ fn a_machine_goes_through_its_states() {
     assert_eq!(program.nodes().lamps.seen, [0, 1, 0, 1, 0]);
     assert_eq!(program.nodes().halts.count, 2, "the outer state is left twice");
 }
+
+#[test]
+fn a_machine_resumes_what_it_left() {
+    use WorkerState::{Charge, WorkBring, WorkFetchDrive, WorkFetchGrip, WorkIdle};
+    let mut program = Working::new();
+    program.react(Time::ZERO);
+    let mut at = |slot: &str| {
+        let inputs = program.inputs();
+        match slot {
+            "go" => inputs.go.put(()).unwrap(),
+            "low" => inputs.low.put(()).unwrap(),
+            "full" => inputs.full.put(()).unwrap(),
+            number => inputs.next.put(number.parse().unwrap()).unwrap(),
+        }
+        program.react(Time::ZERO);
+        program.nodes().worker.state()
+    };
+    assert_eq!(["low", "full"].map(&mut at), [Charge, WorkIdle], "the first state was never left");
+    assert_eq!(["go", "1", "low", "full"].map(&mut at), [WorkFetchDrive, WorkFetchGrip, Charge, WorkFetchGrip]);
+    assert_eq!(["1", "low", "full"].map(&mut at), [WorkBring, Charge, WorkBring]);
+    assert_eq!(at("go"), WorkFetchGrip, "the state inside remembers its own last state");
+    assert_eq!(["1", "1", "low", "3", "6"].map(&mut at), [WorkBring, WorkIdle, Charge, Charge, WorkFetchGrip]);
+    assert_eq!(["low", "go"].map(&mut at), [Charge, WorkIdle], "without `resume`, it begins anew");
+    assert_eq!(program.nodes().steps.seen, [10, 20, 20, 30, 30, 20, 30, 20]);
+    assert_eq!(program.nodes().lamps.seen, [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1]);
+}

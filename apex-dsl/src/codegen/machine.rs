@@ -25,6 +25,8 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
     let states = states(machine);
     let first = &states[0];
     let texts = &machine.states;
+    let remembered: Vec<Ident> = (0..machine.memories.len()).map(remembered).collect();
+    let known = machine.memories.iter().map(|memory| &states[memory.states[0]]);
     let methods = machine.slots.iter().map(|slot| method(machine, slot, &states, catalog));
     let begin = begin(machine, catalog);
     let slots = machine.slots.iter().map(|slot| &slot.ty).chain((!machine.begin.is_empty()).then_some(&UNIT));
@@ -39,7 +41,7 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
     quote! {
         #[doc = #docs]
         #[derive(Debug)]
-        pub struct #name { state: #states_name }
+        pub struct #name { state: #states_name, #(#remembered: #states_name,)* }
         /// The states of the machine.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum #states_name { #(#[doc = #texts] #states,)* }
@@ -50,7 +52,7 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
             #begin
         }
         impl ::apex_rt::Construct<()> for #name {
-            fn construct((): ()) -> Self { Self { state: #states_name::#first } }
+            fn construct((): ()) -> Self { Self { state: #states_name::#first, #(#remembered: #states_name::#known,)* } }
         }
         const _: () = { #(#slots)* #(#events)* };
     }
@@ -103,13 +105,21 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
     let events = event_args(machine, &slot.events(), catalog);
     let arms = slot.arms.iter().map(|arm| {
         let state = &states[arm.state];
-        let guard = arm.guard.as_ref().map(|guard| {
-            let guard = holds(guard, &slot.ty);
-            quote!(if #guard)
+        let guard = arm.guard.as_ref().map(|guard| holds(guard, &slot.ty));
+        let memory = arm.remembered.map(|(memory, last)| {
+            let (memory, last) = (remembered(memory), &states[last]);
+            quote!(self.#memory == #states_name::#last)
         });
+        let guard = match (guard, memory) {
+            (Some(guard), Some(memory)) => quote!(if #memory && (#guard)),
+            (Some(condition), None) | (None, Some(condition)) => quote!(if #condition),
+            (None, None) => quote!(),
+        };
         let target = arm.target.map(|target| {
+            let inside = machine.memories.iter().enumerate().filter(|(_, memory)| memory.states.contains(&target));
+            let kept = inside.map(|(memory, _)| remembered(memory));
             let target = &states[target];
-            quote! { self.state = #states_name::#target; }
+            quote! { self.state = #states_name::#target; #(self.#kept = self.state;)* }
         });
         let sends = arm.sends.iter().map(|sending| send(machine, sending));
         quote! { #states_name::#state #guard => { #target #(#sends)* } }
@@ -122,6 +132,11 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
             match self.state { #(#arms)* _ => {} }
         }
     }
+}
+
+/// Field for the last innermost state of a state.
+fn remembered(memory: usize) -> Ident {
+    format_ident!("last_{memory}")
 }
 
 fn begin(machine: &Machine, catalog: &Catalog) -> TokenStream {

@@ -507,6 +507,7 @@ fn in_machine(written: &[Token<'_>], in_state: bool) -> Context {
         ("slot" | "event", ":") => Context::Type,
         ("on", "on") => Context::MachineSlot,
         ("on", "=>") => Context::State,
+        ("on", "resume") if written.iter().rev().nth(1).is_some_and(|t| t.text == "=>") => Context::State,
         ("on", "if") => Context::Expression,
         ("on" | "entry" | "exit", "->") => Context::MachineEvent,
         ("on" | "entry" | "exit", ",") if has_arrow(written) => Context::MachineEvent,

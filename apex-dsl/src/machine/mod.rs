@@ -27,6 +27,8 @@ pub struct Machine {
     pub states: Vec<String>,
     /// Events that are triggered at the start, because the initial state is entered.
     pub begin: Vec<Sending>,
+    /// The states to which transitions with `resume` lead.
+    pub memories: Vec<Memory>,
     /// Its slots.
     pub slots: Vec<Slot>,
     /// Its events, with the types of their tokens.
@@ -47,6 +49,15 @@ pub struct Slot {
     pub arms: Vec<Arm>,
 }
 
+/// A state whose last innermost state is remembered.
+#[derive(Debug, Clone)]
+pub struct Memory {
+    /// Path of the state.
+    pub of: String,
+    /// Its innermost states. The first is remembered until another one was entered.
+    pub states: Vec<usize>,
+}
+
 /// A transition from an innermost state.
 #[derive(Debug, Clone)]
 pub struct Arm {
@@ -54,6 +65,8 @@ pub struct Arm {
     pub state: usize,
     /// A condition on the token.
     pub guard: Option<Condition>,
+    /// Memory, by its number, and the state that it must hold: one of the arms of a transition with `resume`.
+    pub remembered: Option<(usize, usize)>,
     /// The new state, if the transition has a target.
     pub target: Option<usize>,
     /// Events that are triggered: first those of exits, then of the transition, then of entries.
@@ -129,6 +142,14 @@ impl Machine {
             slots,
             ..Signature::default()
         }
+    }
+
+    /// The condition of a transition, as text.
+    pub fn condition(&self, slot: &Slot, arm: &Arm) -> Option<String> {
+        let remembered =
+            |(memory, state): (usize, usize)| format!("{} was last {}", self.memories[memory].of, self.states[state]);
+        let parts = arm.guard.iter().map(|guard| guard.text(&slot.name)).chain(arm.remembered.map(remembered));
+        parts.reduce(|all, part| format!("{all}, {part}"))
     }
 
     /// The method that enters the initial state.

@@ -19,7 +19,7 @@ pub fn translation(machine: &Machine) -> String {
     for slot in &machine.slots {
         for (number, arm) in slot.arms.iter().enumerate() {
             let state = &machine.states[arm.state];
-            let guard = arm.guard.as_ref().map(|guard| format!("   // if {}", guard.text(&slot.name)));
+            let guard = machine.condition(slot, arm).map(|condition| format!("   // if {condition}"));
             let event = format!("{state}.{}_{}", slot.name, number + 1);
             if let Some(target) = arm.target {
                 let guard = guard.as_deref().unwrap_or_default();

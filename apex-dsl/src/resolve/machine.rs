@@ -9,7 +9,8 @@ use super::{
 };
 use crate::{
     catalog::Type,
-    machine::{Arm, Machine, Sending, Slot, Token},
+    graph::Condition,
+    machine::{Arm, Machine, Memory, Sending, Slot, Token},
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Action, FsmItem, Ident, PortItem, PortKind, StateItem, Transition},
@@ -18,6 +19,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of innermost states. A larger machine would not be readable.
 const MAX_STATES: usize = 1_000;
+
+/// Largest number of transitions between innermost states.
+const MAX_TRANSITIONS: usize = 50_000;
 
 /// Resolves `item`. `ty` determines the types of its ports, `scope` the meaning of names in values and guards.
 pub fn resolve(
@@ -132,10 +136,17 @@ impl<'a> Opener<'a> {
             docs: self.item.docs.clone(),
             states: leaves.iter().map(|s| self.path(*s)).collect(),
             begin,
+            memories: vec![],
             slots: slots.into_iter().map(|(name, ty)| Slot { name, ty, arms: vec![] }).collect(),
             events,
         };
         self.check_names();
+        if self.count(&leaves) > MAX_TRANSITIONS {
+            let message = format!("a state machine has at most {MAX_TRANSITIONS} transitions between innermost states");
+            let error = Diagnostic::error("too-large", self.item.name.span, message);
+            self.diagnostics.push(error.note("a transition of a state counts once for each innermost state in it"));
+            return None;
+        }
         let mut reached = BTreeSet::from([0]);
         for (number, &leaf) in leaves.iter().enumerate() {
             for around in self.around(leaf) {
@@ -143,9 +154,10 @@ impl<'a> Opener<'a> {
                     let Some(slot) = machine.slots.iter().position(|s| s.name == transition.slot.text) else {
                         continue;
                     };
-                    let arm = self.arm(number, leaf, transition, &leaves);
-                    reached.extend(arm.target);
-                    machine.slots[slot].arms.push(arm);
+                    let arms = self.arms((number, leaf), transition, &leaves, &mut machine.memories);
+                    // A state can be resumed only after it was entered.
+                    reached.extend(arms.first().and_then(|arm| arm.target));
+                    machine.slots[slot].arms.extend(arms);
                 }
             }
         }
@@ -162,6 +174,21 @@ impl<'a> Opener<'a> {
     }
 
     /// Reports unknown slots and targets, and transitions that can never be taken.
+    /// Number of transitions between innermost states.
+    fn count(&self, leaves: &[usize]) -> usize {
+        let inside = |name: &Ident| {
+            let named = self.states.iter().position(|state| state.item.name.text == name.text);
+            named.map_or(0, |named| leaves.iter().filter(|leaf| self.is_inside(**leaf, named)).count())
+        };
+        let weight = |transition: &Transition| match &transition.target {
+            Some(target) if transition.resumes.is_some() => inside(target).max(1),
+            _ => 1,
+        };
+        let of_state: Vec<usize> =
+            self.states.iter().map(|state| state.item.transitions.iter().map(weight).sum()).collect();
+        leaves.iter().flat_map(|leaf| self.around(*leaf)).map(|state| of_state[state]).sum()
+    }
+
     fn check_names(&mut self) {
         let states: Vec<&str> = self.states.iter().map(|s| s.item.name.text.as_str()).collect();
         let mut errors = vec![];
@@ -178,6 +205,7 @@ impl<'a> Opener<'a> {
                 {
                     errors.push(self.unknown_state(target));
                 }
+                errors.extend(self.nothing_to_resume(transition));
                 if let Some(first) = taken.get(slot.text.as_str()) {
                     let message = format!("unreachable transition: an earlier one already takes every `{}`", slot.text);
                     errors.push(Diagnostic::warning("never-taken", slot.span, message).also(*first, "this one"));
@@ -187,6 +215,18 @@ impl<'a> Opener<'a> {
             }
         }
         errors.into_iter().for_each(|e| self.diagnostics.push(e));
+    }
+
+    /// The error about `resume` with a state that has no states inside.
+    fn nothing_to_resume(&self, transition: &Transition) -> Option<Diagnostic> {
+        let (resume, target) = (transition.resumes?, transition.target.as_ref()?);
+        let state = self.states.iter().find(|state| state.item.name.text == target.text)?;
+        if !state.item.states.is_empty() {
+            return None;
+        }
+        let message = format!("`{}` has no states inside that could be resumed", target.text);
+        let word = Span { end: target.span.start, ..resume };
+        Some(Diagnostic::error("unknown-state", resume, message).fix("enter the state itself", word, ""))
     }
 
     fn unknown_state(&self, target: &Ident) -> Diagnostic {
@@ -217,48 +257,65 @@ impl<'a> Opener<'a> {
         suggest(error, name, known.iter().copied())
     }
 
-    fn arm(&mut self, number: usize, leaf: usize, transition: &'a Transition, leaves: &[usize]) -> Arm {
-        let ty = self.ports.get(transition.slot.text.as_str()).map(|(_, ty)| ty.clone());
-        let guard = transition.guard.as_ref().and_then(|guard| {
-            let unit = Type::unit();
-            let ty = ty.as_ref().unwrap_or(&unit);
-            match (Conditions { name: &transition.slot.text, token: &transition.slot.text, ty, scope: self.scope })
-                .read(guard)
-            {
-                Ok(condition) => Some(condition),
-                Err(error) => {
-                    self.diagnostics.push_once(*error);
-                    None
-                }
-            }
-        });
-        let target = transition.target.as_ref().and_then(|name| {
-            let state = self.states.iter().position(|s| s.item.name.text == name.text)?;
-            Some((state, self.innermost(state)))
-        });
-        let mut actions: Vec<&Action> = vec![];
-        let around = self.around(leaf);
-        match target {
-            Some((named, inner)) => {
-                let entered = self.around(inner);
-                // States around both the old and the new state are kept. The old state and the named target are not, so
-                // that a transition to the current state leaves and enters it.
-                let stays = |s: &usize| around.contains(s) && entered.contains(s) && *s != named && *s != leaf;
-                let kept: BTreeSet<usize> =
-                    around.iter().copied().filter(stays).filter(|s| !self.is_inside(*s, named)).collect();
-                for state in around.iter().filter(|s| !kept.contains(s)) {
-                    actions.extend(&self.states[*state].item.exit);
-                }
-                actions.extend(&transition.actions);
-                for state in entered.iter().rev().filter(|s| !kept.contains(s)) {
-                    actions.extend(&self.states[*state].item.entry);
-                }
-            }
-            None => actions.extend(&transition.actions),
+    /// The transitions from a leaf, given by its number and its state. With `resume` there is one for each state that
+    /// may be remembered, the first one inside before the others.
+    fn arms(
+        &mut self,
+        (number, leaf): (usize, usize),
+        transition: &'a Transition,
+        leaves: &[usize],
+        memories: &mut Vec<Memory>,
+    ) -> Vec<Arm> {
+        let guard = self.guard(transition);
+        let position =
+            |this: &Self, name: &Ident| this.states.iter().position(|state| state.item.name.text == name.text);
+        let Some(named) = transition.target.as_ref().and_then(|name| position(self, name)) else {
+            let sends = self.sendings(&transition.actions.iter().collect::<Vec<_>>(), Some(transition));
+            return vec![Arm { state: number, guard, remembered: None, target: None, sends }];
+        };
+        let first = leaves.iter().position(|leaf| *leaf == self.innermost(named));
+        let inside: Vec<usize> = (0..leaves.len()).filter(|state| self.is_inside(leaves[*state], named)).collect();
+        if transition.resumes.is_none() || inside.is_empty() {
+            let sends = self.moved(leaf, named, self.innermost(named), transition);
+            return vec![Arm { state: number, guard, remembered: None, target: first, sends }];
         }
-        let sends = self.sendings(&actions, Some(transition));
-        let target = target.and_then(|(_, inner)| leaves.iter().position(|l| *l == inner));
-        Arm { state: number, guard, target, sends }
+        let of = self.path(named);
+        let memory = memories.iter().position(|memory| memory.of == of).unwrap_or_else(|| {
+            memories.push(Memory { of, states: inside.clone() });
+            memories.len() - 1
+        });
+        let arm = |state: usize| {
+            let sends = self.moved(leaf, named, leaves[state], transition);
+            Arm { state: number, guard: guard.clone(), remembered: Some((memory, state)), target: Some(state), sends }
+        };
+        inside.into_iter().map(arm).collect()
+    }
+
+    fn guard(&mut self, transition: &Transition) -> Option<Condition> {
+        let ty = self.ports.get(transition.slot.text.as_str()).map(|(_, ty)| ty.clone());
+        let unit = Type::unit();
+        let (name, ty) = (&transition.slot.text, ty.as_ref().unwrap_or(&unit));
+        let read = Conditions { name, token: name, ty, scope: self.scope }.read(transition.guard.as_ref()?);
+        read.map_err(|error| self.diagnostics.push_once(*error)).ok()
+    }
+
+    /// Tokens that a transition from `leaf` to the innermost state `inner` of the state `named` sends, in order.
+    fn moved(&mut self, leaf: usize, named: usize, inner: usize, transition: &'a Transition) -> Vec<Sending> {
+        let mut actions: Vec<&Action> = vec![];
+        let (around, entered) = (self.around(leaf), self.around(inner));
+        // States around both the old and the new state are kept. The old state and the named target are not, so that a
+        // transition to the current state leaves and enters it.
+        let stays = |s: &usize| around.contains(s) && entered.contains(s) && *s != named && *s != leaf;
+        let kept: BTreeSet<usize> =
+            around.iter().copied().filter(stays).filter(|s| !self.is_inside(*s, named)).collect();
+        for state in around.iter().filter(|s| !kept.contains(s)) {
+            actions.extend(&self.states[*state].item.exit);
+        }
+        actions.extend(&transition.actions);
+        for state in entered.iter().rev().filter(|s| !kept.contains(s)) {
+            actions.extend(&self.states[*state].item.entry);
+        }
+        self.sendings(&actions, Some(transition))
     }
 
     /// Returns `true` if `state` is inside `outer`.

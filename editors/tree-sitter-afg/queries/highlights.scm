@@ -13,7 +13,7 @@
 ["use" "as"] @keyword.import
 ["pub" "graph" "robot" "fsm" "test"] @keyword.type
 ["in" "out" "slot" "event" "node" "claim" "record" "thread" "state"] @keyword
-["on" "if" "entry" "exit"] @keyword
+["on" "if" "entry" "exit" "resume"] @keyword
 ["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
 ["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "essential" "restart"] @keyword.modifier
 

@@ -101,7 +101,12 @@ fn state(maker: &mut Maker, name: &str, states: &[String], slots: &[Port], event
     }
     for slot in slots {
         let guard = if maker.dice.one_in(2) { guard(maker, slot) } else { String::new() };
-        let target = if maker.dice.one_in(5) { String::new() } else { format!(" => {}", maker.dice.of(states)) };
+        let target = if maker.dice.one_in(5) {
+            String::new()
+        } else {
+            let resume = if maker.dice.one_in(12) { "resume " } else { "" };
+            format!(" => {resume}{}", maker.dice.of(states))
+        };
         let sent = sent(maker, slot, events);
         if !target.is_empty() || !sent.is_empty() {
             text.push_str(&format!("on {}{guard}{target}{sent}; ", slot.name));

@@ -55,19 +55,26 @@ impl Builder<'_> {
     }
 
     fn transition(&mut self, pair: Pair<'_, Rule>) -> Option<Transition> {
-        let (mut slot, mut guard, mut target, mut actions) = (None, None, None, vec![]);
+        let (mut slot, mut guard, mut target, mut resumes, mut actions) = (None, None, None, None, vec![]);
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::ident => slot = Some(self.ident(&part)),
                 Rule::guard => {
                     guard = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p));
                 }
-                Rule::target => target = part.into_inner().next().map(|p| self.ident(&p)),
+                Rule::target => {
+                    for part in part.into_inner() {
+                        match part.as_rule() {
+                            Rule::resume_kw => resumes = Some(self.span(&part)),
+                            _ => target = Some(self.ident(&part)),
+                        }
+                    }
+                }
                 Rule::actions => actions = self.actions(part),
                 _ => {}
             }
         }
-        Some(Transition { slot: slot?, guard, target, actions })
+        Some(Transition { slot: slot?, guard, target, resumes, actions })
     }
 
     fn actions(&mut self, pair: Pair<'_, Rule>) -> Vec<Action> {

@@ -46,6 +46,8 @@ pub struct Transition {
     pub guard: Option<Expr>,
     /// The new state; `None` if the state remains the same.
     pub target: Option<Ident>,
+    /// `resume`: of the states inside the new one, that which it was in last.
+    pub resumes: Option<Span>,
     /// Events that are triggered.
     pub actions: Vec<Action>,
 }
