@@ -16,7 +16,10 @@ use crate::{
     source::{Sources, Span},
     syntax::tree::{Condition, Expr, Ident, Limit, PortKind, PortRef, TestItem, TestStep},
 };
-use std::{collections::BTreeMap, time::Duration};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 /// Resolves test `item` of the first source file.
 pub fn test(
@@ -57,7 +60,8 @@ pub fn test(
     let mut graph = builder.top(id, Purpose::Test(values))?;
     graph.name = format!("{}Test", crate::graph::camel(&item.name.text));
     graph.robot = false;
-    let mut writer = Writer { graph: &mut graph, scope: &scope, sources, diagnostics };
+    let declared = texts.graph(id).nodes.iter().map(|node| node.name.text.as_str()).collect();
+    let mut writer = Writer { graph: &mut graph, declared, scope: &scope, sources, diagnostics };
     writer.check_replaced(item);
     writer.probe_ports();
     let steps = item.steps.iter().filter_map(|step| writer.step(step)).collect();
@@ -80,6 +84,8 @@ fn arguments(
 
 struct Writer<'a> {
     graph: &'a mut Graph,
+    /// Names of the nodes of the graph. Those that cannot be made are missing in `graph`.
+    declared: BTreeSet<&'a str>,
     scope: &'a Scope<'a>,
     sources: &'a Sources,
     diagnostics: &'a mut Diagnostics,
@@ -244,7 +250,14 @@ impl Writer<'_> {
         found.map(|i| all[i])
     }
 
+    /// Reports an unknown node or port, unless it belongs to a node that cannot be made: its cause is reported there.
     fn unknown<'n>(&mut self, span: Span, path: &str, known: impl Iterator<Item = &'n str>) {
+        let node = path.split('.').next().unwrap_or(path);
+        let is_made = |name: &str| name.split('.').next() == Some(node);
+        let mut all = self.graph.nodes.ids().map(Subject::Node).chain(self.graph.nested().map(Subject::Scope));
+        if self.declared.contains(node) && !all.any(|subject| is_made(&self.graph.subject_name(subject))) {
+            return;
+        }
         let word = Ident { text: path.to_owned(), span };
         let error = Diagnostic::error("unknown-node", span, format!("the graph has no node or port `{path}`"));
         self.diagnostics.push(suggest(error, &word, known));
