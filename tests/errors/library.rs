@@ -110,6 +110,11 @@ pub mod value {
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     pub struct Pair(pub u8, pub u8);
 
+    #[derive(Debug, Clone, Copy, Default)]
+    pub struct Unequal {
+        pub x: u8,
+    }
+
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     #[non_exhaustive]
     pub struct Growing {

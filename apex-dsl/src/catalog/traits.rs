@@ -14,6 +14,12 @@ pub enum Trait {
 }
 
 impl Catalog {
+    /// Returns `true` if a type of the scanned crates derives the trait with this name.
+    pub fn derives(&self, ty: &Type, name: &str) -> bool {
+        let Type::Def(def, ..) = ty else { return false };
+        matches!(&self.tree.defs[*def].kind, ItemKind::Type(item) if item.derives.iter().any(|derived| derived == name))
+    }
+
     /// Returns `true` if a type certainly has a trait, `false` if not, or if the scan cannot decide.
     pub fn has_trait(&self, ty: &Type, wanted: Trait) -> bool {
         let all = |types: &[Type]| types.iter().all(|ty| self.has_trait(ty, wanted));

@@ -151,6 +151,9 @@ impl Conditions<'_> {
             return Err(Box::new(Diagnostic::error("wrong-unit", span, message)));
         }
         let (left, right) = (self.fit(left, left_expr, computes)?, self.fit(right, right_expr, computes)?);
+        for constant in [&left, &right] {
+            self.check_struct(operator, constant, span)?;
+        }
         Ok((Condition::Binary(Box::new(left), operator, Box::new(right)), result))
     }
 
@@ -186,6 +189,27 @@ impl Conditions<'_> {
         let declared = format!("a token of `{}` is a `{}`", self.name, self.ty);
         let wanted = Wanted { name: self.name, ty: self.ty, unit: None, range: None, declared };
         wanted.fit(value, expr).map(Condition::Constant)
+    }
+
+    /// Reports a comparison with a struct that Rust may not have: only rustc knows comparisons that are not derived.
+    fn check_struct(&self, operator: &str, constant: &Condition, span: Span) -> Evaluated<()> {
+        let Condition::Constant(Value::Struct(given)) = constant else { return Ok(()) };
+        let name = given.ty.name();
+        let error =
+            |message: String, note: String| Err(Box::new(Diagnostic::error("wrong-value", span, message).note(note)));
+        if !matches!(operator, "==" | "!=") {
+            return error(
+                format!("`{operator}` cannot be applied to a struct"),
+                "a struct is compared by `==` or `!=`".to_owned(),
+            );
+        }
+        match self.scope.rust.catalog.derives(&given.ty, "PartialEq") {
+            true => Ok(()),
+            false => error(
+                format!("a `{name}` cannot be compared: it does not derive `PartialEq`"),
+                format!("write `#[derive(PartialEq)]` before `{name}`, or compare with a Rust constant of this type"),
+            ),
+        }
     }
 
     fn number(&self, n: Number, expr: &Expr) -> Evaluated<Value> {
