@@ -40,7 +40,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 54] = [
+pub const KEYWORDS: [Keyword; 55] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -127,6 +127,7 @@ pub const KEYWORDS: [Keyword; 54] = [
     keyword("par", KeywordPosition::Inside, "`each par`: processes the elements in parallel, with the same result."),
     keyword("as", KeywordPosition::Inside, "Imports under another name."),
     keyword("if", KeywordPosition::Inside, "The transition is taken only if this condition holds."),
+    keyword("resume", KeywordPosition::Inside, "Continues in the last of its innermost states: `=> resume work`."),
     keyword("by", KeywordPosition::Inside, "The latest time at which it is expected, counted from the start."),
     keyword(
         "within",
