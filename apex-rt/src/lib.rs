@@ -35,6 +35,8 @@ mod remote;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
+#[cfg(feature = "studio")]
+pub mod studio;
 #[cfg(feature = "std")]
 mod switch;
 mod sync;

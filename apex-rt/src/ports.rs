@@ -45,6 +45,12 @@ impl<P: Program> Ports<P> {
         PortReceiver { cell, outside: Arc::clone(&self.0.outside) }
     }
 
+    /// Returns the requests that the program serves.
+    #[cfg(feature = "studio")]
+    pub(crate) fn requests(&self) -> Arc<crate::remote::Requests> {
+        Arc::clone(&self.0.requests.shared)
+    }
+
     /// Returns access to the program's parameters. It does not keep a program running that waits for input.
     pub fn params(&self) -> RemoteParams {
         RemoteParams::new(Arc::clone(&self.0.requests.shared), P::PARAMS)

@@ -3,7 +3,7 @@
 
 use crate::{
     Clock, Info, Observer, Ports, Program, StdErr, UntilStopped,
-    instruments::{Instruments, Tapped},
+    instruments::{Instruments, Streams, Tapped},
     run::drive_groups,
 };
 use hdrhistogram::Histogram;
@@ -168,7 +168,7 @@ impl Profile {
 }
 
 /// Drives a program, writes its trace to `path` and its table to standard error. Returns the exit code.
-pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, path: &Path) -> u8 {
+pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>, path: &Path, streams: &Streams) -> u8 {
     let cannot_write = |error: io::Error| eprintln!("error: cannot write `{}`: {error}", path.display());
     let info = const { &P::INFO };
     let profile = match Profile::to_file(info, path) {
@@ -178,8 +178,10 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>,
             return 2;
         }
     };
-    let observer =
-        |group| -> Instruments<'_> { (StdErr(info), (Some(Profile::of_group(&profile, group)), Tapped::default())) };
+    let observer = |group| -> Instruments<'_> {
+        let measures = Profile::of_group(&profile, group);
+        (StdErr(info), (Some(measures), (Tapped::default(), streams.of_group(group))))
+    };
     let code = drive_groups(program, UntilStopped::ctrl_c_if_free(clock), ports, observer);
     let mut profile = profile.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Err(error) = profile.finish() {

@@ -149,6 +149,12 @@ pub(crate) struct ServedRequests {
 }
 
 impl ServedRequests {
+    /// A view of the requests in `shared`.
+    #[cfg(feature = "studio")]
+    pub fn new(shared: Arc<Requests>) -> Self {
+        Self { shared, seen: 0 }
+    }
+
     /// Returns `true` if there are requests that the group has not looked at.
     pub fn are_new(&self) -> bool {
         self.shared.count.load(Ordering::Acquire) != self.seen

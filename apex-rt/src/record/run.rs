@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     Clock, Observer, Ports, Program, StdErr, UntilStopped,
-    instruments::{Instruments, Measured},
+    instruments::{Instruments, Measured, Streams},
     run::{drive_ports, pace_of_threads, react},
 };
 use core::time::Duration;
@@ -39,35 +39,52 @@ impl RunMode {
 }
 
 /// Drives a program and records it, or replays a recording of it. Returns the exit code.
-pub(crate) fn drive<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, mode: &RunMode) -> u8 {
+pub(crate) fn drive<P: Program, C: Clock>(
+    mut program: P,
+    clock: C,
+    ports: Ports<P>,
+    mode: &RunMode,
+    streams: &Streams,
+) -> u8 {
     match mode {
-        RunMode::Record(path) => record(program, clock, ports, path).unwrap_or_else(|error| {
+        RunMode::Record(path) => record(program, clock, ports, path, streams).unwrap_or_else(|error| {
             eprintln!("error: cannot record to `{}`: {error}", path.display());
             2
         }),
-        RunMode::Replay(path) => match replay_with(&mut program, path, instruments::<P>) {
-            Ok(report) => {
-                print!("{report}");
-                u8::from(!report.is_same() || !report.is_whole())
+        RunMode::Replay(path) => {
+            match replay_with(&mut program, path, |group, tap| instruments::<P>(tap, streams, group)) {
+                Ok(report) => {
+                    print!("{report}");
+                    u8::from(!report.is_same() || !report.is_whole())
+                }
+                Err(error) => {
+                    eprintln!("error: {error}");
+                    2
+                }
             }
-            Err(error) => {
-                eprintln!("error: {error}");
-                2
-            }
-        },
+        }
     }
 }
 
-/// Returns the observers of a run that is recorded or replayed by `tap`.
-fn instruments<P: Program>(tap: Tap) -> Instruments<'static> {
-    (StdErr(const { &P::INFO }), (Measured::default(), Some(tap)))
+/// Returns the observers of a thread group in a run that is recorded or replayed by `tap`.
+fn instruments<P: Program>(tap: Tap, streams: &Streams, group: usize) -> Instruments<'static> {
+    (StdErr(const { &P::INFO }), (Measured::default(), (Some(tap), streams.of_group(group))))
 }
 
-fn record<P: Program, C: Clock>(mut program: P, clock: C, ports: Ports<P>, path: &Path) -> io::Result<u8> {
+fn record<P: Program, C: Clock>(
+    mut program: P,
+    clock: C,
+    ports: Ports<P>,
+    path: &Path,
+    streams: &Streams,
+) -> io::Result<u8> {
     let clock = UntilStopped::ctrl_c_if_free(clock);
     let (code, finished) = match pace_of_threads::<P, _>(&clock) {
-        Some(pace) => record_from_threads(&mut program, pace, ports.0, path, |_, tap| instruments::<P>(tap))?,
-        None => record_in_turn(program, clock, ports, path)?,
+        Some(pace) => {
+            let observer = |group, tap| instruments::<P>(tap, streams, group);
+            record_from_threads(&mut program, pace, ports.0, path, observer)?
+        }
+        None => record_in_turn(program, clock, ports, path, streams)?,
     };
     eprintln!("recorded to `{}`", finished.path.display());
     for (channel, count) in finished.dropped {
@@ -82,11 +99,13 @@ fn record_in_turn<P: Program, C: Clock>(
     clock: C,
     ports: Ports<P>,
     path: &Path,
+    streams: &Streams,
 ) -> io::Result<(u8, Finished)> {
     let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
-    let mut observer = instruments::<P>(Tap::Record(Recorder::to_file::<P>(path, when_full)?));
+    let tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
+    let mut observer = instruments::<P>(tap, streams, 0);
     let code = drive_ports(program, clock, &mut observer, ports);
-    let (_, (_, Some(Tap::Record(recorder)))) = observer else { unreachable!("it was made so") };
+    let (_, (_, (Some(Tap::Record(recorder)), _))) = observer else { unreachable!("it was made so") };
     Ok((code, recorder.finish()?))
 }
 
@@ -100,19 +119,19 @@ pub fn replay<P: Program>(
     path: &Path,
     observer: impl Observer + Send + Clone,
 ) -> Result<Report, ReplayError> {
-    replay_with(&mut program, path, |tap| (observer.clone(), tap))
+    replay_with(&mut program, path, |_, tap| (observer.clone(), tap))
 }
 
 /// Repeats a run with the observers that `observer` returns.
 fn replay_with<P: Program, O: Observer + Send>(
     program: &mut P,
     path: &Path,
-    observer: impl Fn(Tap) -> O,
+    observer: impl Fn(usize, Tap) -> O,
 ) -> Result<Report, ReplayError> {
     if let Some(threads) = recorded_threads(path)? {
         return replay_on_threads(program, path, &threads, observer);
     }
-    let report = repeat(program, &mut observer(Tap::Replay(Replay::open::<P>(path)?)), || {});
+    let report = repeat(program, &mut observer(0, Tap::Replay(Replay::open::<P>(path)?)), || {});
     something(report.map_err(|error| ReplayError::File(path.to_owned(), error))?, path)
 }
 

@@ -64,7 +64,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     path: &Path,
     recorded: &str,
-    observer: impl Fn(Tap) -> O,
+    observer: impl Fn(usize, Tap) -> O,
 ) -> Result<Report, ReplayError> {
     let groups = const { P::INFO.groups };
     if recorder::names(groups) != recorded {
@@ -76,9 +76,9 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send>(
     let taps = (0..groups.len()).map(open).collect::<Result<Vec<Tap>, ReplayError>>()?;
     let info = const { &P::INFO };
     // Nothing watches over a replay, but its observers are of the same type as those of a run.
-    let watched = |tap| WatchdogObserver { observer: observer(tap), pulse: None, info };
+    let watched = |(group, tap)| WatchdogObserver { observer: observer(group, tap), pulse: None, info };
     let reports = scope(|scope| {
-        let observers = taps.into_iter().map(watched).map(Some).collect();
+        let observers = taps.into_iter().enumerate().map(watched).map(Some).collect();
         let mut repeat = Repeat { scope, waits: &waits, observers, hung: vec![], threads: vec![], main: None };
         program.on_threads(Nobody, &mut repeat);
         let others =

@@ -1,0 +1,110 @@
+//! Sockets of the machine's network and, on Unix, of the file system.
+
+use std::{
+    boxed::Box,
+    format, fs,
+    io::{self, Read, Write},
+    net::{TcpListener, TcpStream},
+    path::{Path, PathBuf},
+    string::{String, ToString as _},
+};
+
+/// A connection.
+pub trait Wire: Read + Write + Send {}
+
+impl<T: Read + Write + Send> Wire for T {}
+
+/// A socket that waits for viewers.
+pub enum Listener {
+    Tcp(TcpListener),
+    #[cfg(unix)]
+    File(std::os::unix::net::UnixListener, PathBuf),
+}
+
+impl Listener {
+    /// Opens a socket at `address`: `HOST:PORT`, or the path of a file, which has a `/`.
+    pub fn open(address: &str) -> io::Result<Self> {
+        let listener = match path(address) {
+            #[cfg(unix)]
+            Some(path) => {
+                // A file of an earlier run would be in the way.
+                if std::os::unix::net::UnixStream::connect(path).is_err() {
+                    let _ = fs::remove_file(path);
+                }
+                let listener = std::os::unix::net::UnixListener::bind(path)?;
+                listener.set_nonblocking(true)?;
+                Self::File(listener, path.to_owned())
+            }
+            #[cfg(not(unix))]
+            Some(_) => return Err(io::Error::new(io::ErrorKind::Unsupported, "choose an address `HOST:PORT`")),
+            None => {
+                let listener = TcpListener::bind(address)?;
+                listener.set_nonblocking(true)?;
+                Self::Tcp(listener)
+            }
+        };
+        Ok(listener)
+    }
+
+    /// Returns the next connection, if there is one.
+    pub fn accept(&self) -> io::Result<Box<dyn Wire>> {
+        match self {
+            Self::Tcp(listener) => {
+                let (stream, _) = listener.accept()?;
+                stream.set_nonblocking(true)?;
+                stream.set_nodelay(true)?;
+                Ok(Box::new(stream))
+            }
+            #[cfg(unix)]
+            Self::File(listener, _) => {
+                let (stream, _) = listener.accept()?;
+                stream.set_nonblocking(true)?;
+                Ok(Box::new(stream))
+            }
+        }
+    }
+
+    /// Returns the address, with the port that the system has chosen.
+    pub fn address(&self) -> String {
+        match self {
+            Self::Tcp(listener) => listener.local_addr().map_or_else(|e| format!("({e})"), |a| a.to_string()),
+            #[cfg(unix)]
+            Self::File(_, path) => path.display().to_string(),
+        }
+    }
+}
+
+impl Drop for Listener {
+    fn drop(&mut self) {
+        #[cfg(unix)]
+        if let Self::File(_, path) = self {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// Connects to a robot at `address`. Returns a reader and a writer.
+///
+/// # Errors
+/// There is none.
+pub fn connect(address: &str) -> io::Result<(Box<dyn Wire>, Box<dyn Wire>)> {
+    match path(address) {
+        #[cfg(unix)]
+        Some(path) => {
+            let stream = std::os::unix::net::UnixStream::connect(path)?;
+            Ok((Box::new(stream.try_clone()?), Box::new(stream)))
+        }
+        #[cfg(not(unix))]
+        Some(_) => Err(io::Error::new(io::ErrorKind::Unsupported, "choose an address `HOST:PORT`")),
+        None => {
+            let stream = TcpStream::connect(address)?;
+            stream.set_nodelay(true)?;
+            Ok((Box::new(stream.try_clone()?), Box::new(stream)))
+        }
+    }
+}
+
+/// Returns the path, if the address is one.
+fn path(address: &str) -> Option<&Path> {
+    address.contains(['/', '\\']).then(|| Path::new(address))
+}

@@ -1,0 +1,165 @@
+use super::{
+    message::{self, Report},
+    shared::Shared,
+};
+use crate::{Observer, Parameters, Time, record::Codec, remote::ServedRequests};
+use core::{
+    fmt::{Debug, Display},
+    time::Duration,
+};
+use rtrb::Producer;
+use std::{
+    format,
+    string::{String, ToString as _},
+    sync::{
+        Arc, PoisonError,
+        atomic::Ordering::{Acquire, Relaxed},
+    },
+    thread,
+    vec::Vec,
+};
+
+/// Maximum length of an error message, in bytes.
+const MAX_TEXT: usize = 500;
+
+/// Time between two checks for room.
+const PAUSE: Duration = Duration::from_micros(100);
+
+/// Observer that sends what one thread group does to all viewers. While there are none, it does next to nothing.
+pub struct Stream {
+    pub(super) ring: Producer<u8>,
+    pub(super) shared: Arc<Shared>,
+    pub(super) group: u32,
+    pub(super) requests: ServedRequests,
+    /// The message that is being sent.
+    pub(super) frame: Vec<u8>,
+    /// Time of the current reaction in ns.
+    pub(super) now: i64,
+}
+
+impl Stream {
+    /// Sends a message if there is a viewer.
+    fn send(&mut self, report: impl FnOnce() -> Report) {
+        if !self.shared.watched.load(Relaxed) {
+            return;
+        }
+        self.frame.clear();
+        message::write(&report(), &mut self.frame);
+        while self.ring.push_entire_slice(&self.frame).is_err() {
+            // In simulated time the program waits, so that everything is seen.
+            let is_over = self.ring.is_abandoned() || !self.shared.watched.load(Acquire);
+            if self.shared.pace.is_none() || is_over {
+                self.shared.lost.fetch_add(1, Relaxed);
+                return;
+            }
+            thread::sleep(PAUSE);
+        }
+    }
+}
+
+/// A run that may be streamed.
+impl Observer for Option<Stream> {
+    #[inline]
+    fn before_reaction(&mut self, now: Time, params: &mut impl Parameters) {
+        let Some(stream) = self else { return };
+        stream.now = now.as_nanos();
+        stream.requests.serve(params);
+        let (group, now) = (stream.group, stream.now);
+        if let Some(pace) = &stream.shared.pace {
+            pace.wait(now, || stream.requests.serve(params));
+        }
+        stream.send(|| Report::Reaction { group, now });
+    }
+
+    #[inline]
+    fn fired(&mut self, node: usize) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Fired(node as u32));
+        }
+    }
+
+    #[inline]
+    fn handled(&mut self, connection: usize) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Handled(connection as u32));
+        }
+    }
+
+    fn activity(&mut self, node: usize, active: bool) {
+        if let Some(stream) = self {
+            stream.shared.active[node].store(active, Relaxed);
+            stream.send(|| Report::Activity { node: node as u32, active });
+        }
+    }
+
+    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
+        if let Some(stream) = self {
+            let steps = nodes.iter().zip(counts).map(|(node, count)| (*node as u32, *count));
+            stream.send(|| Report::Endless(steps.collect()));
+        }
+    }
+
+    fn waits(&mut self, connection: usize) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Waits(connection as u32));
+        }
+    }
+
+    fn failed(&mut self, node: usize, error: &impl Display) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Failed { node: node as u32, error: shortened(error.to_string(), MAX_TEXT) });
+        }
+    }
+
+    fn late(&mut self, node: usize, age: Duration) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Late { node: node as u32, age: nanos(age) });
+        }
+    }
+
+    fn hung(&mut self, node: usize, running: Duration) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Hung { node: node as u32, running: nanos(running) });
+        }
+    }
+
+    fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
+        if let Some(stream) = self {
+            let value = || shortened(format!("{value:?}"), MAX_TEXT);
+            stream.send(|| Report::Refused { node: node as u32, parameter: parameter.into(), value: value() });
+        }
+    }
+
+    fn claim_failed(&mut self, claim: usize) {
+        if let Some(stream) = self {
+            stream.send(|| Report::ClaimFailed(claim as u32));
+        }
+    }
+
+    #[inline]
+    fn wants(&mut self, channel: usize) -> bool {
+        self.as_ref().is_some_and(|stream| stream.shared.channels[channel].is.load(Relaxed))
+    }
+
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        let (Some(stream), Some(codec)) = (self, codec) else { return };
+        let mut latest = stream.shared.channels[channel].latest.lock().unwrap_or_else(PoisonError::into_inner);
+        latest.bytes.clear();
+        latest.is_new = (codec.write)(token, &mut latest.bytes);
+        latest.now = stream.now;
+    }
+}
+
+fn nanos(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
+}
+
+/// Returns a text of at most `length` bytes.
+pub fn shortened(mut text: String, length: usize) -> String {
+    if text.len() > length {
+        let end = (0..=length).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
+        text.truncate(end);
+        text.push('…');
+    }
+    text
+}
