@@ -16,6 +16,6 @@ mod words;
 pub use build::diagram;
 pub use dot::dot;
 pub use fold::{Folding, READABLE, folded, folded_states};
-pub use model::{Anchor, Flow, Frame, Item, Line, MAX_ITEMS, Port, Shape, Side};
+pub use model::{Anchor, Flow, Frame, Item, Line, MAX_ITEMS, Port, Shape, Side, joined};
 pub use states::{chart, states};
 pub use svg::svg;

@@ -135,6 +135,22 @@ impl Item {
         Self { inside, ..self }
     }
 
+    /// Closes the nested graphs whose path `is_open` refuses: their full name within this item, `fast.avoid`.
+    #[must_use]
+    pub fn opened(self, is_open: &dyn Fn(&str) -> bool) -> Self {
+        self.opened_below("", is_open)
+    }
+
+    fn opened_below(self, path: &str, is_open: &dyn Fn(&str) -> bool) -> Self {
+        let open = |item: Self| {
+            let path = joined(path, &item.name);
+            let inside = item.inside.filter(|_| is_open(&path));
+            Self { inside, ..item }.opened_below(&path, is_open)
+        };
+        let inside = self.inside.map(|frame| Frame { items: frame.items.into_iter().map(open).collect(), ..frame });
+        Self { inside, ..self }
+    }
+
     /// Indices of its ports on one side.
     pub fn at(&self, side: Side) -> Vec<usize> {
         (0..self.ports.len()).filter(|p| self.ports[*p].side == side).collect()
@@ -164,4 +180,9 @@ impl Flow {
             Self::Hybrid => "hybrid",
         }
     }
+}
+
+/// Full name of the item `name` in the item with the full name `path`, which is empty for the whole graph.
+pub fn joined(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }

@@ -1,8 +1,9 @@
-//! Output as a self-contained SVG document, without scripts, fonts and images.
+//! Output as a self-contained SVG document, without scripts, fonts and images. Attributes give the full names of items
+//! (`data-item`) and of the ports at the ends of lines (`data-from`, `data-to`: `fast.planner:path`).
 
 use crate::{
     layout::{Align, Placed, Point, Stroke, Text, place, strokes},
-    model::{Anchor, Frame, Item, Line, Shape},
+    model::{Anchor, Frame, Item, Line, Shape, joined},
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
@@ -36,21 +37,22 @@ pub fn svg(item: &Item) -> String {
     );
     let _ = writeln!(text, "<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>");
     let connected = vec![false; item.ports.len()];
-    draw(&mut text, item, &placed, (MARGIN, MARGIN), &connected);
+    draw(&mut text, item, &placed, "", (MARGIN, MARGIN), &connected);
     text.push_str("</svg>\n");
     text
 }
 
 /// Draws an item with its upper left corner at `at`. `taking` is `true` for ports at which a line from outside ends:
-/// they have an arrow head.
-fn draw(out: &mut String, item: &Item, placed: &Placed, at: Point, taking: &[bool]) {
+/// they have an arrow head. `path` is its full name.
+fn draw(out: &mut String, item: &Item, placed: &Placed, path: &str, at: Point, taking: &[bool]) {
     let classes = [("item", true), ("active", item.active), ("frame", item.inside.is_some())];
     let classes: Vec<&str> = classes.into_iter().filter(|(_, on)| *on).map(|(class, _)| class).collect();
-    let _ = writeln!(out, "<g class=\"{}\" transform=\"translate({} {})\">", classes.join(" "), at.0, at.1);
+    let (classes, name) = (classes.join(" "), escaped(path));
+    let _ = writeln!(out, "<g class=\"{classes}\" data-item=\"{name}\" transform=\"translate({} {})\">", at.0, at.1);
     title(out, &item_title(item));
     shape(out, item, placed);
     if let Some(frame) = &item.inside {
-        inside(out, item, frame, placed);
+        inside(out, item, frame, placed, path);
     }
     for text in &placed.texts {
         words(out, text);
@@ -127,8 +129,8 @@ fn shape(out: &mut String, item: &Item, placed: &Placed) {
     };
 }
 
-fn inside(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
-    lines(out, item, frame, placed);
+fn inside(out: &mut String, item: &Item, frame: &Frame, placed: &Placed, path: &str) {
+    lines(out, item, frame, placed, path);
     for (index, (inner, place)) in frame.items.iter().zip(&placed.items).enumerate() {
         let mut taking = vec![false; inner.ports.len()];
         for line in &frame.lines {
@@ -138,18 +140,20 @@ fn inside(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
                 taking[port] = true;
             }
         }
-        draw(out, inner, place, place.at, &taking);
+        draw(out, inner, place, &joined(path, &inner.name), place.at, &taking);
     }
 }
 
 /// Draws all lines: thin ones first, then double ones with a white core. Dots at branches and arrow heads are on top.
-fn lines(out: &mut String, item: &Item, frame: &Frame, placed: &Placed) {
+fn lines(out: &mut String, item: &Item, frame: &Frame, placed: &Placed, within: &str) {
     let strokes = strokes(frame, placed);
     for active in [false, true] {
         for stroke in strokes.iter().filter(|s| frame.lines[s.line].active == active && s.points.len() > 1) {
             let line = &frame.lines[stroke.line];
             let (wide, path) = (if active { " wide" } else { "" }, path(&stroke.points, back(line, stroke)));
-            let _ = write!(out, "<path class=\"line {}{wide}\" d=\"{path}\">", line.flow.word());
+            let ends = [line.from, line.to].map(|end| escaped(&end_name(item, frame, within, end)));
+            let names = format!("data-from=\"{}\" data-to=\"{}\"", ends[0], ends[1]);
+            let _ = write!(out, "<path class=\"line {}{wide}\" {names} d=\"{path}\">", line.flow.word());
             let _ = writeln!(out, "<title>{}</title></path>", escaped(&line_title(item, frame, line)));
             if active {
                 let _ = writeln!(out, "<path class=\"core\" d=\"{path}\"/>");
@@ -201,6 +205,17 @@ fn line_title(item: &Item, frame: &Frame, line: &Line) -> String {
     };
     let arrow = if line.active { "=>" } else { "->" };
     format!("{} {arrow} {} ({})", name(line.from), name(line.to), line.flow.word())
+}
+
+/// Full name of the item at an end of a line, and its port.
+fn end_name(item: &Item, frame: &Frame, path: &str, end: Anchor) -> String {
+    match end {
+        Anchor::Own(port) => format!("{path}:{}", item.ports[port].name),
+        Anchor::Of(inner, port) => {
+            let inner = &frame.items[inner];
+            format!("{}:{}", joined(path, &inner.name), inner.ports[port].name)
+        }
+    }
 }
 
 /// SVG path of a line with rounded corners, which ends `back` pixels before its last point.

@@ -1,0 +1,79 @@
+//! `apex studio`: a page on which one sees a robot think.
+//!
+//! The robot streams what it does ([`apex_rt::studio`]). This program connects to it, keeps the history, and serves the
+//! page to browsers on this machine. It holds no state that a robot needs: it may come and go.
+
+mod lane;
+mod live;
+mod picture;
+mod robot;
+mod server;
+mod session;
+
+pub use robot::{Remote, Robot};
+
+use apex_diagram::Item;
+use robot::{Shared, follow};
+use server::Serving;
+use std::{fmt::Write as _, io, net::SocketAddr, sync::Arc, thread};
+use tokio::net::TcpListener;
+
+/// The source of a robot.
+pub trait Source: Send + Sync + 'static {
+    /// The picture of the graph with this name, or `None` if the source does not have it.
+    fn picture(&self, name: &str) -> Option<Item>;
+
+    /// Contents of these files; empty for those that cannot be read.
+    fn texts(&self, files: &[String]) -> Vec<String>;
+}
+
+/// A studio to be opened.
+pub struct Studio<R> {
+    /// The robot.
+    pub robot: R,
+    /// Its source.
+    pub source: Arc<dyn Source>,
+    /// Address of the page.
+    pub address: SocketAddr,
+    /// `true` if the page may only look.
+    pub readonly: bool,
+    /// Speed at which a simulated robot starts, in simulated seconds per second.
+    pub speed: Option<f64>,
+}
+
+impl<R: Robot + 'static> Studio<R> {
+    /// Opens the studio, calls `opened` with the address of the page, and serves it until `stop` is complete.
+    ///
+    /// # Errors
+    /// The address is in use, or there are no random numbers for the token.
+    pub fn serve(self, opened: impl FnOnce(&str), stop: impl Future<Output = ()> + Send + 'static) -> io::Result<()> {
+        let token = token()?;
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        runtime.block_on(async {
+            let listener = TcpListener::bind(self.address).await?;
+            let address = listener.local_addr()?;
+            opened(&format!("http://{address}/#{token}"));
+            let shared = Arc::<Shared>::default();
+            let (robot, speed, following) = (self.robot, self.speed, Arc::clone(&shared));
+            let thread = thread::Builder::new().name("robot".to_owned());
+            let thread = thread.spawn(move || follow(robot, &following, speed))?;
+            let (source, readonly) = (self.source, self.readonly);
+            let serving = Serving { shared: Arc::clone(&shared), source, token: token.into(), address, readonly };
+            let served = server::serve(serving, listener, stop).await;
+            shared.end();
+            // It has ended its robot then.
+            let _ = thread.join();
+            served
+        })
+    }
+}
+
+/// Returns a random token.
+fn token() -> io::Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(|error| io::Error::other(error.to_string()))?;
+    Ok(bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    }))
+}

@@ -1,0 +1,242 @@
+//! What is known about a running robot.
+
+use crate::lane::{Drawn, Lane, Window};
+use apex_rt::studio::message::{About, Report};
+use serde::Serialize;
+use std::{
+    collections::{BTreeMap, VecDeque},
+    sync::Arc,
+};
+
+/// Number of problems that are kept. The newest come first.
+const MAX_PROBLEMS: usize = 10_000;
+/// Number of tokens of a channel that are kept.
+const MAX_TOKENS: usize = 20_000;
+
+/// State of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Run {
+    /// The robot is built, started or looked for.
+    Starting(String),
+    /// Messages come.
+    Running,
+    /// The program has ended.
+    Ended,
+    /// There is no connection, for this reason.
+    Lost(String),
+}
+
+/// A robot, as far as its messages tell.
+pub struct Live {
+    /// Number of runs so far.
+    pub runs: u64,
+    pub run: Run,
+    pub about: Option<Arc<About>>,
+    /// Time of the last reaction in ns.
+    pub now: i64,
+    pub nodes: Vec<Node>,
+    /// Number of tokens that each connection has brought to a slot.
+    pub handled: Vec<u64>,
+    /// Number of messages that did not reach the studio.
+    pub lost: u64,
+    /// Number of all problems so far.
+    pub problem_count: u64,
+    pub problems: VecDeque<Problem>,
+    pub params: BTreeMap<String, Param>,
+    pub tokens: BTreeMap<u32, Tokens>,
+    /// `true` if the robot is halted.
+    pub paused: bool,
+    /// Simulated seconds per second.
+    pub speed: f64,
+    lanes: Vec<Lane>,
+}
+
+/// State of a node.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Node {
+    pub active: bool,
+    pub fired: u64,
+    /// Time of the last firing in ns.
+    pub last: i64,
+    /// Number of failures, missed deadlines and the like.
+    pub problems: u64,
+}
+
+/// Something that should not have happened.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Problem {
+    /// Its time in s.
+    pub at: f64,
+    /// The node, if it concerns one.
+    pub node: Option<u32>,
+    pub text: String,
+}
+
+/// A parameter.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Param {
+    /// Value at the first look.
+    pub initial: String,
+    pub value: String,
+    /// Reason why the last attempt to set it failed.
+    pub error: Option<String>,
+    /// Number of messages about it.
+    #[serde(skip)]
+    pub version: u64,
+}
+
+/// The newest tokens of a channel, as time in ns and text.
+#[derive(Default)]
+pub struct Tokens {
+    /// Number of all tokens so far.
+    pub count: u64,
+    pub newest: VecDeque<(i64, String)>,
+}
+
+impl Default for Live {
+    fn default() -> Self {
+        Self {
+            runs: 0,
+            run: Run::Starting("starting".to_owned()),
+            about: None,
+            now: 0,
+            nodes: vec![],
+            handled: vec![],
+            lost: 0,
+            problem_count: 0,
+            problems: VecDeque::new(),
+            params: BTreeMap::new(),
+            tokens: BTreeMap::new(),
+            paused: false,
+            speed: f64::INFINITY,
+            lanes: vec![],
+        }
+    }
+}
+
+impl Live {
+    /// Begins a run of the robot that a message describes.
+    pub fn begin(&mut self, about: About) {
+        let runs = self.runs + 1;
+        *self = Self { runs, run: Run::Running, ..Self::default() };
+        self.nodes = vec![Node::default(); about.nodes.len()];
+        self.lanes = about.nodes.iter().map(|_| Lane::default()).collect();
+        self.handled = vec![0; about.connections.len()];
+        self.about = Some(Arc::new(about));
+    }
+
+    /// Takes note of a message. Numbers that do not fit the description of the robot are ignored.
+    pub fn note(&mut self, report: Report) {
+        match report {
+            Report::About(about) => self.begin(about),
+            Report::Active(nodes) => nodes.into_iter().for_each(|node| self.activity(node, true)),
+            Report::Reaction { now, .. } => self.now = self.now.max(now),
+            Report::Fired(node) => self.fire(node),
+            Report::Handled(connection) => self.handle(connection),
+            Report::Activity { node, active } => self.activity(node, active),
+            Report::Failed { node, error } => self.problem(Some(node), error),
+            Report::Late { node, age } => {
+                let late = format!("missed its deadline: it finished {} ms after its source fired", age / 1_000_000);
+                self.problem(Some(node), late);
+            }
+            Report::Hung { node, running } => {
+                self.problem(Some(node), format!("hangs: it has been running for {} ms", running / 1_000_000));
+            }
+            Report::Refused { node, parameter, value } => {
+                self.problem(Some(node), format!("keeps its `{parameter}`: {value} is out of range"));
+            }
+            Report::Waits(connection) => self.deadlock(connection),
+            Report::Endless(nodes) => {
+                let node = nodes.iter().max_by_key(|(_, count)| *count).map(|(node, _)| *node);
+                self.problem(node, "tokens cycle without time passing".to_owned());
+            }
+            Report::ClaimFailed(claim) => {
+                let claims = self.about.as_ref().map_or(&[][..], |about| &about.claims);
+                let claim = claims.get(claim as usize).map_or("?", String::as_str);
+                self.problem(None, format!("the claim `{claim}` does not hold"));
+            }
+            Report::Value { channel, now, text } => {
+                let tokens = self.tokens.entry(channel).or_default();
+                tokens.count += 1;
+                tokens.newest.push_back((now, text));
+                if tokens.newest.len() > MAX_TOKENS {
+                    tokens.newest.pop_front();
+                }
+            }
+            Report::Lost(count) => self.lost += count,
+            Report::Param { name, value } => self.param(name, value),
+            Report::Pace { paused, speed } => (self.paused, self.speed) = (paused, speed),
+            Report::Ended => self.run = Run::Ended,
+        }
+    }
+
+    fn fire(&mut self, node: u32) {
+        if let Some(state) = self.nodes.get_mut(node as usize) {
+            state.fired += 1;
+            state.last = self.now;
+            self.lanes[node as usize].fire(self.now);
+        }
+    }
+
+    fn handle(&mut self, connection: u32) {
+        if let Some(count) = self.handled.get_mut(connection as usize) {
+            *count += 1;
+        }
+        let to = self.about.as_ref().and_then(|about| Some(about.connections.get(connection as usize)?.to));
+        if let Some(to) = to {
+            self.fire(to);
+        }
+    }
+
+    fn activity(&mut self, node: u32, active: bool) {
+        if let Some(state) = self.nodes.get_mut(node as usize) {
+            state.active = active;
+            self.lanes[node as usize].activity(self.now, active);
+        }
+    }
+
+    fn deadlock(&mut self, connection: u32) {
+        let Some(about) = self.about.clone() else { return };
+        let Some(connection) = about.connections.get(connection as usize) else { return };
+        let from = about.nodes.get(connection.from as usize).map_or("?", |node| &node.name);
+        let event = &connection.output;
+        let text = format!("waits for the event `{from}.{event}`, which can no longer be triggered");
+        self.problem(Some(connection.to), text);
+    }
+
+    fn problem(&mut self, node: Option<u32>, text: String) {
+        if let Some((state, lane)) =
+            node.and_then(|node| self.nodes.get_mut(node as usize).zip(self.lanes.get_mut(node as usize)))
+        {
+            state.problems += 1;
+            lane.mark(self.now);
+        }
+        self.problem_count += 1;
+        self.problems.push_back(Problem { at: self.now as f64 / 1e9, node, text });
+        if self.problems.len() > MAX_PROBLEMS {
+            self.problems.pop_front();
+        }
+    }
+
+    fn param(&mut self, name: String, value: Result<String, String>) {
+        let is_new = !self.params.contains_key(&name);
+        let param = self.params.entry(name).or_default();
+        param.version += 1;
+        match value {
+            Ok(value) => {
+                if is_new {
+                    param.initial.clone_from(&value);
+                }
+                (param.value, param.error) = (value, None);
+            }
+            Err(error) => param.error = Some(error),
+        }
+    }
+
+    /// The lanes of all nodes that were active or had problems, and of those in `also`.
+    pub fn draw(&self, window: Window, also: &[usize]) -> Vec<Drawn> {
+        let is_drawn = |(at, lane): &(usize, &Lane)| lane.is_of_interest() || also.contains(at);
+        self.lanes.iter().enumerate().filter(is_drawn).map(|(at, lane)| lane.draw(at, window, self.now)).collect()
+    }
+}

@@ -1,0 +1,153 @@
+//! The web server: a page, and a socket for what it asks and is told.
+
+use crate::{
+    Source,
+    robot::Shared,
+    session::{Asked, Session, Told},
+};
+use axum::{
+    Router,
+    extract::{
+        State, WebSocketUpgrade,
+        ws::{Message, WebSocket},
+    },
+    http::{HeaderMap, StatusCode, header},
+    response::{IntoResponse, Response},
+    routing::get,
+};
+use std::{io, net::SocketAddr, sync::Arc, time::Duration};
+use tokio::{net::TcpListener, time};
+
+/// Interval at which a page gets news.
+const TICK: Duration = Duration::from_millis(50);
+/// Time that a page has for its token, and for taking a message.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Maximum size of a message of a page in bytes.
+const MAX_MESSAGE: usize = 1 << 20;
+
+/// Nothing but this page and its socket: no scripts in names or documentation, no other sites.
+const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// What every page needs.
+#[derive(Clone)]
+pub struct Serving {
+    pub shared: Arc<Shared>,
+    pub source: Arc<dyn Source>,
+    pub token: Arc<str>,
+    pub address: SocketAddr,
+    pub readonly: bool,
+}
+
+/// Serves pages until `stop` is complete.
+pub async fn serve(
+    serving: Serving,
+    listener: TcpListener,
+    stop: impl Future<Output = ()> + Send + 'static,
+) -> io::Result<()> {
+    let router =
+        FILES.iter().fold(Router::new(), |router, file| router.route(file.path, get(|| async { file.response() })));
+    let router = router.route("/live", get(live)).with_state(serving);
+    tokio::select! {
+        result = async { axum::serve(listener, router).await } => result,
+        () = stop => Ok(()),
+    }
+}
+
+/// A file of the page, embedded in the program.
+struct File {
+    path: &'static str,
+    kind: &'static str,
+    text: &'static str,
+}
+
+const FILES: [File; 8] = [
+    File { path: "/", kind: "text/html; charset=utf-8", text: include_str!("../page/index.html") },
+    File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
+    File { path: "/studio.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/studio.js") },
+    File { path: "/picture.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/picture.js") },
+    File { path: "/timeline.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/timeline.js") },
+    File { path: "/params.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/params.js") },
+    File { path: "/values.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/values.js") },
+    File { path: "/text.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/text.js") },
+];
+
+impl File {
+    fn response(&self) -> Response {
+        let headers = [
+            (header::CONTENT_TYPE, self.kind),
+            (header::CONTENT_SECURITY_POLICY, POLICY),
+            (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+            (header::CACHE_CONTROL, "no-store"),
+        ];
+        (headers, self.text).into_response()
+    }
+}
+
+async fn live(State(serving): State<Serving>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
+    if let Err(why) = serving.admits(&headers) {
+        return (StatusCode::FORBIDDEN, why).into_response();
+    }
+    upgrade.max_message_size(MAX_MESSAGE).on_upgrade(|socket| talk(serving, socket))
+}
+
+impl Serving {
+    /// Refuses other sites: their pages may not talk to a robot through the browser of its user.
+    fn admits(&self, headers: &HeaderMap) -> Result<(), &'static str> {
+        let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
+        let host = text(header::HOST).unwrap_or_default();
+        let own = [self.address.to_string(), format!("localhost:{}", self.address.port())];
+        let is_own = |host: &str| own.iter().any(|own| own == host) || self.address.ip().is_unspecified();
+        if !is_own(host) {
+            return Err("this is not the host of the studio");
+        }
+        match text(header::ORIGIN) {
+            Some(origin) if origin.strip_prefix("http://") == Some(host) => Ok(()),
+            _ => Err("this is not a page of the studio"),
+        }
+    }
+}
+
+/// Talks to a page until it leaves.
+async fn talk(serving: Serving, mut socket: WebSocket) {
+    let token = time::timeout(PATIENCE, socket.recv()).await;
+    let is_right =
+        matches!(&token, Ok(Some(Ok(Message::Text(text)))) if is_same(text.as_bytes(), serving.token.as_bytes()));
+    if !is_right {
+        // The page says what to do.
+        let _ = socket.send(Message::Text("{\"refused\":null}".into())).await;
+        return;
+    }
+    let mut session = Session::new(serving.shared, serving.source, serving.readonly);
+    let mut tick = time::interval(TICK);
+    // A page that was slow gets the newest state, not all that it missed.
+    tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
+    loop {
+        let told = tokio::select! {
+            _ = tick.tick() => session.news(),
+            message = socket.recv() => match message {
+                Some(Ok(Message::Text(text))) => match serde_json::from_str::<Asked>(&text) {
+                    Ok(asked) => session.answer(asked).into_iter().collect(),
+                    Err(_) => vec![],
+                },
+                Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                Some(Ok(_)) => vec![],
+            },
+        };
+        for told in told {
+            if !send(&mut socket, &told).await {
+                return;
+            }
+        }
+    }
+}
+
+/// Sends a message. Returns `false` if the page is gone.
+async fn send(socket: &mut WebSocket, told: &Told) -> bool {
+    let Ok(text) = serde_json::to_string(told) else { return false };
+    matches!(time::timeout(PATIENCE, socket.send(Message::Text(text.into()))).await, Ok(Ok(())))
+}
+
+/// Compares all bytes, so that the time says nothing about the token.
+fn is_same(given: &[u8], token: &[u8]) -> bool {
+    given.len() == token.len() && given.iter().zip(token).fold(0, |wrong, (a, b)| wrong | (a ^ b)) == 0
+}

@@ -1,0 +1,244 @@
+//! One page: what it asks for, and what it is told. All messages are JSON.
+
+use crate::{
+    Source,
+    lane::{Drawn, Window},
+    live::{Live, Node, Param, Problem, Run},
+    picture::Picture,
+    robot::Shared,
+};
+use apex_rt::studio::message::{About, Command};
+use serde::{Deserialize, Serialize};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
+
+/// A message to the page.
+#[derive(Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Told {
+    /// A robot. Everything about an earlier one is obsolete.
+    About { run: u64, about: Arc<About>, texts: Vec<String>, readonly: bool },
+    /// The picture.
+    Picture { svg: String, graphs: Vec<String>, open: BTreeSet<String>, lines: BTreeMap<String, Vec<usize>> },
+    /// What has changed since the last such message.
+    Tick(Tick),
+    /// New problems.
+    Problems { count: u64, problems: Vec<Problem> },
+    /// Parameters that have changed.
+    Params(BTreeMap<String, Param>),
+    /// New tokens of channels, as time in s and text.
+    Tokens(BTreeMap<u32, Vec<(f64, String)>>),
+    /// Lanes of the timeline.
+    Lanes { from: f64, to: f64, columns: u32, lanes: Vec<Drawn> },
+}
+
+/// State of the run.
+#[derive(Serialize)]
+pub struct Tick {
+    run: Run,
+    /// Time in s.
+    now: f64,
+    paused: bool,
+    /// Simulated seconds per second; `null` for as fast as possible.
+    speed: Option<f64>,
+    lost: u64,
+    /// Nodes that have changed: index, active, number of firings, time of the last one in s, number of problems.
+    nodes: Vec<(usize, bool, u64, f64, u64)>,
+    /// Connections that have changed, with the number of their tokens.
+    handled: Vec<(usize, u64)>,
+}
+
+/// A message of the page.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Asked {
+    /// Opens these nested graphs, and closes all others.
+    Open(BTreeSet<String>),
+    /// Sets a parameter to a value in TOML.
+    Set { name: String, value: String },
+    /// Halts the robot.
+    Pause,
+    /// Lets it react once.
+    Step,
+    /// Lets it continue at this speed; without one, as fast as possible.
+    Run { speed: Option<f64> },
+    /// Starts it again.
+    Restart,
+    /// Asks for the tokens of these channels, and of no others.
+    Watch(BTreeSet<u32>),
+    /// Asks for the lanes of the timeline, with those of `also`. Times are in s.
+    Lanes { from: f64, to: f64, columns: u32, also: Vec<usize> },
+}
+
+/// Maximum number of columns of the timeline.
+const MAX_COLUMNS: u32 = 10_000;
+
+/// A page.
+pub struct Session {
+    shared: Arc<Shared>,
+    source: Arc<dyn Source>,
+    readonly: bool,
+    seen: Seen,
+    picture: Option<Picture>,
+    watched: BTreeSet<u32>,
+    /// The open graphs, from the first choice of the user on.
+    open: Option<BTreeSet<String>>,
+}
+
+/// What the page knows.
+#[derive(Default)]
+struct Seen {
+    runs: u64,
+    nodes: Vec<Node>,
+    handled: Vec<u64>,
+    problems: u64,
+    params: BTreeMap<String, u64>,
+    tokens: BTreeMap<u32, u64>,
+}
+
+impl Session {
+    pub fn new(shared: Arc<Shared>, source: Arc<dyn Source>, readonly: bool) -> Self {
+        let (seen, watched) = (Seen::default(), BTreeSet::new());
+        Self { shared, source, readonly, seen, picture: None, watched, open: None }
+    }
+
+    /// Answers the page.
+    pub fn answer(&mut self, asked: Asked) -> Option<Told> {
+        let command = match asked {
+            Asked::Open(open) => {
+                self.open = Some(open);
+                return self.draw();
+            }
+            Asked::Watch(channels) => {
+                channels.difference(&self.watched).for_each(|channel| self.shared.watch(*channel));
+                self.watched.difference(&channels).for_each(|channel| self.shared.unwatch(*channel));
+                self.watched = channels;
+                return None;
+            }
+            Asked::Lanes { from, to, columns, also } => {
+                let columns = columns.clamp(1, MAX_COLUMNS);
+                let window = Window { from: (from * 1e9) as i64, to: (to * 1e9) as i64, columns };
+                return Some(Told::Lanes { from, to, columns, lanes: self.shared.live().draw(window, &also) });
+            }
+            _ if self.readonly => return None,
+            Asked::Restart => {
+                self.shared.restart();
+                return None;
+            }
+            Asked::Set { name, value } => Command::Set { name, value },
+            Asked::Pause => Command::Pause,
+            Asked::Step => Command::Step,
+            Asked::Run { speed } => Command::Run { speed: speed.unwrap_or(f64::INFINITY) },
+        };
+        self.shared.tell(&command);
+        None
+    }
+
+    /// All that has happened since the last call.
+    pub fn news(&mut self) -> Vec<Told> {
+        let shared = Arc::clone(&self.shared);
+        let live = shared.live();
+        let mut told = vec![];
+        if let Some(about) = live.about.clone().filter(|_| live.runs != self.seen.runs) {
+            self.seen = Seen { runs: live.runs, ..Seen::default() };
+            self.seen.nodes = vec![Node::default(); live.nodes.len()];
+            self.seen.handled = vec![0; live.handled.len()];
+            let picture = self.source.picture(&about.name);
+            self.picture = picture.map(Picture::new);
+            let texts = self.source.texts(&about.files);
+            told.push(Told::About { run: live.runs, about, texts, readonly: self.readonly });
+            drop(live);
+            told.extend(self.draw());
+            told.extend(self.since(&shared.live()));
+        } else {
+            told.extend(self.since(&live));
+        }
+        told
+    }
+
+    fn draw(&mut self) -> Option<Told> {
+        let about = self.shared.live().about.clone()?;
+        let picture = self.picture.as_ref()?;
+        let open = self.open.clone().unwrap_or_else(|| picture.first_open());
+        let (svg, lines) = (picture.svg(&open), picture.lines(&about));
+        Some(Told::Picture { svg, graphs: picture.graphs(), open, lines })
+    }
+
+    fn since(&mut self, live: &Live) -> Vec<Told> {
+        if live.runs != self.seen.runs {
+            return vec![];
+        }
+        let mut told = vec![Told::Tick(self.seen.tick(live))];
+        let new = usize::try_from(live.problem_count - self.seen.problems).unwrap_or(usize::MAX);
+        if new > 0 {
+            self.seen.problems = live.problem_count;
+            let problems = live.problems.iter().skip(live.problems.len().saturating_sub(new)).cloned().collect();
+            told.push(Told::Problems { count: live.problem_count, problems });
+        }
+        let params = self.seen.params(live);
+        if !params.is_empty() {
+            told.push(Told::Params(params));
+        }
+        let tokens = self.seen.tokens(live, &self.watched);
+        if !tokens.is_empty() {
+            told.push(Told::Tokens(tokens));
+        }
+        told
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.watched.iter().for_each(|channel| self.shared.unwatch(*channel));
+    }
+}
+
+fn seconds(nanos: i64) -> f64 {
+    nanos as f64 / 1e9
+}
+
+impl Seen {
+    fn tick(&mut self, live: &Live) -> Tick {
+        let mut nodes = vec![];
+        for (at, (node, seen)) in live.nodes.iter().zip(&mut self.nodes).enumerate() {
+            if node != seen {
+                nodes.push((at, node.active, node.fired, seconds(node.last), node.problems));
+                *seen = *node;
+            }
+        }
+        let mut handled = vec![];
+        for (at, (count, seen)) in live.handled.iter().zip(&mut self.handled).enumerate() {
+            if count != seen {
+                handled.push((at, *count));
+                *seen = *count;
+            }
+        }
+        let speed = live.speed.is_finite().then_some(live.speed);
+        let (run, now) = (live.run.clone(), seconds(live.now));
+        Tick { run, now, paused: live.paused, speed, lost: live.lost, nodes, handled }
+    }
+
+    fn params(&mut self, live: &Live) -> BTreeMap<String, Param> {
+        let is_new = |(name, param): &(&String, &Param)| self.params.get(*name) != Some(&param.version);
+        let new: BTreeMap<String, Param> =
+            live.params.iter().filter(is_new).map(|(name, param)| (name.clone(), param.clone())).collect();
+        self.params.extend(new.iter().map(|(name, param)| (name.clone(), param.version)));
+        new
+    }
+
+    fn tokens(&mut self, live: &Live, watched: &BTreeSet<u32>) -> BTreeMap<u32, Vec<(f64, String)>> {
+        let mut new = BTreeMap::new();
+        for (channel, tokens) in live.tokens.iter().filter(|(channel, _)| watched.contains(channel)) {
+            let seen = self.tokens.insert(*channel, tokens.count).unwrap_or(0);
+            let count = usize::try_from(tokens.count - seen).unwrap_or(usize::MAX);
+            let newest = tokens.newest.iter().skip(tokens.newest.len().saturating_sub(count));
+            let newest: Vec<(f64, String)> = newest.map(|(now, text)| (seconds(*now), text.clone())).collect();
+            if !newest.is_empty() {
+                new.insert(*channel, newest);
+            }
+        }
+        new
+    }
+}
