@@ -19,6 +19,7 @@ mod nodes;
 mod project;
 mod replace;
 mod run;
+mod studio;
 mod test;
 mod texts;
 mod times;
@@ -247,6 +248,47 @@ enum Command {
         /// file is kept, and the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
+        /// Open a socket at this address, for `apex studio --connect` on this machine or another one. Everyone who can
+        /// connect can set parameters.
+        #[arg(long, value_name = "HOST:PORT")]
+        stream: Option<String>,
+        #[command(flatten)]
+        how: Building,
+        /// Arguments for the program.
+        #[arg(last = true)]
+        args: Vec<String>,
+    },
+    /// Run a robot and open a page on which it can be seen: what is active, what fires, what fails; with its parameters.
+    #[command(
+        after_help = "Prints the address of the page, which has a secret token. The robot is built again after each change of its source files;\nwhile these have errors, the old one continues. In simulated time (--simulated or --replay) it can be halted and run step\nby step.\n\nExample:\n  apex studio --simulated robot.afg\n  apex studio --replay run.mcap robot.afg\n  apex studio --connect 10.0.0.7:7400 robot.afg"
+    )]
+    Studio {
+        /// Source file.
+        file: PathBuf,
+        /// Name of the robot or graph, if the file has several.
+        #[arg(long)]
+        robot: Option<String>,
+        /// Look at a robot that runs already: `apex run --stream HOST:PORT`.
+        #[arg(long, value_name = "HOST:PORT", conflicts_with_all = ["replay", "simulated", "params", "release", "quiet"])]
+        connect: Option<String>,
+        /// Repeat this recording instead of running the robot.
+        #[arg(long, value_name = "FILE")]
+        replay: Option<PathBuf>,
+        /// Simulate the time, for robots whose sources do so.
+        #[arg(long)]
+        simulated: bool,
+        /// Simulated seconds per second at the beginning.
+        #[arg(long, default_value_t = 1.0, value_parser = studio::speed)]
+        speed: f64,
+        /// File (TOML) with parameters that are set before the run.
+        #[arg(long, value_name = "FILE")]
+        params: Option<PathBuf>,
+        /// Address of the page. Other machines reach it only if it is not a loopback address.
+        #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:7410")]
+        listen: std::net::SocketAddr,
+        /// Only look: the page can neither set parameters nor halt the robot.
+        #[arg(long)]
+        read_only: bool,
         #[command(flatten)]
         how: Building,
         /// Arguments for the program.
@@ -318,16 +360,22 @@ fn main() -> ExitCode {
                 recording,
                 args: &[],
                 watch: false,
+                stream: run::Stream::None,
+                simulated: false,
                 how: how.how(),
             })
         }
-        Command::Run { file, robot, params, save_params, watch, profile, record, how, args } => {
+        Command::Studio { file, robot, connect, replay, simulated, speed, params, listen, read_only, how, args } => {
+            let launch = studio::Launch { file, robot, replay, simulated, params, args, how: how.how() };
+            studio::run(launch, &studio::Page { connect, listen, read_only, speed })
+        }
+        Command::Run { file, robot, params, save_params, watch, profile, record, stream, how, args } => {
             let params = run::Params { load: params, save: save_params };
             let (robot, profile) = (robot.as_deref(), profile.as_deref());
             let recording = record.as_deref().map_or(run::Recording::Stated, run::Recording::Made);
-            let how = how.how();
-            let wanted =
-                run::Wanted { file: &file, robot, params: &params, profile, recording, args: &args, watch, how };
+            let (args, stream) = (&args[..], stream.as_deref().map_or(run::Stream::None, run::Stream::At));
+            let (file, params, simulated, how) = (&file, &params, false, how.how());
+            let wanted = run::Wanted { file, robot, params, profile, recording, args, watch, stream, simulated, how };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };

@@ -105,6 +105,13 @@ impl Checked {
     pub fn print_diagnostics(&self) {
         print_diagnostics(&self.diagnostics, &self.sources);
     }
+
+    /// All messages, without colours.
+    pub fn rendered(&self) -> String {
+        let sorted = self.diagnostics.sorted();
+        let texts: Vec<String> = sorted.iter().map(|diagnostic| render(diagnostic, &self.sources, false)).collect();
+        texts.join("\n\n")
+    }
 }
 
 /// Prints all messages to standard error.

@@ -74,6 +74,10 @@ const PROFILE: &str = "APEX_PROFILE";
 const RECORD: &str = "APEX_RECORD";
 const REPLAY: &str = "APEX_REPLAY";
 
+/// Environment variables with the socket for viewers, for every program (`apex_rt::drive`).
+const STREAM: &str = "APEX_STUDIO";
+const STREAM_WAITS: &str = "APEX_STUDIO_WAIT";
+
 /// Use of a recording.
 #[derive(Clone, Copy, Default)]
 pub enum Recording<'a> {
@@ -133,8 +137,22 @@ pub struct Wanted<'a> {
     pub args: &'a [String],
     /// `true` to build again after every change and keep changed parameters.
     pub watch: bool,
+    /// Socket at which viewers can connect.
+    pub stream: Stream<'a>,
+    /// `true` if the time of a program that is made is simulated.
+    pub simulated: bool,
     /// Settings of the build.
     pub how: How,
+}
+
+/// Socket for viewers.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Stream<'a> {
+    None,
+    /// A socket at this address.
+    At(&'a str),
+    /// A socket at this address; a program in simulated time waits for a viewer.
+    WaitAt(&'a str),
 }
 
 /// A built program. It may be started while the lock is held.
@@ -168,6 +186,12 @@ impl Wanted<'_> {
             Recording::Made(path) => drop(command.env(RECORD, here(path))),
             Recording::Repeated(path) => drop(command.env(REPLAY, here(path))),
         }
+        command.env_remove(STREAM).env_remove(STREAM_WAITS);
+        match self.stream {
+            Stream::None => {}
+            Stream::At(address) => drop(command.env(STREAM, address)),
+            Stream::WaitAt(address) => drop(command.env(STREAM, address).env(STREAM_WAITS, "1")),
+        }
         let Some(made) = &program.made else { return command };
         let kept = self.watch.then(|| made.join("kept"));
         for (name, path) in [(LOAD, &self.params.load), (SAVE, &self.params.save), (KEPT, &kept)] {
@@ -199,8 +223,8 @@ impl Wanted<'_> {
         let workspace = Workspace::load(&folder)?;
         has_apex(&folder, &workspace)?;
         let (package, binary) = workspace.binary();
-        // The package's own program may not use `apex_rt::drive`, which repeats recordings.
-        let repeats = matches!(self.recording, Recording::Repeated(_));
+        // The package's own program may not use `apex_rt::drive`, which repeats recordings, and has a clock of its own.
+        let repeats = matches!(self.recording, Recording::Repeated(_)) || self.simulated;
         let Some(binary) = binary.filter(|_| self.robot.is_none() && !repeats) else {
             return self.make(choose(programs, self.robot)?, &workspace);
         };
@@ -222,7 +246,8 @@ impl Wanted<'_> {
     /// Features of the runtime that a program with one of `graphs` needs.
     fn features(&self, params: bool, graphs: &[&Graph]) -> Vec<&'static str> {
         let stated = graphs.iter().any(|graph| graph.record.is_some());
-        let records = stated || !matches!(self.recording, Recording::Stated);
+        let streams = self.stream != Stream::None;
+        let records = stated || streams || !matches!(self.recording, Recording::Stated);
         let mut threads = graphs.iter().flat_map(|graph| &graph.threads);
         let realtime = threads.any(|thread| !thread.cores.is_empty() || thread.priority.is_some());
         let wanted = [
@@ -231,6 +256,7 @@ impl Wanted<'_> {
             ("profile", self.profile.is_some()),
             ("realtime", realtime),
             (made::RECORD, records),
+            ("studio", streams),
         ];
         wanted.into_iter().filter(|(_, wanted)| *wanted).map(|(feature, _)| feature).collect()
     }
@@ -250,12 +276,12 @@ impl Wanted<'_> {
         let text = absolute(self.file)?;
         let made = Made {
             workspace,
-            what: "run",
+            what: if self.simulated { "simulate" } else { "run" },
             text: &text,
             program: &graph.name,
             features: &self.features(params, &[graph]),
             file: "src/main.rs",
-            code: &main_file(made::utf8(&text)?, &graph.name, params),
+            code: &main_file(made::utf8(&text)?, &graph.name, self.simulated, params),
         };
         let turn = Turn::wait(workspace, self.how)?;
         let built = build::build(&made.make()?, build::PROGRAM, self.how)?.program()?;
@@ -354,10 +380,11 @@ pub fn absolute(file: &Path) -> Result<PathBuf, String> {
 }
 
 /// Code of the made program. It drives the graph `name` of `file`, with parameters from files if `params` is set.
-fn main_file(file: &str, name: &str, params: bool) -> String {
+fn main_file(file: &str, name: &str, simulated: bool, params: bool) -> String {
+    let clock = if simulated { "SimClock::until(Time::MAX)" } else { "WallClock::new()" };
     if !params {
         return format!(
-            "use apex_macros::graph;\nuse apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({name}::new(), WallClock::new());\n}}\n"
+            "use apex_macros::graph;\nuse apex_rt::prelude::*;\n\ngraph!({file:?});\n\nfn main() {{\n    run({name}::new(), {clock});\n}}\n"
         );
     }
     format!(
@@ -371,7 +398,7 @@ fn drive() -> Result<u8, String> {{
     let file = |name| env::var_os(name).map(PathBuf::from);
     let (load, save, kept) = (file("{LOAD}"), file("{SAVE}"), file("{KEPT}"));
     // Without this clock, Ctrl-C would end the program at once, and nothing would be saved.
-    let clock = UntilStopped::ctrl_c(WallClock::new())?;
+    let clock = UntilStopped::ctrl_c({clock})?;
     run_with_files({name}::new(), clock, load.as_deref(), save.as_deref(), kept.as_deref())
 }}
 

@@ -1,0 +1,97 @@
+// @ts-check
+// The parameters of the robot: sliders where a range is known.
+import { ask, empty, robot } from "./studio.js";
+
+/** @typedef {{initial: string, value: string, error: string | null}} Param */
+
+export class Params {
+  /** @param {HTMLElement} place @param {HTMLInputElement} filter */
+  constructor(place, filter) {
+    this.place = place;
+    this.filter = filter;
+    /** @type {Map<string, {row: HTMLElement, show: (param: Param) => void}>} */ this.rows = new Map();
+    filter.addEventListener("input", () => this.sift());
+  }
+
+  begin() {
+    this.rows.clear();
+    this.place.replaceChildren();
+    for (const info of robot.about?.params ?? []) {
+      const row = this.row(info);
+      this.rows.set(info.name, row);
+      this.place.append(row.row);
+    }
+    if (this.rows.size === 0) this.place.append(empty("no parameters"));
+    this.sift();
+  }
+
+  /** @param {Record<string, Param>} all */
+  update(all) {
+    for (const [name, param] of Object.entries(all)) this.rows.get(name)?.show(param);
+  }
+
+  sift() {
+    const words = this.filter.value.toLowerCase();
+    for (const [name, { row }] of this.rows) row.hidden = !name.toLowerCase().includes(words);
+  }
+
+  /** @param {import("./studio.js").ParamInfo} info */
+  row(info) {
+    const make = (/** @type {string} */ kind, /** @type {string} */ name, words = "") => {
+      const made = document.createElement(kind);
+      made.className = name;
+      made.textContent = words;
+      return made;
+    };
+    const row = make("div", "param");
+    row.dataset.param = info.name;
+    const [line, error] = [make("div", "row"), make("div", "error")];
+    const text = /** @type {HTMLInputElement} */ (make("input", ""));
+    text.type = "text";
+    text.setAttribute("aria-label", info.name);
+    const undo = /** @type {HTMLButtonElement} */ (make("button", "undo", "↺"));
+    const set = (/** @type {string} */ value) => ask({ set: { name: info.name, value } });
+    let initial = "";
+    text.addEventListener("change", () => set(text.value));
+    undo.addEventListener("click", () => set(initial));
+    /** @type {HTMLInputElement | null} */ let slider = null;
+    const whole = !/f32|f64/.test(info.ty);
+    if (info.min !== null && info.max !== null) {
+      slider = /** @type {HTMLInputElement} */ (make("input", ""));
+      slider.type = "range";
+      slider.min = String(info.min);
+      slider.max = String(info.max);
+      slider.step = whole ? "1" : String((info.max - info.min) / 1000);
+      slider.setAttribute("aria-label", info.name);
+      let waits = false;
+      slider.addEventListener("input", () => {
+        const value = Number(/** @type {HTMLInputElement} */ (slider).value);
+        text.value = whole ? String(value) : floating(value);
+        if (waits) return;
+        waits = true;
+        setTimeout(() => { waits = false; set(text.value); }, 50);
+      });
+      line.append(slider);
+    }
+    line.append(text, make("span", "unit", info.unit ?? ""), undo);
+    const range = info.min === null && info.max === null ? info.ty : `${info.ty}, ${info.min ?? ""}..${info.max ?? ""}`;
+    row.append(make("div", "name", info.name), line, make("div", "range", range), error);
+    for (const input of [text, slider, undo]) if (input) input.disabled = robot.readonly;
+    const show = (/** @type {Param} */ param) => {
+      initial = param.initial;
+      row.classList.toggle("is-changed", param.value !== param.initial);
+      undo.hidden = param.value === param.initial;
+      undo.title = `back to ${param.initial}`;
+      error.textContent = param.error ?? "";
+      if (document.activeElement !== text || param.error === null) text.value = param.value;
+      if (slider && document.activeElement !== slider) slider.value = param.value;
+    };
+    return { row, show };
+  }
+}
+
+/** A number that TOML takes as one with a fraction. @param {number} value */
+function floating(value) {
+  const short = String(Number(value.toPrecision(6)));
+  return /[.e]/.test(short) ? short : `${short}.0`;
+}

@@ -1,0 +1,209 @@
+// @ts-check
+// The picture of the robot: the SVG of `apex graph`, alive.
+import { ask, robot, select, tip } from "./studio.js";
+
+export class Picture {
+  /** @param {HTMLElement} place */
+  constructor(place) {
+    this.place = place;
+    /** @type {SVGSVGElement | null} */ this.svg = null;
+    /** @type {Map<string, {element: Element, nodes: number[], path: string}>} */ this.items = new Map();
+    /** @type {{element: Element, connections: number[]}[]} */ this.lines = [];
+    /** @type {string[]} */ this.graphs = [];
+    /** @type {Set<string>} */ this.open = new Set();
+    /** A node to be shown when its graph is open. @type {string | null} */ this.wanted = null;
+    this.view = { x: 0, y: 0, width: 1, height: 1 };
+    this.listen();
+  }
+
+  /** Shows a picture. @param {{svg: string, graphs: string[], open: string[], lines: Record<string, number[]>}} told */
+  show({ svg, graphs, open, lines }) {
+    const parsed = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
+    if (parsed.localName !== "svg") return;
+    const before = this.svg;
+    this.svg = /** @type {any} */ (document.importNode(parsed, true));
+    this.svg?.removeAttribute("width");
+    this.svg?.removeAttribute("height");
+    this.graphs = graphs;
+    this.open = new Set(open);
+    this.place.replaceChildren(/** @type {any} */ (this.svg));
+    // Names are unique; a node inside a graph also lets the graph appear active.
+    const names = robot.about?.nodes.map((node) => node.name) ?? [];
+    this.items.clear();
+    for (const element of this.svg?.querySelectorAll("[data-item]") ?? []) {
+      const path = element.getAttribute("data-item") ?? "";
+      const inside = (/** @type {string} */ name) => name === path || name.startsWith(`${path}.`);
+      const nodes = names.flatMap((name, at) => (inside(name) ? [at] : []));
+      if (path !== "") this.items.set(path, { element, nodes, path });
+      element.classList.toggle("can-open", graphs.includes(path));
+    }
+    this.lines = [...(this.svg?.querySelectorAll("[data-from]") ?? [])].map((element) => ({
+      element,
+      connections: lines[`${element.getAttribute("data-from")} ${element.getAttribute("data-to")}`] ?? [],
+    }));
+    const size = this.svg?.viewBox.baseVal;
+    if (size) this.size = { width: size.width, height: size.height };
+    if (!before || !this.shownBefore) this.fit();
+    else this.look();
+    this.shownBefore = true;
+    this.select(robot.selected);
+    this.update();
+    if (this.wanted) this.jump(this.wanted);
+  }
+
+  /** Shows what is active, fires and fails. */
+  update() {
+    for (const { element, nodes } of this.items.values()) {
+      const states = nodes.map((at) => robot.nodes[at]);
+      element.classList.toggle("is-active", states.some((node) => node.active));
+      element.classList.toggle("is-firing", states.some((node) => node.fresh));
+      element.classList.toggle("has-problem", states.some((node) => node.problems > 0));
+    }
+    for (const { element, connections } of this.lines) {
+      element.classList.toggle("flows", connections.some((at) => this.flows(at)));
+    }
+  }
+
+  /** `true` if a token has just come over a connection. @param {number} at */
+  flows(at) {
+    const connection = robot.about?.connections[at];
+    if (!connection) return false;
+    if (robot.connections[at].fresh) return true;
+    return !this.isEvent(connection) && robot.nodes[connection.from].fresh && robot.nodes[connection.to].fresh;
+  }
+
+  /** `true` if the connection ends at a slot. @param {import("./studio.js").Connection} connection */
+  isEvent(connection) {
+    const ports = robot.about?.nodes[connection.to].ports ?? [];
+    return ports.find(([name]) => name === connection.input)?.[1] === "slot";
+  }
+
+  /** @param {string | null} name */
+  select(name) {
+    for (const { element, path } of this.items.values()) element.classList.toggle("is-selected", path === name);
+  }
+
+  /** Selects a node and brings it into view, and opens the graphs around it. @param {string} name */
+  jump(name) {
+    const around = this.graphs.filter((graph) => name.startsWith(`${graph}.`));
+    if (around.some((graph) => !this.open.has(graph))) {
+      this.wanted = name;
+      around.forEach((graph) => this.open.add(graph));
+      ask({ open: [...this.open] });
+      return;
+    }
+    this.wanted = null;
+    select(name);
+    const box = /** @type {any} */ (this.items.get(name)?.element)?.getBoundingClientRect();
+    const place = this.place.getBoundingClientRect();
+    if (!box) return;
+    const is = box.left >= place.left && box.right <= place.right && box.top >= place.top && box.bottom <= place.bottom;
+    if (is && box.width > 30) return;
+    const scale = this.view.width / place.width;
+    this.view.x += ((box.left + box.right) / 2 - (place.left + place.right) / 2) * scale;
+    this.view.y += ((box.top + box.bottom) / 2 - (place.top + place.bottom) / 2) * scale;
+    this.look();
+  }
+
+  /** Opens or closes a nested graph. @param {string | null} name */
+  toggle(name) {
+    const graph = this.graphs.includes(name ?? "") ? name : this.graphs.filter((g) => name?.startsWith(`${g}.`)).sort((a, b) => b.length - a.length)[0];
+    if (!graph) return;
+    if (!this.open.delete(graph)) this.open.add(graph);
+    ask({ open: [...this.open] });
+  }
+
+  /** Shows all of it. */
+  fit() {
+    const { width = 1, height = 1 } = this.size ?? {};
+    this.view = { x: 0, y: 0, width, height };
+    this.look();
+  }
+
+  /** @param {number} factor @param {MouseEvent} [at] */
+  zoom(factor, at) {
+    const place = this.place.getBoundingClientRect();
+    const [fx, fy] = at ? [(at.clientX - place.left) / place.width, (at.clientY - place.top) / place.height] : [0.5, 0.5];
+    const { x, y, width, height } = this.view;
+    const all = this.size?.width ?? width;
+    const by = Math.min(Math.max(factor, 60 / width), (4 * all) / width);
+    this.view = { x: x + fx * width * (1 - by), y: y + fy * height * (1 - by), width: width * by, height: height * by };
+    this.look();
+  }
+
+  look() {
+    const { x, y, width, height } = this.view;
+    this.svg?.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+  }
+
+  /** Words about what is under the pointer. @param {Element} target */
+  words(target) {
+    const line = this.lines.find(({ element }) => element === target);
+    if (line) {
+      const title = target.querySelector("title")?.textContent ?? "";
+      const words = line.connections.map((at) => this.flowWords(at));
+      return [title, ...words.slice(0, 6)].join("\n");
+    }
+    const path = target.closest("[data-item]")?.getAttribute("data-item");
+    const item = path ? this.items.get(path) : undefined;
+    if (!item) return null;
+    const title = target.closest("[data-item]")?.querySelector(":scope > title")?.textContent ?? "";
+    if (item.nodes.length !== 1) return title;
+    const node = robot.nodes[item.nodes[0]];
+    const fired = node.fired === 0 ? "has not fired" : `fired ${node.fired} times, ${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
+    const problems = node.problems > 0 ? `\n${node.problems} problems` : "";
+    return `${title}\n${node.active ? "active; " : ""}${fired}${problems}`;
+  }
+
+  /** @param {number} at */
+  flowWords(at) {
+    const connection = robot.about?.connections[at];
+    if (!connection) return "";
+    if (!this.isEvent(connection)) {
+      const node = robot.nodes[connection.from];
+      return node.fired === 0 ? "its source has not fired" : `${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
+    }
+    const { count, rate } = robot.connections[at];
+    return count === 0 ? "no token yet" : `${count} tokens, ${rate.toFixed(1)}/s`;
+  }
+
+  /** @param {number} time */
+  ago(time) {
+    return `last ${Math.max(0, robot.now - time).toFixed(3)} s ago`;
+  }
+
+  listen() {
+    const { place } = this;
+    place.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoom(event.deltaY > 0 ? 1.15 : 0.87, event);
+    }, { passive: false });
+    /** @type {{x: number, y: number, moved: boolean} | null} */
+    let drag = null;
+    place.addEventListener("pointerdown", (event) => { drag = { x: event.clientX, y: event.clientY, moved: false }; });
+    place.addEventListener("pointermove", (event) => {
+      if (!drag) {
+        tip(this.words(/** @type {Element} */ (event.target)), event);
+        return;
+      }
+      const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
+      if (!drag.moved && Math.hypot(dx, dy) < 4) return;
+      if (!drag.moved) place.setPointerCapture(event.pointerId);
+      const scale = Math.max(this.view.width / place.clientWidth, this.view.height / place.clientHeight);
+      this.view.x -= dx * scale;
+      this.view.y -= dy * scale;
+      drag = { x: event.clientX, y: event.clientY, moved: true };
+      this.look();
+    });
+    place.addEventListener("pointerup", (event) => {
+      const path = /** @type {Element} */ (event.target).closest("[data-item]")?.getAttribute("data-item") ?? null;
+      if (drag && !drag.moved) select(path || null);
+      drag = null;
+    });
+    place.addEventListener("pointerleave", () => tip(null));
+    place.addEventListener("dblclick", (event) => {
+      const path = /** @type {Element} */ (event.target).closest("[data-item]")?.getAttribute("data-item") ?? null;
+      this.toggle(path);
+    });
+  }
+}

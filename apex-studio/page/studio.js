@@ -1,0 +1,286 @@
+// @ts-check
+// The page of `apex studio`: the connection, the header and the lists. The other modules draw.
+import { Picture } from "./picture.js";
+import { Timeline } from "./timeline.js";
+import { Params } from "./params.js";
+import { Values } from "./values.js";
+import { Text } from "./text.js";
+
+/** @typedef {{name: string, kind: string, docs: string, file: number, line: number, column: number, ports: [string, string, string][]}} AboutNode */
+/** @typedef {{from: number, output: string, to: number, input: string}} Connection */
+/** @typedef {{name: string, node: number, shown: boolean}} Channel */
+/** @typedef {{name: string, ty: string, unit: string | null, min: number | null, max: number | null}} ParamInfo */
+/** @typedef {{name: string, docs: string, files: string[], simulated: boolean, nodes: AboutNode[], connections: Connection[], groups: string[], claims: string[], channels: Channel[], params: ParamInfo[]}} About */
+/** @typedef {{active: boolean, fired: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */
+
+/** @param {string} id @returns {any} */
+export const element = (id) => document.getElementById(id);
+
+/** What all modules see. */
+export const robot = {
+  /** @type {About | null} */ about: null,
+  /** @type {NodeState[]} */ nodes: [],
+  /** @type {{count: number, fresh: boolean, rate: number}[]} */ connections: [],
+  now: 0,
+  readonly: false,
+  /** @type {string | null} */ selected: null,
+};
+
+/** @type {WebSocket | null} */
+let socket = null;
+
+/** Sends a message to the studio. @param {any} message */
+export function ask(message) {
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+}
+
+/** Selects a node or a nested graph by its full name, everywhere. @param {string | null} name */
+export function select(name) {
+  robot.selected = name;
+  picture.select(name);
+  text.select(name);
+  values.select(name);
+  timeline.draw();
+}
+
+/** @param {number} time */
+export const shown = (time) => `${time.toFixed(3)} s`;
+
+/** Shows a tip near the pointer. @param {string | null} words @param {MouseEvent} [at] */
+export function tip(words, at) {
+  const tip = element("tip");
+  tip.hidden = !words;
+  if (!words || !at) return;
+  tip.textContent = words;
+  const { width, height } = tip.getBoundingClientRect();
+  tip.style.left = `${Math.max(0, Math.min(at.clientX + 14, innerWidth - width - 8))}px`;
+  tip.style.top = `${Math.max(0, Math.min(at.clientY + 14, innerHeight - height - 8))}px`;
+}
+
+const picture = new Picture(element("picture"));
+const timeline = new Timeline(element("timeline"));
+const params = new Params(element("params"), element("params-filter"));
+const values = new Values(element("values"), element("values-filter"));
+const text = new Text(element("text"));
+
+let paused = false;
+/** @type {number | null} */
+let speed = 1;
+let problems = 0;
+
+/** What the studio tells, by kind. @type {Record<string, (told: any) => void>} */
+const tells = {
+  about({ about, texts, readonly }) {
+    robot.about = about;
+    robot.readonly = readonly;
+    robot.now = 0;
+    robot.nodes = about.nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
+    robot.connections = about.connections.map(() => ({ count: 0, fresh: false, rate: 0 }));
+    rates.length = 0;
+    document.title = `${about.name} – Apex Studio`;
+    element("name").textContent = about.name;
+    element("name").title = about.docs;
+    element("pace").hidden = !about.simulated || readonly;
+    element("restart").hidden = readonly;
+    element("problems").replaceChildren();
+    problems = 0;
+    showActive();
+    params.begin();
+    values.begin();
+    text.begin(texts);
+    timeline.begin();
+  },
+  picture(told) { picture.show(told); },
+  tick(told) { tick(told); },
+  errors(errors) {
+    element("errors").hidden = errors === null;
+    element("errors").textContent = errors ?? "";
+  },
+  problems({ count, problems: all }) { showProblems(count, all); },
+  params(all) { params.update(all); },
+  tokens(all) { values.update(all); },
+  lanes(lanes) { timeline.show(lanes); },
+  refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
+};
+let refused = false;
+
+/** @param {string} kind @param {string} words */
+function state(kind, words) {
+  element("run").className = kind;
+  element("run").textContent = words;
+}
+
+/** @param {any} told */
+function tick(told) {
+  const [kind, why] = typeof told.run === "string" ? [told.run, told.run] : Object.entries(told.run)[0];
+  const words = /** @type {string} */ (why);
+  state(kind, kind === "running" && told.paused ? "halted" : words);
+  robot.now = told.now;
+  paused = told.paused;
+  speed = told.speed;
+  element("now").textContent = shown(told.now);
+  element("pause").textContent = paused ? "Run" : "Halt";
+  element("step").disabled = !paused;
+  if (document.activeElement !== element("speed")) element("speed").value = speed === null ? "" : String(speed);
+  element("lost").hidden = told.lost === 0;
+  element("lost").textContent = `${told.lost} messages lost`;
+  for (const node of robot.nodes) node.fresh = false;
+  for (const line of robot.connections) line.fresh = false;
+  let changed = false;
+  for (const [at, active, fired, last, problems] of told.nodes) {
+    const node = robot.nodes[at];
+    if (node.active !== active) {
+      changed = true;
+      node.since = told.now;
+    }
+    Object.assign(node, { active, fresh: fired !== node.fired, fired, last, problems });
+  }
+  for (const [at, count] of told.handled) Object.assign(robot.connections[at], { fresh: true, count });
+  measure();
+  if (changed) showActive();
+  else showSince();
+  picture.update();
+  timeline.tick();
+}
+
+/** Counts of the last seconds, for rates. @type {{now: number, fired: number[], counts: number[]}[]} */
+const rates = [];
+
+/** Updates all rates: per second of the robot's time, over the last two. */
+function measure() {
+  rates.push({ now: robot.now, fired: robot.nodes.map((node) => node.fired), counts: robot.connections.map((line) => line.count) });
+  while (rates.length > 2 && (rates[1].now <= robot.now - 2 || rates.length > 200)) rates.shift();
+  const first = rates[0];
+  const span = robot.now - first.now;
+  if (span <= 0) return;
+  robot.nodes.forEach((node, at) => { node.rate = (node.fired - first.fired[at]) / span; });
+  robot.connections.forEach((line, at) => { line.rate = (line.count - first.counts[at]) / span; });
+}
+
+/** Lists the active nodes; a click shows one. */
+function showActive() {
+  const list = element("active");
+  const names = robot.nodes.flatMap((node, at) => (node.active ? [at] : []));
+  list.replaceChildren(...names.map((at) => {
+    const [item, button, since] = ["li", "button", "span"].map((kind) => document.createElement(kind));
+    since.className = "since";
+    since.dataset.node = String(at);
+    button.append(since, robot.about?.nodes[at].name ?? "");
+    button.addEventListener("click", () => picture.jump(robot.about?.nodes[at].name ?? ""));
+    item.append(button);
+    return item;
+  }));
+  if (names.length === 0) list.append(empty("no node is active"));
+  showSince();
+}
+
+function showSince() {
+  for (const since of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#active .since"))) {
+    since.textContent = `${Math.max(0, robot.now - robot.nodes[Number(since.dataset.node)].since).toFixed(1)} s`;
+  }
+}
+
+/** @param {string} words */
+export function empty(words) {
+  const item = document.createElement("li");
+  item.className = "empty";
+  item.textContent = words;
+  return item;
+}
+
+/** @param {number} count @param {{at: number, node: number | null, text: string}[]} all */
+function showProblems(count, all) {
+  const list = element("problems");
+  for (const { at, node, text } of all) {
+    const [item, button, time] = ["li", "button", "time"].map((kind) => document.createElement(kind));
+    const name = node === null ? null : robot.about?.nodes[node]?.name ?? null;
+    time.textContent = `${shown(at)} `;
+    button.append(time, name === null ? text : `${name}: ${text}`);
+    button.addEventListener("click", () => {
+      if (name !== null) picture.jump(name);
+      timeline.look(at);
+    });
+    item.append(button);
+    list.prepend(item);
+  }
+  while (list.children.length > 500) list.lastElementChild.remove();
+  problems = count;
+  const tab = /** @type {HTMLElement} */ (document.querySelector("[data-tab=problems]"));
+  tab.textContent = "Problems";
+  const number = document.createElement("span");
+  number.className = "count";
+  number.textContent = problems > 0 ? String(problems) : "";
+  tab.append(number);
+}
+
+/** Connects to the studio, again and again. */
+function open() {
+  const token = location.hash.slice(1) || sessionStorage.getItem("token") || "";
+  sessionStorage.setItem("token", token);
+  socket = new WebSocket(`ws://${location.host}/live`);
+  socket.addEventListener("open", () => {
+    socket?.send(token);
+    values.watch();
+  });
+  socket.addEventListener("message", ({ data }) => {
+    for (const [kind, told] of Object.entries(JSON.parse(data))) tells[kind]?.(told);
+  });
+  socket.addEventListener("close", () => {
+    if (refused) return;
+    state("lost", "no connection to `apex studio`; trying again");
+    setTimeout(open, 1000);
+  });
+}
+
+function pause() { ask(paused ? { run: { speed } } : "pause"); }
+
+element("pause").addEventListener("click", pause);
+element("step").addEventListener("click", () => ask("step"));
+element("restart").addEventListener("click", () => ask("restart"));
+element("speed").addEventListener("change", () => {
+  const chosen = element("speed").value;
+  ask({ run: { speed: chosen === "" ? null : Number(chosen) } });
+  element("speed").blur();
+});
+
+/** Shows one of the panels. @param {string} name */
+export function show(name) {
+  for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
+    tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
+  }
+  for (const panel of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-panel]"))) {
+    panel.hidden = panel.dataset.panel !== name;
+  }
+}
+for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
+  tab.addEventListener("click", () => show(tab.dataset.tab ?? ""));
+}
+
+document.addEventListener("keydown", (event) => {
+  const target = /** @type {HTMLElement} */ (event.target);
+  if (target.matches("input, select") || event.ctrlKey || event.metaKey || event.altKey) {
+    if (event.key === "Escape") target.blur();
+    return;
+  }
+  /** @type {Record<string, () => void>} */
+  const keys = {
+    " ": pause,
+    ".": () => ask("step"),
+    f: () => timeline.follow(),
+    "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
+    o: () => picture.toggle(robot.selected),
+    Escape: () => select(null),
+    "+": () => picture.zoom(0.8),
+    "-": () => picture.zoom(1.25),
+    0: () => picture.fit(),
+  };
+  if (target.matches("button") && event.key === " ") return;
+  const act = keys[event.key];
+  if (act) {
+    event.preventDefault();
+    act();
+  }
+});
+
+addEventListener("hashchange", () => location.reload());
+open();

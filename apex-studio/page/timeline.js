@@ -1,0 +1,214 @@
+// @ts-check
+// The timeline: a lane for each node that was active, failed, or is looked for.
+import { ask, element, robot, select, shown, tip } from "./studio.js";
+
+const HEIGHT = 18;
+const LABELS = 170;
+const AXIS = 20;
+
+export class Timeline {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.begin();
+    this.listen();
+  }
+
+  begin() {
+    this.span = 30;
+    this.end = 0;
+    this.isFollowing = true;
+    /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[]} | null} */
+    this.lanes = null;
+    /** @type {number | null} */ this.cursor = null;
+    this.asked = 0;
+    this.draw();
+  }
+
+  /** Time has passed. */
+  tick() {
+    if (this.isFollowing) this.end = Math.max(robot.now, this.span);
+    if (this.isFollowing || this.stale) this.request();
+  }
+
+  /** Asks for what is to be seen, not more often than can be drawn. */
+  request() {
+    const now = performance.now();
+    if (now - this.asked < 100) {
+      this.stale = true;
+      return;
+    }
+    this.stale = false;
+    this.asked = now;
+    const filter = element("lanes-filter").value.toLowerCase();
+    const found = filter === "" ? [] : (robot.about?.nodes ?? []).flatMap((node, at) => (node.name.toLowerCase().includes(filter) ? [at] : []));
+    const selected = robot.about?.nodes.findIndex((node) => node.name === robot.selected) ?? -1;
+    const also = selected >= 0 ? [...found.slice(0, 200), selected] : found.slice(0, 200);
+    ask({ lanes: { from: this.end - this.span, to: this.end, columns: Math.max(1, this.width()), also } });
+  }
+
+  width() { return Math.round(this.canvas.clientWidth - LABELS); }
+
+  /** @param {any} lanes */
+  show(lanes) {
+    this.lanes = lanes;
+    this.draw();
+  }
+
+  /** Lanes that pass the filter. */
+  filtered() {
+    const filter = element("lanes-filter").value.toLowerCase();
+    const name = (/** @type {number} */ node) => robot.about?.nodes[node]?.name ?? "";
+    return (this.lanes?.lanes ?? []).filter(({ node }) => name(node).toLowerCase().includes(filter));
+  }
+
+  draw() {
+    const { canvas } = this;
+    const style = getComputedStyle(document.documentElement);
+    const color = (/** @type {string} */ name) => style.getPropertyValue(name);
+    const lanes = this.filtered();
+    const [width, height] = [canvas.clientWidth, AXIS + Math.max(1, lanes.length) * HEIGHT];
+    const scale = devicePixelRatio;
+    canvas.width = width * scale;
+    canvas.height = height * scale;
+    canvas.style.height = `${height}px`;
+    const c = canvas.getContext("2d");
+    if (!c) return;
+    c.scale(scale, scale);
+    c.font = "12px system-ui, sans-serif";
+    c.textBaseline = "middle";
+    this.axis(c, color, height);
+    canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
+    lanes.forEach((lane, at) => this.lane(c, color, lane, AXIS + at * HEIGHT));
+    if (this.cursor !== null) {
+      c.fillStyle = color("--accent");
+      c.fillRect(this.x(this.cursor), 0, 1.5, height);
+    }
+    element("window").textContent = `${shown(Math.max(0, this.end - this.span))} – ${shown(this.end)}`;
+  }
+
+  /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {number} height */
+  axis(c, color, height) {
+    const rough = this.span / Math.max(2, this.width() / 110);
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= rough) ?? power;
+    const digits = Math.max(0, -Math.floor(Math.log10(step)));
+    c.fillStyle = color("--soft");
+    for (let t = Math.ceil((this.end - this.span) / step) * step; t <= this.end; t += step) {
+      if (t < -step / 2) continue;
+      c.fillText(`${t.toFixed(digits)} s`, this.x(t) + 3, AXIS / 2);
+      c.globalAlpha = 0.3;
+      c.fillRect(this.x(t), 0, 1, height);
+      c.globalAlpha = 1;
+    }
+  }
+
+  /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {any} lane @param {number} y */
+  lane(c, color, { node, spans, ticks, marks }, y) {
+    const name = robot.about?.nodes[node]?.name ?? "";
+    c.fillStyle = name === robot.selected ? color("--accent") : color("--ink");
+    const short = name.length > 26 ? `…${name.slice(-25)}` : name;
+    c.fillText(short, 6, y + HEIGHT / 2, LABELS - 10);
+    const { from, to, columns } = /** @type {any} */ (this.lanes);
+    const x = (/** @type {number} */ column) => this.x(from + ((to - from) * column) / columns);
+    c.save();
+    c.beginPath();
+    c.rect(LABELS, 0, this.width(), 1e6);
+    c.clip();
+    c.fillStyle = color("--active");
+    for (const [a, b] of spans) c.fillRect(x(a), y + 3, Math.max(1, x(b) - x(a)), HEIGHT - 6);
+    c.fillStyle = color("--fire");
+    const most = Math.max(1, ...ticks.map((/** @type {[number, number]} */ [, count]) => count));
+    for (const [at, count] of ticks) {
+      const tall = 3 + (HEIGHT - 9) * Math.sqrt(count / most);
+      c.fillRect(x(at), y + HEIGHT - 2 - tall, 1, tall);
+    }
+    c.fillStyle = color("--bad");
+    for (const at of marks) {
+      c.beginPath();
+      c.arc(x(at), y + HEIGHT / 2, 4, 0, 7);
+      c.fill();
+    }
+    c.restore();
+  }
+
+  /** @param {number} time */
+  x(time) { return LABELS + ((time - this.end + this.span) / this.span) * this.width(); }
+
+  /** @param {MouseEvent} event */
+  time(event) {
+    return this.end - this.span + ((event.offsetX - LABELS) / this.width()) * this.span;
+  }
+
+  /** Brings a time into view. @param {number} time */
+  look(time) {
+    this.cursor = time;
+    if (time < this.end - this.span || time > this.end) {
+      this.stop();
+      this.end = time + this.span / 2;
+    }
+    this.request();
+    this.draw();
+  }
+
+  /** Follows the time again. */
+  follow() {
+    this.isFollowing = !this.isFollowing;
+    element("follow").setAttribute("aria-pressed", String(this.isFollowing));
+    this.tick();
+  }
+
+  stop() {
+    this.isFollowing = false;
+    element("follow").setAttribute("aria-pressed", "false");
+  }
+
+  listen() {
+    const { canvas } = this;
+    element("follow").addEventListener("click", () => this.follow());
+    element("lanes-filter").addEventListener("input", () => this.request());
+    canvas.addEventListener("wheel", (event) => {
+      if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+        this.stop();
+        this.end = Math.max(0, this.end + ((event.deltaX || event.deltaY) / this.width()) * this.span);
+      } else {
+        const [time, by] = [this.time(event), event.deltaY > 0 ? 1.2 : 1 / 1.2];
+        const span = Math.min(Math.max(this.span * by, 0.002), 86400);
+        if (!this.isFollowing) this.end = time + ((this.end - time) * span) / this.span;
+        this.span = span;
+      }
+      event.preventDefault();
+      this.request();
+      this.draw();
+    }, { passive: false });
+    let drag = /** @type {{x: number, moved: boolean} | null} */ (null);
+    canvas.addEventListener("pointerdown", (event) => { drag = { x: event.clientX, moved: false }; });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!drag) {
+        const lane = this.filtered()[Math.floor((event.offsetY - AXIS) / HEIGHT)];
+        const name = lane && robot.about?.nodes[lane.node].name;
+        tip(event.offsetX > LABELS ? [name, shown(this.time(event))].filter(Boolean).join("\n") : name ?? null, event);
+        return;
+      }
+      const by = event.clientX - drag.x;
+      if (!drag.moved && Math.abs(by) < 4) return;
+      if (!drag.moved) canvas.setPointerCapture(event.pointerId);
+      this.stop();
+      this.end -= (by / this.width()) * this.span;
+      drag = { x: event.clientX, moved: true };
+      this.request();
+      this.draw();
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (drag && !drag.moved) {
+        const lane = this.filtered()[Math.floor((event.offsetY - AXIS) / HEIGHT)];
+        if (lane) select(robot.about?.nodes[lane.node].name ?? null);
+        if (event.offsetX > LABELS) this.look(this.time(event));
+      }
+      drag = null;
+    });
+    canvas.addEventListener("pointerleave", () => tip(null));
+    addEventListener("resize", () => this.request());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+  }
+}

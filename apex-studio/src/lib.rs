@@ -23,6 +23,9 @@ pub trait Source: Send + Sync + 'static {
     /// The picture of the graph with this name, or `None` if the source does not have it.
     fn picture(&self, name: &str) -> Option<Item>;
 
+    /// Errors of the source, for which a changed robot is not started; `None` if it has none.
+    fn errors(&self) -> Option<String>;
+
     /// Contents of these files; empty for those that cannot be read.
     fn texts(&self, files: &[String]) -> Vec<String>;
 }
@@ -42,11 +45,11 @@ pub struct Studio<R> {
 }
 
 impl<R: Robot + 'static> Studio<R> {
-    /// Opens the studio, calls `opened` with the address of the page, and serves it until `stop` is complete.
+    /// Opens the studio, calls `opened` with the address of the page, and serves it until Ctrl-C.
     ///
     /// # Errors
     /// The address is in use, or there are no random numbers for the token.
-    pub fn serve(self, opened: impl FnOnce(&str), stop: impl Future<Output = ()> + Send + 'static) -> io::Result<()> {
+    pub fn serve(self, opened: impl FnOnce(&str)) -> io::Result<()> {
         let token = token()?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         runtime.block_on(async {
@@ -59,13 +62,27 @@ impl<R: Robot + 'static> Studio<R> {
             let thread = thread.spawn(move || follow(robot, &following, speed))?;
             let (source, readonly) = (self.source, self.readonly);
             let serving = Serving { shared: Arc::clone(&shared), source, token: token.into(), address, readonly };
-            let served = server::serve(serving, listener, stop).await;
+            let served = server::serve(serving, listener, stopped()).await;
             shared.end();
             // It has ended its robot then.
             let _ = thread.join();
             served
         })
     }
+}
+
+/// Waits for Ctrl-C, or for the end of the session.
+async fn stopped() {
+    #[cfg(unix)]
+    if let Ok(mut ended) = tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate()) {
+        tokio::select! {
+            _ = tokio::signal::ctrl_c() => {}
+            _ = ended.recv() => {}
+        }
+        return;
+    }
+    // Without signals, the process ends at once.
+    let _ = tokio::signal::ctrl_c().await;
 }
 
 /// Returns a random token.

@@ -24,6 +24,8 @@ pub enum Told {
     Picture { svg: String, graphs: Vec<String>, open: BTreeSet<String>, lines: BTreeMap<String, Vec<usize>> },
     /// What has changed since the last such message.
     Tick(Tick),
+    /// Errors of the source have come or gone.
+    Errors(Option<String>),
     /// New problems.
     Problems { count: u64, problems: Vec<Problem> },
     /// Parameters that have changed.
@@ -96,6 +98,7 @@ struct Seen {
     problems: u64,
     params: BTreeMap<String, u64>,
     tokens: BTreeMap<u32, u64>,
+    errors: Option<String>,
 }
 
 impl Session {
@@ -154,6 +157,11 @@ impl Session {
             told.extend(self.since(&shared.live()));
         } else {
             told.extend(self.since(&live));
+        }
+        let errors = self.source.errors();
+        if errors != self.seen.errors {
+            self.seen.errors.clone_from(&errors);
+            told.push(Told::Errors(errors));
         }
         told
     }

@@ -1,7 +1,7 @@
 //! `apex run --watch`: builds and starts the program again after changes.
 
-mod files;
-mod program;
+pub mod files;
+pub mod program;
 
 use crate::{
     project::print_error,
@@ -88,7 +88,7 @@ fn wait(files: &Files, folders: &[PathBuf], running: &mut Option<Running>) {
 }
 
 /// Folders of the packages that belong to the program.
-fn folders(file: &Path) -> Result<Vec<PathBuf>, String> {
+pub fn folders(file: &Path) -> Result<Vec<PathBuf>, String> {
     let package = run::package(file)?;
     let workspace = Workspace::load(&package)?;
     let libraries = workspace.libraries().into_iter().map(|(_, folder)| folder.to_owned());

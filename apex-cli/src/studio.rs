@@ -1,0 +1,231 @@
+//! `apex studio`: builds and starts a robot, and opens the page on which it can be seen.
+
+use crate::{
+    build::How,
+    project::{self, print_error},
+    run::{Found, Params, Recording, Stream, Wanted},
+    watch::{
+        files::Files,
+        folders,
+        program::{Running, forget, start},
+    },
+};
+use apex_diagram::{Item, diagram};
+use apex_dsl::program::Program;
+use apex_studio::{Remote, Robot, Source, Studio};
+use std::{
+    env, fs,
+    net::SocketAddr,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    sync::{Arc, Mutex, PoisonError},
+    time::{Duration, Instant},
+};
+
+/// A robot that is built and started.
+pub struct Launch {
+    pub file: PathBuf,
+    pub robot: Option<String>,
+    pub replay: Option<PathBuf>,
+    pub simulated: bool,
+    pub params: Option<PathBuf>,
+    pub args: Vec<String>,
+    pub how: How,
+}
+
+/// The page.
+pub struct Page {
+    /// Address of a robot that runs already.
+    pub connect: Option<String>,
+    pub listen: SocketAddr,
+    pub read_only: bool,
+    pub speed: f64,
+}
+
+/// Reads a speed.
+pub fn speed(text: &str) -> Result<f64, String> {
+    let speed = text.parse().ok().filter(|speed: &f64| *speed > 0.0);
+    speed.ok_or_else(|| "a positive number, or `inf` for as fast as possible".to_owned())
+}
+
+/// Runs the robot and serves its page until Ctrl-C.
+pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
+    let text = Arc::new(Text { file: launch.file.clone(), errors: Mutex::default() });
+    let speed = Some(page.speed);
+    let served = match &page.connect {
+        Some(address) => {
+            project::check(&launch.file)?.print_diagnostics();
+            let robot = Remote { address: address.clone() };
+            page.serve(Studio { robot, source: text, address: page.listen, readonly: page.read_only, speed: None })
+        }
+        None => {
+            let mut robot = Launched::new(launch, Arc::clone(&text))?;
+            if !robot.build()? {
+                return Ok(ExitCode::from(1));
+            }
+            page.serve(Studio { robot, source: text, address: page.listen, readonly: page.read_only, speed })
+        }
+    };
+    served.map(|()| ExitCode::SUCCESS)
+}
+
+impl Page {
+    fn serve<R: Robot + 'static>(&self, studio: Studio<R>) -> Result<(), String> {
+        let opened = |address: &str| print_error(&format!("studio: {address}\nCtrl-C ends it"));
+        studio.serve(opened).map_err(|error| {
+            format!("cannot open the page at {}: {error}; choose another address with `--listen`", self.listen)
+        })
+    }
+}
+
+/// The source file.
+struct Text {
+    file: PathBuf,
+    /// Its errors, for which a changed robot is not started.
+    errors: Mutex<Option<String>>,
+}
+
+impl Text {
+    fn set_errors(&self, errors: Option<String>) {
+        *self.errors.lock().unwrap_or_else(PoisonError::into_inner) = errors;
+    }
+}
+
+impl Source for Text {
+    fn picture(&self, name: &str) -> Option<Item> {
+        let checked = project::check(&self.file).ok()?;
+        let mut graphs = checked.programs.iter().map(|program| &program.graph).chain(&checked.parts);
+        let graph = graphs.find(|graph| graph.name == name)?;
+        Some(diagram(graph, &checked.texts.machines, &checked.catalog))
+    }
+
+    fn errors(&self) -> Option<String> {
+        self.errors.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn texts(&self, files: &[String]) -> Vec<String> {
+        let package = project::package_of(&self.file).unwrap_or_default();
+        let read = |file: &String| {
+            let here = [Path::new(file).to_owned(), package.join(file)];
+            here.iter().find_map(|path| fs::read_to_string(path).ok()).unwrap_or_default()
+        };
+        files.iter().map(read).collect()
+    }
+}
+
+/// Interval between checks of the files.
+const INTERVAL: Duration = Duration::from_millis(300);
+
+/// A robot that this program builds and starts.
+struct Launched {
+    launch: Launch,
+    params: Params,
+    text: Arc<Text>,
+    /// Path of the robot's socket.
+    socket: PathBuf,
+    /// A program that has been built, but not started.
+    built: Option<Found>,
+    running: Option<Running>,
+    has_started: bool,
+    folders: Vec<PathBuf>,
+    /// The files at the last build, at the last check, and the time of that.
+    files: (Files, Files, Instant),
+}
+
+impl Launched {
+    fn new(launch: Launch, text: Arc<Text>) -> Result<Self, String> {
+        let socket = env::temp_dir().join(format!("apex-studio-{}.sock", std::process::id()));
+        let params = Params { load: launch.params.clone(), save: None };
+        let folders = folders(&launch.file)?;
+        let files = (Files::default(), Files::default(), Instant::now());
+        Ok(Self { launch, params, text, socket, built: None, running: None, has_started: false, folders, files })
+    }
+
+    fn wanted<'a>(launch: &'a Launch, params: &'a Params, socket: &'a str) -> Wanted<'a> {
+        Wanted {
+            file: &launch.file,
+            robot: launch.robot.as_deref(),
+            params,
+            profile: None,
+            recording: launch.replay.as_deref().map_or(Recording::Stated, Recording::Repeated),
+            args: &launch.args,
+            // Parameters that were set survive a restart. A recording has its own.
+            watch: launch.replay.is_none(),
+            stream: Stream::WaitAt(socket),
+            simulated: launch.simulated,
+            how: launch.how,
+        }
+    }
+
+    /// Builds the program. Returns `false` after errors, which are printed.
+    fn build(&mut self) -> Result<bool, String> {
+        let files = Files::below(&self.folders);
+        self.files = (files.clone(), files, Instant::now());
+        let socket = self.socket.to_string_lossy().into_owned();
+        let wanted = Self::wanted(&self.launch, &self.params, &socket);
+        let Some(programs) = self.check(&wanted)? else { return Ok(false) };
+        self.built = wanted.build(&programs)?;
+        let failed = "the program cannot be built; the terminal has the errors";
+        self.text.set_errors(self.built.is_none().then(|| failed.to_owned()));
+        Ok(self.built.is_some())
+    }
+
+    fn check(&self, wanted: &Wanted<'_>) -> Result<Option<Vec<Program>>, String> {
+        let checked = project::check(wanted.file)?;
+        checked.print_diagnostics();
+        if checked.diagnostics.has_errors() {
+            self.text.set_errors(Some(checked.rendered()));
+            return Ok(None);
+        }
+        Ok(Some(checked.programs))
+    }
+}
+
+impl Robot for Launched {
+    fn start(&mut self) -> Result<String, String> {
+        if self.built.is_none() && !self.build()? {
+            return Err("the program has errors".to_owned());
+        }
+        let socket = self.socket.to_string_lossy().into_owned();
+        let built = self.built.take().ok_or("the program has not been built")?;
+        if !std::mem::replace(&mut self.has_started, true) {
+            forget(&built);
+        }
+        self.running = Some(start(built, &Self::wanted(&self.launch, &self.params, &socket))?);
+        Ok(socket)
+    }
+
+    fn runs(&mut self) -> bool {
+        self.running.as_mut().is_some_and(|running| running.ended().is_none())
+    }
+
+    fn stop(&mut self) {
+        if let Some(running) = self.running.take() {
+            running.end();
+        }
+    }
+
+    fn has_changed(&mut self) -> bool {
+        let (built, last, at) = &mut self.files;
+        if at.elapsed() < INTERVAL {
+            return false;
+        }
+        let now = Files::below(&self.folders);
+        let is_stable = now == std::mem::replace(last, now.clone());
+        *at = Instant::now();
+        if !is_stable || now == *built {
+            return false;
+        }
+        self.build().unwrap_or_else(|message| {
+            print_error(&format!("error: {message}"));
+            self.text.set_errors(Some(message));
+            false
+        })
+    }
+}
+
+impl Drop for Launched {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
