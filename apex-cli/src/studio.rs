@@ -15,6 +15,7 @@ use apex_dsl::program::Program;
 use apex_studio::{Remote, Robot, Source, Studio};
 use std::{
     env, fs,
+    io::{self, Write as _},
     net::SocketAddr,
     path::{Path, PathBuf},
     process::ExitCode,
@@ -103,11 +104,32 @@ impl Source for Text {
         self.errors.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
+    fn save_params(&self, params: &str) -> Result<String, String> {
+        let names = (1..).map(|n| if n == 1 { "params.toml".to_owned() } else { format!("params-{n}.toml") });
+        for path in names.map(|end| self.file.with_extension(end)) {
+            match fs::File::create_new(&path) {
+                Ok(mut file) => {
+                    let head = "# Parameters that were changed in `apex studio`, for `--params`.\n";
+                    let written = file.write_all(head.as_bytes()).and_then(|()| file.write_all(params.as_bytes()));
+                    return match written {
+                        Ok(()) => Ok(path.display().to_string()),
+                        Err(error) => Err(format!("cannot write `{}`: {error}", path.display())),
+                    };
+                }
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(format!("cannot write `{}`: {error}", path.display())),
+            }
+        }
+        unreachable!("there are as many names as numbers")
+    }
+
     fn texts(&self, files: &[String]) -> Vec<String> {
+        // Paths are those that the compiler was given: from a folder around the package.
         let package = project::package_of(&self.file).unwrap_or_default();
         let read = |file: &String| {
-            let here = [Path::new(file).to_owned(), package.join(file)];
-            here.iter().find_map(|path| fs::read_to_string(path).ok()).unwrap_or_default()
+            let is_text = Path::new(file).extension().is_some_and(|e| e == "afg" || e == "rs");
+            let mut places = package.ancestors().map(|folder| folder.join(file)).filter(|_| is_text);
+            places.find_map(|path| fs::read_to_string(path).ok()).unwrap_or_default()
         };
         files.iter().map(read).collect()
     }

@@ -2,7 +2,7 @@
 // The parameters of the robot: sliders where a range is known.
 import { ask, empty, robot } from "./studio.js";
 
-/** @typedef {{initial: string, value: string, error: string | null}} Param */
+/** @typedef {{initial: string, value: string, error: string | null, fixed: boolean}} Param */
 
 export class Params {
   /** @param {HTMLElement} place @param {HTMLInputElement} filter */
@@ -21,6 +21,15 @@ export class Params {
       this.rows.set(info.name, row);
       this.place.append(row.row);
     }
+    const save = document.createElement("button");
+    save.id = "params-save";
+    save.textContent = "Save changes to a file";
+    save.title = "as TOML, for --params";
+    save.hidden = robot.readonly || this.rows.size === 0;
+    save.addEventListener("click", () => ask("save"));
+    this.saved = document.createElement("div");
+    this.saved.id = "params-saved";
+    this.place.append(save, this.saved);
     if (this.rows.size === 0) this.place.append(empty("no parameters"));
     this.sift();
   }
@@ -28,6 +37,11 @@ export class Params {
   /** @param {Record<string, Param>} all */
   update(all) {
     for (const [name, param] of Object.entries(all)) this.rows.get(name)?.show(param);
+  }
+
+  /** @param {{Ok?: string, Err?: string}} result */
+  tell(result) {
+    if (this.saved) this.saved.textContent = result.Ok ? `written to ${result.Ok}` : result.Err ?? "";
   }
 
   sift() {
@@ -59,13 +73,14 @@ export class Params {
     if (info.min !== null && info.max !== null) {
       slider = /** @type {HTMLInputElement} */ (make("input", ""));
       slider.type = "range";
-      slider.min = String(info.min);
-      slider.max = String(info.max);
-      slider.step = whole ? "1" : String((info.max - info.min) / 1000);
+      slider.min = "0";
+      slider.max = whole && info.max - info.min < 1000 ? String(info.max - info.min) : "1000";
       slider.setAttribute("aria-label", info.name);
       let waits = false;
       slider.addEventListener("input", () => {
-        const value = Number(/** @type {HTMLInputElement} */ (slider).value);
+        const share = Number(/** @type {HTMLInputElement} */ (slider).value) / Number(slider?.max);
+        const exact = fromShare(share, info);
+        const value = whole ? Math.round(exact) : exact;
         text.value = whole ? String(value) : floating(value);
         if (waits) return;
         waits = true;
@@ -79,12 +94,13 @@ export class Params {
     for (const input of [text, slider, undo]) if (input) input.disabled = robot.readonly;
     const show = (/** @type {Param} */ param) => {
       initial = param.initial;
+      row.classList.toggle("is-fixed", param.fixed);
       row.classList.toggle("is-changed", param.value !== param.initial);
       undo.hidden = param.value === param.initial;
       undo.title = `back to ${param.initial}`;
       error.textContent = param.error ?? "";
       if (document.activeElement !== text || param.error === null) text.value = param.value;
-      if (slider && document.activeElement !== slider) slider.value = param.value;
+      if (slider && document.activeElement !== slider) slider.value = String(toShare(Number(param.value), info) * Number(slider.max));
     };
     return { row, show };
   }
@@ -94,4 +110,21 @@ export class Params {
 function floating(value) {
   const short = String(Number(value.toPrecision(6)));
   return /[.e]/.test(short) ? short : `${short}.0`;
+}
+
+/** @typedef {import("./studio.js").ParamInfo} ParamInfo */
+
+/** `true` if a range is so wide that only its logarithm can be handled. @param {ParamInfo} info */
+const isWide = ({ min, max }) => min !== null && max !== null && min > 0 && max / min >= 1000;
+
+/** @param {number} value @param {ParamInfo} info */
+function toShare(value, info) {
+  const { min = 0, max = 1 } = /** @type {any} */ (info);
+  return isWide(info) ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min);
+}
+
+/** @param {number} share @param {ParamInfo} info */
+function fromShare(share, info) {
+  const { min = 0, max = 1 } = /** @type {any} */ (info);
+  return isWide(info) ? min * (max / min) ** share : min + share * (max - min);
 }

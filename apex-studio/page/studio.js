@@ -98,6 +98,7 @@ const tells = {
   },
   problems({ count, problems: all }) { showProblems(count, all); },
   params(all) { params.update(all); },
+  saved(result) { params.tell(result); },
   tokens(all) { values.update(all); },
   lanes(lanes) { timeline.show(lanes); },
   refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
@@ -127,13 +128,10 @@ function tick(told) {
   for (const node of robot.nodes) node.fresh = false;
   for (const line of robot.connections) line.fresh = false;
   let changed = false;
-  for (const [at, active, fired, last, problems] of told.nodes) {
+  for (const [at, active, since, fired, last, problems] of told.nodes) {
     const node = robot.nodes[at];
-    if (node.active !== active) {
-      changed = true;
-      node.since = told.now;
-    }
-    Object.assign(node, { active, fresh: fired !== node.fired, fired, last, problems });
+    changed ||= node.active !== active;
+    Object.assign(node, { active, since, fresh: fired !== node.fired, fired, last, problems });
   }
   for (const [at, count] of told.handled) Object.assign(robot.connections[at], { fresh: true, count });
   measure();

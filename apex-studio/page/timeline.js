@@ -116,12 +116,12 @@ export class Timeline {
     c.rect(LABELS, 0, this.width(), 1e6);
     c.clip();
     c.fillStyle = color("--active");
-    for (const [a, b] of spans) c.fillRect(x(a), y + 3, Math.max(1, x(b) - x(a)), HEIGHT - 6);
+    for (const [a, b] of spans) c.fillRect(x(a), y + 2, Math.max(1, x(b) - x(a)), HEIGHT - 9);
     c.fillStyle = color("--fire");
     const most = Math.max(1, ...ticks.map((/** @type {[number, number]} */ [, count]) => count));
     for (const [at, count] of ticks) {
-      const tall = 3 + (HEIGHT - 9) * Math.sqrt(count / most);
-      c.fillRect(x(at), y + HEIGHT - 2 - tall, 1, tall);
+      const tall = 2 + 3 * Math.sqrt(count / most);
+      c.fillRect(x(at), y + HEIGHT - 1 - tall, 1, tall);
     }
     c.fillStyle = color("--bad");
     for (const at of marks) {

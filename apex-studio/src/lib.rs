@@ -26,6 +26,12 @@ pub trait Source: Send + Sync + 'static {
     /// Errors of the source, for which a changed robot is not started; `None` if it has none.
     fn errors(&self) -> Option<String>;
 
+    /// Writes parameters, as TOML, to a file that does not exist yet. Returns its path.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    fn save_params(&self, params: &str) -> Result<String, String>;
+
     /// Contents of these files; empty for those that cannot be read.
     fn texts(&self, files: &[String]) -> Vec<String>;
 }

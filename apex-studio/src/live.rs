@@ -56,6 +56,8 @@ pub struct Live {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Node {
     pub active: bool,
+    /// Time in ns since which it is active or inactive.
+    pub since: i64,
     pub fired: u64,
     /// Time of the last firing in ns.
     pub last: i64,
@@ -81,6 +83,8 @@ pub struct Param {
     pub value: String,
     /// Reason why the last attempt to set it failed.
     pub error: Option<String>,
+    /// `true` if it can only be set in the source.
+    pub fixed: bool,
     /// Number of messages about it.
     #[serde(skip)]
     pub version: u64,
@@ -191,7 +195,9 @@ impl Live {
 
     fn activity(&mut self, node: u32, active: bool) {
         if let Some(state) = self.nodes.get_mut(node as usize) {
-            state.active = active;
+            if state.active != active {
+                (state.active, state.since) = (active, self.now);
+            }
             self.lanes[node as usize].activity(self.now, active);
         }
     }
@@ -230,8 +236,14 @@ impl Live {
                 }
                 (param.value, param.error) = (value, None);
             }
-            Err(error) => param.error = Some(error),
+            Err(error) => (param.error, param.fixed) = (Some(error), is_new),
         }
+    }
+
+    /// The parameters that differ from their initial values, as TOML for `--params`.
+    pub fn changed_params(&self) -> String {
+        let changed = self.params.iter().filter(|(_, param)| param.value != param.initial);
+        changed.map(|(name, param)| format!("{name} = {}\n", param.value)).collect()
     }
 
     /// The lanes of all nodes that were active or had problems, and of those in `also`.

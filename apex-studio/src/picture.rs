@@ -5,7 +5,7 @@ use apex_rt::studio::message::About;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Number of boxes up to which nested graphs are open at the beginning.
-const MAX_OPEN: usize = 40;
+const MAX_OPEN: usize = 25;
 
 /// The picture of a robot.
 pub struct Picture {

@@ -32,6 +32,8 @@ pub enum Told {
     Params(BTreeMap<String, Param>),
     /// New tokens of channels, as time in s and text.
     Tokens(BTreeMap<u32, Vec<(f64, String)>>),
+    /// The changed parameters were written to this file, or could not be.
+    Saved(Result<String, String>),
     /// Lanes of the timeline.
     Lanes { from: f64, to: f64, columns: u32, lanes: Vec<Drawn> },
 }
@@ -46,8 +48,9 @@ pub struct Tick {
     /// Simulated seconds per second; `null` for as fast as possible.
     speed: Option<f64>,
     lost: u64,
-    /// Nodes that have changed: index, active, number of firings, time of the last one in s, number of problems.
-    nodes: Vec<(usize, bool, u64, f64, u64)>,
+    /// Nodes that have changed: index, active, since when in s, number of firings, time of the last one in s, number of
+    /// problems.
+    nodes: Vec<(usize, bool, f64, u64, f64, u64)>,
     /// Connections that have changed, with the number of their tokens.
     handled: Vec<(usize, u64)>,
 }
@@ -68,6 +71,8 @@ pub enum Asked {
     Run { speed: Option<f64> },
     /// Starts it again.
     Restart,
+    /// Writes all changed parameters to a file.
+    Save,
     /// Asks for the tokens of these channels, and of no others.
     Watch(BTreeSet<u32>),
     /// Asks for the lanes of the timeline, with those of `also`. Times are in s.
@@ -129,6 +134,10 @@ impl Session {
             Asked::Restart => {
                 self.shared.restart();
                 return None;
+            }
+            Asked::Save => {
+                let changed = self.shared.live().changed_params();
+                return Some(Told::Saved(self.source.save_params(&changed)));
             }
             Asked::Set { name, value } => Command::Set { name, value },
             Asked::Pause => Command::Pause,
@@ -212,7 +221,8 @@ impl Seen {
         let mut nodes = vec![];
         for (at, (node, seen)) in live.nodes.iter().zip(&mut self.nodes).enumerate() {
             if node != seen {
-                nodes.push((at, node.active, node.fired, seconds(node.last), node.problems));
+                let (since, last) = (seconds(node.since), seconds(node.last));
+                nodes.push((at, node.active, since, node.fired, last, node.problems));
                 *seen = *node;
             }
         }

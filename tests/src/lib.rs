@@ -27,6 +27,7 @@ pub mod nodes {
     mod scripted;
     mod sinks;
     mod sources;
+    mod streamed;
     mod tapes;
 
     pub use active::*;
@@ -42,6 +43,7 @@ pub mod nodes {
     pub use scripted::*;
     pub use sinks::*;
     pub use sources::*;
+    pub use streamed::*;
     pub use tapes::*;
 }
 

@@ -1,202 +1,39 @@
-//! Streams of running programs, as a viewer sees them.
+//! Running programs as viewers and as pages of the studio see them.
+
+mod browser;
+mod page;
+mod stream;
 
 use apex_macros::graph;
 use apex_rt::{
     Clock as _, Next,
     prelude::*,
-    studio::{
-        StreamedTime, Studio, Wire, connect,
-        message::{self, About, Command, Report},
-    },
+    studio::{StreamedTime, Studio},
 };
-use std::{env, fs, io::Write as _, path::PathBuf, thread};
+use std::{env, path::PathBuf};
 
-/// Counts from one.
-#[node]
-#[derive(Default)]
-pub struct Count {
-    number: i64,
-}
+graph!("studio/counts.afg");
 
-#[node]
-impl Count {
-    fn process(&mut self) -> i64 {
-        self.number += 1;
-        self.number
-    }
-}
-
-/// Multiplies numbers except three.
-#[node]
-#[derive(Default)]
-pub struct Times {
-    #[param(range = 0..=9)]
-    factor: i64,
-}
-
-#[node]
-impl Times {
-    fn process(&mut self, number: &i64) -> Result<i64, &'static str> {
-        if *number == 3 { Err("three <b>") } else { Ok(number * self.factor) }
-    }
-}
-
-graph! {
-    use apex_nodes::flow::ActivityGate;
-    use crate::{Count, Times};
-
-    /// Counts <script>alert(1)</script>.
-    graph Counts {
-        out product: i64;
-        node count = Count() every 10ms;
-        node times = Times(factor = 2);
-        node gate  = ActivityGate();
-        start => gate.activate;
-        count -> times -> gate -> product;
-    }
-}
-
-/// A viewer of a program that runs on another thread.
-struct Viewer {
-    from: Box<dyn Wire>,
-    to: Box<dyn Wire>,
-}
-
-impl Viewer {
-    fn tell(&mut self, command: &Command) {
-        let mut bytes = vec![];
-        message::write(command, &mut bytes);
-        self.to.write_all(&bytes).expect("the robot listens");
-    }
-
-    /// The next message, `None` after the last one.
-    fn next(&mut self) -> Option<Report> {
-        message::read(&mut self.from).expect("messages are well-formed")
-    }
-
-    /// Messages until the one that `last` accepts, which is included.
-    fn until(&mut self, last: impl Fn(&Report) -> bool) -> Vec<Report> {
-        let mut all = vec![];
-        while let Some(report) = self.next() {
-            let found = last(&report);
-            all.push(report);
-            if found {
-                return all;
-            }
-        }
-        panic!("the stream ended: {all:?}")
-    }
-
-    fn about(&mut self) -> About {
-        match self.next() {
-            Some(Report::About(about)) => about,
-            other => panic!("{other:?} instead of a description"),
-        }
-    }
-
-    fn set(&mut self, name: &str, value: &str) -> Result<String, String> {
-        self.tell(&Command::Set { name: name.to_owned(), value: value.to_owned() });
-        match self.until(|report| matches!(report, Report::Param { .. })).pop() {
-            Some(Report::Param { name: of, value }) if of == name => value,
-            other => panic!("{other:?} is about something else"),
-        }
-    }
-}
-
+/// A socket for the program of a test.
 fn socket(name: &str) -> PathBuf {
     env::temp_dir().join(format!("apex-studio-{}-{name}", std::process::id()))
 }
 
-/// Runs the program for 10 s of simulated time, while `view` looks at it. Returns the number of reactions.
-fn streamed<T>(name: &str, time: StreamedTime, view: impl FnOnce(Viewer) -> T) -> T {
-    let path = socket(name);
-    let studio = Studio::open::<Counts>(path.to_str().expect("UTF-8"), time).expect("a new socket");
-    let address = studio.address().to_owned();
-    let running = thread::spawn(move || {
-        let (mut program, mut clock) = (Counts::new(), SimClock::until(Time::from_secs(10)));
-        let mut stream = studio.stream(0);
-        loop {
-            let now = clock.now();
-            stream.before_reaction(now, &mut program);
-            let next = program.react_with(now, &mut stream);
-            if !matches!(next, Next::At(time) if clock.wait_until(time)) {
-                return;
-            }
+/// Opens a socket for viewers of a program.
+fn open(name: &str, time: StreamedTime) -> Studio {
+    Studio::open::<Counts>(socket(name).to_str().expect("UTF-8"), time).expect("a new socket")
+}
+
+/// Runs the program for `seconds` of simulated time.
+fn drive(studio: &Studio, seconds: i64) {
+    let (mut program, mut clock) = (Counts::new(), SimClock::until(Time::from_secs(seconds)));
+    let mut stream = studio.stream(0);
+    loop {
+        let now = clock.now();
+        stream.before_reaction(now, &mut program);
+        let next = program.react_with(now, &mut stream);
+        if !matches!(next, Next::At(time) if clock.wait_until(time)) {
+            return;
         }
-    });
-    let (from, to) = connect(&address).expect("the robot listens");
-    let seen = view(Viewer { from, to });
-    running.join().expect("the program runs to its end");
-    assert!(!fs::exists(path).expect("a readable folder"), "the socket is removed");
-    seen
-}
-
-#[test]
-fn a_viewer_sees_every_firing_of_a_waiting_program() {
-    streamed("all", StreamedTime::Waiting, |mut viewer| {
-        let about = viewer.about();
-        assert_eq!((about.name.as_str(), about.version, about.simulated), ("Counts", message::VERSION, true));
-        let node = |name: &str| about.nodes.iter().position(|node| node.name == name).expect("a node") as u32;
-        assert_eq!(viewer.next(), Some(Report::Active(vec![])));
-        assert_eq!(viewer.next(), Some(Report::Pace { paused: true, speed: f64::INFINITY }));
-        viewer.tell(&Command::Run { speed: f64::INFINITY });
-        let all = viewer.until(|report| *report == Report::Ended);
-        let count = |wanted: &Report| all.iter().filter(|report| *report == wanted).count();
-        assert_eq!(count(&Report::Fired(node("count"))), 1000);
-        assert_eq!(count(&Report::Activity { node: node("gate"), active: true }), 1);
-        assert_eq!(count(&Report::Failed { node: node("times"), error: "three <b>".to_owned() }), 1);
-        assert_eq!(all.iter().filter(|report| matches!(report, Report::Lost(_))).count(), 0);
-        assert!(all.contains(&Report::Reaction { group: 0, now: 20_000_000 }));
-        assert_eq!(viewer.next(), None);
-    });
-}
-
-#[test]
-fn a_halted_program_goes_step_by_step_and_takes_parameters() {
-    streamed("steps", StreamedTime::Waiting, |mut viewer| {
-        let about = viewer.about();
-        let channel = about.channels.iter().position(|channel| channel.name == "times.out").expect("a channel") as u32;
-        viewer.tell(&Command::Watch { channel, every: 1 });
-        viewer.tell(&Command::Step);
-        let reaction = |report: &Report| matches!(report, Report::Reaction { .. });
-        assert_eq!(viewer.until(reaction).pop(), Some(Report::Reaction { group: 0, now: 0 }));
-        assert_eq!(viewer.set("times.factor", "5"), Ok("5".to_owned()));
-        let error = viewer.set("times.factor", "12").expect_err("it is out of range");
-        assert!(error.contains("times.factor") && error.contains("0..=9"), "{error}");
-        assert!(viewer.set("times.faktor", "1").expect_err("no such parameter").contains("times.factor"));
-        viewer.tell(&Command::Step);
-        let value = viewer.until(|report| matches!(report, Report::Value { now: 10_000_000, .. })).pop();
-        assert_eq!(value, Some(Report::Value { channel, now: 10_000_000, text: "10".to_owned() }));
-        viewer.tell(&Command::Params);
-        let all = viewer.until(|report| matches!(report, Report::Param { .. }));
-        let five = Report::Param { name: "times.factor".to_owned(), value: Ok("5".to_owned()) };
-        assert_eq!(all.last(), Some(&five));
-    });
-}
-
-#[test]
-fn a_program_continues_when_its_viewer_leaves_or_talks_nonsense() {
-    streamed("leaves", StreamedTime::Waiting, |mut viewer| drop(viewer.about()));
-    streamed("nonsense", StreamedTime::Waiting, |mut viewer| {
-        viewer.to.write_all(&[0xff; 64]).expect("the robot listens");
-        while let Ok(Some(_)) = message::read::<Report>(&mut viewer.from) {}
-    });
-}
-
-#[test]
-fn several_viewers_see_the_same() {
-    streamed("both", StreamedTime::Waiting, |mut first| {
-        let (from, to) = connect(socket("both").to_str().expect("UTF-8")).expect("room for another viewer");
-        let mut second = Viewer { from, to };
-        assert_eq!(first.about(), second.about());
-        second.tell(&Command::Run { speed: f64::INFINITY });
-        let fired = |all: Vec<Report>| all.into_iter().filter(|report| matches!(report, Report::Fired(_))).count();
-        let ended = |report: &Report| *report == Report::Ended;
-        assert_eq!(fired(first.until(ended)), fired(second.until(ended)));
-    });
-}
-
-#[test]
-fn a_program_without_viewers_runs_on() {
-    streamed("alone", StreamedTime::Simulated, |viewer| drop(viewer));
+    }
 }

@@ -19,8 +19,10 @@ pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Resu
     let folder = out.unwrap_or_else(free_folder);
     // Checked before the run: the folder of the pictures must be usable.
     let image_writer = ImageWriter::new(&folder)?;
-    let mut view = View::of(setup);
-    let outcome = setup.run(&mut view)?;
+    let studio = setup.mission.studio().map_err(|e| format!("cannot open the socket in `APEX_STUDIO`: {e}"))?;
+    let mut watch = (View::of(setup), studio.as_ref().and_then(|studio| studio.stream(0)));
+    let outcome = setup.run(&mut watch)?;
+    let (view, _) = watch;
     outcome.run_report.write(&image_writer)?;
     if let Some(path) = film {
         fs::write(path, view.film.svg(&outcome.run_report))

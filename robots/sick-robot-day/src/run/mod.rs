@@ -17,8 +17,9 @@ use activity_log::ActivityLog;
 use apex_rt::{
     Clock as _, Info, Next, Observer, Program, SimClock, Time,
     record::{Channel, Finished, Recorder, Role, Tap, WhenFull},
+    studio::Studio,
 };
-use std::{path::PathBuf, time::Duration};
+use std::{io, path::PathBuf, time::Duration};
 
 /// Period of the reactions of a robot that could always react, because of constants in its graphs. It is the step of
 /// the simulation.
@@ -90,12 +91,30 @@ pub trait Watch: Observer {
 
 impl Watch for () {}
 
+/// A watch with another observer beside it.
+impl<W: Watch, O: Observer> Watch for (W, O) {
+    fn reacted(&mut self, moment: &StepView<'_>) {
+        self.0.reacted(moment);
+    }
+}
+
 impl Mission {
     /// Structure of the compiled robot.
     pub const fn info(self) -> &'static Info {
         match self {
             Self::Graph => const { &<Competition as Program>::INFO },
             Self::Machine => const { &<SdfCompetition as Program>::INFO },
+        }
+    }
+
+    /// Opens a socket for viewers if the environment asks for it (`apex studio`).
+    ///
+    /// # Errors
+    /// The socket cannot be opened.
+    pub fn studio(self) -> io::Result<Option<Studio>> {
+        match self {
+            Self::Graph => Studio::of_environment::<Competition>(true),
+            Self::Machine => Studio::of_environment::<SdfCompetition>(true),
         }
     }
 }
@@ -127,6 +146,7 @@ impl Setup {
         loop {
             let now = clock.now();
             activity_log.now = now;
+            watch.before_reaction(now, &mut *robot);
             let next = robot.react_with(now, &mut (&mut activity_log, (&mut *watch, &mut tap)));
             watch.reacted(&StepView { now, hall: &hall, activity_log: &activity_log });
             let time = if let Next::At(time) = next { time } else { now };

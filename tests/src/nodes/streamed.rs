@@ -1,0 +1,34 @@
+//! Nodes of programs that are looked at while they run.
+
+use apex_rt::prelude::*;
+
+/// Counts from one.
+#[node]
+#[derive(Default)]
+pub struct CountUp {
+    number: i64,
+}
+
+#[node]
+impl CountUp {
+    fn process(&mut self) -> i64 {
+        self.number += 1;
+        self.number
+    }
+}
+
+/// Multiplies numbers, except three. <img src=x onerror=alert(1)>
+#[node]
+#[derive(Default)]
+pub struct TimesFactor {
+    /// Factor.
+    #[param(range = 0..=9)]
+    factor: i64,
+}
+
+#[node]
+impl TimesFactor {
+    fn process(&mut self, number: &i64) -> Result<i64, &'static str> {
+        if *number == 3 { Err("three <b>") } else { Ok(number * self.factor) }
+    }
+}

@@ -1,0 +1,135 @@
+//! A real browser, over the DevTools protocol.
+
+use serde_json::{Value, json};
+use std::{
+    env, fs,
+    io::{BufRead as _, BufReader},
+    net::TcpStream,
+    path::PathBuf,
+    process::{Child, Command, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
+use tungstenite::{Message, WebSocket, client};
+
+/// Time that a page has to show something.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A browser with one page.
+pub struct Browser {
+    process: Child,
+    profile: PathBuf,
+    socket: WebSocket<TcpStream>,
+    session: String,
+    count: u64,
+    /// Errors and messages of the page.
+    pub complaints: Vec<String>,
+}
+
+impl Browser {
+    /// Opens a page, or says that there is no browser.
+    pub fn open(url: &str) -> Option<Self> {
+        let Some(program) = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| is_there(name))
+        else {
+            assert!(env::var_os("CI").is_none(), "there is no Chromium");
+            println!("skipped: there is no Chromium; `apt install chromium`");
+            return None;
+        };
+        let profile = tempfile();
+        let options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0"];
+        let mut command = Command::new(program);
+        command.args(options).arg(format!("--user-data-dir={}", profile.display())).arg("about:blank");
+        let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the browser starts");
+        let mut lines = BufReader::new(process.stderr.take().expect("it is piped")).lines();
+        let address = lines
+            .find_map(|line| Some(line.ok()?.strip_prefix("DevTools listening on ")?.to_owned()))
+            .expect("the browser tells its address");
+        // The browser must not wait for a reader of its messages.
+        thread::spawn(move || lines.for_each(drop));
+        let host =
+            address.strip_prefix("ws://").and_then(|rest| rest.split('/').next()).expect("an address").to_owned();
+        let stream = TcpStream::connect(host).expect("the browser listens");
+        let (socket, _) = client(&address, stream).expect("the browser answers");
+        let mut browser = Self { process, profile, socket, session: String::new(), count: 0, complaints: vec![] };
+        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
+        let attached = json!({ "targetId": target["targetId"], "flatten": true });
+        let session = browser.call("Target.attachToTarget", attached);
+        browser.session = session["sessionId"].as_str().expect("a session").to_owned();
+        for domain in ["Runtime", "Log", "Page"] {
+            browser.call(&format!("{domain}.enable"), json!({}));
+        }
+        browser.call("Page.navigate", json!({ "url": url }));
+        Some(browser)
+    }
+
+    fn call(&mut self, method: &str, params: Value) -> Value {
+        self.count += 1;
+        let mut message = json!({ "id": self.count, "method": method, "params": params });
+        if !self.session.is_empty() {
+            message["sessionId"] = self.session.clone().into();
+        }
+        self.socket.send(Message::Text(message.to_string().into())).expect("the browser listens");
+        loop {
+            let Message::Text(text) = self.socket.read().expect("the browser answers") else { continue };
+            let mut answer: Value = serde_json::from_str(&text).expect("JSON");
+            match answer["method"].as_str() {
+                Some("Runtime.exceptionThrown" | "Log.entryAdded" | "Page.javascriptDialogOpening") => {
+                    self.complaints.push(text.to_string());
+                }
+                _ if answer["id"] == self.count => return answer["result"].take(),
+                _ => {}
+            }
+        }
+    }
+
+    /// Value of an expression in the page.
+    pub fn value(&mut self, expression: &str) -> Value {
+        let params = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let mut result = self.call("Runtime.evaluate", params);
+        assert!(result["exceptionDetails"].is_null(), "{expression}: {}", result["exceptionDetails"]);
+        result["result"]["value"].take()
+    }
+
+    /// Waits until an expression is true.
+    pub fn wait_for(&mut self, expression: &str) {
+        let start = Instant::now();
+        // While the page loads, there is nothing to look at.
+        let tried = format!("(() => {{ try {{ return Boolean({expression}) }} catch {{ return false }} }})()");
+        while self.value(&tried) != json!(true) {
+            assert!(start.elapsed() < PATIENCE, "still not: {expression}\n{}\n{:?}", self.words(), self.complaints);
+            thread::sleep(Duration::from_millis(30));
+        }
+    }
+
+    /// All words on the page.
+    pub fn words(&mut self) -> String {
+        self.value("document.body.innerText").as_str().unwrap_or_default().to_owned()
+    }
+
+    /// Sends a key to the page.
+    pub fn press(&mut self, key: &str) {
+        let text = if key.chars().count() == 1 { key } else { "" };
+        for kind in ["keyDown", "keyUp"] {
+            self.call("Input.dispatchKeyEvent", json!({ "type": kind, "key": key, "text": text }));
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        let _ = fs::remove_dir_all(&self.profile);
+    }
+}
+
+fn is_there(program: &str) -> bool {
+    Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
+}
+
+fn tempfile() -> PathBuf {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    env::temp_dir().join(format!("apex-browser-{}-{number}", std::process::id()))
+}

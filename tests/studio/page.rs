@@ -1,0 +1,198 @@
+//! The page of the studio in a real browser: what it shows, by what stands in it.
+
+use crate::{browser::Browser, drive, open, socket};
+use apex_diagram::{Item, diagram};
+use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
+use apex_host::{Disk, Seen, Workspace};
+use apex_rt::studio::StreamedTime;
+use apex_studio::{Remote, Source, Studio};
+use std::{
+    fs,
+    io::{Read as _, Write as _},
+    net::TcpStream,
+    path::Path,
+    sync::{Arc, Mutex, mpsc::channel},
+    thread,
+};
+
+const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
+
+/// The source of the program, with errors if a test wants some.
+#[derive(Default)]
+struct Text {
+    errors: Mutex<Option<String>>,
+    saved: Mutex<String>,
+}
+
+impl Source for Text {
+    fn picture(&self, name: &str) -> Option<Item> {
+        let workspace = Workspace::load(Path::new(FOLDER)).ok()?;
+        let mut disk = Disk::new(Some(&workspace.cache_folder()));
+        let mut catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
+        let mut sources = Sources::default();
+        let path = Path::new(FOLDER).join("studio/counts.afg");
+        let file = sources.add(path, include_str!("counts.afg"));
+        let checked = passes::check(file, &mut catalog, &mut sources, &mut disk, &mut Diagnostics::default());
+        let graph = checked.programs.iter().map(|program| &program.graph).find(|graph| graph.name == name)?;
+        Some(diagram(graph, &checked.texts.machines, &catalog))
+    }
+
+    fn errors(&self) -> Option<String> {
+        self.errors.lock().unwrap().clone()
+    }
+
+    fn save_params(&self, params: &str) -> Result<String, String> {
+        params.clone_into(&mut self.saved.lock().unwrap());
+        Ok("counts.toml".to_owned())
+    }
+
+    fn texts(&self, files: &[String]) -> Vec<String> {
+        // Paths are those that the compiler was given: from the folder of the workspace.
+        let root = Path::new(FOLDER).parent().expect("the folder of the workspace");
+        files.iter().map(|file| fs::read_to_string(root.join(file)).unwrap_or_default()).collect()
+    }
+}
+
+/// Starts a studio for the socket `name`, and returns the address of its page.
+fn studio(name: &str, readonly: bool) -> (String, Arc<Text>) {
+    let (robot, source) = (Remote { address: socket(name).display().to_string() }, Arc::new(Text::default()));
+    let (text, (opened, address)) = (Arc::clone(&source), channel());
+    thread::spawn(move || {
+        let address = "127.0.0.1:0".parse().unwrap();
+        let studio = Studio { robot, source: text, address, readonly, speed: Some(1.0) };
+        studio.serve(|address| opened.send(address.to_owned()).unwrap()).expect("a free port");
+    });
+    (address.recv().expect("it opens"), source)
+}
+
+/// Runs the program for `seconds` at the speed that the studio chooses.
+fn start(name: &'static str, seconds: i64) -> thread::JoinHandle<()> {
+    let robot = open(name, StreamedTime::Waiting);
+    thread::spawn(move || drive(&robot, seconds))
+}
+
+const RUNNING: &str = "document.getElementById('run').textContent === 'running'";
+
+#[test]
+fn the_picture_is_alive_and_nothing_in_names_is_executed() {
+    start("alive", 3600);
+    let Some(mut page) = Browser::open(&studio("alive", false).0) else { return };
+    page.wait_for(RUNNING);
+    page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
+    page.wait_for("document.querySelector('[data-item=gated].is-active')");
+    page.wait_for("document.querySelector('[data-item=count].is-firing')");
+    page.wait_for("document.querySelector('.line.flows')");
+    page.wait_for("document.getElementById('active').innerText.includes('gated.gate')");
+    // One failure, of the token three.
+    page.wait_for("document.querySelector('[data-item=times].has-problem')");
+    page.wait_for("document.getElementById('problems').textContent.includes('times: three <b>')");
+    // Closed in place, and opened by a jump to what is inside.
+    page.value(
+        "document.querySelector('[data-item=gated]').dispatchEvent(new MouseEvent('dblclick', { bubbles: true }))",
+    );
+    page.wait_for("!document.querySelector('[data-item=\"gated.gate\"]')");
+    page.wait_for("document.querySelector('[data-item=gated].is-active')");
+    page.value("document.querySelector('#active button').click()");
+    page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-selected')");
+    // The text has its line, and the timeline its lane.
+    page.wait_for("document.querySelector('#text .is-selected').textContent.includes('ActivityGate()')");
+    page.wait_for("document.getElementById('timeline').dataset.lanes.includes('gated.gate')");
+    assert_eq!(page.complaints, Vec::<String>::new());
+    assert_eq!(page.value("document.querySelectorAll('img, #picture script').length"), 0);
+}
+
+#[test]
+fn a_halted_robot_goes_step_by_step() {
+    start("halted", 3600);
+    let Some(mut page) = Browser::open(&studio("halted", false).0) else { return };
+    page.wait_for(RUNNING);
+    page.press(" ");
+    page.wait_for("document.getElementById('run').textContent === 'halted'");
+    let now = "document.getElementById('now').textContent";
+    page.value("new Promise((done) => setTimeout(done, 200))");
+    let before = page.value(now);
+    let seconds = |text: &serde_json::Value| text.as_str().and_then(|t| t.strip_suffix(" s")?.parse::<f64>().ok());
+    page.press(".");
+    page.wait_for(&format!("{now} !== {before}"));
+    let step = seconds(&page.value(now)).unwrap() - seconds(&before).unwrap();
+    assert!((step - 0.01).abs() < 1e-6, "{step}");
+    page.press(" ");
+    page.wait_for(RUNNING);
+}
+
+#[test]
+fn parameters_are_set_checked_undone_and_saved() {
+    start("params", 3600);
+    let (address, text) = studio("params", false);
+    let Some(mut page) = Browser::open(&address) else { return };
+    let row = "document.querySelector('[data-param=\"times.factor\"]')";
+    page.wait_for(&format!("{row}?.querySelector('input[type=text]').value === '2'"));
+    let set = |page: &mut Browser, value: &str| {
+        page.value(&format!(
+            "{{ const text = {row}.querySelector('input[type=text]'); text.value = '{value}'; text.dispatchEvent(new Event('change')); }}"
+        ));
+    };
+    set(&mut page, "7");
+    page.wait_for(&format!("{row}.classList.contains('is-changed')"));
+    set(&mut page, "12");
+    page.wait_for(&format!("{row}.querySelector('.error').textContent.includes('0..=9')"));
+    page.value("document.getElementById('params-save').click()");
+    page.wait_for("document.getElementById('params-saved').textContent === 'written to counts.toml'");
+    assert_eq!(*text.saved.lock().unwrap(), "times.factor = 7\n");
+    page.value(&format!("{row}.querySelector('.undo').click()"));
+    page.wait_for(&format!("!{row}.classList.contains('is-changed')"));
+}
+
+#[test]
+fn tokens_are_shown_of_pinned_ports_only() {
+    start("tokens", 3600);
+    let Some(mut page) = Browser::open(&studio("tokens", false).0) else { return };
+    page.value("document.querySelector('[data-tab=values]').click()");
+    let row = "document.querySelector('[data-channel=\"count.out\"]')";
+    page.wait_for(row);
+    page.value(&format!("{row}.querySelector('input').click()"));
+    page.wait_for(&format!("Number({row}.querySelector('pre')?.textContent) > 10"));
+    page.wait_for(&format!("{row}.querySelector('canvas')"));
+    assert!(page.value("document.querySelectorAll('#values pre').length") == 1);
+}
+
+#[test]
+fn a_robot_may_end_and_come_back_and_several_pages_see_it() {
+    let (address, text) = studio("returns", true);
+    let robot = start("returns", 1);
+    let Some(mut first) = Browser::open(&address) else { return };
+    let Some(mut second) = Browser::open(&address) else { return };
+    first.wait_for("document.getElementById('run').textContent === 'ended'");
+    second.wait_for("document.getElementById('run').textContent === 'ended'");
+    robot.join().expect("it runs to its end");
+    *text.errors.lock().unwrap() = Some("error: <b>wrong</b>".to_owned());
+    first.wait_for("document.getElementById('errors').textContent === 'error: <b>wrong</b>'");
+    // Who may only look has no buttons, and is not obeyed.
+    assert_eq!(first.value("document.getElementById('restart').hidden"), true);
+    first.value("location.hash = 'wrong'");
+    first.wait_for("document.getElementById('run').textContent.includes('wrong token')");
+}
+
+/// Answer of the server to a request for its socket.
+fn answer(address: &str, host: &str, origin: &str) -> String {
+    let mut stream = TcpStream::connect(address).expect("the studio listens");
+    write!(
+        stream,
+        "GET /live HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+    )
+    .expect("it reads");
+    let mut start = [0; 12];
+    stream.read_exact(&mut start).expect("it answers");
+    String::from_utf8_lossy(&start).into_owned()
+}
+
+#[test]
+fn pages_of_other_sites_are_refused() {
+    let url = studio("foreign", false).0;
+    let address = url.trim_start_matches("http://").split('/').next().expect("an address").to_owned();
+    let own = format!("http://{address}");
+    assert_eq!(answer(&address, &address, &own), "HTTP/1.1 101");
+    assert_eq!(answer(&address, &address, "http://example.org"), "HTTP/1.1 403");
+    assert_eq!(answer(&address, "example.org", "http://example.org"), "HTTP/1.1 403");
+    assert_eq!(answer(&address, &address, "null"), "HTTP/1.1 403");
+}
