@@ -258,7 +258,7 @@ enum Command {
         #[arg(last = true)]
         args: Vec<String>,
     },
-    /// Run a robot and open a page on which it can be seen: what is active, what fires, what fails; with its parameters.
+    /// Run a robot and open a page on which it can be seen: what is active, fires and fails, values, and parameters.
     #[command(
         after_help = "Prints the address of the page, which has a secret token. The robot is built again after each change of its source files;\nwhile these have errors, the old one continues. In simulated time (--simulated or --replay) it can be halted and run step\nby step.\n\nExample:\n  apex studio --simulated robot.afg\n  apex studio --replay run.mcap robot.afg\n  apex studio --connect 10.0.0.7:7400 robot.afg"
     )]

@@ -1,5 +1,6 @@
 //! Observers of a program that [`drive`](crate::drive) runs: messages on standard error, and on request a profile, a
-//! recording, a replay or a stream. All runs have the same type of observer, so that the program is compiled once for them.
+//! recording, a replay or a stream. All runs have the same type of observer, so that the program is compiled once for
+//! them.
 
 #[cfg(feature = "profile")]
 use crate::profile::{self, Measures};

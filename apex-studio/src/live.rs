@@ -1,4 +1,4 @@
-//! What is known about a running robot.
+//! Knowledge about a running robot.
 
 use crate::lane::{Drawn, Lane, Window};
 use apex_rt::studio::message::{About, Report};

@@ -27,6 +27,11 @@ pub trait Robot: Send {
     /// Ends it, if this program has started it.
     fn stop(&mut self);
 
+    /// `true` if it is started by others, and may come back at any time.
+    fn comes_back(&self) -> bool {
+        false
+    }
+
     /// `true` if a new robot should take its place, because its source has changed.
     fn has_changed(&mut self) -> bool {
         false
@@ -49,6 +54,10 @@ impl Robot for Remote {
     }
 
     fn stop(&mut self) {}
+
+    fn comes_back(&self) -> bool {
+        true
+    }
 }
 
 /// Time between two attempts to connect.
@@ -56,7 +65,7 @@ const RETRY: Duration = Duration::from_millis(50);
 /// Time that a started robot has to open its socket.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// What the connection and the pages share.
+/// State that the connection and the pages share.
 #[derive(Default)]
 pub struct Shared {
     live: Mutex<Live>,
@@ -147,7 +156,9 @@ impl Link {
 /// Follows a robot until [`end`](Shared::end): starts it, takes note of its messages, and waits for a restart.
 pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64>) {
     while !shared.is_over() {
-        shared.set(Run::Starting("building".to_owned()));
+        if !robot.comes_back() {
+            shared.set(Run::Starting("building".to_owned()));
+        }
         match robot.start() {
             Ok(address) => run(&mut robot, &address, shared, &mut speed),
             Err(error) => shared.set(Run::Lost(error)),
@@ -184,12 +195,15 @@ fn run(robot: &mut impl Robot, address: &str, shared: &Arc<Shared>, speed: &mut 
 }
 
 fn connection(robot: &mut impl Robot, address: &str, shared: &Shared) -> Option<(Box<dyn Wire>, Box<dyn Wire>)> {
-    shared.set(Run::Starting(format!("connecting to {address}")));
+    // What an earlier run has shown stays until there is a new one.
+    if !robot.comes_back() || shared.live().runs == 0 {
+        shared.set(Run::Starting(format!("connecting to {address}")));
+    }
     let start = Instant::now();
     loop {
         match connect(address) {
             Ok(wires) => return Some(wires),
-            Err(error) if start.elapsed() > PATIENCE || !robot.runs() => {
+            Err(error) if !robot.comes_back() && (start.elapsed() > PATIENCE || !robot.runs()) => {
                 shared.set(Run::Lost(format!("cannot connect to {address}: {error}")));
                 return None;
             }
@@ -243,7 +257,7 @@ fn wait_for_restart(robot: &mut impl Robot, shared: &Shared) {
             return;
         }
         drop(shared.changed.wait_timeout(link, 4 * RETRY).unwrap_or_else(PoisonError::into_inner));
-        if robot.has_changed() {
+        if robot.comes_back() || robot.has_changed() {
             return;
         }
     }

@@ -28,7 +28,7 @@ const MAX_MESSAGE: usize = 1 << 20;
 /// Nothing but this page and its socket: no scripts in names or documentation, no other sites.
 const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// What every page needs.
+/// Everything that a page needs.
 #[derive(Clone)]
 pub struct Serving {
     pub shared: Arc<Shared>,

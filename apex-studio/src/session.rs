@@ -22,7 +22,7 @@ pub enum Told {
     About { run: u64, about: Arc<About>, texts: Vec<String>, readonly: bool },
     /// The picture.
     Picture { svg: String, graphs: Vec<String>, open: BTreeSet<String>, lines: BTreeMap<String, Vec<usize>> },
-    /// What has changed since the last such message.
+    /// Changes since the last such message.
     Tick(Tick),
     /// Errors of the source have come or gone.
     Errors(Option<String>),
@@ -94,7 +94,7 @@ pub struct Session {
     open: Option<BTreeSet<String>>,
 }
 
-/// What the page knows.
+/// Knowledge of the page.
 #[derive(Default)]
 struct Seen {
     runs: u64,

@@ -59,6 +59,7 @@ impl Browser {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
         browser.call("Page.navigate", json!({ "url": url }));
+        browser.wait_for("document.readyState === 'complete' && document.getElementById('run')");
         Some(browser)
     }
 
@@ -104,6 +105,19 @@ impl Browser {
     /// All words on the page.
     pub fn words(&mut self) -> String {
         self.value("document.body.innerText").as_str().unwrap_or_default().to_owned()
+    }
+
+    /// Sets the size of the page and its theme.
+    pub fn size(&mut self, width: u32, height: u32, is_dark: bool) {
+        let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", size);
+        let theme = json!({ "name": "prefers-color-scheme", "value": if is_dark { "dark" } else { "light" } });
+        self.call("Emulation.setEmulatedMedia", json!({ "features": [theme] }));
+    }
+
+    /// A picture of the page, as PNG in base 64.
+    pub fn picture(&mut self) -> String {
+        self.call("Page.captureScreenshot", json!({}))["data"].as_str().unwrap_or_default().to_owned()
     }
 
     /// Sends a key to the page.

@@ -2,6 +2,7 @@
 
 mod browser;
 mod page;
+mod pictures;
 mod stream;
 
 use apex_macros::graph;

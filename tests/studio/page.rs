@@ -165,6 +165,10 @@ fn a_robot_may_end_and_come_back_and_several_pages_see_it() {
     first.wait_for("document.getElementById('run').textContent === 'ended'");
     second.wait_for("document.getElementById('run').textContent === 'ended'");
     robot.join().expect("it runs to its end");
+    let again = start("returns", 3600);
+    first.wait_for(RUNNING);
+    second.wait_for(RUNNING);
+    drop(again);
     *text.errors.lock().unwrap() = Some("error: <b>wrong</b>".to_owned());
     first.wait_for("document.getElementById('errors').textContent === 'error: <b>wrong</b>'");
     // Who may only look has no buttons, and is not obeyed.

@@ -1,5 +1,5 @@
-//! Streams of running programs: what fires, what is active, what fails, and on demand the tokens of ports. Viewers, such
-//! as `apex studio`, connect to a socket; they can set parameters and, in simulated time, halt the program.
+//! Streams of running programs: what fires, what is active, what fails, and on demand the tokens of ports. Viewers, as
+//! `apex studio` is one, connect to a socket; they can set parameters and, in simulated time, halt the program.
 //!
 //! A program that [`drive`](crate::drive) runs streams if the environment variable `APEX_STUDIO` has an address:
 //! `HOST:PORT`, or the path of a socket. With `APEX_STUDIO_WAIT` a program in simulated time waits for a viewer that
