@@ -3,11 +3,11 @@
 use crate::{
     build::How,
     project::{self, print_error},
-    run::{Found, Params, Recording, Stream, Wanted},
+    run::{Found, KEPT, Params, Recording, Stream, Wanted},
     watch::{
         files::Files,
         folders,
-        program::{Running, forget, start},
+        program::{Running, forget},
     },
 };
 use apex_diagram::{Item, diagram};
@@ -18,7 +18,7 @@ use std::{
     io::{self, Write as _},
     net::SocketAddr,
     path::{Path, PathBuf},
-    process::ExitCode,
+    process::{Command, ExitCode},
     sync::{Arc, Mutex, PoisonError},
     time::{Duration, Instant},
 };
@@ -147,6 +147,8 @@ struct Launched {
     socket: PathBuf,
     /// A program that has been built, but not started.
     built: Option<Found>,
+    /// Command that has started the current program.
+    command: Option<Command>,
     running: Option<Running>,
     has_started: bool,
     folders: Vec<PathBuf>,
@@ -160,7 +162,18 @@ impl Launched {
         let params = Params { load: launch.params.clone(), save: None };
         let folders = folders(&launch.file)?;
         let files = (Files::default(), Files::default(), Instant::now());
-        Ok(Self { launch, params, text, socket, built: None, running: None, has_started: false, folders, files })
+        Ok(Self {
+            launch,
+            params,
+            text,
+            socket,
+            built: None,
+            command: None,
+            running: None,
+            has_started: false,
+            folders,
+            files,
+        })
     }
 
     fn wanted<'a>(launch: &'a Launch, params: &'a Params, socket: &'a str) -> Wanted<'a> {
@@ -204,16 +217,24 @@ impl Launched {
 }
 
 impl Robot for Launched {
-    fn start(&mut self) -> Result<String, String> {
+    fn start(&mut self, again: bool) -> Result<String, String> {
+        let socket = self.socket.to_string_lossy().into_owned();
+        if let Some(command) = self.command.as_mut().filter(|_| again) {
+            // With the parameters of the text, not with those at the end of the last run.
+            let child = command.env_remove(KEPT).spawn();
+            self.running = Some(Running::new(child.map_err(|e| format!("cannot start the robot again: {e}"))?));
+            return Ok(socket);
+        }
         if self.built.is_none() && !self.build()? {
             return Err("the program has errors".to_owned());
         }
-        let socket = self.socket.to_string_lossy().into_owned();
         let built = self.built.take().ok_or("the program has not been built")?;
         if !std::mem::replace(&mut self.has_started, true) {
             forget(&built);
         }
-        self.running = Some(start(built, &Self::wanted(&self.launch, &self.params, &socket))?);
+        let mut command = Self::wanted(&self.launch, &self.params, &socket).command(&built);
+        self.running = Some(Running::new(command.spawn().map_err(|e| built.not_started(&e))?));
+        self.command = Some(command);
         Ok(socket)
     }
 

@@ -70,7 +70,7 @@ let problems = 0;
 
 /** What the studio tells, by kind. @type {Record<string, (told: any) => void>} */
 const tells = {
-  about({ about, texts, readonly }) {
+  about({ about, texts, readonly, travels, repeats }) {
     robot.about = about;
     robot.readonly = readonly;
     robot.now = 0;
@@ -82,13 +82,20 @@ const tells = {
     element("name").title = about.docs;
     element("pace").hidden = !about.simulated || readonly;
     element("restart").hidden = readonly;
+    for (const id of ["back", "goto"]) element(id).hidden = !travels || readonly;
     element("problems").replaceChildren();
     problems = 0;
     showActive();
     params.begin();
     values.begin();
     text.begin(texts);
-    timeline.begin();
+    if (!repeats) timeline.begin();
+  },
+  break(error) {
+    element("break").classList.toggle("is-wrong", error !== null);
+    element("break").title = error ?? "halts whenever this becomes true: active(a) && !active(b.c)";
+    if (error !== null) tip(error, /** @type {any} */ (centre(element("break"))));
+    else tip(null);
   },
   picture(told) { picture.show(told); },
   tick(told) { tick(told); },
@@ -104,6 +111,12 @@ const tells = {
   refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
 };
 let refused = false;
+
+/** A place below an element, for a tip. @param {HTMLElement} of */
+function centre(of) {
+  const { left, bottom } = of.getBoundingClientRect();
+  return { clientX: left, clientY: bottom };
+}
 
 /** @param {string} kind @param {string} words */
 function state(kind, words) {
@@ -234,6 +247,9 @@ function pause() { ask(paused ? { run: { speed } } : "pause"); }
 
 element("pause").addEventListener("click", pause);
 element("step").addEventListener("click", () => ask("step"));
+element("back").addEventListener("click", () => ask("back"));
+element("goto").addEventListener("click", () => timeline.go());
+element("break").addEventListener("change", () => ask({ break: element("break").value }));
 element("restart").addEventListener("click", () => ask("restart"));
 element("speed").addEventListener("change", () => {
   const chosen = element("speed").value;
@@ -264,6 +280,8 @@ document.addEventListener("keydown", (event) => {
   const keys = {
     " ": pause,
     ".": () => ask("step"),
+    ",": () => ask("back"),
+    g: () => timeline.go(),
     f: () => timeline.follow(),
     "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
     o: () => picture.toggle(robot.selected),

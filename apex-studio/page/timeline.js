@@ -18,7 +18,7 @@ export class Timeline {
     this.span = 30;
     this.end = 0;
     this.isFollowing = true;
-    /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[]} | null} */
+    /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[], before: any[], differs: number | null} | null} */
     this.lanes = null;
     /** @type {number | null} */ this.cursor = null;
     this.asked = 0;
@@ -80,6 +80,12 @@ export class Timeline {
     this.axis(c, color, height);
     canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
     lanes.forEach((lane, at) => this.lane(c, color, lane, AXIS + at * HEIGHT));
+    const differs = this.lanes?.differs ?? null;
+    if (differs !== null && this.x(differs) >= LABELS) {
+      c.fillStyle = color("--bad");
+      c.fillRect(this.x(differs), 0, 1.5, height);
+    }
+    element("differs").textContent = differs === null ? "" : `differs from the run before since ${shown(differs)}`;
     if (this.cursor !== null) {
       c.fillStyle = color("--accent");
       c.fillRect(this.x(this.cursor), 0, 1.5, height);
@@ -117,6 +123,9 @@ export class Timeline {
     c.clip();
     c.fillStyle = color("--active");
     for (const [a, b] of spans) c.fillRect(x(a), y + 2, Math.max(1, x(b) - x(a)), HEIGHT - 9);
+    const before = this.lanes?.before.find((other) => other.node === node);
+    c.fillStyle = color("--soft");
+    for (const [a, b] of before?.spans ?? []) c.fillRect(x(a), y + HEIGHT - 9, Math.max(1, x(b) - x(a)), 2);
     c.fillStyle = color("--fire");
     const most = Math.max(1, ...ticks.map((/** @type {[number, number]} */ [, count]) => count));
     for (const [at, count] of ticks) {
@@ -149,6 +158,11 @@ export class Timeline {
     }
     this.request();
     this.draw();
+  }
+
+  /** Lets the robot go to the cursor. */
+  go() {
+    if (this.cursor !== null) ask({ goto: this.cursor });
   }
 
   /** Follows the time again. */
@@ -208,6 +222,11 @@ export class Timeline {
       drag = null;
     });
     canvas.addEventListener("pointerleave", () => tip(null));
+    // For tests, and for other tools.
+    canvas.addEventListener("goto", (event) => {
+      this.look(/** @type {CustomEvent} */ (event).detail);
+      this.go();
+    });
     addEventListener("resize", () => this.request());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }

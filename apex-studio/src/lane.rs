@@ -104,6 +104,24 @@ impl Lane {
         !self.spans.is_empty() || !self.marks.is_empty()
     }
 
+    /// Time of the first difference from another lane before `until`, if there is one.
+    pub fn differs(&self, other: &Self, until: i64) -> Option<i64> {
+        let spans = |lane: &Self| -> Vec<i64> {
+            let ends = lane.spans.iter().flat_map(|(from, to)| [*from, *to]);
+            ends.take_while(|time| *time < until).collect()
+        };
+        let fired = |lane: &Self| -> Vec<(i64, u64)> {
+            let whole = lane.fired.iter().take_while(|(start, _)| start + lane.bucket <= until);
+            whole.copied().collect()
+        };
+        let spans = first_difference(&spans(self), &spans(other), |time| *time);
+        // Buckets of different width are compared when both are as wide.
+        let fired = (self.bucket == other.bucket)
+            .then(|| first_difference(&fired(self), &fired(other), |(start, _)| *start))
+            .flatten();
+        spans.into_iter().chain(fired).min()
+    }
+
     /// The part of it in a window. `now` is the current time.
     pub fn draw(&self, node: usize, window: Window, now: i64) -> Drawn {
         let mut spans: Vec<(u32, u32)> = vec![];
@@ -138,6 +156,12 @@ impl Lane {
     }
 }
 
+/// Time of the first entry that is not the same in both.
+fn first_difference<T: PartialEq>(one: &[T], other: &[T], time: impl Fn(&T) -> i64) -> Option<i64> {
+    let same = one.iter().zip(other).take_while(|(a, b)| a == b).count();
+    one.get(same).into_iter().chain(other.get(same)).map(time).min()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,5 +189,24 @@ mod tests {
         assert_eq!(drawn, Drawn { node: 2, spans: vec![(0, 1), (500, 750)], ticks: vec![], marks: vec![0] });
         let near = Window { from: 4_000_000, to: 6_000_000, columns: 100 };
         assert_eq!(lane.draw(2, near, 2_700_000_000_000).spans, [(50, 51)]);
+    }
+
+    #[test]
+    fn the_first_difference_of_two_runs_is_found() {
+        let lane = |spans: &[(i64, i64)], fired: &[i64]| {
+            let mut lane = Lane::default();
+            fired.iter().for_each(|ms| lane.fire(ms * 1_000_000));
+            for (from, to) in spans {
+                lane.activity(from * 1_000_000, true);
+                lane.activity(to * 1_000_000, false);
+            }
+            lane
+        };
+        let (one, ms) = (lane(&[(1, 5), (8, 9)], &[1, 2, 3]), |ms: i64| ms * 1_000_000);
+        assert_eq!(one.differs(&lane(&[(1, 5), (8, 9)], &[1, 2, 3]), ms(99)), None);
+        assert_eq!(one.differs(&lane(&[(1, 5), (7, 9)], &[1, 2, 3]), ms(99)), Some(ms(7)));
+        assert_eq!(one.differs(&lane(&[(1, 5)], &[1, 2, 3]), ms(99)), Some(ms(8)));
+        assert_eq!(one.differs(&lane(&[(1, 5)], &[1, 2, 3]), ms(8)), None);
+        assert_eq!(one.differs(&lane(&[(1, 5), (8, 9)], &[1, 2, 2, 3]), ms(99)), Some(ms(2)));
     }
 }

@@ -3,6 +3,8 @@
 //! The robot streams what it does ([`apex_rt::studio`]). This program connects to it, keeps the history, and serves the
 //! page to browsers on this machine. It holds no state that a robot needs: it may come and go.
 
+mod condition;
+mod journey;
 mod lane;
 mod live;
 mod picture;
@@ -63,11 +65,13 @@ impl<R: Robot + 'static> Studio<R> {
             let address = listener.local_addr()?;
             opened(&format!("http://{address}/#{token}"));
             let shared = Arc::<Shared>::default();
+            let travels = !self.robot.comes_back();
             let (robot, speed, following) = (self.robot, self.speed, Arc::clone(&shared));
             let thread = thread::Builder::new().name("robot".to_owned());
             let thread = thread.spawn(move || follow(robot, &following, speed))?;
             let (source, readonly) = (self.source, self.readonly);
-            let serving = Serving { shared: Arc::clone(&shared), source, token: token.into(), address, readonly };
+            let serving =
+                Serving { shared: Arc::clone(&shared), source, token: token.into(), address, readonly, travels };
             let served = server::serve(serving, listener, stopped()).await;
             shared.end();
             // It has ended its robot then.

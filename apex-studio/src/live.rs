@@ -49,7 +49,22 @@ pub struct Live {
     pub paused: bool,
     /// Simulated seconds per second.
     pub speed: f64,
+    /// Times of all reactions in ns.
+    pub times: Vec<i64>,
+    /// Parameters that were set, with the numbers of reactions before.
+    pub sets: Vec<(u64, String, String)>,
+    /// `true` if this run repeats an earlier one up to a point.
+    pub repeats: bool,
     lanes: Vec<Lane>,
+    /// The earlier run.
+    before: Option<Before>,
+}
+
+/// A run before this one, for comparison.
+struct Before {
+    lanes: Vec<Lane>,
+    times: Vec<i64>,
+    now: i64,
 }
 
 /// State of a node.
@@ -114,7 +129,11 @@ impl Default for Live {
             tokens: BTreeMap::new(),
             paused: false,
             speed: f64::INFINITY,
+            times: vec![],
+            sets: vec![],
+            repeats: false,
             lanes: vec![],
+            before: None,
         }
     }
 }
@@ -122,8 +141,9 @@ impl Default for Live {
 impl Live {
     /// Begins a run of the robot that a message describes.
     pub fn begin(&mut self, about: About) {
-        let runs = self.runs + 1;
-        *self = Self { runs, run: Run::Running, ..Self::default() };
+        let (runs, repeats) = (self.runs + 1, self.repeats);
+        let before = self.before.take().filter(|_| repeats);
+        *self = Self { runs, repeats, before, run: Run::Running, ..Self::default() };
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::default()).collect();
         self.handled = vec![0; about.connections.len()];
@@ -135,7 +155,10 @@ impl Live {
         match report {
             Report::About(about) => self.begin(about),
             Report::Active(nodes) => nodes.into_iter().for_each(|node| self.activity(node, true)),
-            Report::Reaction { now, .. } => self.now = self.now.max(now),
+            Report::Reaction { now, .. } => {
+                self.now = self.now.max(now);
+                self.times.push(now);
+            }
             Report::Fired(node) => self.fire(node),
             Report::Handled(connection) => self.handle(connection),
             Report::Activity { node, active } => self.activity(node, active),
@@ -169,8 +192,8 @@ impl Live {
                 }
             }
             Report::Lost(count) => self.lost += count,
-            Report::Param { name, value } => self.param(name, value),
-            Report::Pace { paused, speed } => (self.paused, self.speed) = (paused, speed),
+            Report::Param { name, value, reactions } => self.param(name, value, reactions),
+            Report::Pace { paused, speed, .. } => (self.paused, self.speed) = (paused, speed),
             Report::Ended => self.run = Run::Ended,
         }
     }
@@ -225,14 +248,16 @@ impl Live {
         }
     }
 
-    fn param(&mut self, name: String, value: Result<String, String>) {
+    fn param(&mut self, name: String, value: Result<String, String>, reactions: Option<u64>) {
         let is_new = !self.params.contains_key(&name);
-        let param = self.params.entry(name).or_default();
+        let param = self.params.entry(name.clone()).or_default();
         param.version += 1;
         match value {
             Ok(value) => {
                 if is_new {
                     param.initial.clone_from(&value);
+                } else if let Some(reactions) = reactions {
+                    self.sets.push((reactions, name, value.clone()));
                 }
                 (param.value, param.error) = (value, None);
             }
@@ -246,9 +271,40 @@ impl Live {
         changed.map(|(name, param)| format!("{name} = {}\n", param.value)).collect()
     }
 
+    /// Keeps this run for comparison with the next one, which repeats it up to a point.
+    pub fn depart(&mut self) {
+        let goes_further = |before: &Before| before.now >= self.now && self.differs().is_none();
+        if !self.before.as_ref().is_some_and(goes_further) {
+            let lanes = std::mem::replace(&mut self.lanes, self.nodes.iter().map(|_| Lane::default()).collect());
+            self.before = Some(Before { lanes, times: self.times.clone(), now: self.now });
+        }
+        self.repeats = true;
+    }
+
+    /// Number of reactions up to a time in ns, also in the future if that is known.
+    pub fn reactions_until(&self, time: i64) -> u64 {
+        let known = self.before.as_ref().filter(|before| before.times.len() > self.times.len());
+        let times = known.map_or(&self.times, |before| &before.times);
+        times.partition_point(|at| *at <= time) as u64
+    }
+
+    /// Time in ns at which this run begins to differ from the one that it repeats.
+    pub fn differs(&self) -> Option<i64> {
+        let before = self.before.as_ref()?;
+        let until = self.now.min(before.now);
+        self.lanes.iter().zip(&before.lanes).filter_map(|(lane, other)| lane.differs(other, until)).min()
+    }
+
+    /// The lanes of the run that this one repeats, for the nodes of `lanes`.
+    pub fn draw_before(&self, window: Window, lanes: &[Drawn]) -> Vec<Drawn> {
+        let Some(before) = &self.before else { return vec![] };
+        lanes.iter().filter_map(|lane| Some(before.lanes.get(lane.node)?.draw(lane.node, window, before.now))).collect()
+    }
+
     /// The lanes of all nodes that were active or had problems, and of those in `also`.
     pub fn draw(&self, window: Window, also: &[usize]) -> Vec<Drawn> {
-        let is_drawn = |(at, lane): &(usize, &Lane)| lane.is_of_interest() || also.contains(at);
+        let was = |at: usize| self.before.as_ref().and_then(|b| b.lanes.get(at)).is_some_and(Lane::is_of_interest);
+        let is_drawn = |(at, lane): &(usize, &Lane)| lane.is_of_interest() || was(*at) || also.contains(at);
         self.lanes.iter().enumerate().filter(is_drawn).map(|(at, lane)| lane.draw(at, window, self.now)).collect()
     }
 }

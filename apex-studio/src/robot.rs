@@ -1,9 +1,13 @@
 //! The connection to a robot, on a thread of its own.
 
-use crate::live::{Live, Run};
+use crate::{
+    condition,
+    journey::Journey,
+    live::{Live, Run},
+};
 use apex_rt::studio::{
     Wire, connect,
-    message::{self, Command, Report},
+    message::{self, About, Command, Report},
 };
 use std::{
     collections::BTreeMap,
@@ -15,11 +19,12 @@ use std::{
 
 /// A robot to be shown.
 pub trait Robot: Send {
-    /// Starts the robot, or finds it. Returns the address of its socket.
+    /// Starts the robot, or finds it; `again` if it has to begin as it did before, from the same source. Returns the
+    /// address of its socket.
     ///
     /// # Errors
     /// The robot cannot be built or started.
-    fn start(&mut self) -> Result<String, String>;
+    fn start(&mut self, again: bool) -> Result<String, String>;
 
     /// `true` if it runs, as far as is known.
     fn runs(&mut self) -> bool;
@@ -45,7 +50,7 @@ pub struct Remote {
 }
 
 impl Robot for Remote {
-    fn start(&mut self) -> Result<String, String> {
+    fn start(&mut self, _again: bool) -> Result<String, String> {
         Ok(self.address.clone())
     }
 
@@ -79,6 +84,10 @@ struct Link {
     /// Number of pages that watch each channel.
     watches: BTreeMap<u32, usize>,
     restart: bool,
+    /// Condition at which the robot halts, also in the next run.
+    stop: String,
+    /// The way to the state that the next run begins with.
+    journey: Option<Journey>,
     over: bool,
 }
 
@@ -120,9 +129,39 @@ impl Shared {
         }
     }
 
+    /// Lets the robot halt whenever a condition becomes true.
+    ///
+    /// # Errors
+    /// The text is not a condition, or there is no robot yet.
+    pub fn halt_when(&self, condition: &str) -> Result<(), String> {
+        let about = self.live().about.clone().ok_or("there is no robot yet")?;
+        let tests = condition::parse(condition, &about)?;
+        let mut link = locked(&self.link);
+        condition.clone_into(&mut link.stop);
+        link.tell(&Command::Break(tests));
+        Ok(())
+    }
+
     /// Lets the robot be started again.
     pub fn restart(&self) {
         locked(&self.link).restart = true;
+        self.changed.notify_all();
+    }
+
+    /// Goes to the state after this number of reactions, by a new run if it is in the past.
+    pub fn travel(&self, goal: u64) {
+        let mut live = self.live();
+        if goal >= live.times.len() as u64 {
+            drop(live);
+            self.tell(&Command::RunTo { reactions: goal });
+            return;
+        }
+        let journey = Journey::of(&live, goal);
+        live.depart();
+        drop(live);
+        let mut link = locked(&self.link);
+        link.journey = Some(journey);
+        link.restart = true;
         self.changed.notify_all();
     }
 
@@ -159,8 +198,10 @@ pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64
         if !robot.comes_back() {
             shared.set(Run::Starting("building".to_owned()));
         }
-        match robot.start() {
-            Ok(address) => run(&mut robot, &address, shared, &mut speed),
+        let journey = locked(&shared.link).journey.take();
+        shared.live().repeats = journey.is_some();
+        match robot.start(journey.is_some()) {
+            Ok(address) => run(&mut robot, &address, shared, &mut speed, journey),
             Err(error) => shared.set(Run::Lost(error)),
         }
         robot.stop();
@@ -169,11 +210,11 @@ pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64
 }
 
 /// Takes note of one run.
-fn run(robot: &mut impl Robot, address: &str, shared: &Arc<Shared>, speed: &mut Option<f64>) {
+fn run(robot: &mut impl Robot, address: &str, shared: &Arc<Shared>, speed: &mut Option<f64>, journey: Option<Journey>) {
     let Some((from, to)) = connection(robot, address, shared) else { return };
     locked(&shared.link).wire = Some(to);
     let reader = thread::scope(|scope| {
-        let reader = scope.spawn(|| read(from, shared, *speed));
+        let reader = scope.spawn(|| read(from, shared, *speed, journey));
         while !reader.is_finished() {
             if shared.is_over() || locked(&shared.link).restart || robot.has_changed() {
                 robot.stop();
@@ -213,40 +254,48 @@ fn connection(robot: &mut impl Robot, address: &str, shared: &Shared) -> Option<
     }
 }
 
-/// Reads messages until the connection ends.
-fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>) -> Result<(), String> {
+/// Reads messages until the connection ends, and guides the robot on its journey.
+fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, mut journey: Option<Journey>) -> Result<(), String> {
     let mut from = BufReader::with_capacity(1 << 16, from);
-    let mut is_first = true;
     loop {
-        match message::read::<Report>(&mut from) {
-            Ok(Some(Report::About(about))) if about.version != message::VERSION => {
+        let report = match message::read::<Report>(&mut from) {
+            Ok(Some(report)) => report,
+            Ok(None) => return Ok(()),
+            Err(error) => return Err(error.to_string()),
+        };
+        if let Report::About(about) = report {
+            if about.version != message::VERSION {
                 return Err(format!(
                     "the robot sends version {} of its messages, and this program reads {}: build both with the same version of Apex",
                     about.version,
                     message::VERSION
                 ));
             }
-            Ok(Some(report)) => {
-                shared.live().note(report);
-                if std::mem::take(&mut is_first) {
-                    greet(shared, speed);
-                }
-            }
-            Ok(None) => return Ok(()),
-            Err(error) => return Err(error.to_string()),
+            let first = journey.as_mut().and_then(|journey| journey.begin(about.params.len()));
+            greet(shared, &about, speed.filter(|_| journey.is_none()), first);
+            shared.live().note(Report::About(about));
+            continue;
         }
+        if let Some(command) = journey.as_mut().and_then(|journey| journey.after(&report)) {
+            shared.tell(&command);
+        } else if journey.as_ref().is_some_and(|journey| journey.ends(&report)) {
+            journey = None;
+        }
+        shared.live().note(report);
     }
 }
 
 /// Sends what a new robot has to know.
-fn greet(shared: &Shared, speed: Option<f64>) {
+fn greet(shared: &Shared, about: &About, speed: Option<f64>, first: Option<Command>) {
     let mut link = locked(&shared.link);
     link.tell(&Command::Params);
     let channels: Vec<u32> = link.watches.keys().copied().collect();
     channels.into_iter().for_each(|channel| link.tell(&Command::Watch { channel, every: EVERY }));
-    if let Some(speed) = speed {
-        link.tell(&Command::Run { speed });
-    }
+    // Nodes may have other numbers now; a condition on nodes that are gone is void.
+    let stop = condition::parse(&link.stop, about).unwrap_or_default();
+    link.tell(&Command::Break(stop));
+    let start = speed.map(|speed| Command::Run { speed });
+    start.into_iter().chain(first).for_each(|command| link.tell(&command));
 }
 
 /// Waits until the robot is to be started again.

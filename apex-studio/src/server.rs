@@ -36,6 +36,8 @@ pub struct Serving {
     pub token: Arc<str>,
     pub address: SocketAddr,
     pub readonly: bool,
+    /// `true` if the robot can be started again, and thus go back in time.
+    pub travels: bool,
 }
 
 /// Serves pages until `stop` is complete.
@@ -117,7 +119,7 @@ async fn talk(serving: Serving, mut socket: WebSocket) {
         let _ = socket.send(Message::Text("{\"refused\":null}".into())).await;
         return;
     }
-    let mut session = Session::new(serving.shared, serving.source, serving.readonly);
+    let mut session = Session::new(serving.shared, serving.source, serving.readonly, serving.travels);
     let mut tick = time::interval(TICK);
     // A page that was slow gets the newest state, not all that it missed.
     tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);

@@ -19,7 +19,7 @@ use std::{
 #[serde(rename_all = "lowercase")]
 pub enum Told {
     /// A robot. Everything about an earlier one is obsolete.
-    About { run: u64, about: Arc<About>, texts: Vec<String>, readonly: bool },
+    About(AboutRun),
     /// The picture.
     Picture { svg: String, graphs: Vec<String>, open: BTreeSet<String>, lines: BTreeMap<String, Vec<usize>> },
     /// Changes since the last such message.
@@ -32,10 +32,34 @@ pub enum Told {
     Params(BTreeMap<String, Param>),
     /// New tokens of channels, as time in s and text.
     Tokens(BTreeMap<u32, Vec<(f64, String)>>),
+    /// The condition at which the robot halts has a mistake, or none.
+    Break(Option<String>),
     /// The changed parameters were written to this file, or could not be.
     Saved(Result<String, String>),
     /// Lanes of the timeline.
-    Lanes { from: f64, to: f64, columns: u32, lanes: Vec<Drawn> },
+    Lanes {
+        from: f64,
+        to: f64,
+        columns: u32,
+        lanes: Vec<Drawn>,
+        /// The same lanes of the run that this one repeats.
+        before: Vec<Drawn>,
+        /// Time in s at which they begin to differ.
+        differs: Option<f64>,
+    },
+}
+
+/// A run of a robot.
+#[derive(Serialize)]
+pub struct AboutRun {
+    run: u64,
+    about: Arc<About>,
+    texts: Vec<String>,
+    readonly: bool,
+    /// `true` if it can go back in time.
+    travels: bool,
+    /// `true` if it repeats the run before up to a point.
+    repeats: bool,
 }
 
 /// State of the run.
@@ -69,6 +93,12 @@ pub enum Asked {
     Step,
     /// Lets it continue at this speed; without one, as fast as possible.
     Run { speed: Option<f64> },
+    /// Halts it before the last reaction.
+    Back,
+    /// Halts it at this time in s.
+    Goto(f64),
+    /// Halts it whenever this condition becomes true.
+    Break(String),
     /// Starts it again.
     Restart,
     /// Writes all changed parameters to a file.
@@ -87,6 +117,7 @@ pub struct Session {
     shared: Arc<Shared>,
     source: Arc<dyn Source>,
     readonly: bool,
+    travels: bool,
     seen: Seen,
     picture: Option<Picture>,
     watched: BTreeSet<u32>,
@@ -107,9 +138,9 @@ struct Seen {
 }
 
 impl Session {
-    pub fn new(shared: Arc<Shared>, source: Arc<dyn Source>, readonly: bool) -> Self {
+    pub fn new(shared: Arc<Shared>, source: Arc<dyn Source>, readonly: bool, travels: bool) -> Self {
         let (seen, watched) = (Seen::default(), BTreeSet::new());
-        Self { shared, source, readonly, seen, picture: None, watched, open: None }
+        Self { shared, source, readonly, travels, seen, picture: None, watched, open: None }
     }
 
     /// Answers the page.
@@ -128,13 +159,28 @@ impl Session {
             Asked::Lanes { from, to, columns, also } => {
                 let columns = columns.clamp(1, MAX_COLUMNS);
                 let window = Window { from: (from * 1e9) as i64, to: (to * 1e9) as i64, columns };
-                return Some(Told::Lanes { from, to, columns, lanes: self.shared.live().draw(window, &also) });
+                let live = self.shared.live();
+                let lanes = live.draw(window, &also);
+                let (before, differs) = (live.draw_before(window, &lanes), live.differs().map(seconds));
+                return Some(Told::Lanes { from, to, columns, lanes, before, differs });
             }
             _ if self.readonly => return None,
             Asked::Restart => {
                 self.shared.restart();
                 return None;
             }
+            Asked::Back | Asked::Goto(_) if !self.travels => return None,
+            Asked::Back => {
+                let last = (self.shared.live().times.len() as u64).saturating_sub(1);
+                self.shared.travel(last);
+                return None;
+            }
+            Asked::Goto(time) => {
+                let goal = self.shared.live().reactions_until((time * 1e9) as i64);
+                self.shared.travel(goal);
+                return None;
+            }
+            Asked::Break(text) => return Some(Told::Break(self.shared.halt_when(&text).err())),
             Asked::Save => {
                 let changed = self.shared.live().changed_params();
                 return Some(Told::Saved(self.source.save_params(&changed)));
@@ -160,7 +206,9 @@ impl Session {
             let picture = self.source.picture(&about.name);
             self.picture = picture.map(Picture::new);
             let texts = self.source.texts(&about.files);
-            told.push(Told::About { run: live.runs, about, texts, readonly: self.readonly });
+            let (readonly, travels) = (self.readonly, self.travels && about.simulated);
+            let (run, repeats) = (live.runs, live.repeats);
+            told.push(Told::About(AboutRun { run, about, texts, readonly, travels, repeats }));
             drop(live);
             told.extend(self.draw());
             told.extend(self.since(&shared.live()));

@@ -5,12 +5,13 @@ use apex_diagram::{Item, diagram};
 use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
 use apex_host::{Disk, Seen, Workspace};
 use apex_rt::studio::StreamedTime;
-use apex_studio::{Remote, Source, Studio};
+use apex_studio::{Remote, Robot, Source, Studio};
 use std::{
-    fs,
+    env, fs,
     io::{Read as _, Write as _},
     net::TcpStream,
     path::Path,
+    process::{Child, Command, Stdio},
     sync::{Arc, Mutex, mpsc::channel},
     thread,
 };
@@ -55,7 +56,12 @@ impl Source for Text {
 
 /// Starts a studio for the socket `name`, and returns the address of its page.
 fn studio(name: &str, readonly: bool) -> (String, Arc<Text>) {
-    let (robot, source) = (Remote { address: socket(name).display().to_string() }, Arc::new(Text::default()));
+    studio_of(Remote { address: socket(name).display().to_string() }, readonly)
+}
+
+/// Starts a studio for a robot.
+fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Text>) {
+    let source = Arc::new(Text::default());
     let (text, (opened, address)) = (Arc::clone(&source), channel());
     thread::spawn(move || {
         let address = "127.0.0.1:0".parse().unwrap();
@@ -69,6 +75,106 @@ fn studio(name: &str, readonly: bool) -> (String, Arc<Text>) {
 fn start(name: &'static str, seconds: i64) -> thread::JoinHandle<()> {
     let robot = open(name, StreamedTime::Waiting);
     thread::spawn(move || drive(&robot, seconds))
+}
+
+/// A robot in a process of its own, which can be started again: this program, as `robot_of_its_own`.
+struct Restarted {
+    name: &'static str,
+    process: Option<Child>,
+}
+
+/// Environment variable with the name of its socket.
+const OWN: &str = "APEX_TEST_ROBOT";
+
+impl Robot for Restarted {
+    fn start(&mut self, _again: bool) -> Result<String, String> {
+        let mut command = Command::new(env::current_exe().map_err(|e| e.to_string())?);
+        let command = command.args(["--ignored", "--exact", "page::robot_of_its_own"]).env(OWN, self.name);
+        self.process = Some(command.stdout(Stdio::null()).spawn().map_err(|e| e.to_string())?);
+        let id = self.process.as_ref().map_or(0, Child::id);
+        Ok(env::temp_dir().join(format!("apex-studio-{id}-{}", self.name)).display().to_string())
+    }
+
+    fn runs(&mut self) -> bool {
+        true
+    }
+
+    fn stop(&mut self) {
+        if let Some(mut process) = self.process.take() {
+            process.kill().expect("it runs");
+            process.wait().expect("it ends");
+        }
+    }
+}
+
+impl Drop for Restarted {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+#[test]
+#[ignore = "other tests start it as a process of its own"]
+fn robot_of_its_own() {
+    if let Ok(name) = env::var(OWN) {
+        drive(&open(&name, StreamedTime::Waiting), 3600);
+    }
+}
+
+#[test]
+fn a_robot_goes_back_in_time_and_to_conditions() {
+    let Some(mut page) = Browser::open(&studio_of(Restarted { name: "back", process: None }, false).0) else { return };
+    page.wait_for(RUNNING);
+    page.wait_for("parseFloat(document.getElementById('now').textContent) > 0.5");
+    page.press(" ");
+    let halted = "document.getElementById('run').textContent === 'halted'";
+    page.wait_for(halted);
+    let now = |page: &mut Browser| {
+        // Until the last messages have come.
+        page.value("new Promise((done) => setTimeout(done, 200))");
+        let text = page.value("document.getElementById('now').textContent");
+        text.as_str().and_then(|text| text.strip_suffix(" s")?.parse::<f64>().ok()).expect("a time")
+    };
+    let row = "document.querySelector('[data-param=\"times.factor\"]')";
+    let factor = |of: &str| format!("{row}.querySelector('input[type=text]').value === '{of}'");
+    let set_at = now(&mut page);
+    page.value(&format!(
+        "{{ const text = {row}.querySelector('input[type=text]'); text.value = '5'; text.dispatchEvent(new Event('change')); }}"
+    ));
+    page.wait_for(&format!("{row}.classList.contains('is-changed')"));
+    page.press(" ");
+    page.wait_for(&format!("parseFloat(document.getElementById('now').textContent) > {}", set_at + 0.5));
+    page.press(" ");
+    page.wait_for(halted);
+    // One reaction back, with the parameter as it was set.
+    let last = now(&mut page);
+    page.press(",");
+    page.wait_for(&format!("document.getElementById('now').textContent === '{:.3} s'", last - 0.01));
+    page.wait_for(halted);
+    page.wait_for(&factor("5"));
+    // Before the parameter was set.
+    page.value(&format!(
+        "document.getElementById('timeline').dispatchEvent(new CustomEvent('goto', {{ detail: {} }}))",
+        0.2
+    ));
+    page.wait_for("document.getElementById('now').textContent === '0.200 s'");
+    page.wait_for(halted);
+    page.wait_for(&factor("2"));
+    page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
+    assert_eq!(page.value("document.getElementById('differs').textContent"), "");
+    // To a condition, after mistakes in it.
+    let condition = |page: &mut Browser, text: &str| {
+        page.value(&format!(
+            "{{ const halt = document.getElementById('break'); halt.value = '{text}'; halt.dispatchEvent(new Event('change')); }}"
+        ));
+    };
+    condition(&mut page, "active(cuont)");
+    page.wait_for("document.getElementById('tip').textContent.includes('did you mean')");
+    condition(&mut page, "active(gated) && !active(count)");
+    page.wait_for("!document.getElementById('break').classList.contains('is-wrong')");
+    page.value("document.getElementById('restart').click()");
+    page.wait_for("document.getElementById('now').textContent === '0.000 s'");
+    page.wait_for(halted);
 }
 
 const RUNNING: &str = "document.getElementById('run').textContent === 'running'";

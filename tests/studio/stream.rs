@@ -3,7 +3,7 @@
 use crate::{drive, open, socket};
 use apex_rt::studio::{
     StreamedTime, Wire, connect,
-    message::{self, About, Command, Report},
+    message::{self, About, Command, Report, Test},
 };
 use std::{fs, io::Write as _, thread};
 
@@ -35,7 +35,7 @@ impl Viewer {
                 return all;
             }
         }
-        panic!("the stream ended: {all:?}")
+        panic!("the stream ended: {:?}", all.last_chunk::<5>())
     }
 
     fn about(&mut self) -> About {
@@ -48,7 +48,7 @@ impl Viewer {
     fn set(&mut self, name: &str, value: &str) -> Result<String, String> {
         self.tell(&Command::Set { name: name.to_owned(), value: value.to_owned() });
         match self.until(|report| matches!(report, Report::Param { .. })).pop() {
-            Some(Report::Param { name: of, value }) if of == name => value,
+            Some(Report::Param { name: of, value, .. }) if of == name => value,
             other => panic!("{other:?} is about something else"),
         }
     }
@@ -73,7 +73,7 @@ fn a_viewer_sees_every_firing_of_a_waiting_program() {
         assert_eq!((about.name.as_str(), about.version, about.simulated), ("Counts", message::VERSION, true));
         let node = |name: &str| about.nodes.iter().position(|node| node.name == name).expect("a node") as u32;
         assert_eq!(viewer.next(), Some(Report::Active(vec![])));
-        assert_eq!(viewer.next(), Some(Report::Pace { paused: true, speed: f64::INFINITY }));
+        assert_eq!(viewer.next(), Some(Report::Pace { paused: true, speed: f64::INFINITY, reactions: 0 }));
         viewer.tell(&Command::Run { speed: f64::INFINITY });
         let all = viewer.until(|report| *report == Report::Ended);
         let count = |wanted: &Report| all.iter().filter(|report| *report == wanted).count();
@@ -104,7 +104,7 @@ fn a_halted_program_goes_step_by_step_and_takes_parameters() {
         assert_eq!(value, Some(Report::Value { channel, now: 10_000_000, text: "10".to_owned() }));
         viewer.tell(&Command::Params);
         let all = viewer.until(|report| matches!(report, Report::Param { .. }));
-        let five = Report::Param { name: "times.factor".to_owned(), value: Ok("5".to_owned()) };
+        let five = Report::Param { name: "times.factor".to_owned(), value: Ok("5".to_owned()), reactions: None };
         assert_eq!(all.last(), Some(&five));
     });
 }
@@ -134,4 +134,30 @@ fn several_viewers_see_the_same() {
 #[test]
 fn a_program_without_viewers_runs_on() {
     streamed("alone", StreamedTime::Simulated, drop);
+}
+
+#[test]
+fn a_program_halts_at_a_reaction_and_where_a_condition_becomes_true() {
+    streamed("goals", StreamedTime::Waiting, |mut viewer| {
+        let about = viewer.about();
+        let gate = about.nodes.iter().position(|node| node.name == "gated.gate").expect("a node") as u32;
+        let halted = |report: &Report| matches!(report, Report::Pace { paused: true, .. });
+        viewer.until(halted);
+        let halt = |viewer: &mut Viewer| match viewer.until(halted).pop() {
+            Some(Report::Pace { reactions, .. }) => reactions,
+            other => panic!("{other:?}"),
+        };
+        // After the reaction in which the gate becomes active.
+        viewer.tell(&Command::Break(vec![Test::Active(vec![gate, 99]), Test::Not, Test::Not]));
+        viewer.tell(&Command::Run { speed: f64::INFINITY });
+        halt(&mut viewer);
+        viewer.tell(&Command::Pause);
+        let now = halt(&mut viewer);
+        viewer.tell(&Command::RunTo { reactions: 500 });
+        assert_eq!((halt(&mut viewer), now < 500), (500, true));
+        viewer.tell(&Command::RunTo { reactions: 3 });
+        assert_eq!(halt(&mut viewer), 500);
+        viewer.tell(&Command::Step);
+        assert_eq!(halt(&mut viewer), 501);
+    });
 }

@@ -28,6 +28,11 @@ const STEP: Duration = Duration::from_millis(20);
 const STEPS: usize = 250;
 
 impl Running {
+    /// A program that has been started.
+    pub fn new(child: Child) -> Self {
+        Self(child)
+    }
+
     /// Exit status, if the program has ended.
     pub fn ended(&mut self) -> Option<ExitStatus> {
         self.0.try_wait().ok().flatten()

@@ -9,7 +9,7 @@ use std::{
 };
 
 /// Version of the messages. It changes with every change of their types.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Maximum size of a message in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -92,6 +92,8 @@ pub enum Report {
         name: String,
         /// Its value, or an error message.
         value: Result<String, String>,
+        /// If it was set: the number of reactions of a simulated robot before that.
+        reactions: Option<u64>,
     },
     /// State of a simulated robot, after each change of it.
     Pace {
@@ -99,6 +101,8 @@ pub enum Report {
         paused: bool,
         /// Seconds of simulated time per second; infinite for as fast as possible.
         speed: f64,
+        /// Number of reactions so far.
+        reactions: u64,
     },
     /// The program has ended. No message follows.
     Ended,
@@ -132,6 +136,45 @@ pub enum Command {
         /// The speed; infinite for as fast as possible.
         speed: f64,
     },
+    /// Lets a simulated robot continue as fast as possible up to this number of reactions, and halts it there. One that
+    /// has gone further halts at once.
+    RunTo {
+        /// Number of reactions since its start.
+        reactions: u64,
+    },
+    /// Halts a simulated robot between two reactions whenever this condition has become true. An empty one never is.
+    Break(Vec<Test>),
+}
+
+/// A step of a condition on active nodes. Each takes its operands from the results of those before it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Test {
+    /// One of these nodes is active.
+    Active(Vec<u32>),
+    /// The last result is false.
+    Not,
+    /// The last two results are true.
+    And,
+    /// One of the last two results is true.
+    Or,
+}
+
+impl Test {
+    /// Evaluates a condition.
+    pub fn holds(tests: &[Self], is_active: impl Fn(u32) -> bool) -> bool {
+        let mut results = Vec::new();
+        for test in tests {
+            let mut last = || results.pop().unwrap_or(false);
+            let result = match test {
+                Self::Active(nodes) => nodes.iter().any(|node| is_active(*node)),
+                Self::Not => !last(),
+                Self::And => last() & last(),
+                Self::Or => last() | last(),
+            };
+            results.push(result);
+        }
+        results.pop().unwrap_or(false)
+    }
 }
 
 /// Description of a robot.

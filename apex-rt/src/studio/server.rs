@@ -2,11 +2,15 @@
 
 use super::{
     message::{self, Command, Report},
-    shared::Shared,
+    shared::{Pace, Shared},
     socket::{Listener, Wire},
     stream::shortened,
 };
-use crate::{RemoteParams, record::Channel};
+use crate::{
+    RemoteParams,
+    params::{ParamError, with_text},
+    record::Channel,
+};
 use core::time::Duration;
 use rtrb::Consumer;
 use std::{
@@ -70,10 +74,11 @@ impl Server {
     pub fn run(mut self) {
         let (ask, asked) = channel();
         let (answer, answers) = channel();
-        let params = self.params.clone();
+        let (params, shared) = (self.params.clone(), Arc::clone(&self.shared));
         // Answers take as long as a reaction; meanwhile messages have to be sent.
-        let asker =
-            thread::Builder::new().name("apex-studio-params".into()).spawn(move || serve(&params, &asked, &answer));
+        let asker = thread::Builder::new()
+            .name("apex-studio-params".into())
+            .spawn(move || serve(&params, &shared, &asked, &answer));
         if asker.is_err() {
             return;
         }
@@ -83,9 +88,12 @@ impl Server {
             let over = self.shared.over.load(Acquire);
             self.welcome(&mut viewers);
             for viewer in &mut viewers {
-                viewer.receive(&self.shared, &ask, &mut batch);
+                viewer.receive(&self.shared, &ask);
             }
             self.collect(&mut batch);
+            if let Some(report) = self.shared.pace.as_ref().and_then(Pace::news) {
+                message::write(&report, &mut batch);
+            }
             answers.try_iter().for_each(|report| message::write(&report, &mut batch));
             self.values(&mut viewers);
             if over {
@@ -197,7 +205,7 @@ impl Server {
 
 impl Viewer {
     /// Obeys the commands that have come.
-    fn receive(&mut self, shared: &Shared, ask: &Sender<Ask>, batch: &mut Vec<u8>) {
+    fn receive(&mut self, shared: &Shared, ask: &Sender<Ask>) {
         let mut bytes = [0; 4096];
         loop {
             match self.wire.read(&mut bytes) {
@@ -218,7 +226,7 @@ impl Viewer {
         }
         loop {
             match message::take(&mut self.came) {
-                Ok(Some(command)) => self.obey(command, shared, ask, batch),
+                Ok(Some(command)) => self.obey(command, shared, ask),
                 Ok(None) => return,
                 Err(_) => {
                     self.gone = true;
@@ -228,7 +236,7 @@ impl Viewer {
         }
     }
 
-    fn obey(&mut self, command: Command, shared: &Shared, ask: &Sender<Ask>, batch: &mut Vec<u8>) {
+    fn obey(&mut self, command: Command, shared: &Shared, ask: &Sender<Ask>) {
         match command {
             Command::Watch { channel, every } => {
                 let channel = channel as usize;
@@ -241,10 +249,8 @@ impl Viewer {
             Command::Params => drop(ask.send(Ask::All)),
             Command::Set { name, value } => drop(ask.send(Ask::Set(name, value))),
             pace => {
-                if let Some(state) = &shared.pace
-                    && state.obey(&pace)
-                {
-                    message::write(&state.report(), batch);
+                if let Some(state) = &shared.pace {
+                    state.obey(&pace, &shared.active);
                 }
             }
         }
@@ -276,21 +282,30 @@ fn farewell(viewers: &mut [Viewer]) {
 }
 
 /// Serves requests for parameters until the program ends.
-fn serve(params: &RemoteParams, asked: &Receiver<Ask>, answer: &Sender<Report>) {
-    let reply = |name: String, value: Result<String, crate::params::ParamError>| {
+fn serve(params: &RemoteParams, shared: &Arc<Shared>, asked: &Receiver<Ask>, answer: &Sender<Report>) {
+    let tell = |name: String, value: Result<String, ParamError>, reactions| {
         let value = value.map_err(|error| error.to_string());
-        answer.send(Report::Param { name, value }).is_ok()
+        answer.send(Report::Param { name, value, reactions }).is_ok()
     };
     for ask in asked {
         let go_on = match ask {
-            Ask::All => params.all().iter().all(|param| reply(param.name.into(), params.get_text(param.name))),
+            Ask::All => params.all().iter().all(|param| tell(param.name.into(), params.get_text(param.name), None)),
             Ask::Set(name, value) => {
-                let result = params.set_text(&name, &value).and_then(|()| params.get_text(&name));
-                reply(name, result)
+                let result = set(params, Arc::clone(shared), &name, value);
+                let reactions = result.as_ref().map_or(0, |(_, reactions)| *reactions);
+                tell(name, result.map(|(value, _)| value), Some(reactions))
             }
         };
         if !go_on {
             return;
         }
     }
+}
+
+/// Sets a parameter. Returns its new value, and the number of reactions before.
+fn set(params: &RemoteParams, shared: Arc<Shared>, name: &str, value: String) -> Result<(String, u64), ParamError> {
+    params.ask(name, move |access| {
+        with_text(&value, |value| access.set(value))?;
+        Ok((access.get().to_string(), shared.pace.as_ref().map_or(0, Pace::reactions)))
+    })
 }

@@ -1,6 +1,6 @@
 //! State that the thread groups of a program share with the thread that talks to viewers.
 
-use super::message::{Command, Report};
+use super::message::{Command, Report, Test};
 use core::time::Duration;
 use std::{
     boxed::Box,
@@ -70,11 +70,17 @@ pub struct Pace {
 
 struct State {
     paused: bool,
-    /// Number of reactions that a halted program may still do.
-    steps: u32,
+    /// Number of reactions so far.
+    reactions: u64,
+    /// Number of reactions after which the program halts; until then it does not wait.
+    goal: Option<u64>,
     speed: f64,
     /// Simulated time in ns and the machine's time at which the current speed began to hold.
     since: Option<(i64, Instant)>,
+    /// Condition at which the program halts, and its last value.
+    stop: (Vec<Test>, bool),
+    /// `true` if viewers do not know the state yet.
+    is_new: bool,
 }
 
 /// Time after which a waiting program looks for requests.
@@ -83,7 +89,8 @@ const LOOK: Duration = Duration::from_millis(10);
 impl Pace {
     /// A pace of as fast as possible; `paused` if the program waits for a viewer.
     pub fn new(paused: bool) -> Self {
-        let state = State { paused, steps: 0, speed: f64::INFINITY, since: None };
+        let (speed, stop) = (f64::INFINITY, (Vec::new(), false));
+        let state = State { paused, reactions: 0, goal: None, speed, since: None, stop, is_new: false };
         Self { state: Mutex::new(state), changed: Condvar::new() }
     }
 
@@ -93,56 +100,97 @@ impl Pace {
 
     /// State of the program, for viewers.
     pub fn report(&self) -> Report {
-        let state = self.state();
-        Report::Pace { paused: state.paused, speed: state.speed }
+        let State { paused, speed, reactions, goal, .. } = *self.state();
+        Report::Pace { paused: paused && goal.is_none(), speed, reactions }
     }
 
-    /// Obeys a command. Returns `false` if it is for something else.
-    pub fn obey(&self, command: &Command) -> bool {
+    /// Number of reactions so far.
+    pub fn reactions(&self) -> u64 {
+        self.state().reactions
+    }
+
+    /// State of the program, if it has changed since the last call.
+    pub fn news(&self) -> Option<Report> {
+        let is_new = core::mem::take(&mut self.state().is_new);
+        is_new.then(|| self.report())
+    }
+
+    /// Obeys a command, unless it is for something else. `active` has the active nodes.
+    pub fn obey(&self, command: &Command, active: &[AtomicBool]) {
         let mut state = self.state();
-        match *command {
-            Command::Pause => state.paused = true,
-            Command::Step if state.paused => state.steps += 1,
-            Command::Step => {}
+        match command {
+            Command::Pause => (state.paused, state.goal) = (true, None),
+            Command::Step => state.goal = Some(state.goal.unwrap_or(state.reactions) + 1),
+            Command::RunTo { reactions } => state.goal = Some(*reactions),
             // Not a number, or nothing at all: the program would never continue.
-            Command::Run { speed } if speed.is_nan() || speed <= 0.0 => state.paused = true,
-            Command::Run { speed } => (state.paused, state.steps, state.speed) = (false, 0, speed),
-            _ => return false,
+            Command::Run { speed } if speed.is_nan() || *speed <= 0.0 => state.paused = true,
+            Command::Run { speed } => (state.paused, state.goal, state.speed) = (false, None, *speed),
+            Command::Break(tests) => state.stop = (tests.clone(), holds(tests, active)),
+            _ => return,
         }
         state.since = None;
+        state.is_new = true;
         self.changed.notify_all();
-        true
     }
 
     /// Lets a program continue that waits for a viewer which has left.
     pub fn release(&self) {
-        self.obey(&Command::Run { speed: f64::INFINITY });
+        self.obey(&Command::Break(Vec::new()), &[]);
+        self.obey(&Command::Run { speed: f64::INFINITY }, &[]);
     }
 
-    /// Waits until the program may react at `now` (in ns), and calls `serve` from time to time.
-    pub fn wait(&self, now: i64, mut serve: impl FnMut()) {
+    /// Waits until the program may react at `now` (in ns), and calls `serve` from time to time. `active` has the active
+    /// nodes.
+    pub fn wait(&self, now: i64, active: &[AtomicBool], mut serve: impl FnMut()) {
+        self.state().stop(active);
         loop {
             let mut state = self.state();
-            let left = match &mut *state {
-                State { paused: true, steps: 0, .. } => LOOK,
-                State { paused: true, steps, .. } => {
-                    *steps -= 1;
-                    return;
-                }
-                State { speed, .. } if speed.is_infinite() => return,
-                State { speed, since, .. } => {
-                    let (zero, start) = *since.get_or_insert_with(|| (now, Instant::now()));
-                    let due = Duration::from_nanos(now.saturating_sub(zero).max(0) as u64).as_secs_f64() / *speed;
-                    let due = Duration::try_from_secs_f64(due).unwrap_or(Duration::MAX);
-                    let left = due.saturating_sub(start.elapsed());
-                    if left.is_zero() {
-                        return;
-                    }
-                    left.min(LOOK)
-                }
-            };
+            let left = state.left(now);
+            if left.is_zero() {
+                state.reactions += 1;
+                return;
+            }
             drop(self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner));
             serve();
         }
     }
+}
+
+impl State {
+    /// Halts the program if the condition for that has become true. What it does before a goal is known.
+    fn stop(&mut self, active: &[AtomicBool]) {
+        let (tests, was) = &mut self.stop;
+        if tests.is_empty() {
+            return;
+        }
+        let is = holds(tests, active);
+        let was = core::mem::replace(was, is);
+        if is && !was && self.goal.is_none() {
+            (self.paused, self.is_new) = (true, true);
+        }
+    }
+
+    /// Time to wait before the reaction at `now`, at most [`LOOK`].
+    fn left(&mut self, now: i64) -> Duration {
+        match self.goal {
+            Some(goal) if self.reactions < goal => return Duration::ZERO,
+            Some(_) => (self.goal, self.paused, self.is_new) = (None, true, true),
+            None => {}
+        }
+        if self.paused {
+            return LOOK;
+        }
+        if self.speed.is_infinite() {
+            return Duration::ZERO;
+        }
+        let (zero, start) = *self.since.get_or_insert_with(|| (now, Instant::now()));
+        let due = Duration::from_nanos(now.saturating_sub(zero).max(0) as u64).as_secs_f64() / self.speed;
+        let due = Duration::try_from_secs_f64(due).unwrap_or(Duration::MAX);
+        due.saturating_sub(start.elapsed()).min(LOOK)
+    }
+}
+
+/// `true` if the condition holds with these active nodes.
+fn holds(tests: &[Test], active: &[AtomicBool]) -> bool {
+    Test::holds(tests, |node| active.get(node as usize).is_some_and(|is| is.load(Relaxed)))
 }

@@ -66,7 +66,7 @@ impl Observer for Option<Stream> {
         stream.requests.serve(params);
         let (group, now) = (stream.group, stream.now);
         if let Some(pace) = &stream.shared.pace {
-            pace.wait(now, || stream.requests.serve(params));
+            pace.wait(now, &stream.shared.active, || stream.requests.serve(params));
         }
         stream.send(|| Report::Reaction { group, now });
     }
