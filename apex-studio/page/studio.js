@@ -8,7 +8,7 @@ import { Text } from "./text.js";
 
 /** @typedef {{name: string, kind: string, docs: string, file: number, line: number, column: number, ports: [string, string, string][]}} AboutNode */
 /** @typedef {{from: number, output: string, to: number, input: string}} Connection */
-/** @typedef {{name: string, node: number, shown: boolean}} Channel */
+/** @typedef {{name: string, node: number, schema: {name: string, definition: string} | null}} Channel */
 /** @typedef {{name: string, ty: string, unit: string | null, min: number | null, max: number | null}} ParamInfo */
 /** @typedef {{name: string, docs: string, files: string[], simulated: boolean, nodes: AboutNode[], connections: Connection[], groups: string[], claims: string[], channels: Channel[], params: ParamInfo[]}} About */
 /** @typedef {{active: boolean, fired: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */

@@ -1,5 +1,6 @@
 // @ts-check
-// Tokens of ports: numbers as plots, all else as text.
+// Tokens of ports: numbers as plots, what has a place in the plane, images, all else as text.
+import { World, drawImage, hasPlace, isPose, read } from "./world.js";
 import { ask, empty, robot } from "./studio.js";
 
 const MAX = 4000;
@@ -12,11 +13,15 @@ export class Values {
     /** Pinned channels, by name: they survive a restart. @type {Set<string>} */ this.pinned = new Set();
     /** @type {Map<number, {time: number, text: string}[]>} */ this.tokens = new Map();
     /** @type {Map<number, HTMLElement>} */ this.rows = new Map();
+    /** The newest tokens that are messages. @type {Map<number, any>} */ this.messages = new Map();
+    /** Names of the channels with the poses from which others are seen. @type {Map<string, string>} */ this.seenFrom = new Map();
+    this.world = new World(/** @type {HTMLCanvasElement} */ (document.getElementById("world")));
     filter.addEventListener("input", () => this.list());
   }
 
   begin() {
     this.tokens.clear();
+    this.messages.clear();
     this.list();
     this.watch();
   }
@@ -27,11 +32,11 @@ export class Values {
   /** Channels that can be shown: pinned ones, those of the selected node, and those that the filter finds. */
   channels() {
     const words = this.filter.value.toLowerCase();
-    return (robot.about?.channels ?? []).flatMap(({ name, node, shown }, at) => {
+    return (robot.about?.channels ?? []).flatMap(({ name, node, schema }, at) => {
       const owner = robot.about?.nodes[node]?.name ?? "";
       const near = robot.selected !== null && (owner === robot.selected || owner.startsWith(`${robot.selected}.`));
       const found = words !== "" ? name.toLowerCase().includes(words) : near || robot.selected === null;
-      return shown && (this.pinned.has(name) || found) ? [{ name, at }] : [];
+      return schema && (this.pinned.has(name) || found) ? [{ name, at }] : [];
     }).slice(0, 300);
   }
 
@@ -48,16 +53,55 @@ export class Values {
         if (box.checked) this.pinned.add(name);
         else this.pinned.delete(name);
         this.tokens.delete(at);
+        this.messages.delete(at);
         this.list();
         this.watch();
       });
       label.append(box, ` ${name}`);
-      row.append(label);
+      row.append(...this.from(name, at), label);
       this.rows.set(at, row);
       return row;
     }));
     if (channels.length === 0) this.place.append(empty("no port whose tokens can be shown"));
     for (const at of this.rows.keys()) this.draw(at);
+    this.drawWorld();
+  }
+
+  /** A choice of the pose from which the tokens of a pinned channel are seen. @param {string} name @param {number} at */
+  from(name, at) {
+    const schema = robot.about?.channels[at].schema?.name ?? "";
+    const poses = (robot.about?.channels ?? []).filter((channel) => channel.name !== name && isPose(channel.schema?.name ?? ""));
+    if (!this.pinned.has(name) || !hasPlace(schema) || poses.length === 0) return [];
+    const choice = document.createElement("select");
+    choice.title = "the pose from which it is seen";
+    for (const pose of ["", ...poses.map((channel) => channel.name)]) choice.append(new Option(pose === "" ? "seen from …" : pose, pose));
+    choice.value = this.seenFrom.get(name) ?? "";
+    choice.addEventListener("change", () => {
+      this.seenFrom.set(name, choice.value);
+      // The pose is needed, too.
+      if (choice.value !== "" && !this.pinned.has(choice.value)) {
+        this.pinned.add(choice.value);
+        this.watch();
+        this.list();
+      }
+      this.drawWorld();
+    });
+    return [choice];
+  }
+
+  /** Draws all pinned tokens with a place. */
+  drawWorld() {
+    const channels = robot.about?.channels ?? [];
+    const message = (/** @type {string | undefined} */ name) => this.messages.get(channels.findIndex((channel) => channel.name === name));
+    const tokens = [...this.messages].flatMap(([at, message_]) => {
+      const { name, schema } = channels[at];
+      return schema && hasPlace(schema.name) ? [{ schema: schema.name, message: message_, from: message(this.seenFrom.get(name)) }] : [];
+    });
+    // Maps are below everything else.
+    tokens.sort((a, b) => Number(b.schema.endsWith("Grid")) - Number(a.schema.endsWith("Grid")));
+    this.world.canvas.hidden = tokens.length === 0;
+    this.world.canvas.dataset.drawn = String(tokens.length);
+    if (tokens.length > 0) this.world.draw(tokens);
   }
 
   /** Tells the studio which tokens are wanted. */
@@ -66,15 +110,19 @@ export class Values {
     ask({ watch: channels.flatMap(({ name }, at) => (this.pinned.has(name) ? [at] : [])) });
   }
 
-  /** @param {Record<string, [number, string][]>} all */
+  /** @param {Record<string, {texts: [number, string][], bytes: string}>} all */
   update(all) {
-    for (const [channel, tokens] of Object.entries(all)) {
+    for (const [channel, { texts, bytes }] of Object.entries(all)) {
       const at = Number(channel);
       const kept = this.tokens.get(at) ?? [];
-      kept.push(...tokens.map(([time, text]) => ({ time, text })));
+      kept.push(...texts.map(([time, text]) => ({ time, text })));
       this.tokens.set(at, kept.slice(-MAX));
+      const definition = robot.about?.channels[at]?.schema?.definition ?? "";
+      const message = bytes === "" || definition === "" ? null : read(definition, Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0)));
+      if (message) this.messages.set(at, message);
       this.draw(at);
     }
+    this.drawWorld();
   }
 
   /** @param {number} at */
@@ -89,8 +137,21 @@ export class Values {
       row.append(text);
     }
     text.textContent = last.text;
+    const schema = robot.about?.channels[at].schema?.name ?? "";
+    if (schema === "sensor_msgs/msg/Image" && this.messages.has(at)) this.image(row, this.messages.get(at));
     const numbers = tokens.map(({ time, text }) => ({ time, value: Number(text) })).filter(({ value }) => Number.isFinite(value));
     if (numbers.length > 1 && Number.isFinite(Number(last.text))) this.plot(row, numbers);
+  }
+
+  /** @param {HTMLElement} row @param {any} message */
+  image(row, message) {
+    let canvas = row.querySelector("canvas");
+    if (!canvas) {
+      canvas = document.createElement("canvas");
+      canvas.className = "image";
+      row.append(canvas);
+    }
+    drawImage(canvas, message);
   }
 
   /** @param {HTMLElement} row @param {{time: number, value: number}[]} numbers */

@@ -111,6 +111,8 @@ pub struct Tokens {
     /// Number of all tokens so far.
     pub count: u64,
     pub newest: VecDeque<(i64, String)>,
+    /// The newest token as a message in CDR.
+    pub bytes: Vec<u8>,
 }
 
 impl Default for Live {
@@ -183,9 +185,10 @@ impl Live {
                 let claim = claims.get(claim as usize).map_or("?", String::as_str);
                 self.problem(None, format!("the claim `{claim}` does not hold"));
             }
-            Report::Value { channel, now, text } => {
+            Report::Value { channel, now, text, bytes } => {
                 let tokens = self.tokens.entry(channel).or_default();
                 tokens.count += 1;
+                tokens.bytes = bytes;
                 tokens.newest.push_back((now, text));
                 if tokens.newest.len() > MAX_TOKENS {
                     tokens.newest.pop_front();

@@ -62,7 +62,7 @@ struct File {
     text: &'static str,
 }
 
-const FILES: [File; 8] = [
+const FILES: [File; 10] = [
     File { path: "/", kind: "text/html; charset=utf-8", text: include_str!("../page/index.html") },
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
     File { path: "/studio.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/studio.js") },
@@ -70,6 +70,8 @@ const FILES: [File; 8] = [
     File { path: "/timeline.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/timeline.js") },
     File { path: "/params.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/params.js") },
     File { path: "/values.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/values.js") },
+    File { path: "/cdr.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/cdr.js") },
+    File { path: "/world.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/world.js") },
     File { path: "/text.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/text.js") },
 ];
 

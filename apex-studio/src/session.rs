@@ -8,6 +8,7 @@ use crate::{
     robot::Shared,
 };
 use apex_rt::studio::message::{About, Command};
+use base64::{Engine as _, prelude::BASE64_STANDARD};
 use serde::{Deserialize, Serialize};
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -30,8 +31,8 @@ pub enum Told {
     Problems { count: u64, problems: Vec<Problem> },
     /// Parameters that have changed.
     Params(BTreeMap<String, Param>),
-    /// New tokens of channels, as time in s and text.
-    Tokens(BTreeMap<u32, Vec<(f64, String)>>),
+    /// New tokens of channels.
+    Tokens(BTreeMap<u32, NewTokens>),
     /// The condition at which the robot halts has a mistake, or none.
     Break(Option<String>),
     /// The changed parameters were written to this file, or could not be.
@@ -47,6 +48,15 @@ pub enum Told {
         /// Time in s at which they begin to differ.
         differs: Option<f64>,
     },
+}
+
+/// New tokens of a channel.
+#[derive(Serialize)]
+pub struct NewTokens {
+    /// Time in s, and text.
+    texts: Vec<(f64, String)>,
+    /// The newest one as a message in CDR, in base 64.
+    bytes: String,
 }
 
 /// A run of a robot.
@@ -294,15 +304,15 @@ impl Seen {
         new
     }
 
-    fn tokens(&mut self, live: &Live, watched: &BTreeSet<u32>) -> BTreeMap<u32, Vec<(f64, String)>> {
+    fn tokens(&mut self, live: &Live, watched: &BTreeSet<u32>) -> BTreeMap<u32, NewTokens> {
         let mut new = BTreeMap::new();
         for (channel, tokens) in live.tokens.iter().filter(|(channel, _)| watched.contains(channel)) {
             let seen = self.tokens.insert(*channel, tokens.count).unwrap_or(0);
             let count = usize::try_from(tokens.count - seen).unwrap_or(usize::MAX);
             let newest = tokens.newest.iter().skip(tokens.newest.len().saturating_sub(count));
-            let newest: Vec<(f64, String)> = newest.map(|(now, text)| (seconds(*now), text.clone())).collect();
-            if !newest.is_empty() {
-                new.insert(*channel, newest);
+            let texts: Vec<(f64, String)> = newest.map(|(now, text)| (seconds(*now), text.clone())).collect();
+            if !texts.is_empty() {
+                new.insert(*channel, NewTokens { texts, bytes: BASE64_STANDARD.encode(&tokens.bytes) });
             }
         }
         new

@@ -260,6 +260,15 @@ fn tokens_are_shown_of_pinned_ports_only() {
     page.wait_for(&format!("Number({row}.querySelector('pre')?.textContent) > 10"));
     page.wait_for(&format!("{row}.querySelector('canvas')"));
     assert!(page.value("document.querySelectorAll('#values pre').length") == 1);
+    // What has a place is drawn in the plane.
+    assert_eq!(page.value("document.getElementById('world').hidden"), true);
+    let pose = "document.querySelector('[data-channel^=\"pose_on_circle\"]')";
+    page.value(&format!("{pose}.querySelector('input').click()"));
+    page.wait_for("document.getElementById('world').dataset.drawn === '1'");
+    page.wait_for(
+        "[...document.getElementById('world').getContext('2d').getImageData(0, 0, 400, 200).data].some((byte) => byte > 0)",
+    );
+    assert_eq!(page.complaints, Vec::<String>::new());
 }
 
 #[test]

@@ -58,7 +58,9 @@ fn pictures() {
     page.size(1280, 760, true);
     page.value("document.querySelector('[data-tab=values]').click()");
     page.value("document.querySelector('[data-channel=\"sim.base.battery\"] input').click()");
-    page.value("document.querySelector('[data-channel=\"sim.mission.wide.out\"] input').click()");
+    page.value("document.querySelector('[data-channel=\"sim.laser.scan\"] input').click()");
+    let from = "document.querySelector('[data-channel=\"sim.laser.scan\"] select')";
+    page.value(&format!("{{ {from}.value = 'sim.base.pose'; {from}.dispatchEvent(new Event('change')); }}"));
     page.wait_for("parseFloat(document.getElementById('now').textContent) > 60");
     page.press("0");
     save(&mut page, "studio_dark.png");

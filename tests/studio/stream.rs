@@ -101,7 +101,15 @@ fn a_halted_program_goes_step_by_step_and_takes_parameters() {
         assert!(viewer.set("times.faktor", "1").expect_err("no such parameter").contains("times.factor"));
         viewer.tell(&Command::Step);
         let value = viewer.until(|report| matches!(report, Report::Value { now: 10_000_000, .. })).pop();
-        assert_eq!(value, Some(Report::Value { channel, now: 10_000_000, text: "10".to_owned() }));
+        assert_eq!(
+            value,
+            Some(Report::Value {
+                channel,
+                now: 10_000_000,
+                text: "10".to_owned(),
+                bytes: vec![0, 1, 0, 0, 10, 0, 0, 0, 0, 0, 0, 0]
+            })
+        );
         viewer.tell(&Command::Params);
         let all = viewer.until(|report| matches!(report, Report::Param { .. }));
         let five = Report::Param { name: "times.factor".to_owned(), value: Ok("5".to_owned()), reactions: None };

@@ -9,10 +9,13 @@ use std::{
 };
 
 /// Version of the messages. It changes with every change of their types.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// Maximum size of a message in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
+
+/// Maximum size of a token that is sent as a message, in bytes.
+pub const MAX_TOKEN: usize = 3 << 20;
 
 /// A message of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -83,6 +86,8 @@ pub enum Report {
         now: i64,
         /// The token as text; shortened if it is long.
         text: String,
+        /// The token as a message in CDR; empty if its type is none.
+        bytes: Vec<u8>,
     },
     /// Number of messages that were lost since the last such message, because they came too fast.
     Lost(u64),
@@ -257,8 +262,17 @@ pub struct AboutChannel {
     pub name: String,
     /// The node.
     pub node: u32,
-    /// `true` if its tokens can be shown.
-    pub shown: bool,
+    /// Schema of its tokens; `None` if they cannot be shown.
+    pub schema: Option<AboutSchema>,
+}
+
+/// Schema of tokens.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AboutSchema {
+    /// Name of the type of messages, or of the Rust type.
+    pub name: String,
+    /// Definition of the message as ROS 2 has it; empty if the tokens are no messages.
+    pub definition: String,
 }
 
 /// A parameter of a robot.
@@ -300,7 +314,9 @@ impl About {
         let channel = |channel: &Channel| AboutChannel {
             name: channel.name.into(),
             node: channel.node as u32,
-            shown: channel.schema.is_some(),
+            schema: channel
+                .schema
+                .map(|schema| AboutSchema { name: schema.name.into(), definition: schema.definition.into() }),
         };
         let param = |param: &ParamInfo| AboutParam {
             name: param.name.into(),

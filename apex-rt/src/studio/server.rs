@@ -15,7 +15,7 @@ use core::time::Duration;
 use rtrb::Consumer;
 use std::{
     boxed::Box,
-    io,
+    format, io,
     string::{String, ToString as _},
     sync::{
         Arc, PoisonError,
@@ -38,7 +38,9 @@ const MAX_VIEWERS: usize = 16;
 /// Time that viewers get for the last messages.
 const FAREWELL: Duration = Duration::from_secs(1);
 /// Maximum length of a token as text, in bytes.
-const MAX_TOKEN: usize = 16 << 10;
+const MAX_TEXT: usize = 16 << 10;
+/// Maximum length of a token that is converted to text, in bytes.
+const MAX_SHOWN: usize = 64 << 10;
 
 pub struct Server {
     pub listener: Listener,
@@ -191,8 +193,15 @@ impl Server {
         let (bytes, now) = (latest.bytes.clone(), latest.now);
         // The program must not wait while the token is converted.
         drop(latest);
-        let text = (self.channels[channel].show)(&bytes)?;
-        Some(Report::Value { channel: channel as u32, now, text: shortened(text, MAX_TOKEN) })
+        let schema = self.channels[channel].schema?;
+        // Images as text would be of no use, and take long.
+        let text = if bytes.len() > MAX_SHOWN {
+            format!("{} bytes", bytes.len())
+        } else {
+            (self.channels[channel].show)(&bytes)?
+        };
+        let bytes = if schema.encoding == "cdr" && bytes.len() <= message::MAX_TOKEN { bytes } else { vec![] };
+        Some(Report::Value { channel: channel as u32, now, text: shortened(text, MAX_TEXT), bytes })
     }
 
     fn update_channels(&self, viewers: &[Viewer]) {

@@ -1,5 +1,6 @@
 //! Nodes of programs that are looked at while they run.
 
+use apex_nodes::scan::Pose2;
 use apex_rt::prelude::*;
 
 /// Counts from one.
@@ -31,4 +32,11 @@ impl TimesFactor {
     fn process(&mut self, number: &i64) -> Result<i64, &'static str> {
         if *number == 3 { Err("three <b>") } else { Ok(number * self.factor) }
     }
+}
+
+/// Goes round in a circle of 1 m.
+#[node]
+pub fn pose_on_circle(number: &i64) -> Pose2 {
+    let angle = *number as f32 / 100.0;
+    Pose2::new(angle.cos(), angle.sin(), angle)
 }
