@@ -221,6 +221,15 @@ enum Command {
         #[command(flatten)]
         how: Building,
     },
+    /// Show a running robot in the terminal: what is active, what fires how often, what fails.
+    #[command(
+        after_help = "Space halts a robot in simulated time, `.` lets it react once, `q` ends.\n\nExample:\n  apex run --stream 127.0.0.1:7400 robot.afg\n  apex top 127.0.0.1:7400"
+    )]
+    Top {
+        /// Address of the robot: that of `apex run --stream`, or the path of a socket.
+        #[arg(value_name = "HOST:PORT")]
+        address: String,
+    },
     /// Build and run a robot.
     #[command(
         after_help = "If the package has its own program for the file, this program is run with ARGS. Otherwise a program is generated\nthat drives the robot in real time. Only this one takes --params and --save-params: your own program calls\n`apex_rt::params::load_file` and `save_file`.\nThe program is built like with `cargo build`, in the same folder, and crates that are already built are reused.\nExit code: that of the program (0, or 1 after `abort`); 1 if the file has errors, 2 if it could not be built or started.\n\nExample:\n  apex run robot.afg\n  apex run --release --robot Rover robot.afg -- --fast\n  apex run --record run.mcap robot.afg"
@@ -365,6 +374,7 @@ fn main() -> ExitCode {
                 how: how.how(),
             })
         }
+        Command::Top { address } => studio::top(address),
         Command::Studio { file, robot, connect, replay, simulated, speed, params, listen, read_only, how, args } => {
             let launch = studio::Launch { file, robot, replay, simulated, params, args, how: how.how() };
             studio::run(launch, &studio::Page { connect, listen, read_only, speed })

@@ -15,7 +15,7 @@ use apex_dsl::program::Program;
 use apex_studio::{Remote, Robot, Source, Studio};
 use std::{
     env, fs,
-    io::{self, Write as _},
+    io::{self, IsTerminal as _, Write as _},
     net::SocketAddr,
     path::{Path, PathBuf},
     process::{Command, ExitCode},
@@ -68,6 +68,15 @@ pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
         }
     };
     served.map(|()| ExitCode::SUCCESS)
+}
+
+/// Shows a robot in the terminal.
+pub fn top(address: String) -> Result<ExitCode, String> {
+    if !io::stdout().is_terminal() {
+        return Err("`apex top` needs a terminal".to_owned());
+    }
+    apex_studio::top(Remote { address }).map_err(|error| format!("cannot use the terminal: {error}"))?;
+    Ok(ExitCode::SUCCESS)
 }
 
 impl Page {

@@ -11,8 +11,10 @@ mod picture;
 mod robot;
 mod server;
 mod session;
+mod top;
 
 pub use robot::{Remote, Robot};
+pub use top::top;
 
 use apex_diagram::Item;
 use robot::{Shared, follow};
