@@ -48,6 +48,7 @@ export class Picture {
     this.shownBefore = true;
     this.select(robot.selected);
     this.update();
+    this.heat();
     if (this.wanted) this.jump(this.wanted);
   }
 
@@ -62,6 +63,27 @@ export class Picture {
     for (const { element, connections } of this.lines) {
       element.classList.toggle("flows", connections.some((at) => this.flows(at)));
     }
+  }
+
+  /** Colours all boxes by their share of the computing time. */
+  heat() {
+    const { times } = robot;
+    const total = [...(times?.values() ?? [])].reduce((sum, { total }) => sum + total, 0);
+    for (const { element, nodes } of this.items.values()) {
+      const own = nodes.reduce((sum, at) => sum + (times?.get(at)?.total ?? 0), 0);
+      const share = total > 0 ? own / total : 0;
+      element.classList.toggle("is-hot", times !== null && share > 0);
+      /** @type {SVGElement} */ (element).style.setProperty("--heat", share.toFixed(3));
+    }
+  }
+
+  /** Words about the computing time of a node. @param {number} at */
+  timeWords(at) {
+    const [times, all] = [robot.times?.get(at), [...(robot.times?.values() ?? [])]];
+    if (!times) return "";
+    const share = (100 * times.total) / all.reduce((sum, { total }) => sum + total, 1);
+    const us = (/** @type {number} */ ns) => `${(ns / 1000).toFixed(1)} µs`;
+    return `\n${share.toFixed(1)} % of the time; ${us(times.total / times.calls)} on average, ${us(times.worst)} at worst`;
   }
 
   /** `true` if a token has just come over a connection. @param {number} at */
@@ -152,7 +174,7 @@ export class Picture {
     const node = robot.nodes[item.nodes[0]];
     const fired = node.fired === 0 ? "has not fired" : `fired ${node.fired} times, ${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
     const problems = node.problems > 0 ? `\n${node.problems} problems` : "";
-    return `${title}\n${node.active ? "active; " : ""}${fired}${problems}`;
+    return `${title}\n${node.active ? "active; " : ""}${fired}${problems}${this.timeWords(item.nodes[0])}`;
   }
 
   /** @param {number} at */

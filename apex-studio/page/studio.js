@@ -23,6 +23,8 @@ export const robot = {
   /** @type {{count: number, fresh: boolean, rate: number}[]} */ connections: [],
   now: 0,
   readonly: false,
+  /** Times of calls by node, while they are measured. @type {Map<number, {calls: number, total: number, worst: number}> | null} */
+  times: null,
   /** @type {string | null} */ selected: null,
 };
 
@@ -74,6 +76,7 @@ const tells = {
     robot.about = about;
     robot.readonly = readonly;
     robot.now = 0;
+    if (robot.times) robot.times = new Map();
     robot.nodes = about.nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
     robot.connections = about.connections.map(() => ({ count: 0, fresh: false, rate: 0 }));
     rates.length = 0;
@@ -105,6 +108,10 @@ const tells = {
   },
   problems({ count, problems: all }) { showProblems(count, all); },
   params(all) { params.update(all); },
+  times(all) {
+    if (robot.times) robot.times = new Map(all.map((/** @type {number[]} */ [node, calls, total, worst]) => [node, { calls, total, worst }]));
+    picture.heat();
+  },
   saved(result) { params.tell(result); },
   tokens(all) { values.update(all); },
   lanes(lanes) { timeline.show(lanes); },
@@ -231,6 +238,7 @@ function open() {
   socket = new WebSocket(`ws://${location.host}/live`);
   socket.addEventListener("open", () => {
     socket?.send(token);
+    ask({ measure: robot.times !== null });
     values.watch();
   });
   socket.addEventListener("message", ({ data }) => {
@@ -243,10 +251,19 @@ function open() {
   });
 }
 
+/** Shows the share of each node in the computing time, or no longer. */
+function heat() {
+  robot.times = robot.times ? null : new Map();
+  element("heat").setAttribute("aria-pressed", String(robot.times !== null));
+  ask({ measure: robot.times !== null });
+  picture.heat();
+}
+
 function pause() { ask(paused ? { run: { speed } } : "pause"); }
 
 element("pause").addEventListener("click", pause);
 element("step").addEventListener("click", () => ask("step"));
+element("heat").addEventListener("click", heat);
 element("back").addEventListener("click", () => ask("back"));
 element("goto").addEventListener("click", () => timeline.go());
 element("break").addEventListener("change", () => ask({ break: element("break").value }));
@@ -282,6 +299,7 @@ document.addEventListener("keydown", (event) => {
     ".": () => ask("step"),
     ",": () => ask("back"),
     g: () => timeline.go(),
+    h: heat,
     f: () => timeline.follow(),
     "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
     o: () => picture.toggle(robot.selected),

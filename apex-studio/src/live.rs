@@ -1,7 +1,7 @@
 //! Knowledge about a running robot.
 
 use crate::lane::{Drawn, Lane, Window};
-use apex_rt::studio::message::{About, Report};
+use apex_rt::studio::message::{About, NodeTimes, Report};
 use serde::Serialize;
 use std::{
     collections::{BTreeMap, VecDeque},
@@ -53,6 +53,10 @@ pub struct Live {
     pub times: Vec<i64>,
     /// Parameters that were set, with the numbers of reactions before.
     pub sets: Vec<(u64, String, String)>,
+    /// Times of the calls of each node, as far as they were measured.
+    pub calls: Vec<NodeTimes>,
+    /// Number of messages with times.
+    pub measured: u64,
     /// `true` if this run repeats an earlier one up to a point.
     pub repeats: bool,
     lanes: Vec<Lane>,
@@ -133,6 +137,8 @@ impl Default for Live {
             speed: f64::INFINITY,
             times: vec![],
             sets: vec![],
+            calls: vec![],
+            measured: 0,
             repeats: false,
             lanes: vec![],
             before: None,
@@ -192,6 +198,15 @@ impl Live {
                 tokens.newest.push_back((now, text));
                 if tokens.newest.len() > MAX_TOKENS {
                     tokens.newest.pop_front();
+                }
+            }
+            Report::Times(times) => {
+                self.measured += 1;
+                for times in times {
+                    match self.calls.iter_mut().find(|known| known.node == times.node) {
+                        Some(known) => *known = times,
+                        None => self.calls.push(times),
+                    }
                 }
             }
             Report::Lost(count) => self.lost += count,

@@ -83,6 +83,8 @@ struct Link {
     wire: Option<Box<dyn Wire>>,
     /// Number of pages that watch each channel.
     watches: BTreeMap<u32, usize>,
+    /// Number of pages that want calls to be measured.
+    measures: usize,
     restart: bool,
     /// Condition at which the robot halts, also in the next run.
     stop: String,
@@ -127,6 +129,14 @@ impl Shared {
             link.watches.remove(&channel);
             link.tell(&Command::Watch { channel, every: 0 });
         }
+    }
+
+    /// Lets calls be measured on behalf of one page, or no longer.
+    pub fn measure(&self, wanted: bool) {
+        let mut link = locked(&self.link);
+        link.measures = if wanted { link.measures + 1 } else { link.measures.saturating_sub(1) };
+        let measures = link.measures > 0;
+        link.tell(&Command::Measure(measures));
     }
 
     /// Lets the robot halt whenever a condition becomes true.
@@ -291,6 +301,8 @@ fn greet(shared: &Shared, about: &About, speed: Option<f64>, first: Option<Comma
     link.tell(&Command::Params);
     let channels: Vec<u32> = link.watches.keys().copied().collect();
     channels.into_iter().for_each(|channel| link.tell(&Command::Watch { channel, every: EVERY }));
+    let measures = link.measures > 0;
+    link.tell(&Command::Measure(measures));
     // Nodes may have other numbers now; a condition on nodes that are gone is void.
     let stop = condition::parse(&link.stop, about).unwrap_or_default();
     link.tell(&Command::Break(stop));

@@ -31,6 +31,8 @@ pub enum Told {
     Problems { count: u64, problems: Vec<Problem> },
     /// Parameters that have changed.
     Params(BTreeMap<String, Param>),
+    /// Times of calls: the node, number of calls, total and longest duration in ns.
+    Times(Vec<(u32, u64, u64, u64)>),
     /// New tokens of channels.
     Tokens(BTreeMap<u32, NewTokens>),
     /// The condition at which the robot halts has a mistake, or none.
@@ -115,6 +117,8 @@ pub enum Asked {
     Save,
     /// Asks for the tokens of these channels, and of no others.
     Watch(BTreeSet<u32>),
+    /// Asks for the times of calls, or no longer.
+    Measure(bool),
     /// Asks for the lanes of the timeline, with those of `also`. Times are in s.
     Lanes { from: f64, to: f64, columns: u32, also: Vec<usize> },
 }
@@ -131,6 +135,7 @@ pub struct Session {
     seen: Seen,
     picture: Option<Picture>,
     watched: BTreeSet<u32>,
+    measures: bool,
     /// The open graphs, from the first choice of the user on.
     open: Option<BTreeSet<String>>,
 }
@@ -145,12 +150,14 @@ struct Seen {
     params: BTreeMap<String, u64>,
     tokens: BTreeMap<u32, u64>,
     errors: Option<String>,
+    /// Number of messages with times.
+    measured: u64,
 }
 
 impl Session {
     pub fn new(shared: Arc<Shared>, source: Arc<dyn Source>, readonly: bool, travels: bool) -> Self {
         let (seen, watched) = (Seen::default(), BTreeSet::new());
-        Self { shared, source, readonly, travels, seen, picture: None, watched, open: None }
+        Self { shared, source, readonly, travels, seen, picture: None, watched, measures: false, open: None }
     }
 
     /// Answers the page.
@@ -164,6 +171,13 @@ impl Session {
                 channels.difference(&self.watched).for_each(|channel| self.shared.watch(*channel));
                 self.watched.difference(&channels).for_each(|channel| self.shared.unwatch(*channel));
                 self.watched = channels;
+                return None;
+            }
+            Asked::Measure(measures) => {
+                if measures != self.measures {
+                    self.shared.measure(measures);
+                    self.measures = measures;
+                }
                 return None;
             }
             Asked::Lanes { from, to, columns, also } => {
@@ -256,6 +270,10 @@ impl Session {
         if !params.is_empty() {
             told.push(Told::Params(params));
         }
+        if live.measured != self.seen.measured {
+            self.seen.measured = live.measured;
+            told.push(Told::Times(live.calls.iter().map(|t| (t.node, t.calls, t.total, t.worst)).collect()));
+        }
         let tokens = self.seen.tokens(live, &self.watched);
         if !tokens.is_empty() {
             told.push(Told::Tokens(tokens));
@@ -266,6 +284,9 @@ impl Session {
 
 impl Drop for Session {
     fn drop(&mut self) {
+        if self.measures {
+            self.shared.measure(false);
+        }
         self.watched.iter().for_each(|channel| self.shared.unwatch(*channel));
     }
 }

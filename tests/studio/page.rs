@@ -200,6 +200,11 @@ fn the_picture_is_alive_and_nothing_in_names_is_executed() {
     page.wait_for("document.querySelector('[data-item=gated].is-active')");
     page.value("document.querySelector('#active button').click()");
     page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-selected')");
+    // Computing times on request.
+    page.press("h");
+    page.wait_for("document.querySelector('[data-item=times].is-hot')");
+    page.press("h");
+    page.wait_for("!document.querySelector('.is-hot')");
     // The text has its line, and the timeline its lane.
     page.wait_for("document.querySelector('#text .is-selected').textContent.includes('ActivityGate()')");
     page.wait_for("document.getElementById('timeline').dataset.lanes.includes('gated.gate')");

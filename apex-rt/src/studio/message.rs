@@ -9,7 +9,7 @@ use std::{
 };
 
 /// Version of the messages. It changes with every change of their types.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// Maximum size of a message in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -89,6 +89,8 @@ pub enum Report {
         /// The token as a message in CDR; empty if its type is none.
         bytes: Vec<u8>,
     },
+    /// Times of the calls of nodes since a viewer asked for them.
+    Times(Vec<NodeTimes>),
     /// Number of messages that were lost since the last such message, because they came too fast.
     Lost(u64),
     /// Value of a parameter in TOML, or the reason why it was not set.
@@ -125,6 +127,8 @@ pub enum Command {
     },
     /// Asks for the values of all parameters.
     Params,
+    /// Lets the times of all calls be measured, or no longer.
+    Measure(bool),
     /// Sets a parameter.
     Set {
         /// Full name.
@@ -149,6 +153,19 @@ pub enum Command {
     },
     /// Halts a simulated robot between two reactions whenever this condition has become true. An empty one never is.
     Break(Vec<Test>),
+}
+
+/// Times of the calls of a node: firings, and tokens at its slots.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NodeTimes {
+    /// The node.
+    pub node: u32,
+    /// Number of its calls.
+    pub calls: u64,
+    /// Total duration in ns, without the calls of other nodes inside.
+    pub total: u64,
+    /// Longest duration of a call in ns, without the calls of other nodes inside.
+    pub worst: u64,
 }
 
 /// A step of a condition on active nodes. Each takes its operands from the results of those before it.

@@ -11,11 +11,12 @@ mod server;
 mod shared;
 mod socket;
 mod stream;
+mod times;
 
 pub use socket::{Wire, connect};
 pub use stream::Stream;
 
-use crate::{Program, RemoteParams, remote::Requests, remote::ServedRequests};
+use crate::{Info, Program, RemoteParams, remote::Requests, remote::ServedRequests};
 use message::About;
 use rtrb::{Producer, RingBuffer};
 use server::Server;
@@ -29,6 +30,7 @@ use std::{
     vec,
     vec::Vec,
 };
+use times::Times;
 
 /// Environment variable with the address.
 const ADDRESS: &str = "APEX_STUDIO";
@@ -40,6 +42,7 @@ const ROOM: usize = 1 << 20;
 
 /// A streamed run. When it is dropped, the viewers get the last messages.
 pub struct Studio {
+    info: &'static Info,
     shared: Arc<Shared>,
     requests: Arc<Requests>,
     /// Rings of the groups that have no stream yet.
@@ -102,7 +105,7 @@ impl Studio {
         let (address, params) = (listener.address(), RemoteParams::new(Arc::clone(&requests), P::PARAMS));
         let server = Server { listener, rings: far, shared: Arc::clone(&shared), channels, about, params };
         let thread = thread::Builder::new().name("apex-studio".into()).spawn(move || server.run())?;
-        Ok(Self { shared, requests, rings: Mutex::new(near), address, thread: Some(thread) })
+        Ok(Self { info, shared, requests, rings: Mutex::new(near), address, thread: Some(thread) })
     }
 
     /// Address of the socket, with the port that the system has chosen if the given one was 0.
@@ -112,9 +115,19 @@ impl Studio {
 
     /// Returns the observer of a thread group. There is one for each group, and one more.
     pub fn stream(&self, group: usize) -> Option<Stream> {
+        let info = self.info;
         let ring = self.rings.lock().unwrap_or_else(PoisonError::into_inner).pop()?;
         let requests = ServedRequests::new(Arc::clone(&self.requests));
-        Some(Stream { ring, shared: Arc::clone(&self.shared), group: group as u32, requests, frame: vec![], now: 0 })
+        Some(Stream {
+            ring,
+            info,
+            shared: Arc::clone(&self.shared),
+            group: group as u32,
+            requests,
+            frame: vec![],
+            now: 0,
+            times: Times::default(),
+        })
     }
 }
 

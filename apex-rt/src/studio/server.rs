@@ -61,6 +61,8 @@ struct Viewer {
     out: Vec<u8>,
     /// Interval of each channel that it asked for, and the time of its last token.
     watches: Vec<(usize, Duration, Option<Instant>)>,
+    /// `true` if it wants calls to be measured.
+    measures: bool,
     /// `true` after an error or the end of its commands.
     gone: bool,
 }
@@ -92,6 +94,7 @@ impl Server {
             for viewer in &mut viewers {
                 viewer.receive(&self.shared, &ask);
             }
+            self.shared.measured.store(viewers.iter().any(|viewer| viewer.measures), Relaxed);
             self.collect(&mut batch);
             if let Some(report) = self.shared.pace.as_ref().and_then(Pace::news) {
                 message::write(&report, &mut batch);
@@ -129,7 +132,7 @@ impl Server {
             if let Some(pace) = &self.shared.pace {
                 message::write(&pace.report(), &mut out);
             }
-            viewers.push(Viewer { wire, came: vec![], out, watches: vec![], gone: false });
+            viewers.push(Viewer { wire, came: vec![], out, watches: vec![], measures: false, gone: false });
         }
     }
 
@@ -254,6 +257,7 @@ impl Viewer {
                     self.watches.push((channel, Duration::from_millis(every.into()), None));
                 }
             }
+            Command::Measure(measures) => self.measures = measures,
             // The other thread lives as long as this one.
             Command::Params => drop(ask.send(Ask::All)),
             Command::Set { name, value } => drop(ask.send(Ask::Set(name, value))),

@@ -21,6 +21,8 @@ pub struct Shared {
     /// `true` for the nodes that are active.
     pub active: Box<[AtomicBool]>,
     pub channels: Box<[Wanted]>,
+    /// `true` while calls are measured.
+    pub measured: AtomicBool,
     /// Number of messages that did not fit into a ring.
     pub lost: AtomicU64,
     /// Pace of the program, if its time is simulated.
@@ -50,6 +52,7 @@ impl Shared {
             over: AtomicBool::new(false),
             active: (0..nodes).map(|_| AtomicBool::new(false)).collect(),
             channels: (0..channels).map(|_| Wanted::default()).collect(),
+            measured: AtomicBool::new(false),
             lost: AtomicU64::new(0),
             pace,
         }

@@ -1,8 +1,9 @@
 use super::{
     message::{self, Report},
     shared::Shared,
+    times::Times,
 };
-use crate::{Observer, Parameters, Time, record::Codec, remote::ServedRequests};
+use crate::{Info, Observer, Parameters, Time, record::Codec, remote::ServedRequests};
 use core::{
     fmt::{Debug, Display},
     time::Duration,
@@ -28,6 +29,7 @@ const PAUSE: Duration = Duration::from_micros(100);
 /// Observer that sends what one thread group does to all viewers. While there are none, it does next to nothing.
 pub struct Stream {
     pub(super) ring: Producer<u8>,
+    pub(super) info: &'static Info,
     pub(super) shared: Arc<Shared>,
     pub(super) group: u32,
     pub(super) requests: ServedRequests,
@@ -35,6 +37,7 @@ pub struct Stream {
     pub(super) frame: Vec<u8>,
     /// Time of the current reaction in ns.
     pub(super) now: i64,
+    pub(super) times: Times,
 }
 
 impl Stream {
@@ -57,11 +60,23 @@ impl Stream {
     }
 }
 
+impl Stream {
+    /// Sends the times of all calls from time to time, if they are measured.
+    fn send_times(&mut self) {
+        if !self.shared.measured.load(Relaxed) {
+            self.times.clear();
+        } else if let Some(times) = self.times.due() {
+            self.send(|| Report::Times(times));
+        }
+    }
+}
+
 /// A run that may be streamed.
 impl Observer for Option<Stream> {
     #[inline]
     fn before_reaction(&mut self, now: Time, params: &mut impl Parameters) {
         let Some(stream) = self else { return };
+        stream.send_times();
         stream.now = now.as_nanos();
         stream.requests.serve(params);
         let (group, now) = (stream.group, stream.now);
@@ -75,6 +90,18 @@ impl Observer for Option<Stream> {
     fn fired(&mut self, node: usize) {
         if let Some(stream) = self {
             stream.send(|| Report::Fired(node as u32));
+            if stream.shared.measured.load(Relaxed) {
+                stream.times.begin(node);
+            }
+        }
+    }
+
+    #[inline]
+    fn finished(&mut self, node: usize) {
+        if let Some(stream) = self
+            && stream.shared.measured.load(Relaxed)
+        {
+            stream.times.end(node);
         }
     }
 
@@ -82,6 +109,9 @@ impl Observer for Option<Stream> {
     fn handled(&mut self, connection: usize) {
         if let Some(stream) = self {
             stream.send(|| Report::Handled(connection as u32));
+            if stream.shared.measured.load(Relaxed) {
+                stream.times.begin(stream.info.connections[connection].to);
+            }
         }
     }
 
