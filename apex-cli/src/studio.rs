@@ -3,6 +3,7 @@
 use crate::{
     build::How,
     project::{self, print_error},
+    replace,
     run::{Found, KEPT, Params, Recording, Stream, Wanted},
     watch::{
         files::Files,
@@ -11,8 +12,12 @@ use crate::{
     },
 };
 use apex_diagram::{Item, diagram};
-use apex_dsl::program::Program;
-use apex_studio::{Remote, Robot, Source, Studio};
+use apex_dsl::{
+    fix::applied,
+    ide::{ArgumentPlace, set_argument},
+    program::Program,
+};
+use apex_studio::{ParamChange, Remote, Robot, Source, Studio};
 use std::{
     env, fs,
     io::{self, IsTerminal as _, Write as _},
@@ -96,6 +101,14 @@ struct Text {
 }
 
 impl Text {
+    /// Path of a source file. Robots name those that the compiler was given, from a folder around the package.
+    fn find(&self, file: &str) -> Option<PathBuf> {
+        let is_text = Path::new(file).extension().is_some_and(|e| e == "afg" || e == "rs");
+        let package = project::package_of(&self.file).unwrap_or_default();
+        let mut places = package.ancestors().map(|folder| folder.join(file)).filter(|path| is_text && path.is_file());
+        places.next()
+    }
+
     fn set_errors(&self, errors: Option<String>) {
         *self.errors.lock().unwrap_or_else(PoisonError::into_inner) = errors;
     }
@@ -132,15 +145,19 @@ impl Source for Text {
         unreachable!("there are as many names as numbers")
     }
 
+    fn write_param(&self, change: &ParamChange<'_>) -> Result<String, String> {
+        let path = self.find(change.file).ok_or_else(|| format!("there is no file `{}`", change.file))?;
+        let shown = path.display();
+        let text = fs::read_to_string(&path).map_err(|e| format!("cannot read `{shown}`: {e}"))?;
+        let ParamChange { line, node, param, unit, value, .. } = *change;
+        let fix = set_argument(&text, ArgumentPlace { node, line, param, unit }, value)?;
+        replace::write(&path, &applied(&text, &fix))?;
+        Ok(format!("{shown}:{line}"))
+    }
+
     fn texts(&self, files: &[String]) -> Vec<String> {
-        // Paths are those that the compiler was given: from a folder around the package.
-        let package = project::package_of(&self.file).unwrap_or_default();
-        let read = |file: &String| {
-            let is_text = Path::new(file).extension().is_some_and(|e| e == "afg" || e == "rs");
-            let mut places = package.ancestors().map(|folder| folder.join(file)).filter(|_| is_text);
-            places.find_map(|path| fs::read_to_string(path).ok()).unwrap_or_default()
-        };
-        files.iter().map(read).collect()
+        let read = |file: &String| fs::read_to_string(self.find(file)?).ok();
+        files.iter().map(|file| read(file).unwrap_or_default()).collect()
     }
 }
 

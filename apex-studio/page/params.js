@@ -64,6 +64,9 @@ export class Params {
     text.type = "text";
     text.setAttribute("aria-label", info.name);
     const undo = /** @type {HTMLButtonElement} */ (make("button", "undo", "↺"));
+    const write = /** @type {HTMLButtonElement} */ (make("button", "write", "✎"));
+    write.title = "write it into the source file";
+    write.addEventListener("click", () => ask({ write: info.name }));
     const set = (/** @type {string} */ value) => ask({ set: { name: info.name, value } });
     let initial = "";
     text.addEventListener("change", () => set(text.value));
@@ -88,7 +91,7 @@ export class Params {
       });
       line.append(slider);
     }
-    line.append(text, make("span", "unit", info.unit ?? ""), undo);
+    line.append(text, make("span", "unit", info.unit ?? ""), undo, write);
     const range = info.min === null && info.max === null ? info.ty : `${info.ty}, ${info.min ?? ""}..${info.max ?? ""}`;
     row.append(make("div", "name", info.name), line, make("div", "range", range), error);
     for (const input of [text, slider, undo]) if (input) input.disabled = robot.readonly;
@@ -97,6 +100,7 @@ export class Params {
       row.classList.toggle("is-fixed", param.fixed);
       row.classList.toggle("is-changed", param.value !== param.initial);
       undo.hidden = param.value === param.initial;
+      write.hidden = undo.hidden || robot.readonly;
       undo.title = `back to ${param.initial}`;
       error.textContent = param.error ?? "";
       if (document.activeElement !== text || param.error === null) text.value = param.value;

@@ -36,8 +36,31 @@ pub trait Source: Send + Sync + 'static {
     /// The file cannot be written.
     fn save_params(&self, params: &str) -> Result<String, String>;
 
+    /// Writes a parameter into the source. Returns the place of the change.
+    ///
+    /// # Errors
+    /// The value in the source is not a plain one, or the file cannot be written.
+    fn write_param(&self, change: &ParamChange<'_>) -> Result<String, String>;
+
     /// Contents of these files; empty for those that cannot be read.
     fn texts(&self, files: &[String]) -> Vec<String>;
+}
+
+/// A new value of a parameter for the source.
+#[derive(Debug, Clone, Copy)]
+pub struct ParamChange<'a> {
+    /// Path of the file with the node, as the compiler was given it.
+    pub file: &'a str,
+    /// Line of the node, from 1.
+    pub line: usize,
+    /// Name of the node, without the graphs around it.
+    pub node: &'a str,
+    /// Name of the parameter, without the node.
+    pub param: &'a str,
+    /// SI unit of the parameter.
+    pub unit: Option<&'a str>,
+    /// Value in TOML, in SI.
+    pub value: &'a str,
 }
 
 /// A studio to be opened.

@@ -1,7 +1,7 @@
 //! One page: what it asks for, and what it is told. All messages are JSON.
 
 use crate::{
-    Source,
+    ParamChange, Source,
     lane::{Drawn, Window},
     live::{Live, Node, Param, Problem, Run},
     picture::Picture,
@@ -115,6 +115,8 @@ pub enum Asked {
     Restart,
     /// Writes all changed parameters to a file.
     Save,
+    /// Writes a parameter into the source.
+    Write(String),
     /// Asks for the tokens of these channels, and of no others.
     Watch(BTreeSet<u32>),
     /// Asks for the times of calls, or no longer.
@@ -209,6 +211,7 @@ impl Session {
                 let changed = self.shared.live().changed_params();
                 return Some(Told::Saved(self.source.save_params(&changed)));
             }
+            Asked::Write(name) => return Some(Told::Saved(self.write(&name))),
             Asked::Set { name, value } => Command::Set { name, value },
             Asked::Pause => Command::Pause,
             Asked::Step => Command::Step,
@@ -216,6 +219,25 @@ impl Session {
         };
         self.shared.tell(&command);
         None
+    }
+
+    /// Writes a parameter into the source. Returns the place.
+    fn write(&self, name: &str) -> Result<String, String> {
+        let live = self.shared.live();
+        let about = live.about.clone().ok_or("there is no robot yet")?;
+        let value = live.params.get(name).map(|param| param.value.clone()).ok_or("its value is not known")?;
+        drop(live);
+        let nodes =
+            about.nodes.iter().filter_map(|node| Some((node, name.strip_prefix(&node.name)?.strip_prefix('.')?)));
+        let (node, param) = nodes.max_by_key(|(node, _)| node.name.len()).ok_or("it belongs to no node")?;
+        self.source.write_param(&ParamChange {
+            file: about.files.get(node.file as usize).map_or("", String::as_str),
+            line: node.line as usize,
+            node: node.name.rsplit('.').next().unwrap_or_default(),
+            param,
+            unit: about.params.iter().find(|info| info.name == name).and_then(|info| info.unit.as_deref()),
+            value: &value,
+        })
     }
 
     /// All that has happened since the last call.

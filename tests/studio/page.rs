@@ -5,7 +5,7 @@ use apex_diagram::{Item, diagram};
 use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
 use apex_host::{Disk, Seen, Workspace};
 use apex_rt::studio::StreamedTime;
-use apex_studio::{Remote, Robot, Source, Studio};
+use apex_studio::{ParamChange, Remote, Robot, Source, Studio};
 use std::{
     env, fs,
     io::{Read as _, Write as _},
@@ -45,6 +45,11 @@ impl Source for Text {
     fn save_params(&self, params: &str) -> Result<String, String> {
         params.clone_into(&mut self.saved.lock().unwrap());
         Ok("counts.toml".to_owned())
+    }
+
+    fn write_param(&self, change: &ParamChange<'_>) -> Result<String, String> {
+        *self.saved.lock().unwrap() = format!("{change:?}");
+        Err("not a plain <b>number</b>".to_owned())
     }
 
     fn texts(&self, files: &[String]) -> Vec<String> {
@@ -250,6 +255,12 @@ fn parameters_are_set_checked_undone_and_saved() {
     page.value("document.getElementById('params-save').click()");
     page.wait_for("document.getElementById('params-saved').textContent === 'written to counts.toml'");
     assert_eq!(*text.saved.lock().unwrap(), "times.factor = 7\n");
+    page.value(&format!("{row}.querySelector('.write').click()"));
+    page.wait_for("document.getElementById('params-saved').textContent === 'not a plain <b>number</b>'");
+    let change = text.saved.lock().unwrap().clone();
+    for part in ["counts.afg", "node: \"times\"", "param: \"factor\"", "value: \"7\""] {
+        assert!(change.contains(part), "{change}");
+    }
     page.value(&format!("{row}.querySelector('.undo').click()"));
     page.wait_for(&format!("!{row}.classList.contains('is-changed')"));
 }

@@ -1,6 +1,7 @@
 //! Queries of an editor about a source file: the meaning of a place, other uses of a name, completions. All queries are
 //! pure functions of trees, names and connections. A source file with errors is answered as far as it can be parsed.
 
+mod argument;
 mod by_name;
 mod complete;
 mod context;
@@ -18,6 +19,7 @@ use crate::{
     source::Sources,
 };
 
+pub use argument::{ArgumentPlace, set_argument};
 pub use by_name::{WrittenOut, written_out};
 pub use complete::{Completion, CompletionKind, Siblings, complete};
 pub use definition::{Definition, MachineId, NodeType, Origin, ParamFacts, PortFacts};
