@@ -184,7 +184,7 @@ struct Launched {
 
 impl Launched {
     fn new(launch: Launch, text: Arc<Text>) -> Result<Self, String> {
-        let socket = env::temp_dir().join(format!("apex-studio-{}.sock", std::process::id()));
+        let socket = private_folder()?.join("robot");
         let params = Params { load: launch.params.clone(), save: None };
         let folders = folders(&launch.file)?;
         let files = (Files::default(), Files::default(), Instant::now());
@@ -296,5 +296,19 @@ impl Robot for Launched {
 impl Drop for Launched {
     fn drop(&mut self) {
         self.stop();
+        // A robot that was killed has left its socket there.
+        let _ = self.socket.parent().map(fs::remove_dir_all);
     }
+}
+
+/// Makes a folder that only this user can enter: everyone who can connect to a robot can set its parameters.
+fn private_folder() -> Result<PathBuf, String> {
+    let folder = env::temp_dir().join(format!("apex-studio-{}", std::process::id()));
+    // One of an earlier process with the same number; it cannot be removed if it belongs to another user.
+    let _ = fs::remove_dir_all(&folder);
+    let mut builder = fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(&folder).map_err(|e| format!("cannot create `{}` for the socket: {e}", folder.display()))?;
+    Ok(folder)
 }

@@ -10,6 +10,16 @@ export class Timeline {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
     this.canvas = canvas;
+    /** Seen time in s. */
+    this.span = 30;
+    this.end = 0;
+    this.isFollowing = true;
+    this.stale = false;
+    /** Time of the last request in ms. */
+    this.asked = 0;
+    /** @type {number | null} */ this.cursor = null;
+    /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[], before: any[], differs: number | null} | null} */
+    this.lanes = null;
     this.begin();
     this.listen();
   }
@@ -18,9 +28,8 @@ export class Timeline {
     this.span = 30;
     this.end = 0;
     this.isFollowing = true;
-    /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[], before: any[], differs: number | null} | null} */
     this.lanes = null;
-    /** @type {number | null} */ this.cursor = null;
+    this.cursor = null;
     this.asked = 0;
     this.draw();
   }

@@ -20,7 +20,8 @@ const DRAWN = {
   "geometry_msgs/msg/PoseStamped": (world, { pose }, color) => world.arrow(planar(pose), color),
   "geometry_msgs/msg/Pose": (world, pose, color) => world.arrow(planar(pose), color),
   "nav_msgs/msg/Path": (world, { poses }, color) => {
-    const all = poses.map((/** @type {any} */ { pose }) => planar(pose)).filter(({ x }) => Number.isFinite(x));
+    /** @type {Pose[]} */
+    const all = poses.map((/** @type {any} */ { pose }) => planar(pose)).filter((/** @type {Pose} */ { x }) => Number.isFinite(x));
     world.line(all.map(({ x, y }) => [x, y]), color);
     if (all.length > 0) world.arrow(all[all.length - 1], color);
   },

@@ -191,7 +191,7 @@ impl Live {
                 let claim = claims.get(claim as usize).map_or("?", String::as_str);
                 self.problem(None, format!("the claim `{claim}` does not hold"));
             }
-            Report::Value { channel, now, text, bytes } => {
+            Report::Value { channel, now, text, bytes } if self.has_channel(channel) => {
                 let tokens = self.tokens.entry(channel).or_default();
                 tokens.count += 1;
                 tokens.bytes = bytes;
@@ -200,9 +200,10 @@ impl Live {
                     tokens.newest.pop_front();
                 }
             }
+            Report::Value { .. } => {}
             Report::Times(times) => {
                 self.measured += 1;
-                for times in times {
+                for times in times.into_iter().filter(|times| (times.node as usize) < self.nodes.len()) {
                     match self.calls.iter_mut().find(|known| known.node == times.node) {
                         Some(known) => *known = times,
                         None => self.calls.push(times),
@@ -214,6 +215,10 @@ impl Live {
             Report::Pace { paused, speed, .. } => (self.paused, self.speed) = (paused, speed),
             Report::Ended => self.run = Run::Ended,
         }
+    }
+
+    fn has_channel(&self, channel: u32) -> bool {
+        self.about.as_ref().is_some_and(|about| (channel as usize) < about.channels.len())
     }
 
     fn fire(&mut self, node: u32) {

@@ -11,7 +11,7 @@ use apex_rt::studio::{
 };
 use std::{
     collections::BTreeMap,
-    io::{BufReader, Write as _},
+    io::{BufReader, ErrorKind, Write as _},
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     thread,
     time::{Duration, Instant},
@@ -240,14 +240,15 @@ fn run(robot: &mut impl Robot, address: &str, shared: &Arc<Shared>, speed: &mut 
     if speed.is_some() && live.speed.is_finite() {
         *speed = Some(live.speed);
     }
-    if live.run == Run::Running {
+    if live.run != Run::Ended {
         live.run = Run::Lost(reader.err().unwrap_or_else(|| "the robot has broken off".to_owned()));
     }
 }
 
 fn connection(robot: &mut impl Robot, address: &str, shared: &Shared) -> Option<(Box<dyn Wire>, Box<dyn Wire>)> {
-    // What an earlier run has shown stays until there is a new one.
-    if !robot.comes_back() || shared.live().runs == 0 {
+    // What an earlier run has shown, or why it was lost, stays until there is a new one.
+    let is_first = matches!(shared.live().run, Run::Starting(_));
+    if is_first {
         shared.set(Run::Starting(format!("connecting to {address}")));
     }
     let start = Instant::now();
@@ -271,6 +272,8 @@ fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, mut journey: O
         let report = match message::read::<Report>(&mut from) {
             Ok(Some(report)) => report,
             Ok(None) => return Ok(()),
+            // It was killed in the middle of a message.
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(()),
             Err(error) => return Err(error.to_string()),
         };
         if let Report::About(about) = report {

@@ -10,7 +10,7 @@ use std::{
     env, fs,
     io::{Read as _, Write as _},
     net::TcpStream,
-    path::Path,
+    path::{Path, PathBuf},
     process::{Child, Command, Stdio},
     sync::{Arc, Mutex, mpsc::channel},
     thread,
@@ -77,9 +77,28 @@ fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Text>)
 }
 
 /// Runs the program for `seconds` at the speed that the studio chooses.
-fn start(name: &'static str, seconds: i64) -> thread::JoinHandle<()> {
+fn start(name: &'static str, seconds: i64) -> Started {
     let robot = open(name, StreamedTime::Waiting);
-    thread::spawn(move || drive(&robot, seconds))
+    Started { name, thread: Some(thread::spawn(move || drive(&robot, seconds))) }
+}
+
+/// A program that runs at least until the end of its test.
+struct Started {
+    name: &'static str,
+    thread: Option<thread::JoinHandle<()>>,
+}
+
+impl Started {
+    fn join(mut self) {
+        self.thread.take().map(thread::JoinHandle::join).expect("it has not been joined").expect("it runs to its end");
+    }
+}
+
+impl Drop for Started {
+    fn drop(&mut self) {
+        // The program itself would remove its socket at its end.
+        let _ = fs::remove_file(socket(self.name));
+    }
 }
 
 /// A robot in a process of its own, which can be started again: this program, as `robot_of_its_own`.
@@ -91,13 +110,18 @@ struct Restarted {
 /// Environment variable with the name of its socket.
 const OWN: &str = "APEX_TEST_ROBOT";
 
+/// Path of the socket of a robot in another process.
+fn address(process: u32, name: &str) -> PathBuf {
+    env::temp_dir().join(format!("apex-studio-{process}-{name}"))
+}
+
 impl Robot for Restarted {
     fn start(&mut self, _again: bool) -> Result<String, String> {
         let mut command = Command::new(env::current_exe().map_err(|e| e.to_string())?);
         let command = command.args(["--ignored", "--exact", "page::robot_of_its_own"]).env(OWN, self.name);
         self.process = Some(command.stdout(Stdio::null()).spawn().map_err(|e| e.to_string())?);
         let id = self.process.as_ref().map_or(0, Child::id);
-        Ok(env::temp_dir().join(format!("apex-studio-{id}-{}", self.name)).display().to_string())
+        Ok(address(id, self.name).display().to_string())
     }
 
     fn runs(&mut self) -> bool {
@@ -108,6 +132,7 @@ impl Robot for Restarted {
         if let Some(mut process) = self.process.take() {
             process.kill().expect("it runs");
             process.wait().expect("it ends");
+            let _ = fs::remove_file(address(process.id(), self.name));
         }
     }
 }
@@ -186,7 +211,7 @@ const RUNNING: &str = "document.getElementById('run').textContent === 'running'"
 
 #[test]
 fn the_picture_is_alive_and_nothing_in_names_is_executed() {
-    start("alive", 3600);
+    let _robot = start("alive", 3600);
     let Some(mut page) = Browser::open(&studio("alive", false).0) else { return };
     page.wait_for(RUNNING);
     page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
@@ -219,7 +244,7 @@ fn the_picture_is_alive_and_nothing_in_names_is_executed() {
 
 #[test]
 fn a_halted_robot_goes_step_by_step() {
-    start("halted", 3600);
+    let _robot = start("halted", 3600);
     let Some(mut page) = Browser::open(&studio("halted", false).0) else { return };
     page.wait_for(RUNNING);
     page.press(" ");
@@ -238,7 +263,7 @@ fn a_halted_robot_goes_step_by_step() {
 
 #[test]
 fn parameters_are_set_checked_undone_and_saved() {
-    start("params", 3600);
+    let _robot = start("params", 3600);
     let (address, text) = studio("params", false);
     let Some(mut page) = Browser::open(&address) else { return };
     let row = "document.querySelector('[data-param=\"times.factor\"]')";
@@ -267,7 +292,7 @@ fn parameters_are_set_checked_undone_and_saved() {
 
 #[test]
 fn tokens_are_shown_of_pinned_ports_only() {
-    start("tokens", 3600);
+    let _robot = start("tokens", 3600);
     let Some(mut page) = Browser::open(&studio("tokens", false).0) else { return };
     page.value("document.querySelector('[data-tab=values]').click()");
     let row = "document.querySelector('[data-channel=\"count.out\"]')";
@@ -295,7 +320,7 @@ fn a_robot_may_end_and_come_back_and_several_pages_see_it() {
     let Some(mut second) = Browser::open(&address) else { return };
     first.wait_for("document.getElementById('run').textContent === 'ended'");
     second.wait_for("document.getElementById('run').textContent === 'ended'");
-    robot.join().expect("it runs to its end");
+    robot.join();
     let again = start("returns", 3600);
     first.wait_for(RUNNING);
     second.wait_for(RUNNING);
@@ -330,4 +355,22 @@ fn pages_of_other_sites_are_refused() {
     assert_eq!(answer(&address, &address, "http://example.org"), "HTTP/1.1 403");
     assert_eq!(answer(&address, "example.org", "http://example.org"), "HTTP/1.1 403");
     assert_eq!(answer(&address, &address, "null"), "HTTP/1.1 403");
+}
+
+#[test]
+fn what_is_not_a_robot_is_reported() {
+    use std::os::unix::net::UnixListener;
+    let path = socket("hostile");
+    let listener = UnixListener::bind(&path).expect("a new socket");
+    let Some(mut page) = Browser::open(&studio("hostile", false).0) else { return };
+    // Too long, of another version, cut off.
+    let wrong: [&[u8]; 3] = [&[0xff; 64], &[2, 0, 0, 0, 77, 77], &[200, 0, 0, 0, 1]];
+    let said = ["is too long", "cannot be read", "broken off"];
+    for (bytes, said) in wrong.into_iter().zip(said) {
+        let (mut stream, _) = listener.accept().expect("the studio connects");
+        stream.write_all(bytes).expect("the studio reads");
+        drop(stream);
+        page.wait_for(&format!("document.getElementById('run').textContent.includes('{said}')"));
+    }
+    fs::remove_file(path).expect("it is still there");
 }

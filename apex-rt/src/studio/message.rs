@@ -288,7 +288,7 @@ pub struct AboutChannel {
 pub struct AboutSchema {
     /// Name of the type of messages, or of the Rust type.
     pub name: String,
-    /// Definition of the message as ROS 2 has it; empty if the tokens are no messages.
+    /// Definition of the message as ROS 2 has it; empty for tokens of other types.
     pub definition: String,
 }
 
