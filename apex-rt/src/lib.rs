@@ -35,7 +35,7 @@ mod remote;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
-#[cfg(feature = "studio")]
+#[cfg(feature = "viewer")]
 pub mod studio;
 #[cfg(feature = "std")]
 mod switch;

@@ -1,6 +1,8 @@
 //! Messages between a robot and its viewers. Each is a length in bytes (`u32`, little endian), and a postcard message.
 
-use crate::{Info, PortKind, params::ParamInfo, record::Channel};
+use crate::PortKind;
+#[cfg(feature = "studio")]
+use crate::{Info, params::ParamInfo, record::Channel};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
     io::{self, Read},
@@ -307,6 +309,7 @@ pub struct AboutParam {
     pub max: Option<f64>,
 }
 
+#[cfg(feature = "studio")]
 impl About {
     /// Returns the description of a program.
     pub fn new(info: &Info, channels: &[Channel], params: &[ParamInfo], simulated: bool) -> Self {

@@ -7,137 +7,20 @@
 //! `127.0.0.1:7400`.
 
 pub mod message;
+#[cfg(feature = "studio")]
+mod run;
+#[cfg(feature = "studio")]
 mod server;
+#[cfg(feature = "studio")]
 mod shared;
 mod socket;
+#[cfg(feature = "studio")]
 mod stream;
+#[cfg(feature = "studio")]
 mod times;
 
+#[cfg(feature = "studio")]
+pub use run::{StreamedTime, Studio};
 pub use socket::{Wire, connect};
+#[cfg(feature = "studio")]
 pub use stream::Stream;
-
-use crate::{Info, Program, RemoteParams, remote::Requests, remote::ServedRequests};
-use message::About;
-use rtrb::{Producer, RingBuffer};
-use server::Server;
-use shared::{Pace, Shared};
-use socket::Listener;
-use std::{
-    env, io,
-    string::String,
-    sync::{Arc, Mutex, PoisonError, atomic::Ordering},
-    thread::{self, JoinHandle},
-    vec,
-    vec::Vec,
-};
-use times::Times;
-
-/// Environment variable with the address.
-const ADDRESS: &str = "APEX_STUDIO";
-/// Environment variable of programs that wait for a viewer.
-const WAIT: &str = "APEX_STUDIO_WAIT";
-
-/// Number of bytes of each thread group that may wait to be sent.
-const ROOM: usize = 1 << 20;
-
-/// A streamed run. When it is dropped, the viewers get the last messages.
-pub struct Studio {
-    info: &'static Info,
-    shared: Arc<Shared>,
-    requests: Arc<Requests>,
-    /// Rings of the groups that have no stream yet.
-    rings: Mutex<Vec<Producer<u8>>>,
-    address: String,
-    thread: Option<JoinHandle<()>>,
-}
-
-/// Time of a streamed program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StreamedTime {
-    /// The machine's.
-    Real,
-    /// Simulated: viewers can halt the program.
-    Simulated,
-    /// Simulated, and the program waits until a viewer lets it run.
-    Waiting,
-}
-
-impl Studio {
-    /// Opens a socket at `address` for viewers of a program of type `P` that runs in a loop of its own. Call
-    /// [`before_reaction`](crate::Observer::before_reaction) of its [stream](Self::stream) there.
-    ///
-    /// # Errors
-    /// The socket cannot be opened.
-    pub fn open<P: Program>(address: &str, time: StreamedTime) -> io::Result<Self> {
-        Self::serving::<P>(address, time, Arc::default())
-    }
-
-    /// Opens a socket as the environment variables say, if they do.
-    ///
-    /// # Errors
-    /// The socket cannot be opened.
-    pub fn of_environment<P: Program>(simulated: bool) -> io::Result<Option<Self>> {
-        Self::wanted::<P>(simulated, Arc::default())
-    }
-
-    /// Opens a socket if the environment asks for it. The program serves `requests`.
-    pub(crate) fn wanted<P: Program>(simulated: bool, requests: Arc<Requests>) -> io::Result<Option<Self>> {
-        let Some(address) = env::var_os(ADDRESS) else { return Ok(None) };
-        let time = match (simulated, env::var_os(WAIT)) {
-            (false, _) => StreamedTime::Real,
-            (true, None) => StreamedTime::Simulated,
-            (true, Some(_)) => StreamedTime::Waiting,
-        };
-        let address = address.into_string().map_err(|_| io::Error::new(io::ErrorKind::InvalidInput, "no UTF-8"))?;
-        Self::serving::<P>(&address, time, requests).map(Some)
-    }
-
-    fn serving<P: Program>(address: &str, time: StreamedTime, requests: Arc<Requests>) -> io::Result<Self> {
-        let listener = Listener::open(address)?;
-        let (info, channels) = (const { &P::INFO }, P::channels());
-        // One ring for each group, and one for the watchdog.
-        let (near, far): (Vec<_>, Vec<_>) = (0..info.groups.len().max(1) + 1).map(|_| RingBuffer::new(ROOM)).unzip();
-        let pace = (time != StreamedTime::Real).then(|| Pace::new(time == StreamedTime::Waiting));
-        let shared = Arc::new(Shared::new(info.nodes.len(), channels.len(), pace));
-        let mut about = vec![];
-        let description = About::new(info, &channels, P::PARAMS, time != StreamedTime::Real);
-        message::write(&message::Report::About(description), &mut about);
-        let (address, params) = (listener.address(), RemoteParams::new(Arc::clone(&requests), P::PARAMS));
-        let server = Server { listener, rings: far, shared: Arc::clone(&shared), channels, about, params };
-        let thread = thread::Builder::new().name("apex-studio".into()).spawn(move || server.run())?;
-        Ok(Self { info, shared, requests, rings: Mutex::new(near), address, thread: Some(thread) })
-    }
-
-    /// Address of the socket, with the port that the system has chosen if the given one was 0.
-    pub fn address(&self) -> &str {
-        &self.address
-    }
-
-    /// Returns the observer of a thread group. There is one for each group, and one more.
-    pub fn stream(&self, group: usize) -> Option<Stream> {
-        let info = self.info;
-        let ring = self.rings.lock().unwrap_or_else(PoisonError::into_inner).pop()?;
-        let requests = ServedRequests::new(Arc::clone(&self.requests));
-        Some(Stream {
-            ring,
-            info,
-            shared: Arc::clone(&self.shared),
-            group: group as u32,
-            requests,
-            frame: vec![],
-            now: 0,
-            times: Times::default(),
-        })
-    }
-}
-
-impl Drop for Studio {
-    fn drop(&mut self) {
-        self.requests.end();
-        self.shared.over.store(true, Ordering::Release);
-        if let Some(thread) = self.thread.take() {
-            // A panic there concerns only the viewers.
-            let _ = thread.join();
-        }
-    }
-}

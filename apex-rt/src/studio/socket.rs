@@ -2,10 +2,15 @@
 
 use std::{
     boxed::Box,
-    format, fs,
     io::{self, Read, Write},
-    net::{TcpListener, TcpStream},
-    path::{Path, PathBuf},
+    net::TcpStream,
+    path::Path,
+};
+#[cfg(feature = "studio")]
+use std::{
+    format, fs,
+    net::TcpListener,
+    path::PathBuf,
     string::{String, ToString as _},
 };
 
@@ -15,12 +20,14 @@ pub trait Wire: Read + Write + Send {}
 impl<T: Read + Write + Send> Wire for T {}
 
 /// A socket that waits for viewers.
+#[cfg(feature = "studio")]
 pub enum Listener {
     Tcp(TcpListener),
     #[cfg(unix)]
     File(std::os::unix::net::UnixListener, PathBuf),
 }
 
+#[cfg(feature = "studio")]
 impl Listener {
     /// Opens a socket at `address`: `HOST:PORT`, or the path of a file, which has a `/`.
     pub fn open(address: &str) -> io::Result<Self> {
@@ -74,6 +81,7 @@ impl Listener {
     }
 }
 
+#[cfg(feature = "studio")]
 impl Drop for Listener {
     fn drop(&mut self) {
         #[cfg(unix)]
