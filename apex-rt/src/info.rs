@@ -98,6 +98,8 @@ pub struct ConnectionInfo {
     pub to: usize,
     /// Name of the receiving port.
     pub input: &'static str,
+    /// `true` if activity flows over it.
+    pub activity: bool,
 }
 
 /// A thread group of a compiled graph.
@@ -148,7 +150,7 @@ impl PortInfo {
 
 impl ConnectionInfo {
     /// Returns a row of the table of connections.
-    pub const fn new(from: usize, output: &'static str, to: usize, input: &'static str) -> Self {
-        Self { from, output, to, input }
+    pub const fn new(from: usize, output: &'static str, to: usize, input: &'static str, activity: bool) -> Self {
+        Self { from, output, to, input, activity }
     }
 }

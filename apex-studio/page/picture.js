@@ -12,6 +12,7 @@ export class Picture {
     /** @type {string[]} */ this.graphs = [];
     /** @type {Set<string>} */ this.open = new Set();
     /** A node to be shown when its graph is open. @type {string | null} */ this.wanted = null;
+    /** Nodes of the last answer to "why". @type {Set<number>} */ this.lit = new Set();
     this.view = { x: 0, y: 0, width: 1, height: 1 };
     this.listen();
   }
@@ -49,6 +50,7 @@ export class Picture {
     this.select(robot.selected);
     this.update();
     this.heat();
+    this.relight();
     if (this.wanted) this.jump(this.wanted);
   }
 
@@ -98,6 +100,21 @@ export class Picture {
   isEvent(connection) {
     const ports = robot.about?.nodes[connection.to].ports ?? [];
     return ports.find(([name]) => name === connection.input)?.[1] === "slot";
+  }
+
+  /** Lights up these nodes, and the lines between them. @param {number[]} nodes */
+  light(nodes) {
+    this.lit = new Set(nodes);
+    this.relight();
+  }
+
+  relight() {
+    const { lit } = this;
+    for (const { element, nodes } of this.items.values()) element.classList.toggle("is-cause", nodes.some((at) => lit.has(at)));
+    for (const { element, connections } of this.lines) {
+      const ends = connections.flatMap((at) => robot.about?.connections[at] ?? []);
+      element.classList.toggle("is-lit", ends.some(({ from, to }) => lit.has(from) && lit.has(to)));
+    }
   }
 
   /** @param {string | null} name */

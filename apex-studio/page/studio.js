@@ -5,6 +5,7 @@ import { Timeline } from "./timeline.js";
 import { Params } from "./params.js";
 import { Values } from "./values.js";
 import { Text } from "./text.js";
+import { Why } from "./why.js";
 
 /** @typedef {{name: string, kind: string, docs: string, file: number, line: number, column: number, ports: [string, string, string][]}} AboutNode */
 /** @typedef {{from: number, output: string, to: number, input: string}} Connection */
@@ -64,6 +65,7 @@ const timeline = new Timeline(element("timeline"));
 const params = new Params(element("params"), element("params-filter"));
 const values = new Values(element("values"), element("values-filter"));
 const text = new Text(element("text"));
+const why = new Why(element("why"), picture, timeline);
 
 let paused = false;
 /** @type {number | null} */
@@ -92,6 +94,7 @@ const tells = {
     params.begin();
     values.begin();
     text.begin(texts);
+    why.begin();
     if (!repeats) timeline.begin();
   },
   break(error) {
@@ -112,6 +115,7 @@ const tells = {
     if (robot.times) robot.times = new Map(all.map((/** @type {number[]} */ [node, calls, total, worst]) => [node, { calls, total, worst }]));
     picture.heat();
   },
+  why(lines) { why.update(lines); },
   saved(result) { params.tell(result); },
   tokens(all) { values.update(all); },
   lanes(lanes) { timeline.show(lanes); },
@@ -284,7 +288,7 @@ export function show(name) {
   }
 }
 for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
-  tab.addEventListener("click", () => show(tab.dataset.tab ?? ""));
+  tab.addEventListener("click", () => (tab.dataset.tab === "why" ? why.ask() : show(tab.dataset.tab ?? "")));
 }
 
 document.addEventListener("keydown", (event) => {
@@ -301,6 +305,7 @@ document.addEventListener("keydown", (event) => {
     g: () => timeline.go(),
     h: heat,
     f: () => timeline.follow(),
+    w: () => why.ask(),
     "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
     o: () => picture.toggle(robot.selected),
     Escape: () => select(null),

@@ -11,7 +11,9 @@ mod picture;
 mod robot;
 mod server;
 mod session;
+mod steps;
 mod top;
+mod why;
 
 pub use robot::{Remote, Robot};
 pub use top::top;

@@ -1,6 +1,9 @@
 //! Knowledge about a running robot.
 
-use crate::lane::{Drawn, Lane, Window};
+use crate::{
+    lane::{Drawn, Lane, Window},
+    steps::{Step, Steps, What},
+};
 use apex_rt::studio::message::{About, NodeTimes, Report};
 use serde::Serialize;
 use std::{
@@ -59,6 +62,8 @@ pub struct Live {
     pub measured: u64,
     /// `true` if this run repeats an earlier one up to a point.
     pub repeats: bool,
+    /// What happened last.
+    pub steps: Steps,
     lanes: Vec<Lane>,
     /// The earlier run.
     before: Option<Before>,
@@ -140,6 +145,7 @@ impl Default for Live {
             calls: vec![],
             measured: 0,
             repeats: false,
+            steps: Steps::default(),
             lanes: vec![],
             before: None,
         }
@@ -166,9 +172,17 @@ impl Live {
             Report::Reaction { now, .. } => {
                 self.now = self.now.max(now);
                 self.times.push(now);
+                self.step(What::Begins);
             }
-            Report::Fired(node) => self.fire(node),
-            Report::Handled(connection) => self.handle(connection),
+            Report::Fired(node) => {
+                self.step(What::Fires(node));
+                self.fire(node);
+            }
+            Report::Handled(connection) => {
+                self.step(What::Takes(connection));
+                self.handle(connection);
+            }
+            Report::Sent(channel) => self.step(What::Sends(channel)),
             Report::Activity { node, active } => self.activity(node, active),
             Report::Failed { node, error } => self.problem(Some(node), error),
             Report::Late { node, age } => {
@@ -217,6 +231,11 @@ impl Live {
         }
     }
 
+    fn step(&mut self, what: What) {
+        let reaction = u32::try_from(self.times.len()).unwrap_or(u32::MAX);
+        self.steps.push(Step { now: self.now, reaction, what });
+    }
+
     fn has_channel(&self, channel: u32) -> bool {
         self.about.as_ref().is_some_and(|about| (channel as usize) < about.channels.len())
     }
@@ -241,10 +260,14 @@ impl Live {
 
     fn activity(&mut self, node: u32, active: bool) {
         if let Some(state) = self.nodes.get_mut(node as usize) {
-            if state.active != active {
+            let changes = state.active != active;
+            if changes {
                 (state.active, state.since) = (active, self.now);
             }
             self.lanes[node as usize].activity(self.now, active);
+            if changes {
+                self.step(if active { What::Starts(node) } else { What::Stops(node) });
+            }
         }
     }
 

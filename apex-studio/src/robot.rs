@@ -302,6 +302,7 @@ fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, mut journey: O
 fn greet(shared: &Shared, about: &About, speed: Option<f64>, first: Option<Command>) {
     let mut link = locked(&shared.link);
     link.tell(&Command::Params);
+    link.tell(&Command::Follow(true));
     let channels: Vec<u32> = link.watches.keys().copied().collect();
     channels.into_iter().for_each(|channel| link.tell(&Command::Watch { channel, every: EVERY }));
     let measures = link.measures > 0;

@@ -6,6 +6,7 @@ use crate::{
     live::{Live, Node, Param, Problem, Run},
     picture::Picture,
     robot::Shared,
+    why::{Line, why},
 };
 use apex_rt::studio::message::{About, Command};
 use base64::{Engine as _, prelude::BASE64_STANDARD};
@@ -33,6 +34,8 @@ pub enum Told {
     Params(BTreeMap<String, Param>),
     /// Times of calls: the node, number of calls, total and longest duration in ns.
     Times(Vec<(u32, u64, u64, u64)>),
+    /// Why a node is active and fired, or why not.
+    Why(Vec<Line>),
     /// New tokens of channels.
     Tokens(BTreeMap<u32, NewTokens>),
     /// The condition at which the robot halts has a mistake, or none.
@@ -121,6 +124,8 @@ pub enum Asked {
     Watch(BTreeSet<u32>),
     /// Asks for the times of calls, or no longer.
     Measure(bool),
+    /// Asks why a node is active and fired, or why not, at a time in s; without one, now.
+    Why { node: usize, at: Option<f64> },
     /// Asks for the lanes of the timeline, with those of `also`. Times are in s.
     Lanes { from: f64, to: f64, columns: u32, also: Vec<usize> },
 }
@@ -189,6 +194,11 @@ impl Session {
                 let lanes = live.draw(window, &also);
                 let (before, differs) = (live.draw_before(window, &lanes), live.differs().map(seconds));
                 return Some(Told::Lanes { from, to, columns, lanes, before, differs });
+            }
+            Asked::Why { node, at } => {
+                let live = self.shared.live();
+                let time = at.map_or(live.now, |at| (at * 1e9) as i64);
+                return Some(Told::Why(why(&live, node, time)));
             }
             _ if self.readonly => return None,
             Asked::Restart => {

@@ -243,6 +243,49 @@ fn the_picture_is_alive_and_nothing_in_names_is_executed() {
 }
 
 #[test]
+fn a_node_says_why_it_fired_and_why_not() {
+    let _robot = start("why", 3600);
+    let Some(mut page) = Browser::open(&studio("why", false).0) else { return };
+    page.wait_for(RUNNING);
+    let problem = "document.querySelector('#problems button')";
+    page.wait_for(&format!("{problem}?.textContent.includes('three')"));
+    let gate = "document.querySelector('[data-item=\"gated.gate\"]')";
+    let ask = |page: &mut Browser| {
+        page.value(&format!(
+            "for (const kind of ['pointerdown', 'pointerup']) {gate}.dispatchEvent(new PointerEvent(kind, {{ bubbles: true }}))"
+        ));
+        page.wait_for(&format!("{gate}.classList.contains('is-selected')"));
+        page.press("w");
+    };
+    let answer = |page: &mut Browser| {
+        page.wait_for("document.querySelector('#why button')");
+        let text =
+            page.value("[...document.querySelectorAll('#why button')].map((line) => line.textContent).join('\\n')");
+        text.as_str().expect("a text").to_owned()
+    };
+    // Now: it fires.
+    ask(&mut page);
+    let why = answer(&mut page);
+    for line in [
+        "`gated.gate` is active since 0.000 s",
+        "`start => gated.gate.activate`",
+        "`times.out` was sent",
+        "`count` fired",
+    ] {
+        assert!(why.contains(line), "{line}: {why}");
+    }
+    page.wait_for("document.querySelector('[data-item=count].is-cause')");
+    page.wait_for("document.querySelector('.line.is-lit')");
+    // When `times` has failed, it does not.
+    page.value(&format!("{problem}.click()"));
+    ask(&mut page);
+    page.wait_for("document.getElementById('why').textContent.includes('did not fire')");
+    let why = answer(&mut page);
+    assert!(why.contains("`times` fired, but sent ⊥ at `out`"), "{why}");
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
 fn a_halted_robot_goes_step_by_step() {
     let _robot = start("halted", 3600);
     let Some(mut page) = Browser::open(&studio("halted", false).0) else { return };

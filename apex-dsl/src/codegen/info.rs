@@ -73,7 +73,8 @@ impl Generator<'_> {
                 (Literal::usize_unsuffixed(self.index(c.from.node)), Literal::usize_unsuffixed(self.index(c.to.node)));
             let taker = &graph.nodes[c.to.node];
             let (output, input) = (&graph.port(c.from).name, &taker.ports[taker.declared(c.to.port)].name);
-            rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input)));
+            let activity = c.active;
+            rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input, #activity)));
         }
         for (id, node) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {

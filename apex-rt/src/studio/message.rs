@@ -11,7 +11,7 @@ use std::{
 };
 
 /// Version of the messages. It changes with every change of their types.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// Maximum size of a message in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -37,6 +37,8 @@ pub enum Report {
     Fired(u32),
     /// The slot at the end of a connection takes its token.
     Handled(u32),
+    /// A node sends a token over this channel. Comes after the node has fired, and only if a viewer follows tokens.
+    Sent(u32),
     /// A node becomes active or inactive.
     Activity {
         /// The node.
@@ -131,6 +133,8 @@ pub enum Command {
     Params,
     /// Lets the times of all calls be measured, or no longer.
     Measure(bool),
+    /// Asks for every token that is sent, without its value, or no longer.
+    Follow(bool),
     /// Sets a parameter.
     Set {
         /// Full name.
@@ -272,6 +276,8 @@ pub struct AboutConnection {
     pub to: u32,
     /// Name of the receiving port.
     pub input: String,
+    /// `true` if activity flows over it.
+    pub activity: bool,
 }
 
 /// A port whose tokens can be asked for.
@@ -330,6 +336,7 @@ impl About {
             output: c.output.into(),
             to: c.to as u32,
             input: c.input.into(),
+            activity: c.activity,
         };
         let channel = |channel: &Channel| AboutChannel {
             name: channel.name.into(),

@@ -63,6 +63,8 @@ struct Viewer {
     watches: Vec<(usize, Duration, Option<Instant>)>,
     /// `true` if it wants calls to be measured.
     measures: bool,
+    /// `true` if it wants to know of every token.
+    follows: bool,
     /// `true` after an error or the end of its commands.
     gone: bool,
 }
@@ -95,6 +97,7 @@ impl Server {
                 viewer.receive(&self.shared, &ask);
             }
             self.shared.measured.store(viewers.iter().any(|viewer| viewer.measures), Relaxed);
+            self.shared.followed.store(viewers.iter().any(|viewer| viewer.follows), Relaxed);
             self.collect(&mut batch);
             if let Some(report) = self.shared.pace.as_ref().and_then(Pace::news) {
                 message::write(&report, &mut batch);
@@ -132,7 +135,15 @@ impl Server {
             if let Some(pace) = &self.shared.pace {
                 message::write(&pace.report(), &mut out);
             }
-            viewers.push(Viewer { wire, came: vec![], out, watches: vec![], measures: false, gone: false });
+            viewers.push(Viewer {
+                wire,
+                came: vec![],
+                out,
+                watches: vec![],
+                measures: false,
+                follows: false,
+                gone: false,
+            });
         }
     }
 
@@ -258,6 +269,7 @@ impl Viewer {
                 }
             }
             Command::Measure(measures) => self.measures = measures,
+            Command::Follow(follows) => self.follows = follows,
             // The other thread lives as long as this one.
             Command::Params => drop(ask.send(Ask::All)),
             Command::Set { name, value } => drop(ask.send(Ask::Set(name, value))),

@@ -23,6 +23,8 @@ pub struct Shared {
     pub channels: Box<[Wanted]>,
     /// `true` while calls are measured.
     pub measured: AtomicBool,
+    /// `true` while every token is reported.
+    pub followed: AtomicBool,
     /// Number of messages that did not fit into a ring.
     pub lost: AtomicU64,
     /// Pace of the program, if its time is simulated.
@@ -53,6 +55,7 @@ impl Shared {
             active: (0..nodes).map(|_| AtomicBool::new(false)).collect(),
             channels: (0..channels).map(|_| Wanted::default()).collect(),
             measured: AtomicBool::new(false),
+            followed: AtomicBool::new(false),
             lost: AtomicU64::new(0),
             pace,
         }

@@ -168,12 +168,20 @@ impl Observer for Option<Stream> {
 
     #[inline]
     fn wants(&mut self, channel: usize) -> bool {
-        self.as_ref().is_some_and(|stream| stream.shared.channels[channel].is.load(Relaxed))
+        let wants = |shared: &Shared| shared.followed.load(Relaxed) || shared.channels[channel].is.load(Relaxed);
+        self.as_ref().is_some_and(|stream| wants(&stream.shared))
     }
 
     fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let (Some(stream), Some(codec)) = (self, codec) else { return };
-        let mut latest = stream.shared.channels[channel].latest.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(stream) = self else { return };
+        if stream.shared.followed.load(Relaxed) {
+            stream.send(|| Report::Sent(channel as u32));
+        }
+        let (wanted, Some(codec)) = (&stream.shared.channels[channel], codec) else { return };
+        if !wanted.is.load(Relaxed) {
+            return;
+        }
+        let mut latest = wanted.latest.lock().unwrap_or_else(PoisonError::into_inner);
         latest.bytes.clear();
         latest.is_new = (codec.write)(token, &mut latest.bytes);
         latest.now = stream.now;
