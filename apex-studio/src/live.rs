@@ -62,7 +62,7 @@ pub struct Live {
     pub measured: u64,
     /// `true` if this run repeats an earlier one up to a point.
     pub repeats: bool,
-    /// What happened last.
+    /// The last steps.
     pub steps: Steps,
     lanes: Vec<Lane>,
     /// The earlier run.

@@ -1,4 +1,4 @@
-//! What a robot did last, step by step, as far as there is room.
+//! The last steps of a robot, up to a limit.
 
 use std::{
     collections::VecDeque,
@@ -8,7 +8,7 @@ use std::{
 /// Number of steps that are kept.
 const MAX_STEPS: usize = 1 << 20;
 
-/// What a robot did last.
+/// The last steps of a robot.
 #[derive(Default)]
 pub struct Steps {
     steps: VecDeque<Step>,
@@ -25,7 +25,7 @@ pub struct Step {
     pub what: What,
 }
 
-/// What happens in a step. Numbers are those of the robot's description.
+/// Kind of a step. Numbers are those of the robot's description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum What {
     /// The reaction begins.

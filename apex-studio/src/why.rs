@@ -240,7 +240,7 @@ impl<'a> Answer<'a> {
         self.lacks(node, &reaction, 1, &mut seen);
     }
 
-    /// What a node lacked that did not fire in a reaction.
+    /// Adds the reasons for which a node did not fire in a reaction.
     fn lacks(&mut self, node: u32, reaction: &Range<usize>, depth: u32, seen: &mut BTreeSet<u32>) {
         let now = self.steps[reaction.end - 1].now;
         let mut ways = self.incoming(node).peekable();
