@@ -24,7 +24,7 @@ use std::fmt;
 
 pub use build::net;
 pub use pnml::pnml;
-pub use replay::{Replay, Wrong};
+pub use replay::{Replay, Wrong, undecided};
 pub use state::{Call, Origin, Preview, Script, State, Token, unsupported};
 
 id! {

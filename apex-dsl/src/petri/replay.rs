@@ -45,6 +45,17 @@ struct Change {
     optional: bool,
 }
 
+/// Nodes whose unrecorded transitions may occur early or late: nodes with slots, which take ⊥, and delays on loops,
+/// which send. Events may be blocked in one order and not in the other.
+pub fn undecided(graph: &Graph, net: &Net) -> BTreeSet<NodeId> {
+    let undecided = net.transitions.iter().filter_map(|t| match t.kind {
+        TransitionKind::Handle(connection) => Some(graph.connections[connection].to.node),
+        TransitionKind::Release(node) => Some(node),
+        _ => None,
+    });
+    undecided.collect()
+}
+
 /// A replay.
 pub struct Replay<'a> {
     graph: &'a Graph,
@@ -64,11 +75,9 @@ pub struct Replay<'a> {
     bypass: Vec<(NodeId, bool)>,
     /// Tokens that the last recorded call has taken.
     last: Vec<Token>,
-    /// `true` if unrecorded transitions occur as late as possible.
-    late: bool,
     /// `true` if the nodes run in several thread groups.
     has_groups: bool,
-    /// Nodes that take ⊥ only when something else needs it.
+    /// Nodes that take ⊥ and delays that send only when something else needs it.
     hesitant: BTreeSet<NodeId>,
 }
 
@@ -95,7 +104,6 @@ impl<'a> Replay<'a> {
             expected: BTreeMap::new(),
             bypass: vec![],
             last: vec![],
-            late: false,
             has_groups: crate::threads::groups(graph).len() > 1,
             hesitant: BTreeSet::new(),
         };
@@ -103,17 +111,11 @@ impl<'a> Replay<'a> {
         Ok(replay)
     }
 
-    /// The same replay with another order of the unrecorded transitions: a node with slots takes ⊥ as late as
-    /// possible, not as early as possible, and a delay on a loop sends only when a node downstream fires. Events may be
-    /// blocked in one order and not in the other, so that a run is legal if it is legal in one of them.
+    /// The same replay in which these of the undecided nodes act as late as possible, and the others as early as
+    /// possible. A run is legal if it is legal for one choice.
     #[must_use]
-    pub fn hesitating(mut self) -> Self {
-        self.late = true;
-        let slots = self.net.transitions.iter().filter_map(|t| match t.kind {
-            TransitionKind::Handle(connection) => Some(self.graph.connections[connection].to.node),
-            _ => None,
-        });
-        self.hesitant = slots.collect();
+    pub fn hesitating(mut self, nodes: BTreeSet<NodeId>) -> Self {
+        self.hesitant = nodes;
         self
     }
 
@@ -123,7 +125,7 @@ impl<'a> Replay<'a> {
         self.now = now;
         for (node, (_, fired)) in &mut self.sources {
             // An iteration that is still under way counts as the one of this reaction.
-            let notify = self.by_kind.get(&TransitionKind::Notify(*node)).filter(|_| self.late);
+            let notify = self.by_kind.get(&TransitionKind::Notify(*node)).filter(|_| self.hesitant.contains(node));
             let waits = notify.and_then(|t| self.net.transitions[*t].takes.first());
             let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
@@ -450,7 +452,7 @@ impl<'a> Replay<'a> {
                     && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
                     && self.is_due(node)
             }
-            TransitionKind::Release(node) => !self.late && self.is_due(node),
+            TransitionKind::Release(node) => !self.hesitant.contains(&node) && self.is_due(node),
             TransitionKind::Handle(_) => false,
             _ => true,
         }

@@ -13,7 +13,7 @@ use apex_dsl::{
 use apex_host::{Disk, Seen, Workspace};
 use std::{
     cell::{Ref, RefCell},
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     path::Path,
     time::Duration,
 };
@@ -158,14 +158,37 @@ fn integer(value: &Value) -> Option<i64> {
     }
 }
 
+/// Maximum number of choices that are tried.
+const MAX_CHOICES: usize = 200;
+
 /// Replays a run on the net. Unrecorded transitions may occur early or late.
 pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
-    let Err((step, early)) = replay(catalog, checked, records, false) else { return Ok(()) };
-    let late = replay(catalog, checked, records, true);
-    late.map_err(|(other, late)| (step, format!("{early}\n  (if ⊥ comes late: step {other}: {late})")))
+    let replay = |hesitant: &BTreeSet<NodeId>| replay(catalog, checked, records, hesitant);
+    let Err((step, early)) = replay(&BTreeSet::new()) else { return Ok(()) };
+    let undecided = petri::undecided(&checked.graph, &checked.net);
+    let Err((other, late)) = replay(&undecided) else { return Ok(()) };
+    match choices(&undecided).take(MAX_CHOICES).any(|hesitant| replay(&hesitant).is_ok()) {
+        true => Ok(()),
+        false => Err((step, format!("{early}\n  (if ⊥ comes late: step {other}: {late})"))),
+    }
 }
 
-fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: bool) -> Result<(), Failure> {
+/// Sets of nodes that act late: all but one, one, and then any.
+fn choices(undecided: &BTreeSet<NodeId>) -> impl Iterator<Item = BTreeSet<NodeId>> {
+    let nodes: Vec<NodeId> = undecided.iter().copied().take(u64::BITS as usize - 1).collect();
+    let all = (1_u64 << nodes.len()) - 1;
+    let ones: Vec<u64> = (0..nodes.len()).map(|i| 1 << i).collect();
+    let others: Vec<u64> = ones.iter().map(|one| all & !one).collect();
+    let masks = others.into_iter().chain(ones).chain(1..all);
+    masks.map(move |mask| nodes.iter().enumerate().filter(|(i, _)| mask & 1 << i != 0).map(|(_, node)| *node).collect())
+}
+
+fn replay(
+    catalog: &Catalog,
+    checked: &Checked,
+    records: &[Record],
+    hesitant: &BTreeSet<NodeId>,
+) -> Result<(), Failure> {
     let Checked { graph, net } = checked;
     let scripts = script_of(graph, catalog);
     let by_id: BTreeMap<i64, NodeId> = scripts.iter().map(|(node, (id, _))| (*id, *node)).collect();
@@ -179,9 +202,7 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], hesitates: b
     // For each input of the node that fired last whether it is connected.
     let mut inputs: Vec<bool> = vec![];
     let mut replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
-    if hesitates {
-        replay = replay.hesitating();
-    }
+    replay = replay.hesitating(hesitant.clone());
     for (step, record) in records.iter().enumerate() {
         let result = match record {
             Record::Begin(now) => {
