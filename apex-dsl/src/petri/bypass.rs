@@ -16,8 +16,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 #[derive(Clone)]
 pub struct Bypass {
     sides: BTreeMap<Crossing, Side>,
-    /// For each leg that begins at a boundary, by the place of its token: the boundary, and the number of the leg
-    /// there.
+    /// For each leg that begins at a boundary, by the places of its token and of the copy: the boundary, and the number
+    /// of the leg there.
     begins: BTreeMap<PlaceId, (Crossing, usize)>,
 }
 
@@ -55,7 +55,7 @@ impl Bypass {
             let TransitionKind::Pass(side) = transition.kind else { continue };
             let mut routes = vec![];
             for segment in (0..segments.len()).filter(|l| segments[*l].from == SegmentEnd::Side(side)) {
-                begins.insert(token_on(segment), (side, routes.len()));
+                begins.extend(gives[segment].iter().map(|place| (*place, (side, routes.len()))));
                 // The preceding leg is the part of the same connection before the boundary.
                 let (before, free) = (token_on(segment - 1), free_for(segment));
                 routes.push(Route { before, free, gives: gives[segment].clone() });

@@ -339,7 +339,12 @@ impl<'a> Replay<'a> {
                     self.settle();
                 }
             }
-            Some(release @ TransitionKind::Release(_)) => self.release(self.by_kind[&release]),
+            // The delays of a loop send once its other tokens are there.
+            Some(release @ TransitionKind::Release(_)) => {
+                let release = self.by_kind[&release];
+                self.bring_all(release, seen);
+                self.release(release);
+            }
             _ => {}
         }
     }
