@@ -254,14 +254,19 @@ pub struct Wanted<'a> {
 impl Wanted<'_> {
     /// The value as the parameter stores it; an error if it does not fit.
     pub fn fit(&self, value: Value, expr: &Expr) -> Evaluated<Value> {
-        if let Value::Path(_, ty) = &value
-            && ty.compare(self.ty) == Match::Different
-        {
-            let message = format!("`{}` is a `{}`, but {} is a `{ty}`", self.name, self.ty, describe(&value));
-            return error("wrong-value", expr.span, message)
-                .map_err(|e: Box<Diagnostic>| Box::new(e.note(self.declared.clone())));
+        let fitted = self.check_constant(&value, self.ty, expr).and_then(|()| self.fit_type(value, self.ty, expr));
+        fitted.map_err(|error| Box::new(error.note(self.declared.clone())))
+    }
+
+    /// Reports a constant of Rust whose type is not `ty`, that of the parameter or of its elements.
+    fn check_constant(&self, value: &Value, ty: &Type, expr: &Expr) -> Evaluated<()> {
+        let Value::Path(_, own) = value else { return Ok(()) };
+        if own.compare(ty) != Match::Different {
+            return Ok(());
         }
-        self.fit_type(value, self.ty, expr).map_err(|error| Box::new(error.note(self.declared.clone())))
+        let subject = if ty == self.ty { "" } else { "an element of " };
+        let message = format!("{subject}`{}` is a `{ty}`, but {} is a `{own}`", self.name, describe(value));
+        error("wrong-value", expr.span, message)
     }
 
     fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
@@ -296,12 +301,12 @@ impl Wanted<'_> {
                         format!("`{}` takes {len} values, not {}", self.name, items.len()),
                     );
                 }
-                items
-                    .iter()
-                    .enumerate()
-                    .map(|(i, item)| self.fit_type(item.clone(), element, element_of(expr, i)))
-                    .collect::<Evaluated<_>>()
-                    .map(Value::List)
+                let fit = |(i, item): (usize, &Value)| {
+                    let expr = element_of(expr, i);
+                    self.check_constant(item, element, expr)?;
+                    self.fit_type(item.clone(), element, expr)
+                };
+                items.iter().enumerate().map(fit).collect::<Evaluated<_>>().map(Value::List)
             }
             (_, Value::Struct(given)) if given.ty.compare(ty) != Match::Different => {
                 super::structs::fit(given, ty, expr)
