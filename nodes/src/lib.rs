@@ -2,7 +2,8 @@
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default) adds `io`
 //! (readers, writers and pictures), `map` (grid maps), and path planning and following in `nav`. Further features add
-//! `image` (camera images), `learn` (networks that learn from examples) and `slam` (localization and mapping).
+//! `image` (camera images), `learn` (networks that learn from examples), `optim` (optimization of parameters) and `slam`
+//! (localization and mapping).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -19,6 +20,8 @@ pub mod learn;
 pub mod map;
 pub mod math;
 pub mod nav;
+#[cfg(feature = "optim")]
+pub mod optim;
 pub mod scan;
 #[cfg(feature = "slam")]
 pub mod slam;

@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 ///
 /// Implemented here, so that the stream of a seed never changes with the version of a library or with the platform.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Random {
     state: u64,
 }
@@ -34,11 +35,17 @@ impl Random {
         low + (high - low) * self.unit() as f32
     }
 
-    /// Random number, normally distributed with mean 0 and the given standard deviation (Box and Muller 1958).
+    /// Random number, normally distributed with mean 0 and the given standard deviation.
     pub fn normal(&mut self, sigma: f32) -> f32 {
+        sigma * self.standard_normal() as f32
+    }
+
+    /// Random number in double precision, normally distributed with mean 0 and standard deviation 1 (Box and Muller
+    /// 1958).
+    pub fn standard_normal(&mut self) -> f64 {
         // 1 − u is in (0, 1], so that its logarithm is finite.
         let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit()));
-        sigma * (radius * libm::cos(TAU * self.unit())) as f32
+        radius * libm::cos(TAU * self.unit())
     }
 
     /// Returns `true` with the given probability.
