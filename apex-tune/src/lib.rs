@@ -1,0 +1,18 @@
+//! Studies that optimize the parameters of a robot (thesis 3.6.4, 9.3.1).
+//!
+//! A [`Study`] evaluates candidates on the same seeds, in parallel and with the same result on any number of threads.
+//! A candidate that cannot win any more is stopped, which does not change the result either. Every run is written to a
+//! [`Journal`] when it ends: an interrupted study continues from there, and the journals of several machines are
+//! merged. The [`Report`] scores the result on seeds that the study has not seen.
+
+mod journal;
+mod picture;
+mod race;
+mod report;
+mod study;
+mod summary;
+
+pub use journal::{Journal, JournalError, Run};
+pub use report::{Report, Score};
+pub use study::{Found, Method, Objective, Parameter, Progress, Study};
+pub use summary::Summary;

@@ -1,0 +1,149 @@
+//! Studies of a function with noise by seed.
+
+use apex_nodes::optim::{Axis, Scale};
+use apex_tune::{Found, Journal, Method, Objective, Parameter, Report, Study, Summary};
+use std::{
+    fs,
+    path::PathBuf,
+    sync::atomic::{AtomicU64, Ordering},
+};
+
+/// Noisy valley. Counts its runs.
+#[derive(Default)]
+struct Valley {
+    runs: AtomicU64,
+}
+
+impl Objective for Valley {
+    fn cost(&self, values: &[f64], seed: u64) -> f64 {
+        self.runs.fetch_add(1, Ordering::Relaxed);
+        let noise = |k: u64| (seed.wrapping_mul(0x9e37_79b9).wrapping_add(k * 7919) % 1000) as f64 / 1000.0;
+        let (x, y) = (values[0] - 2.0 - 0.4 * noise(1), values[1].ln() - 1.0 - 0.4 * noise(2));
+        if values[0] < -9.0 { f64::NAN } else { 0.1 * noise(3) + x * x + 3.0 * (y - x) * (y - x) }
+    }
+}
+
+fn study(method: Method, summary: Summary) -> Study {
+    let parameter = |name: &str, low, high, scale, default| {
+        let axis = Axis::new(low, high, scale, false).expect("a range");
+        Parameter { name: name.to_owned(), unit: "m".to_owned(), axis, default }
+    };
+    Study {
+        parameters: vec![
+            parameter("x", -10.0, 10.0, Scale::Linear, 5.0),
+            parameter("y", 0.01, 100.0, Scale::Logarithmic, 1.0),
+        ],
+        method,
+        summary,
+        seeds: (0..32).collect(),
+        held_out: (100..132).collect(),
+        searches: 2,
+        candidates: 300,
+        seed: 5,
+        racing: true,
+    }
+}
+
+fn run(study: &Study, threads: usize, journal: &mut Journal, part: (u64, u64)) -> (Vec<Found>, u64) {
+    let objective = Valley::default();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let found = pool.install(|| study.run(&objective, journal, part, &mut |_| ())).expect("a study");
+    (found, objective.runs.into_inner())
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+#[test]
+fn racing_saves_runs_and_does_not_change_the_result() {
+    for method in [Method::DifferentialEvolution, Method::CmaEs] {
+        for summary in [Summary::Mean, Summary::Quantile(0.5), Summary::Quantile(0.9)] {
+            let raced = study(method, summary);
+            let complete = Study { racing: false, ..raced.clone() };
+            let (with, runs) = run(&raced, 2, &mut Journal::in_memory(), (0, 1));
+            let (without, all) = run(&complete, 2, &mut Journal::in_memory(), (0, 1));
+            println!("{method:?}, {summary:?}: {runs} of {all} runs");
+            for (a, b) in with.iter().zip(&without) {
+                assert_eq!((&a.best, &a.improvements), (&b.best, &b.improvements));
+            }
+            assert!(runs < all, "{runs} of {all}");
+        }
+    }
+}
+
+#[test]
+fn threads_do_not_change_the_result() {
+    for method in [Method::DifferentialEvolution, Method::CmaEs] {
+        let study = study(method, Summary::Quantile(0.8));
+        let results = [1, 2, 5].map(|threads| run(&study, threads, &mut Journal::in_memory(), (0, 1)));
+        assert!(results[0] == results[1] && results[1] == results[2]);
+    }
+}
+
+#[test]
+fn an_interrupted_study_loses_nothing() {
+    let (folder, study) = (folder("resumed"), study(Method::DifferentialEvolution, Summary::Mean));
+    let file = folder.join("journal");
+    let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
+    let (whole, runs) = run(&study, 2, &mut journal, (0, 1));
+    let text = fs::read_to_string(&file).expect("the journal");
+    // Interrupted in the middle of a line.
+    fs::write(&file, &text[..text.len() / 3]).expect("a part of the journal");
+    let mut journal = Journal::open(&file, &study.description()).expect("the part");
+    let before = journal.len() as u64;
+    let (resumed, rest) = run(&study, 2, &mut journal, (0, 1));
+    assert!(before > 0 && before + rest == runs && resumed == whole, "{before} and {rest} of {runs} runs");
+    let error = Journal::open(&file, &Study { seed: 6, ..study }.description()).expect_err("another study");
+    assert!(error.to_string().contains("other settings"), "{error}");
+}
+
+#[test]
+fn parts_are_merged_to_the_same_result() {
+    let (folder, study) = (folder("merged"), study(Method::CmaEs, Summary::Mean));
+    let (whole, runs) = run(&study, 2, &mut Journal::in_memory(), (0, 1));
+    let files = [0, 1].map(|part| folder.join(part.to_string()));
+    for (part, file) in files.iter().enumerate() {
+        let mut journal = Journal::open(file, &study.description()).expect("a new journal");
+        run(&study, 1, &mut journal, (part as u64, 2));
+    }
+    let mut journal = Journal::merge(&files, &study.description()).expect("both parts");
+    assert_eq!(journal.len() as u64, runs);
+    assert_eq!(run(&study, 2, &mut journal, (0, 1)), (whole, 0));
+}
+
+#[test]
+fn a_report_compares_with_the_defaults_on_seeds_held_out() {
+    let study = study(Method::CmaEs, Summary::Mean);
+    let (found, _) = run(&study, 2, &mut Journal::in_memory(), (0, 1));
+    let report = Report::new(&study, found.clone(), &Valley::default()).expect("a result");
+    assert!(report.tuned.training < report.defaults.training && report.tuned.held_out < report.defaults.held_out);
+    assert!(report.importance.iter().all(|lost| *lost > 0.0) && report.warning().is_none());
+    let folder = folder("report");
+    report.write(&folder).expect("a report");
+    let text = fs::read_to_string(folder.join("report.md")).expect("the report");
+    assert!(text.contains("| `x` | 5 m |") && !text.contains("Warning"), "{text}");
+    let picture = fs::read_to_string(folder.join("convergence.svg")).expect("a picture");
+    assert!(picture.contains("<polyline") && picture.contains("candidates"));
+    let unseen = Study { held_out: Vec::new(), ..study };
+    let report = Report::new(&unseen, found, &Valley::default()).expect("a result");
+    assert!(report.markdown().contains("**Warning:** no seeds are held out"));
+}
+
+#[test]
+fn a_result_that_fails_on_other_seeds_is_a_warning() {
+    /// Cost that is lower at 5 for some seeds only.
+    struct Lucky;
+    impl Objective for Lucky {
+        fn cost(&self, values: &[f64], seed: u64) -> f64 {
+            1.0 + (if seed < 100 { values[0] + 10.0 } else { 10.0 - values[0] }) / 20.0
+        }
+    }
+    let study = study(Method::DifferentialEvolution, Summary::Mean);
+    let found = study.run(&Lucky, &mut Journal::in_memory(), (0, 1), &mut |_| ()).expect("a study");
+    let report = Report::new(&study, found, &Lucky).expect("a result");
+    assert!(report.warning().is_some_and(|text| text.contains("held out")), "{report:?}");
+}
