@@ -23,7 +23,7 @@ pub const FUNCTIONS: &[Function] = &[
     plane("Beale function", &[[-4.5, 4.5]], 0.0, beale),
     plane("Booth function", &[[-10.0, 10.0]], 0.0, booth),
     plane("Bukin N.6 function", &[[-15.0, -5.0], [-3.0, 3.0]], 0.0, bukin_6),
-    plane("Cross-in-tray function", &[[-10.0, 10.0]], -2.062_611_870_822_736_9, cross_in_tray),
+    plane("Cross-in-tray function", &[[-10.0, 10.0]], -2.062_611_870_822_737, cross_in_tray),
     plane("Easom function", &[[-100.0, 100.0]], -1.0, easom),
     plane("Eggholder function", &[[-512.0, 512.0]], -959.640_662_720_850_8, eggholder),
     plane("Goldstein–Price function", &[[-2.0, 2.0]], 3.0, goldstein_price),
@@ -42,7 +42,7 @@ pub const FUNCTIONS: &[Function] = &[
     many("Rastrigin function", &[[-5.12, 5.12]], 0.0, rastrigin),
     many("Rosenbrock function", &[[-10.0, 10.0]], 0.0, rosenbrock),
     many("Sphere function", &[[-10.0, 10.0]], 0.0, sphere),
-    many("Styblinski–Tang function", &[[-5.0, 5.0]], -391.661_657_037_714_15, styblinski_tang),
+    many("Styblinski–Tang function", &[[-5.0, 5.0]], -391.661_657_037_714_2, styblinski_tang),
 ];
 
 const fn many(name: &'static str, bounds: &'static [[f64; 2]], minimum: f64, value: fn(&[f64]) -> f64) -> Function {
