@@ -1,14 +1,16 @@
 //! Node library of Apex, with one module per field.
 //!
 //! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default) adds `io`
-//! (readers, writers and pictures), `map` (grid maps), and path planning and following in `nav`. Further features add
-//! `image` (camera images), `learn` (networks that learn from examples), `optim` (optimization of parameters) and `slam`
-//! (localization and mapping).
+//! (readers, writers and pictures), `map` (grid maps), `cloud` (point clouds of depth cameras), and path planning and
+//! following in `nav`. Further features add `image` (camera images), `learn` (networks that learn from examples),
+//! `optim` (optimization of parameters) and `slam` (localization and mapping).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
+#[cfg(feature = "std")]
+pub mod cloud;
 pub mod flow;
 #[cfg(feature = "image")]
 pub mod image;

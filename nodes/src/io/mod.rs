@@ -1,12 +1,13 @@
 //! Readers of recorded data, and drawings of scans (feature `std`).
 //!
-//! Readers stream: they hold one line in memory. Invalid data gives an error with file and line, and reading continues
-//! with the next line.
+//! Readers of tables and logs stream: they hold one line in memory. Invalid data gives an error with file and line, and
+//! reading continues with the next line.
 
 mod csv;
 mod error;
 mod figure;
 mod lines;
+mod pcd;
 mod picture;
 mod scan_log;
 
@@ -15,5 +16,6 @@ pub use error::{ReadError, WriteError};
 pub use figure::ScanFigure;
 #[cfg(feature = "slam")]
 pub(crate) use lines::Lines;
+pub use pcd::{RecordedCloud, read_cloud};
 pub use picture::ScanPicture;
 pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};

@@ -1,0 +1,274 @@
+use super::{Columns, Label, Labels, rolling::Rolling};
+use crate::{
+    map::{Grid, Occupancy},
+    scan::{Point2, Pose2},
+};
+use apex_rt::{Out, node};
+
+/// Nearest hazard in the observed area before the robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Hazard {
+    /// Kind of the hazard.
+    pub kind: HazardKind,
+    /// Position in the frame of the robot, in m.
+    pub position: Point2,
+}
+
+/// Kind of a [`Hazard`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum HazardKind {
+    /// An obstacle was seen there.
+    Obstacle,
+    /// No floor was seen there: a negative obstacle, such as stairs that go down, or a place that was never in view.
+    NoFloor,
+}
+
+/// Rectangle before the robot that has to be free of hazards, symmetric about its x axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Area {
+    /// Distance of the near side, in m.
+    pub near: f32,
+    /// Distance of the far side, in m.
+    pub far: f32,
+    /// Width, in m.
+    pub width: f32,
+}
+
+/// Remembers obstacles and floor around the robot, and reports the nearest hazard in the area before it (thesis
+/// 6.5.3).
+///
+/// Two rolling windows of cells: m_f holds where floor was seen, m_o the share of obstacles among the points of a cell,
+/// averaged over the clouds, so that single false detections do not count. Floor between two consecutive
+/// points of a column that are floor is seen too. `pose` is that of the robot in a fixed frame: wheel odometry is
+/// enough.
+///
+/// `map` is the window in this frame: occupied where m_o is at least `threshold`, free where floor was seen, unknown
+/// elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size or the pose is not
+/// finite.
+#[node]
+#[derive(Debug, Clone)]
+pub struct HazardMap {
+    /// Side of the window.
+    #[param(unit = "m", default = 6.0, range = 0.1..=100.0)]
+    size: f32,
+    /// Side of a cell.
+    #[param(unit = "m", default = 0.05, range = 0.01..=10.0)]
+    resolution: f32,
+    /// Minimum share of obstacles, averaged, of a cell with an obstacle: P_t.
+    #[param(default = 0.92, range = 0.0..=1.0)]
+    threshold: f32,
+    /// Weight of a cloud in the average of a cell.
+    #[param(default = 0.2, range = 0.001..=1.0)]
+    weight: f32,
+    /// Maximum height of obstacles: the robot and its load pass under higher ones.
+    #[param(unit = "m", default = 2.0, range = 0.0..=100.0)]
+    max_height: f32,
+    /// Maximum distance between consecutive points with floor between them.
+    #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
+    max_gap: f32,
+    /// Distance of the near side of the observed area.
+    #[param(unit = "m", default = 0.4, range = 0.0..=100.0)]
+    near: f32,
+    /// Distance of the far side of the observed area.
+    #[param(unit = "m", default = 1.2, range = 0.0..=100.0)]
+    far: f32,
+    /// Width of the observed area.
+    #[param(unit = "m", default = 0.6, range = 0.0..=100.0)]
+    width: f32,
+    floor: Rolling<bool>,
+    obstacles: Rolling<f32>,
+    /// Number of obstacle points and of all points of this cloud, by cell.
+    sums: Vec<(f32, u32)>,
+    /// Cells with a sum.
+    touched: Vec<usize>,
+}
+
+#[node]
+impl HazardMap {
+    fn process(
+        &mut self,
+        points: &Columns,
+        labels: &Labels,
+        pose: &Pose2,
+        map: &mut Out<Grid<Occupancy>>,
+        hazard: &mut Out<Hazard>,
+    ) {
+        let is_finite = (pose.x + pose.y + pose.theta).is_finite();
+        if !is_finite || !points.fits(labels) {
+            return;
+        }
+        self.floor.follow(pose.position(), self.size, self.resolution);
+        self.obstacles.follow(pose.position(), self.size, self.resolution);
+        self.see_floor(points, labels, pose);
+        self.see_obstacles(points, labels, pose);
+        self.draw(map.get_mut());
+        let area = Area { near: self.near, far: self.far, width: self.width };
+        if let Some(nearest) = self.nearest(&area, pose) {
+            hazard.set(nearest);
+        }
+    }
+
+    /// Marks the cells of floor points in m_f, and those between consecutive ones.
+    fn see_floor(&mut self, points: &Columns, labels: &Labels, pose: &Pose2) {
+        let step = 0.5 * self.resolution;
+        for first in (0..points.len()).step_by(points.height.max(1)) {
+            let mut last: Option<Point2> = None;
+            for i in first..first + points.height {
+                let label = labels.labels[i];
+                if label != Label::Floor {
+                    // A missing point says nothing; every other one separates.
+                    last = last.filter(|_| !label.is_valid());
+                    continue;
+                }
+                let point = pose.to_outer(Point2::new(points.x[i], points.y[i]));
+                let way = last.map(|last| last - point).filter(|way| way.norm() <= self.max_gap).unwrap_or_default();
+                let count = (way.norm() / step) as usize;
+                for k in 0..=count {
+                    let at = point + way.scaled(k as f32 / count.max(1) as f32);
+                    if let Some(index) = self.floor.index(at) {
+                        *self.floor.get_mut(index) = true;
+                    }
+                }
+                last = Some(point);
+            }
+        }
+    }
+
+    /// Adds the share of obstacles among the points of each cell to the average m_o.
+    fn see_obstacles(&mut self, points: &Columns, labels: &Labels, pose: &Pose2) {
+        let raster = self.obstacles.raster();
+        self.sums.resize(raster.width * raster.height, (0.0, 0));
+        for (i, label) in labels.labels.iter().enumerate() {
+            let counts = matches!(label, Label::Floor | Label::Obstacle | Label::Overhanging);
+            if !counts || points.z[i] > self.max_height {
+                continue;
+            }
+            let Some(index) = self.obstacles.index(pose.to_outer(Point2::new(points.x[i], points.y[i]))) else {
+                continue;
+            };
+            let (sum, count) = &mut self.sums[index];
+            if *count == 0 {
+                self.touched.push(index);
+            }
+            *sum += if label.is_hazard() { 1.0 } else { 0.0 };
+            *count += 1;
+        }
+        for index in self.touched.drain(..) {
+            let (sum, count) = core::mem::take(&mut self.sums[index]);
+            let value = self.obstacles.get_mut(index);
+            *value += self.weight * (sum / count as f32 - *value);
+        }
+    }
+
+    fn draw(&self, map: &mut Grid<Occupancy>) {
+        // The window has a size that fits a grid.
+        if map.reset(self.floor.raster(), Occupancy::Unknown).is_err() {
+            return;
+        }
+        let values = self.obstacles.values().zip(self.floor.values());
+        for (cell, (probability, is_floor)) in map.cells_mut().iter_mut().zip(values) {
+            *cell = match is_floor {
+                _ if probability >= self.threshold => Occupancy::Occupied,
+                true => Occupancy::Free,
+                false => Occupancy::Unknown,
+            };
+        }
+    }
+
+    /// Nearest hazard of the area, by its distance along x.
+    fn nearest(&self, area: &Area, pose: &Pose2) -> Option<Hazard> {
+        let (rows, columns) = (steps(area.far - area.near, self.resolution), steps(area.width, self.resolution));
+        for row in 0..=rows {
+            for column in 0..=columns {
+                let x = area.near + (area.far - area.near) * row as f32 / rows.max(1) as f32;
+                let y = area.width * (column as f32 / columns.max(1) as f32 - 0.5);
+                let position = Point2::new(x, y);
+                let Some(index) = self.floor.index(pose.to_outer(position)) else { continue };
+                if self.obstacles.get(index) >= self.threshold {
+                    return Some(Hazard { kind: HazardKind::Obstacle, position });
+                }
+                if !self.floor.get(index) {
+                    return Some(Hazard { kind: HazardKind::NoFloor, position });
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Number of steps that are not longer than a cell.
+fn steps(length: f32, resolution: f32) -> usize {
+    (length / resolution).ceil().max(0.0) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloud::columns::tests::columns;
+    use apex_rt::Construct;
+
+    fn node() -> HazardMap {
+        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4))
+    }
+
+    /// Floor from 0.3 m to `until`, across 1.2 m, with an optional obstacle at this x.
+    fn see(node: &mut HazardMap, until: f32, obstacle: Option<f32>, pose: &Pose2) -> (Option<Hazard>, usize) {
+        let mut points = vec![];
+        for column in 0..25 {
+            for row in 0..20 {
+                let x = 0.3 + 0.1 * (19 - row) as f32;
+                points.push([if x <= until { x } else { f32::NAN }, 0.6 - 0.05 * column as f32, 0.0, 1.0]);
+            }
+        }
+        let (points, mut labels) = columns(20, &points);
+        let is_there = |x: f32| obstacle.is_some_and(|at| (x - at).abs() < 0.01);
+        for (label, x) in labels.labels.iter_mut().zip(&points.x).filter(|(label, _)| label.is_valid()) {
+            *label = if is_there(*x) { Label::Obstacle } else { Label::Floor };
+        }
+        let (mut map, mut hazard) = (Out::new(), Out::new());
+        node.process(&points, &labels, pose, &mut map, &mut hazard);
+        let map = map.get().expect("a map");
+        (hazard.get().copied(), map.cells().iter().filter(|c| **c == Occupancy::Occupied).count())
+    }
+
+    #[test]
+    fn a_floor_without_hazards_is_free() {
+        assert_eq!(see(&mut node(), 2.0, None, &Pose2::default()), (None, 0));
+    }
+
+    #[test]
+    fn an_obstacle_counts_when_it_is_seen_again_and_is_remembered() {
+        let (mut node, pose) = (node(), Pose2::default());
+        assert_eq!(see(&mut node, 2.0, Some(0.8), &pose).1, 0, "a single detection");
+        for _ in 0..5 {
+            see(&mut node, 2.0, Some(0.8), &pose);
+        }
+        let (hazard, occupied) = see(&mut node, 2.0, Some(0.8), &pose);
+        let hazard = hazard.expect("an obstacle");
+        assert!(hazard.kind == HazardKind::Obstacle && (hazard.position.x - 0.8).abs() < 0.11 && occupied > 5);
+        // The robot drives on and is now before it, looking at a free floor beyond.
+        let (hazard, still) = see(&mut node, 0.2, None, &Pose2::new(0.35, 0.0, 0.0));
+        assert!(hazard.is_some_and(|h| h.position.x < 0.6) && still == occupied);
+    }
+
+    #[test]
+    fn a_missing_floor_is_a_hazard() {
+        let (hazard, _) = see(&mut node(), 0.7, None, &Pose2::default());
+        let hazard = hazard.expect("no floor");
+        assert!(hazard.kind == HazardKind::NoFloor && hazard.position.x > 0.7 && hazard.position.x < 0.9);
+    }
+
+    #[test]
+    fn bad_inputs_give_nothing() {
+        let (mut map, mut hazard) = (Out::new(), Out::new());
+        let (points, labels) = columns(2, &[[1.0; 4]; 4]);
+        let mut node = node();
+        node.process(&points, &Labels::default(), &Pose2::default(), &mut map, &mut hazard);
+        node.process(&points, &labels, &Pose2::new(f32::NAN, 0.0, 0.0), &mut map, &mut hazard);
+        assert!(map.get().is_none() && hazard.get().is_none());
+        node.process(&Columns::default(), &Labels::default(), &Pose2::default(), &mut map, &mut hazard);
+        assert_eq!(hazard.get().map(|h| h.kind), Some(HazardKind::NoFloor));
+    }
+}

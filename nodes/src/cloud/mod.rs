@@ -1,0 +1,35 @@
+//! Structured point clouds of depth cameras (feature `std`), and the detection of obstacles in them (thesis 6.5).
+//!
+//! A structured cloud has the order of the pixels of its camera: row 0 is the uppermost, column 0 the leftmost. Points
+//! are in m, x forward, y left, z up. A pixel without a measurement has NaN as its coordinates.
+//!
+//! [`MountCloud`] turns a cloud into [`Columns`], the form in which obstacles are searched: column by column, in the
+//! frame of the robot. The nodes after it keep the points and send [`Labels`], one for each point. A cloud without
+//! points, with a single column, or without any measurement gives labels of the same kind; points and labels of
+//! different sizes give ⊥.
+
+mod bright;
+mod classify;
+mod columns;
+mod edge;
+mod floor;
+mod grow;
+mod hazard;
+mod label;
+#[cfg(feature = "record")]
+mod message;
+mod near;
+mod points;
+mod rolling;
+mod smooth;
+
+pub use bright::BrightFilter;
+pub use classify::{ColumnClassifier, Probabilities};
+pub use columns::{Columns, MountCloud};
+pub use edge::EdgeFilter;
+pub use floor::{FloorFit, FloorSurface};
+pub use hazard::{Area, Hazard, HazardKind, HazardMap};
+pub use label::{Label, Labels};
+pub use near::NearFilter;
+pub use points::{CloudPoint, MAX_POINTS, PointCloud};
+pub use smooth::SmoothHeights;
