@@ -1,5 +1,5 @@
-//! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, and cameras
-//! (feature `camera`).
+//! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
+//! (feature `camera`) and time-of-flight cameras (feature `tof`).
 //!
 //! Available as nodes: a [`DifferentialBase`] and a [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]),
 //! and a [`LiveView`] of it. `apex new` creates a robot with these nodes.
@@ -19,6 +19,8 @@ mod plan;
 mod scanner;
 #[cfg(feature = "camera")]
 mod scene;
+#[cfg(feature = "tof")]
+pub mod tof;
 mod view;
 mod world;
 

@@ -1,0 +1,144 @@
+use super::{
+    ray::{Entry, Ray},
+    solid::{Material, Solid, SolidKind},
+    vector::{V3, dot, scale},
+};
+
+/// World of solids on a floor, for a depth camera.
+#[derive(Debug, Clone)]
+pub struct Space {
+    floor: Floor,
+    solids: Vec<Solid>,
+    /// Centre and radius of a sphere around each solid.
+    bounds: Vec<(V3, f32)>,
+}
+
+/// Floor at z = 0, which may end at stairs that go down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Floor {
+    /// Albedo, 0 to 1.
+    pub albedo: f32,
+    /// Size of a tile, in m. Tiles differ a little in albedo.
+    pub tile: f32,
+    /// Deviation of the albedo of a tile, relative.
+    pub variation: f32,
+    /// Distance at which the floor ends, along x, in m.
+    pub end: f32,
+    /// Height and depth of the steps behind the end, in m. The last of [`STEPS`] steps is a floor again.
+    pub step: [f32; 2],
+}
+
+/// Number of steps of the stairs.
+const STEPS: usize = 8;
+
+/// True class of a pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum Truth {
+    /// Nothing was measured, or the pixel shows several surfaces and its measurement lies on one of them, or a surface
+    /// below the floor.
+    #[default]
+    Unlabelled,
+    /// Floor.
+    Floor,
+    /// Obstacle below the plane of the laser scanner.
+    Small,
+    /// Obstacle that the laser scanner sees too.
+    Object,
+    /// Obstacle above the plane of the laser scanner.
+    Overhanging,
+    /// Measurement where no surface is: a flying pixel, or a distance that is wrapped.
+    Artefact,
+}
+
+/// Surface that a ray meets.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    pub entry: Entry,
+    pub material: Material,
+    pub truth: Truth,
+    /// Number of the solid, or `None` for the floor.
+    pub solid: Option<usize>,
+}
+
+/// Floor without end.
+impl Default for Floor {
+    fn default() -> Self {
+        Self { albedo: 0.3, tile: 0.5, variation: 0.0, end: f32::INFINITY, step: [0.17, 0.29] }
+    }
+}
+
+impl Space {
+    /// Creates a space with only a floor.
+    pub const fn new(floor: Floor) -> Self {
+        Self { floor, solids: vec![], bounds: vec![] }
+    }
+
+    /// Adds a solid.
+    pub fn add(&mut self, solid: Solid) {
+        self.bounds.push(solid.shape.bounds());
+        self.solids.push(solid);
+    }
+
+    /// All solids.
+    pub fn solids(&self) -> &[Solid] {
+        &self.solids
+    }
+
+    /// Nearest surface on a ray, without the solid `skipped`, which the ray has already passed.
+    pub(super) fn hit(&self, ray: &Ray, skipped: Option<usize>) -> Option<Hit> {
+        let mut nearest = self.floor.hit(ray);
+        for (i, (solid, bounds)) in self.solids.iter().zip(&self.bounds).enumerate() {
+            if Some(i) == skipped || !ray.touches(*bounds) {
+                continue;
+            }
+            let Some(entry) = ray.enter(&solid.shape) else { continue };
+            if nearest.is_none_or(|hit| entry.distance < hit.entry.distance) {
+                let truth = solid.kind.into();
+                nearest = Some(Hit { entry, material: solid.material, truth, solid: Some(i) });
+            }
+        }
+        nearest
+    }
+}
+
+impl Floor {
+    fn hit(&self, ray: &Ray) -> Option<Hit> {
+        let flat = self.level(ray, 0.0, f32::MIN, self.end, Truth::Floor);
+        if flat.is_some() || self.end.is_infinite() {
+            return flat;
+        }
+        let [rise, tread] = self.step;
+        (0..STEPS).find_map(|i| {
+            let (from, down) = (self.end + i as f32 * tread, (i + 1) as f32 * rise);
+            let to = if i + 1 == STEPS { f32::INFINITY } else { from + tread };
+            self.level(ray, -down, from, to, Truth::Unlabelled)
+        })
+    }
+
+    /// Entry into the horizontal plane at `height`, between two distances along x.
+    fn level(&self, ray: &Ray, height: f32, from: f32, to: f32, truth: Truth) -> Option<Hit> {
+        let distance = (height - ray.origin[2]) / ray.direction[2];
+        let point = ray.at(distance);
+        let inside = distance > 0.0 && ray.direction[2] < 0.0 && point[0] >= from && point[0] < to;
+        let entry = Entry { distance, normal: [0.0, 0.0, 1.0] };
+        inside.then(|| Hit { entry, material: Material::plain(self.albedo_at(point)), truth, solid: None })
+    }
+
+    fn albedo_at(&self, point: V3) -> f32 {
+        let tile = scale(point, 1.0 / self.tile).map(libm::floorf);
+        // A number of each tile that looks random, from −1 to 1.
+        let wave = libm::sinf(dot(tile, [12.9898, 78.233, 0.0])) * 43_758.547;
+        self.albedo * (1.0 + self.variation * (2.0 * (wave - libm::floorf(wave)) - 1.0))
+    }
+}
+
+impl From<SolidKind> for Truth {
+    fn from(kind: SolidKind) -> Self {
+        match kind {
+            SolidKind::Small => Self::Small,
+            SolidKind::Object => Self::Object,
+            SolidKind::Overhanging => Self::Overhanging,
+            SolidKind::Unlabelled => Self::Unlabelled,
+        }
+    }
+}
