@@ -7,6 +7,7 @@ mod cart;
 mod drive;
 mod evaluate;
 mod motion;
+pub mod obstacles;
 mod progress;
 mod report;
 mod room;

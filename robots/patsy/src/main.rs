@@ -12,6 +12,7 @@ const HELP: &str = "\
 PATSY looks for containers in laser scans and draws what it sees.
 
 Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE]]
+       patsy obstacles [OPTIONS]
 
 Without arguments it plays 5000 scans in simulated rooms and measures itself.
 
@@ -20,6 +21,8 @@ Without arguments it plays 5000 scans in simulated rooms and measures itself.
   --labels FILE     boxes that the containers lie in: number, x_min, y_min, x_max, y_max in m
   --table FILE      where the detections are written (default out/patsy/detections.csv)
   --help            this text
+
+`obstacles` measures the detection of obstacles with a time-of-flight camera; `patsy obstacles --help` lists its options.
 
 Pictures are written to out/patsy. Exit codes: 0 fine, 1 some scans could not be read, 2 nothing could be done.
 ";
@@ -32,7 +35,13 @@ struct Options {
 }
 
 fn main() -> ExitCode {
-    match options().and_then(|options| options.map_or_else(|| Ok(simulate()), recorded)) {
+    let mut args = std::env::args_os().skip(1).peekable();
+    let done = if args.next_if(|arg| arg == "obstacles").is_some() {
+        patsy::obstacles::run(args)
+    } else {
+        options().and_then(|options| options.map_or_else(|| Ok(simulate()), recorded))
+    };
+    match done {
         Ok(code) => code,
         Err(message) => {
             eprintln!("error: {message}");
