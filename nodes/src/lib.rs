@@ -1,9 +1,9 @@
 //! Node library of Apex, with one module per field.
 //!
-//! `flow`, `math` and `scan` need neither the standard library nor a heap. The feature `std` (on by default) adds `io`
-//! (readers, writers and pictures), `map` (grid maps), `cloud` (point clouds of depth cameras), and path planning and
-//! following in `nav`. Further features add `image` (camera images), `learn` (networks that learn from examples),
-//! `optim` (optimization of parameters) and `slam` (localization and mapping).
+//! `flow`, `math`, `persons`, `scan` and the inference of `learn` need neither the standard library nor a heap. The
+//! feature `std` (on by default) adds `io` (readers, writers and pictures), `map` (grid maps), `cloud` (point clouds of
+//! depth cameras), and path planning and following in `nav`. Further features add `image` (camera images), `learn`
+//! (training, and networks), `optim` (optimization of parameters) and `slam` (localization and mapping).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -16,7 +16,6 @@ pub mod flow;
 pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
-#[cfg(feature = "learn")]
 pub mod learn;
 #[cfg(feature = "std")]
 pub mod map;
@@ -24,6 +23,7 @@ pub mod math;
 pub mod nav;
 #[cfg(feature = "optim")]
 pub mod optim;
+pub mod persons;
 pub mod scan;
 #[cfg(feature = "slam")]
 pub mod slam;

@@ -1,4 +1,4 @@
-use super::{Activity, BadModel, Features, Model};
+use super::{Activity, BadForest, BadModel, Features, Forest, Model};
 use apex_rt::{Out, node};
 
 /// Result of a classification.
@@ -47,10 +47,43 @@ impl Classifier {
     }
 }
 
+/// Classifies features by a forest of decision trees into the classes 0 and 1 (thesis 6.8.1).
+///
+/// ⊥ if neither class is probable enough, if the number of features is not the number of inputs of the forest, or if a
+/// feature is not a number. Fails if the model cannot be read.
+#[node]
+#[derive(Debug, Clone)]
+pub struct ForestClassifier {
+    /// Bytes of the [`Forest`], for example `include_bytes!` of a file.
+    #[param]
+    model: &'static [u8],
+    /// Minimum confidence.
+    #[param(default = 0.5, range = 0.0..=1.0)]
+    threshold: f32,
+    loaded: Option<Forest<'static>>,
+}
+
+#[node]
+impl ForestClassifier {
+    fn process(&mut self, features: &Features) -> Result<Option<Class>, BadForest> {
+        let forest = match self.loaded {
+            Some(forest) => forest,
+            None => *self.loaded.insert(Forest::from_bytes(self.model)?),
+        };
+        let class = |p: f32| {
+            if p > 0.5 { Class { number: 1, confidence: p } } else { Class { number: 0, confidence: 1.0 - p } }
+        };
+        Ok(forest.probability(features).map(class).filter(|class| class.confidence >= self.threshold))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{learn::Mlp, math::Random};
+    use crate::{
+        learn::{Mlp, TreeNode, forest_bytes},
+        math::Random,
+    };
     use apex_rt::Construct;
 
     /// A network that maps input 1 to class 1 and input 0 to class 0.
@@ -79,5 +112,21 @@ mod tests {
     #[test]
     fn a_bad_model_is_an_error() {
         assert_eq!(classify(b"nothing", &[1.0]), Err(BadModel::Magic));
+    }
+
+    #[test]
+    fn a_forest_says_the_class_or_bottom() {
+        let split = TreeNode::Split { feature: 0, threshold: 0.0, right: 2 };
+        let tree = vec![split, TreeNode::Leaf(0.1), TreeNode::Leaf(0.7)];
+        let bytes: &'static [u8] = forest_bytes("", 1, 1, &[tree]).leak();
+        let classify = |features: &[f32]| {
+            ForestClassifier::construct((bytes, 0.8)).process(&features.iter().copied().collect()).expect("a model")
+        };
+        assert_eq!(classify(&[-1.0]).map(|class| class.number), Some(0));
+        for unclear in [&[1.0][..], &[], &[f32::NAN]] {
+            assert_eq!(classify(unclear), None);
+        }
+        let empty = Features::new();
+        assert_eq!(ForestClassifier::construct((&b"no"[..], 0.5)).process(&empty), Err(BadForest::Magic));
     }
 }

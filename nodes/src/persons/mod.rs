@@ -1,0 +1,21 @@
+//! Persons around a robot (thesis 6.8): the detection of their legs in laser scans, and their tracking over time.
+//!
+//! The types have fixed capacities and need no heap. All positions are in one fixed frame, such as that of odometry.
+
+mod choice;
+mod detection;
+mod hypotheses;
+mod legs;
+mod motion;
+mod shape;
+mod tracker;
+
+pub use detection::{Detections, MAX_DETECTIONS, MAX_PERSONS, Person, Persons, View};
+pub use hypotheses::{Hypotheses, MAX_BRANCHES, MAX_DEPTH, MAX_HYPOTHESES, Model, Sensor};
+pub use legs::{Leg, LegDetector, LegPairs, Legs};
+pub use motion::Motion;
+pub use shape::{LEG_FEATURES, leg_features};
+pub use tracker::{PersonTracker, UntimelyDetections};
+
+/// Model for [`LegDetector`]. Trained by the example `train_legs` on scans that it simulates.
+pub const LEGS: &[u8] = include_bytes!("legs.forest");
