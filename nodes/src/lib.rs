@@ -3,7 +3,8 @@
 //! `flow`, `math`, `persons`, `scan` and the inference of `learn` need neither the standard library nor a heap. The
 //! feature `std` (on by default) adds `io` (readers, writers and pictures), `map` (grid maps), `cloud` (point clouds of
 //! depth cameras), and path planning and following in `nav`. Further features add `image` (camera images), `learn`
-//! (training, and networks), `optim` (optimization of parameters) and `slam` (localization and mapping).
+//! (training, and networks), `optim` (optimization of parameters), `slam` (localization and mapping), `localize`
+//! (localization on a plan) and `dxf` (plans from DXF files).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -17,6 +18,8 @@ pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
 pub mod learn;
+#[cfg(feature = "localize")]
+pub mod localize;
 #[cfg(feature = "std")]
 pub mod map;
 pub mod math;

@@ -41,6 +41,11 @@ impl CsvReader {
         }
         Ok(true)
     }
+
+    /// Creates an error at the last row.
+    pub(super) fn error(&self, message: impl std::fmt::Display) -> ReadError {
+        self.lines.error(message)
+    }
 }
 
 /// Sends the rows of a comma-separated file of numbers, one per firing (see [`CsvReader`]). After the last row it

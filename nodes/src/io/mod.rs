@@ -1,16 +1,21 @@
-//! Readers of recorded data, and drawings of scans (feature `std`).
+//! Readers of recorded data and of plans, and drawings of scans (feature `std`).
 //!
 //! Readers of tables and logs stream: they hold one line in memory. Invalid data gives an error with file and line, and
 //! reading continues with the next line.
 
+mod bag;
 mod csv;
+#[cfg(feature = "dxf")]
+mod dxf;
 mod error;
 mod figure;
 mod lines;
 mod pcd;
 mod picture;
+mod plan;
 mod scan_log;
 
+pub use bag::{Bag, BagMessage};
 pub use csv::{CsvLog, CsvReader};
 pub use error::{ReadError, WriteError};
 pub use figure::ScanFigure;
@@ -18,4 +23,5 @@ pub use figure::ScanFigure;
 pub(crate) use lines::Lines;
 pub use pcd::{RecordedCloud, read_cloud};
 pub use picture::ScanPicture;
+pub use plan::{PlanOptions, read_plan};
 pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};

@@ -1,5 +1,5 @@
-//! Grid maps of the plane, the detection of objects in them and their preparation for path planning; maps of signs
-//! (feature `std`).
+//! Grid maps of the plane, the detection of objects in them and their preparation for path planning; maps of signs and
+//! of line segments (feature `std`).
 
 mod distance;
 mod grid;
@@ -10,6 +10,7 @@ mod morphology;
 mod occupancy;
 mod octagon;
 mod signs;
+mod vector;
 
 pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
@@ -18,3 +19,6 @@ pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
 pub use occupancy::{OccupancyBuilder, RayCount};
 pub use octagon::{Octagon, OctagonSearch, Station, Stations};
 pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};
+#[cfg(feature = "localize")]
+pub(crate) use vector::cross;
+pub use vector::{LineSegment, MAX_SEGMENTS, MapError, VectorMap};

@@ -1,0 +1,109 @@
+use super::{bins::Bins, filter::Particle};
+use crate::scan::{Point2, Pose2};
+
+/// Radius of a cluster of particles, in m and rad.
+const RADIUS: f32 = 1.0;
+const ANGLE: f32 = 0.6;
+
+/// Pose of the robot on the map, and its certainty.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PoseEstimate {
+    /// Mean of the heaviest cluster of particles.
+    pub pose: Pose2,
+    /// Covariance of x, y and heading in the cluster, in m², m rad and rad².
+    pub covariance: [[f32; 3]; 3],
+    /// Weight of the cluster among all particles, from 0 to 1.
+    pub share: f32,
+    /// Share of the beams that agree with the map at the pose.
+    pub hits: f32,
+    /// Share of the beams that pass through walls of the map at the pose.
+    pub beyond: f32,
+    /// Number of particles.
+    pub particles: u32,
+}
+
+impl PoseEstimate {
+    /// Standard deviation of the position: the root of the sum of both variances, in m.
+    pub fn deviation(&self) -> f32 {
+        (self.covariance[0][0] + self.covariance[1][1]).sqrt()
+    }
+
+    /// Heaviest cluster of particles whose weights have the sum 1.
+    pub(super) fn of(particles: &[Particle], bins: &mut Bins) -> Self {
+        bins.clear();
+        let mut heaviest = (0.0, Pose2::default());
+        for particle in particles {
+            let weight = bins.add(particle, particle.weight);
+            if weight > heaviest.0 {
+                heaviest = (weight, particle.pose);
+            }
+        }
+        let mut estimate = Self { pose: heaviest.1, particles: particles.len() as u32, ..Self::default() };
+        for _ in 0..3 {
+            estimate.recentre(particles);
+        }
+        estimate
+    }
+
+    /// Moves the pose to the mean of the particles around it.
+    fn recentre(&mut self, particles: &[Particle]) {
+        let near = |p: &&Particle| {
+            let offset = p.pose.position() - self.pose.position();
+            offset.norm_squared() < RADIUS * RADIUS && turn(p, &self.pose).abs() < ANGLE
+        };
+        let (mut sum, mut mean) = (0.0, [0.0; 3]);
+        let mut squares = [[0.0; 3]; 3];
+        for particle in particles.iter().filter(near) {
+            let Point2 { x, y } = particle.pose.position() - self.pose.position();
+            let offset = [x, y, turn(particle, &self.pose)];
+            sum += particle.weight;
+            for i in 0..3 {
+                mean[i] += particle.weight * offset[i];
+                for j in 0..3 {
+                    squares[i][j] += particle.weight * offset[i] * offset[j];
+                }
+            }
+        }
+        if sum <= 0.0 {
+            return;
+        }
+        mean = mean.map(|value| value / sum);
+        self.covariance = core::array::from_fn(|i| core::array::from_fn(|j| squares[i][j] / sum - mean[i] * mean[j]));
+        self.share = sum.min(1.0);
+        let Pose2 { x, y, theta } = self.pose;
+        self.pose = Pose2::new(x + mean[0], y + mean[1], wrapped(theta + mean[2]));
+    }
+}
+
+/// Difference of headings in [−π, π] rad.
+fn turn(particle: &Particle, pose: &Pose2) -> f32 {
+    wrapped(particle.pose.theta - pose.theta)
+}
+
+fn wrapped(angle: f32) -> f32 {
+    crate::math::normalize_angle(&angle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::PI;
+
+    #[test]
+    fn the_heaviest_cluster_counts() {
+        let mut particles = vec![];
+        for i in 0..100 {
+            let side = if i % 2 == 0 { 0.1 } else { -0.1 };
+            // The heading is at the seam.
+            let theta = if i % 2 == 0 { PI - 0.05 } else { 0.05 - PI };
+            particles.push(Particle { pose: Pose2::new(3.0 + side, 1.0, theta), weight: 0.007 });
+            particles.push(Particle { pose: Pose2::new(9.0, 5.0, 0.0), weight: 0.003 });
+        }
+        let estimate = PoseEstimate::of(&particles, &mut Bins::new(200));
+        assert!((estimate.pose.x - 3.0).abs() < 1e-3 && (estimate.pose.theta.abs() - PI).abs() < 1e-3, "{estimate:?}");
+        assert!((estimate.share - 0.7).abs() < 1e-3 && (estimate.deviation() - 0.1).abs() < 1e-3, "{estimate:?}");
+        assert!((estimate.covariance[2][2] - 0.0025).abs() < 1e-4, "{estimate:?}");
+        assert_eq!(PoseEstimate::of(&[], &mut Bins::new(4)), PoseEstimate::default());
+    }
+}
