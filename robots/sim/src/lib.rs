@@ -1,5 +1,5 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
-//! (feature `camera`) and time-of-flight cameras (feature `tof`).
+//! (feature `camera`), time-of-flight cameras (feature `tof`), and buildings from plans (feature `building`).
 //!
 //! Available as nodes: a [`DifferentialBase`] and a [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]),
 //! and a [`LiveView`] of it. `apex new` creates a robot with these nodes.
@@ -9,32 +9,44 @@
 //! Units are SI, axes follow the ROS convention.
 
 mod base;
+#[cfg(feature = "building")]
+mod building;
 #[cfg(feature = "camera")]
 mod camera;
 mod drive;
 mod laser;
 mod note;
 mod odometry;
+#[cfg(feature = "building")]
+mod office;
 mod plan;
 mod scanner;
 #[cfg(feature = "camera")]
 mod scene;
 #[cfg(feature = "tof")]
 pub mod tof;
+#[cfg(feature = "building")]
+mod tour;
 mod view;
 mod world;
 
 pub use apex_nodes::math::Random;
 pub use base::DifferentialBase;
+#[cfg(feature = "building")]
+pub use building::{BUILDING, Building};
 #[cfg(feature = "camera")]
 pub use camera::{CameraSim, Light, NotLevel, expose};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
 pub use laser::Laser;
 pub use note::Note;
 pub use odometry::{Odometry, OdometryNoise};
+#[cfg(feature = "building")]
+pub use office::OfficePlan;
 pub use plan::{FloorPlan, PlanError};
 pub use scanner::LaserScanner;
 #[cfg(feature = "camera")]
 pub use scene::{Look, Panel, Picture, Pillar, Scene};
+#[cfg(feature = "building")]
+pub use tour::{BuildingTour, Tour, TourError};
 pub use view::{LiveView, ViewError};
 pub use world::{Disc, Wall, World};

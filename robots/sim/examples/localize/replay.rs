@@ -1,0 +1,150 @@
+//! Localization on recordings.
+
+use crate::{jobs, log, options::Options, table};
+use apex_nodes::{
+    io::{PlanOptions, read_plan},
+    localize::{Change, Filter, Settings, VisibilityTable},
+    map::{Cell, Grid, Occupancy, Raster, VectorMap},
+    scan::Point2,
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Error at which a pose is wrong, in m.
+const WRONG: f32 = 1.0;
+
+/// Result of one run.
+struct Score {
+    /// Way until the robot was localized, in m.
+    way: Option<f32>,
+    /// Errors of the scored scans while the robot was localized, in m.
+    errors: Vec<f32>,
+    turns: Vec<f32>,
+    /// Number of scored scans.
+    scored: usize,
+    lost: usize,
+    /// `true` if the robot is localized at the end.
+    at_end: bool,
+    largest_at_end: f32,
+}
+
+pub fn run(options: &Options, map: &Path, logs: &[PathBuf]) -> Result<(), String> {
+    let map = read_map(options, map)?;
+    let table = table(&map, options.table)?;
+    println!(
+        "{:24}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>8}{:>11}",
+        "recording", "seed", "found m", "median", "90 %", "largest", "deg", "known", "lost", "wrong", "end"
+    );
+    for path in logs {
+        let recording = log::read(path)?;
+        let seeds = options.seeds as usize;
+        let scores = jobs::run(seeds, options.jobs, |i| {
+            let seed = options.first_seed + i as u64;
+            play(&recording, &table, Settings { mount: recording.mount, seed, ..options.settings }, options.trace)
+        });
+        for (i, score) in scores.into_iter().enumerate() {
+            let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
+            show(name, options.first_seed + i as u64, score);
+        }
+    }
+    Ok(())
+}
+
+fn play(recording: &log::Recording, table: &VisibilityTable, settings: Settings, trace: bool) -> Score {
+    let mut filter = Filter::new(table.clone(), settings);
+    let mut score =
+        Score { way: None, errors: vec![], turns: vec![], scored: 0, lost: 0, at_end: false, largest_at_end: 0.0 };
+    let (mut way, mut last) = (0.0, None);
+    for record in recording.records.iter().filter(|record| record.is_scored) {
+        let step = last.replace(record.truth).map_or(0.0, |l| (l.position() - record.truth.position()).norm());
+        way += step;
+        let change = filter.update(&record.odometry, &record.scan);
+        let pose = filter.pose_at(&record.odometry);
+        let error = (pose.position() - record.truth.position()).norm();
+        score.scored += 1;
+        match change {
+            Some(Change::Localized) => score.way = score.way.or(Some(way)),
+            Some(Change::Lost) => score.lost += 1,
+            None => {}
+        }
+        if filter.is_localized() {
+            score.errors.push(error);
+            score.turns.push(pose.relative_to(&record.truth).theta.abs().to_degrees());
+        }
+        score.at_end = filter.is_localized();
+        score.largest_at_end = error;
+        if trace {
+            println!("{way:7.1} m {error:7.2} m {change:?} {:?}", filter.estimate());
+        }
+    }
+    score
+}
+
+fn show(name: &str, seed: u64, mut score: Score) {
+    score.errors.sort_by(f32::total_cmp);
+    score.turns.sort_by(f32::total_cmp);
+    let at = |values: &[f32], share: f32| {
+        values.get(((values.len() as f32 * share) as usize).min(values.len().saturating_sub(1))).copied()
+    };
+    let number = |value: Option<f32>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
+    let wrong = score.errors.iter().filter(|error| **error > WRONG).count();
+    println!(
+        "{name:24}{seed:>5}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7.0}%{:>6}{:>7.1}%{:>11}",
+        score.way.map_or("-".to_owned(), |way| format!("{way:.1}")),
+        number(at(&score.errors, 0.5)),
+        number(at(&score.errors, 0.9)),
+        number(at(&score.errors, 1.0)),
+        number(at(&score.turns, 0.5)),
+        100.0 * score.errors.len() as f32 / score.scored.max(1) as f32,
+        score.lost,
+        100.0 * wrong as f32 / score.scored.max(1) as f32,
+        match (score.at_end, score.largest_at_end < WRONG) {
+            (true, true) => "right",
+            (true, false) => "wrong",
+            (false, _) => "not known",
+        },
+    );
+}
+
+/// Reads a map of lines, or the outlines of a map of pixels.
+fn read_map(options: &Options, path: &Path) -> Result<VectorMap, String> {
+    if path.extension().is_some_and(|e| e == "pgm") {
+        return read_pixels(options, path).map_err(|e| format!("{}: {e}", path.display()));
+    }
+    let plan = PlanOptions { scale: options.scale, layers: options.layers.clone() };
+    read_plan(path, &plan).map_err(|e| e.to_string())
+}
+
+/// Reads a binary grey map (`P5`). Dark pixels are occupied; the first row is the upper one.
+fn read_pixels(options: &Options, path: &Path) -> Result<VectorMap, String> {
+    let bytes = fs::read(path).map_err(|e| e.to_string())?;
+    let mut rest = &bytes[..];
+    let mut words = vec![];
+    while words.len() < 4 {
+        let end = rest.iter().position(u8::is_ascii_whitespace).ok_or("no header")?;
+        let (word, next) = (&rest[..end], &rest[end + 1..]);
+        rest = next;
+        if word.starts_with(b"#") {
+            let line = rest.iter().position(|b| *b == b'\n').ok_or("no header")?;
+            rest = &rest[line + 1..];
+        } else if !word.is_empty() {
+            words.push(String::from_utf8_lossy(word).into_owned());
+        }
+    }
+    let size = |i: usize| words[i].parse::<usize>().map_err(|_| "no size");
+    let (width, height) = (size(1)?, size(2)?);
+    if words[0] != "P5" || words[3] != "255" || rest.len() != width * height {
+        return Err("no binary grey map with 255 levels".to_owned());
+    }
+    let raster =
+        Raster { corner: Point2::new(options.origin.0, options.origin.1), resolution: options.pixel, width, height };
+    let mut grid = Grid::new(raster, Occupancy::Free).map_err(|e| e.to_string())?;
+    for (i, _) in rest.iter().enumerate().filter(|(_, grey)| **grey < 90) {
+        if let Some(place) = grid.get_mut(Cell::new(i % width, height - 1 - i / width)) {
+            *place = Occupancy::Occupied;
+        }
+    }
+    VectorMap::outline(&grid).map_err(|e| e.to_string())
+}
