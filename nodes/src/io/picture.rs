@@ -79,7 +79,7 @@ mod tests {
         const FRONT: [f32; 4] = [0.5, 0.0, 0.1, 0.2];
         const BACK: [f32; 4] = [-0.5, 0.0, 0.1, 0.2];
         let pose = Pose2::new(2.0, 0.0, 0.3);
-        let container = Container { pose, error: 0.0, inliers: 9, outliers: 0, wheels: 2 };
+        let container = Container { pose, error: 0.0, inliers: 9, outliers: 0, wheels: 2, model: 0 };
         let wheels: [(&str, &'static [[f32; 4]]); 2] = [("both-ends", &[FRONT, BACK]), ("one-end", &[FRONT])];
         let is_said = wheels.map(|(name, boxes)| {
             let directory = directory(name);
@@ -110,7 +110,7 @@ mod tests {
         let mut scan = Scan { angle_min: -0.1, angle_increment: 0.1, ..Scan::default() };
         scan.ranges.extend([2.0, 2.1, f32::NAN]);
         let pose = Pose2::new(2.0, 0.0, 0.3);
-        let container = Container { pose, error: 0.0, inliers: 9, outliers: 0, wheels: 3 };
+        let container = Container { pose, error: 0.0, inliers: 9, outliers: 0, wheels: 3, model: 0 };
         let result = node(directory, 1, 1).process(&scan, &Segments::new(), Some(&container), Some(&pose));
         result.expect("a picture");
         let text = std::fs::read_to_string(format!("{directory}/0001.svg")).expect("the picture");

@@ -1,5 +1,5 @@
 //! Navigation of omnidirectional robots: path planning on grid maps, path following, and motion relative to sensor data
-//! without a map (thesis 4.3.6 and 8.1.1).
+//! without a map (thesis 4.3.6 and 8.1.1). Steering a tractor with a trailer beneath a container (thesis 6.7).
 //!
 //! Planning and following keep paths of any length and need the feature `std`. Motion without a map does not.
 //!
@@ -18,6 +18,7 @@ mod message;
 mod motion;
 #[cfg(feature = "std")]
 mod path;
+mod payload;
 mod pid;
 #[cfg(feature = "std")]
 mod plan;
@@ -39,6 +40,7 @@ pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
+pub use payload::{Articulated, PlannedApproach, ReactiveApproach, trailer_rotation};
 pub use pid::Pid;
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner, Smoothing};

@@ -1,5 +1,8 @@
-use super::{Point2, Pose2, Scan};
+use super::{Point2, Pose2, Scan, wheel::View};
 use core::ops::Range;
+
+/// Distance before the centres of the near wheels within which a point may belong to a wheel, in m.
+const NEAR_SIDE: f32 = 0.15;
 
 /// Agreement of points with a box model at a pose (thesis 6.6.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -13,9 +16,9 @@ pub(super) struct Consensus {
 /// Visibility of the wheels of a model at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Sighting {
-    /// Number of wheel boxes that contain a point.
+    /// Number of wheel boxes that contain the centre of a segment.
     pub seen: usize,
-    /// Number of wheel boxes that contain no point although nothing hides them.
+    /// Number of wheel boxes that contain no segment although nothing hides them.
     pub missing: usize,
 }
 
@@ -26,6 +29,8 @@ pub(super) struct BoxModel {
     pub width: f32,
     /// Wheel boxes: rows of x and y of the centre, length along x and width along y.
     pub wheels: &'static [[f32; 4]],
+    /// Boxes in which points count neither for nor against the model.
+    pub boards: &'static [[f32; 4]],
     /// Length of the strip before the container that also has to be free.
     pub clearance: f32,
 }
@@ -37,7 +42,7 @@ impl BoxModel {
         for p in self.nearby(pose, points) {
             if self.wheels.iter().any(|wheel| in_box(p, wheel)) {
                 count.inliers += 1;
-            } else if in_box(p, &self.footprint()) {
+            } else if in_box(p, &self.footprint()) && !self.boards.iter().any(|board| in_box(p, board)) {
                 count.outliers += 1;
                 if count.outliers >= max_outliers {
                     break;
@@ -47,18 +52,60 @@ impl BoxModel {
         count
     }
 
-    /// Counts the seen and missing wheels. Only points of segments that could be wheels count, as the points of a wall
-    /// would also fill a wheel box.
-    pub fn sighting(&self, pose: &Pose2, candidates: &[Point2], scan: &Scan) -> Sighting {
+    /// Finds the segment of each wheel: the nearest one with its centre in the wheel box. A segment along a board shows
+    /// all wheels on it. Calls `seen` with the index of the box and the view of a wheel with a segment of its own, and
+    /// returns the counts.
+    pub fn sighting(&self, pose: &Pose2, views: &[View], scan: &Scan, mut seen: impl FnMut(usize, &View)) -> Sighting {
         let mut sighting = Sighting::default();
-        for wheel in self.wheels {
-            if self.nearby(pose, candidates).any(|p| in_box(p, wheel)) {
+        let (reach, centre) = (self.reach_squared(), pose.position());
+        let near = |view: &&View| (view.centre - centre).norm_squared() <= reach;
+        for (index, wheel) in self.wheels.iter().enumerate() {
+            // Without boards, the segments are no longer than a wheel.
+            let is_held = |view: &View| self.boards.is_empty() || self.holds(view.ends.map(|end| pose.to_inner(end)));
+            let inside = |view: &&View| in_box(pose.to_inner(view.centre), wheel) && is_held(view);
+            let own = views.iter().filter(near).filter(inside).min_by(|a, b| a.range.total_cmp(&b.range));
+            if let Some(view) = own {
+                sighting.seen += 1;
+                seen(index, view);
+            } else if views.iter().filter(near).any(|view| self.covers(view.ends.map(|end| pose.to_inner(end)), wheel))
+            {
                 sighting.seen += 1;
             } else if in_plain_view(pose.to_outer(Point2::new(wheel[0], wheel[1])), scan) {
                 sighting.missing += 1;
             }
         }
         sighting
+    }
+
+    /// Returns `true` if the ends of a segment, in the frame of the model, are in one wheel box, or on one board: a wall
+    /// reaches beyond them.
+    fn holds(&self, ends: [Point2; 2]) -> bool {
+        let both = |area: &[f32; 4]| ends.iter().all(|end| in_box(*end, area));
+        self.wheels.iter().chain(self.boards).any(both)
+    }
+
+    /// Returns `true` if a segment with these ends, in the frame of the model, runs along a board through a wheel.
+    fn covers(&self, ends: [Point2; 2], &[x, y, length, _]: &[f32; 4]) -> bool {
+        let [from, to] = [ends[0].x.min(ends[1].x), ends[0].x.max(ends[1].x)];
+        let along =
+            |board: &&[f32; 4]| ends.iter().all(|end| in_box(*end, board)) && (y - board[1]).abs() <= 0.5 * board[3];
+        from <= x + 0.5 * length && to >= x - 0.5 * length && self.boards.iter().any(|board| along(&board))
+    }
+
+    /// Share of the beams between two wheels of the near side that are not stopped before it: 1 if there are none.
+    pub fn passing(&self, [a, b]: [&View; 2], scan: &Scan) -> f32 {
+        let (Some(from), Some(to)) = (scan.beam_towards(a.bearing), scan.beam_towards(b.bearing)) else { return 1.0 };
+        let (mut free, mut all) = (0_u16, 0_u16);
+        let across = b.centre - a.centre;
+        for beam in from.min(to) + 1..from.max(to) {
+            let Some(range) = scan.range(beam) else { continue };
+            // Distance along the beam to the line between the wheels.
+            let direction = Point2::polar(1.0, scan.angle(beam));
+            let line = a.centre.dot(across.perpendicular()) / direction.dot(across.perpendicular());
+            all += 1;
+            free += u16::from(range > line - NEAR_SIDE);
+        }
+        if all == 0 { 1.0 } else { f32::from(free) / f32::from(all) }
     }
 
     /// Beams that can hit the model at `pose`: those between its two outermost lines of sight.
@@ -126,6 +173,7 @@ mod tests {
         length: 2.0,
         width: 1.0,
         wheels: &[[-0.9, 0.4, 0.2, 0.2], [-0.9, -0.4, 0.2, 0.2], [1.5, 0.0, 0.2, 0.2]],
+        boards: &[],
         clearance: 0.0,
     };
 
@@ -159,18 +207,43 @@ mod tests {
         scan.ranges.extend([10.0; 101]);
         let near = pose.to_outer(Point2::new(-0.9, 0.4));
         let beam = scan.beam_towards(near.angle()).expect("in view");
-        let sighting = |scan: &Scan| {
-            let points: std::vec::Vec<Point2> = scan.points().map(|(_, p)| p).collect();
-            MODEL.sighting(&pose, &points, scan)
+        let sighting = |scan: &Scan, is_seen: bool| {
+            let view = View { centre: near, ..View::default() };
+            MODEL.sighting(&pose, if is_seen { core::slice::from_ref(&view) } else { &[] }, scan, |index, _| {
+                assert_eq!(index, 0);
+            })
         };
         scan.ranges[beam] = near.norm();
-        assert_eq!(sighting(&scan), Sighting { seen: 1, missing: 2 });
+        assert_eq!(sighting(&scan, true), Sighting { seen: 1, missing: 2 });
         scan.ranges[beam] = 1.0;
-        assert_eq!(sighting(&scan), Sighting { seen: 0, missing: 2 });
+        assert_eq!(sighting(&scan, false), Sighting { seen: 0, missing: 2 });
         scan.ranges[beam] = f32::NAN;
-        assert_eq!(sighting(&scan), Sighting { seen: 0, missing: 2 });
+        assert_eq!(sighting(&scan, false), Sighting { seen: 0, missing: 2 });
         scan.ranges[beam] = 10.0;
-        assert_eq!(sighting(&scan), Sighting { seen: 0, missing: 3 });
+        assert_eq!(sighting(&scan, false), Sighting { seen: 0, missing: 3 });
+    }
+
+    #[test]
+    fn points_on_boards_count_for_nothing() {
+        let points = [Point2::new(0.0, 0.3), Point2::new(0.0, 0.0)];
+        let model = BoxModel { boards: &[[0.0, 0.3, 2.0, 0.2]], ..MODEL };
+        let count = model.consensus(&Pose2::default(), &points, 100);
+        assert_eq!(count, Consensus { inliers: 0, outliers: 1 });
+    }
+
+    #[test]
+    fn beams_between_the_near_wheels_pass_or_are_stopped() {
+        let mut scan = Scan { angle_min: -0.5, angle_increment: 0.01, range_max: 20.0, ..Scan::default() };
+        scan.ranges.extend([10.0; 101]);
+        let [a, b] =
+            [0.2, -0.2].map(|bearing| View { bearing, centre: Point2::polar(2.0, bearing), ..View::default() });
+        assert_eq!(MODEL.passing([&a, &b], &scan), 1.0);
+        // From 1 m on the left, something stands in the way.
+        scan.ranges[50..80].fill(1.0);
+        let share = MODEL.passing([&a, &b], &scan);
+        assert!((share - 0.5).abs() < 0.05, "{share}");
+        scan.ranges.fill(f32::NAN);
+        assert_eq!(MODEL.passing([&a, &b], &scan), 1.0);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 use super::{
-    MAX_BEAMS, Point2, Pose2, Scan, Segment, Segments,
+    MAX_BEAMS, MAX_SEGMENTS, Point2, Pose2, Scan, Segments,
     consensus::{BoxModel, Consensus, Sighting},
+    wheel::{Sums, View, WheelShape},
 };
 use apex_rt::node;
 use core::f32::consts::PI;
@@ -18,8 +19,10 @@ pub struct Container {
     pub inliers: u16,
     /// Number of points in the footprint, but in no wheel box (|O|).
     pub outliers: u16,
-    /// Number of wheel boxes that contain a point.
+    /// Number of wheels that are seen.
     pub wheels: usize,
+    /// Number of the model (see [`ContainerSearch`]).
+    pub model: u16,
 }
 
 impl Container {
@@ -30,20 +33,39 @@ impl Container {
     }
 }
 
+/// Best of the containers that searches with different models found: the one that explains the most points, or, with
+/// equally many, fits its near wheels better. ⊥ if there is none.
+#[node]
+pub fn best_container<const N: usize>(containers: [Option<&Container>; N]) -> Option<Container> {
+    let found = containers.into_iter().flatten().copied();
+    found.reduce(|best, one| {
+        let fits_better = one.inliers == best.inliers && one.error < best.error;
+        if one.inliers > best.inliers || fits_better { one } else { best }
+    })
+}
+
 /// Detects a container by two of its wheels (thesis 6.6.1).
 ///
-/// Every ordered pair of segments is a hypothesis for the two near wheels. Pairs at the wrong distance are dropped
-/// (δ_w); the others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model (eq.
-/// 6.17). The output is ⊥ if no pose agrees. The pose is in the frame of the scanner.
+/// Every ordered pair of segments is a hypothesis for two wheels of the near side. Pairs at the wrong distance are
+/// dropped (δ_w); the others give a pose (eqs. 6.12–6.16), at which the points of the scan must agree with a box model
+/// (eq. 6.17). The output is ⊥ if no pose agrees. The pose is in the frame of the scanner.
 ///
 /// Extensions of the thesis:
+/// * The centre of a wheel is estimated from its mean range and its angular width instead of the mid-range of the
+///   visible points (eq. 6.11), which lies before it.
+/// * Near wheels are whole: nothing hides a part of them. The beams between them must not end before the container.
 /// * Of the poses that agree, the one with the most visible wheels wins, and ε (eq. 6.18) decides between equals,
 ///   because ε alone often prefers a chance pair in clutter.
-/// * A minimum number of wheel boxes must contain a point, and the empty ones must be hidden.
+/// * A minimum number of wheels must be seen as segments of their own, and the others must be hidden: a wall through
+///   the place of a wheel is not a wheel.
 /// * A strip before the container may be required to be free.
 /// * The container may be required to be seen from the front.
+/// * A segment that stands for a wheel ends in its box, or, if it runs along a board, on that board: walls are longer.
+/// * The pose is fitted to all wheels that are seen, and the remaining distances are small. Castors trail, so that
+///   each has several possible pivots: the combinations are weighted by their agreement with the model.
 ///
-/// The defaults are for a container on four castors. A pallet on nine feet differs in numbers only.
+/// The defaults are for a container on four castors. A pallet on nine feet differs in numbers only. [`best_container`]
+/// selects between several models.
 ///
 /// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates
 /// nothing.
@@ -62,7 +84,10 @@ pub struct ContainerSearch {
     /// Size of a wheel lengthwise (w_l).
     #[param(unit = "m", default = 0.125, range = 0.0..=1.0)]
     wheel_length: f32,
-    /// Maximum deviation of a hypothesis from `width` (δ_w).
+    /// Distance from the pivot of a castor to its axle; 0 for wheels or feet that do not turn.
+    #[param(unit = "m", default = 0.04, range = 0.0..=1.0)]
+    trail: f32,
+    /// Maximum deviation of the distance between two near wheels (δ_w).
     #[param(unit = "m", default = 0.15, range = 0.0..=2.0)]
     width_tolerance: f32,
     /// Minimum number of points of a segment used as a near wheel. Far wheels may have fewer.
@@ -75,122 +100,169 @@ pub struct ContainerSearch {
     /// hypothesis slower to test.
     #[param(default = 3, range = 1..=100)]
     max_outliers: u16,
-    /// Minimum number of wheel boxes that contain a point. Two always do, by construction.
+    /// Minimum number of wheels that are seen.
     #[param(default = 3, range = 0..=100)]
     min_wheels: usize,
-    /// Maximum number of wheel boxes that contain no point although the beams towards them pass by.
+    /// Maximum number of wheels that are not seen although the beams towards them pass by.
     #[param(default = 0, range = 0..=100)]
     max_missing: usize,
     /// Length of the strip before the near wheels that belongs to the footprint.
     #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
     clearance: f32,
+    /// Minimum share of the beams between the near wheels that do not end before the container.
+    #[param(default = 0.8, range = 0.0..=1.0)]
+    min_passing: f32,
+    /// Maximum root mean square of the distances between the wheels that are seen and those of the fitted model.
+    #[param(unit = "m", default = 0.08, range = 0.0..=1.0)]
+    max_residual: f32,
     /// Maximum angle between the line of sight to the centre and the heading: the obliqueness of the view. With π any
     /// pose is allowed, even around the scanner, and the far wheels of a symmetric container may be taken for the near
     /// ones.
     #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     max_view_angle: f32,
     /// Wheels: rows of `[x, y, length, width]` in metres, in the frame of the container, whose origin is its centre.
+    /// Those with the smallest x are the near side.
     #[param(unit = "m")]
     boxes: &'static [[f32; 4]],
+    /// Areas in which points count neither for nor against the model, such as the boards under a pallet: rows as in
+    /// `boxes`.
+    #[param(unit = "m", default = &[])]
+    boards: &'static [[f32; 4]],
+    /// Number of this model in the detections.
+    #[param(default = 0)]
+    model: u16,
     /// Points of the scan by beam; NaN where nothing was measured.
     points: Vec<Point2, MAX_BEAMS>,
-    /// Points that belong to segments, by beam; NaN elsewhere.
-    candidates: Vec<Point2, MAX_BEAMS>,
+    /// Segments, seen as wheels.
+    views: Vec<View, MAX_SEGMENTS>,
 }
+
+/// Distance along x within which a wheel belongs to the near side, in m.
+const SAME_SIDE: f32 = 0.01;
+/// Maximum number of wheels that a pose is fitted to.
+const MAX_WHEELS: usize = 16;
 
 #[node]
 impl ContainerSearch {
     fn process(&mut self, scan: &Scan, segments: &Segments) -> Option<Container> {
-        self.collect_points(scan, segments);
+        self.points.clear();
+        self.points.extend(scan.ranges.iter().map(|_| Point2::new(f32::NAN, f32::NAN)));
+        for (beam, point) in scan.points() {
+            self.points[beam] = point;
+        }
+        let shape = self.shape();
+        self.views.clear();
+        self.views.extend(segments.iter().map(|segment| shape.view(segment, scan)));
         let mut best: Option<Container> = None;
-        for (i, a) in segments.iter().enumerate() {
-            for b in &segments[i + 1..] {
-                for found in self.hypotheses(scan, [a, b]).into_iter().flatten() {
-                    if best.is_none_or(|best| found.is_better_than(&best)) {
-                        best = Some(found);
-                    }
-                }
+        for (i, a) in self.views.iter().enumerate() {
+            for b in &self.views[i + 1..] {
+                self.hypotheses(scan, [a, b], &mut best);
             }
         }
         best
     }
 
-    /// Fills the lists of points. The segments are in the order of their beams.
-    fn collect_points(&mut self, scan: &Scan, segments: &Segments) {
-        const NOTHING: Point2 = Point2::new(f32::NAN, f32::NAN);
-        for points in [&mut self.points, &mut self.candidates] {
-            points.clear();
-            points.extend(scan.ranges.iter().map(|_| NOTHING));
+    fn shape(&self) -> WheelShape {
+        WheelShape { length: self.wheel_length, width: self.wheel_width, trail: self.trail }
+    }
+
+    fn model(&self) -> BoxModel {
+        BoxModel {
+            length: self.length,
+            width: self.width,
+            wheels: self.boxes,
+            boards: self.boards,
+            clearance: self.clearance,
         }
-        let mut segments = segments.iter().peekable();
-        for (beam, point) in scan.points() {
-            self.points[beam] = point;
-            while segments.next_if(|s| usize::from(s.last) < beam).is_some() {}
-            if segments.peek().is_some_and(|s| usize::from(s.first) <= beam) {
-                self.candidates[beam] = point;
+    }
+
+    /// Centres of the wheels on the near side, in the frame of the container.
+    fn near_side(&self) -> impl Iterator<Item = Point2> + Clone {
+        let front = self.boxes.iter().map(|b| b[0]).fold(f32::INFINITY, f32::min);
+        self.boxes.iter().filter(move |b| b[0] - front <= SAME_SIDE).map(|b| Point2::new(b[0], b[1]))
+    }
+
+    /// Tests the containers that have the two segments as wheels of their near side, and keeps the best.
+    fn hypotheses(&self, scan: &Scan, pair: [&View; 2], best: &mut Option<Container>) {
+        let can_be_near = |view: &View| view.is_whole && view.points >= self.min_points;
+        let distance = (pair[1].centre - pair[0].centre).norm();
+        if distance == 0.0 || !pair.into_iter().any(can_be_near) {
+            return;
+        }
+        for (i, p) in self.near_side().enumerate() {
+            for q in self.near_side().skip(i + 1) {
+                let deviation = (q - p).norm() - distance;
+                if deviation.abs() > self.width_tolerance {
+                    continue;
+                }
+                for [a, b] in [pair, [pair[1], pair[0]]] {
+                    let found = self.pose([(p, a.centre), (q, b.centre)]);
+                    let found = found.and_then(|pose| self.verify(scan, [a, b], pose, deviation * deviation));
+                    if let Some(found) = found.filter(|one| best.is_none_or(|best| one.is_better_than(&best))) {
+                        *best = Some(found);
+                    }
+                }
             }
         }
     }
 
-    /// Containers whose near wheels are the two segments, in both orders.
-    fn hypotheses(&self, scan: &Scan, pair: [&Segment; 2]) -> [Option<Container>; 2] {
-        let [a, b] = pair.map(Segment::mid_range);
-        let deviation = (self.width - self.wheel_width).abs() - (b - a).norm();
-        if deviation.abs() > self.width_tolerance || pair.iter().any(|s| s.points < self.min_points) {
-            return [None; 2];
-        }
-        let error = deviation * deviation;
-        [(a, b), (b, a)].map(|(a, b)| self.pose(a, b).and_then(|pose| self.verify(scan, pose, error)))
-    }
-
-    /// Pose of a container with its near wheels at `a` and `b` (thesis eqs. 6.12–6.16), or `None` if the view is too
+    /// Pose of a container with two wheels at the given points (thesis eqs. 6.12–6.16), or `None` if the view is too
     /// oblique.
-    fn pose(&self, a: Point2, b: Point2) -> Option<Pose2> {
-        let u = b - a;
-        let across = u.norm();
-        if across == 0.0 {
-            return None;
-        }
-        let v = u.perpendicular().scaled((self.length - self.wheel_length) / across);
-        let centre = a + (u + v).scaled(0.5);
-        let faces = centre.dot(v) >= libm::cosf(self.max_view_angle) * centre.norm() * v.norm();
-        (faces || self.max_view_angle >= PI).then(|| Pose2::new(centre.x, centre.y, v.angle()))
+    fn pose(&self, wheels: [(Point2, Point2); 2]) -> Option<Pose2> {
+        let mut sums = Sums::default();
+        wheels.into_iter().for_each(|(place, image)| sums.add(place, image, 1.0));
+        let (pose, _) = sums.pose()?;
+        let centre = pose.position();
+        let along = centre.dot(Point2::polar(1.0, pose.theta));
+        let faces = along >= libm::cosf(self.max_view_angle) * centre.norm();
+        (faces || self.max_view_angle >= PI).then_some(pose)
     }
 
     /// The container at `pose`, or `None` if the scan does not agree with it.
-    fn verify(&self, scan: &Scan, pose: Pose2, error: f32) -> Option<Container> {
-        let model = BoxModel { length: self.length, width: self.width, wheels: self.boxes, clearance: self.clearance };
+    fn verify(&self, scan: &Scan, pair: [&View; 2], pose: Pose2, error: f32) -> Option<Container> {
+        let model = self.model();
         let beams = model.beams(&pose, scan);
-        let Consensus { inliers, outliers } = model.consensus(&pose, &self.points[beams.clone()], self.max_outliers);
+        let Consensus { inliers, outliers } = model.consensus(&pose, &self.points[beams], self.max_outliers);
         if inliers < self.min_inliers || outliers >= self.max_outliers {
             return None;
         }
-        let Sighting { seen, missing } = model.sighting(&pose, &self.candidates[beams], scan);
-        let agrees = seen >= self.min_wheels && missing <= self.max_missing;
-        agrees.then_some(Container { pose, error, inliers, outliers, wheels: seen })
+        let mut wheels: Vec<(Point2, View), MAX_WHEELS> = Vec::new();
+        let Sighting { seen, missing } = model.sighting(&pose, &self.views, scan, |index, view| {
+            if view.is_whole {
+                // The fit can do without those that find no room.
+                let _ = wheels.push((Point2::new(self.boxes[index][0], self.boxes[index][1]), *view));
+            }
+        });
+        let agrees =
+            seen >= self.min_wheels && missing <= self.max_missing && model.passing(pair, scan) >= self.min_passing;
+        if !agrees {
+            return None;
+        }
+        // Without two whole wheels, the pose is that of the pair.
+        let (pose, residual) = self.shape().fit(&wheels, &pose).unwrap_or((pose, 0.0));
+        let model = self.model;
+        (residual <= self.max_residual).then_some(Container { pose, error, inliers, outliers, wheels: seen, model })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scan::{JumpDistance, SegmentFilter};
+    use crate::scan::{JumpDistance, Segment, SegmentFilter};
     use apex_rt::Out;
 
     /// Four wheels of a container of 1.2 m × 0.7 m.
-    const BOXES: &[[f32; 4]] = &[
-        [-0.5375, 0.33, 0.2, 0.12],
-        [-0.5375, -0.33, 0.2, 0.12],
-        [0.5375, 0.33, 0.2, 0.12],
-        [0.5375, -0.33, 0.2, 0.12],
-    ];
+    const BOXES: &[[f32; 4]] =
+        &[[-0.5375, 0.33, 0.2, 0.2], [-0.5375, -0.33, 0.2, 0.2], [0.5375, 0.33, 0.2, 0.2], [0.5375, -0.33, 0.2, 0.2]];
 
     fn node() -> ContainerSearch {
         ContainerSearch {
             width: 0.7,
             length: 1.2,
-            wheel_width: 0.04,
-            wheel_length: 0.125,
+            // Squares about the discs of the scans.
+            wheel_width: 0.08,
+            wheel_length: 0.08,
+            trail: 0.0,
             width_tolerance: 0.15,
             min_points: 1,
             min_inliers: 6,
@@ -198,10 +270,14 @@ mod tests {
             min_wheels: 3,
             max_missing: 0,
             clearance: 0.0,
+            min_passing: 0.8,
+            max_residual: 0.05,
             max_view_angle: 0.5 * PI,
             boxes: BOXES,
+            boards: &[],
+            model: 7,
             points: Vec::new(),
-            candidates: Vec::new(),
+            views: Vec::new(),
         }
     }
 
@@ -239,7 +315,7 @@ mod tests {
             let pose = Pose2::new(2.5, 0.4, theta);
             let found = search(node(), &wheels(&pose)).expect("a container");
             let off = found.pose.relative_to(&pose);
-            assert!(off.position().norm() < 0.02 && off.theta.abs() < 0.02, "{off:?} at {theta}");
+            assert!(off.position().norm() < 0.035 && off.theta.abs() < 0.03, "{off:?} at {theta}");
             // One wheel may hide behind another.
             assert!(found.wheels >= 3 && found.outliers == 0, "{found:?} at {theta}");
             assert!(found.error < 1e-3 && found.inliers >= 6);
@@ -314,6 +390,18 @@ mod tests {
         let pose = Pose2::new(2.5, 0.0, 1.2);
         assert!(search(node(), &wheels(&pose)).is_some());
         assert_eq!(search(ContainerSearch { max_view_angle: 0.3, ..node() }, &wheels(&pose)), None);
+    }
+
+    #[test]
+    fn the_best_model_explains_the_most_points() {
+        let pose = Pose2::new(2.5, 0.4, 0.3);
+        let found = search(node(), &wheels(&pose)).expect("a container");
+        assert_eq!(found.model, 7);
+        let worse = Container { inliers: found.inliers - 1, model: 1, ..found };
+        let tighter = Container { error: 0.5 * found.error, model: 2, ..found };
+        assert_eq!(best_container([Some(&worse), None, Some(&found)]), Some(found));
+        assert_eq!(best_container([Some(&found), Some(&tighter)]), Some(tighter));
+        assert_eq!(best_container([None, None]), None);
     }
 
     #[test]

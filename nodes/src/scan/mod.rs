@@ -2,6 +2,7 @@
 //!
 //! The types have fixed capacities and need no heap.
 
+mod confirm;
 mod consensus;
 mod container;
 mod filter;
@@ -11,8 +12,10 @@ mod laser;
 pub(crate) mod message;
 mod mount;
 mod segment;
+mod wheel;
 
-pub use container::{Container, ContainerSearch};
+pub use confirm::ConfirmContainer;
+pub use container::{Container, ContainerSearch, best_container};
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{Point2, Pose2};
 pub use laser::{MAX_BEAMS, Scan};

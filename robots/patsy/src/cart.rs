@@ -13,7 +13,7 @@ pub const WHEEL_WIDTH: f32 = 0.04;
 /// Length of a wheel at the height of the scanner, in m.
 pub const WHEEL_LENGTH: f32 = 0.125;
 /// Distance from the pivot of a castor to the axle of its wheel, in m.
-const TRAIL: f32 = 0.04;
+pub const TRAIL: f32 = 0.04;
 
 /// Positions of the pivots relative to the centre: ±x along, ±y across.
 const PIVOT: Point2 = Point2::new(0.5 * (LENGTH - WHEEL_LENGTH), 0.5 * (WIDTH - WHEEL_WIDTH));
@@ -61,11 +61,16 @@ impl Cart {
         self.pose = pose;
     }
 
+    /// Middle of each wheel, and its rolling direction in rad.
+    pub fn wheels(&self) -> impl Iterator<Item = (Point2, f32)> {
+        let at = |(castor, pivot): (&f32, Point2)| (self.pose.to_outer(pivot) - Point2::polar(TRAIL, *castor), *castor);
+        self.castors.iter().zip(pivots()).map(at)
+    }
+
     /// Adds the wheels to the world.
     pub fn add_to(&self, world: &mut World) {
-        for (castor, pivot) in self.castors.iter().zip(pivots()) {
-            let axle = self.pose.to_outer(pivot) - Point2::polar(TRAIL, *castor);
-            world.block(&Pose2::new(axle.x, axle.y, *castor), WHEEL_LENGTH, WHEEL_WIDTH);
+        for (axle, castor) in self.wheels() {
+            world.block(&Pose2::new(axle.x, axle.y, castor), WHEEL_LENGTH, WHEEL_WIDTH);
         }
     }
 }

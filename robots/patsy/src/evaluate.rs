@@ -66,7 +66,7 @@ pub struct Score {
 }
 
 /// Pose of a detection in the frame of the container, rotated by 180° if that gives the smaller error.
-fn pose_error(found: &Pose2, truth: &Pose2) -> Pose2 {
+pub(crate) fn pose_error(found: &Pose2, truth: &Pose2) -> Pose2 {
     let error = found.relative_to(truth);
     if error.theta.abs() <= FRAC_PI_2 { error } else { found.relative_to(&Pose2 { theta: truth.theta + PI, ..*truth }) }
 }
@@ -187,7 +187,7 @@ mod tests {
     }
 
     fn found(pose: Pose2) -> Container {
-        Container { pose, error: 0.0, inliers: 8, outliers: 0, wheels: 4 }
+        Container { pose, error: 0.0, inliers: 8, outliers: 0, wheels: 4, model: 0 }
     }
 
     #[test]

@@ -3,15 +3,21 @@
 //!
 //! The scanner is at the origin and faces along x; a cart moves in front of it.
 
+pub mod approach;
 mod cart;
 mod drive;
 mod evaluate;
+mod finder;
+mod jobs;
 mod motion;
 pub mod obstacles;
 mod progress;
+mod referee;
 mod report;
 mod room;
 mod sim_laser;
+pub mod times;
+pub mod validate;
 
 /// A container two metres ahead, for tests.
 pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Container {
@@ -20,13 +26,16 @@ pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Conta
     inliers: 8,
     outliers: 0,
     wheels: 4,
+    model: 0,
 };
 
-pub use cart::{Cart, LENGTH, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
+pub use cart::{Cart, LENGTH, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use drive::Drive;
 pub use evaluate::{Evaluate, Score, Statistics};
+pub use finder::{Finder, Search};
 pub use motion::Scenario;
 pub use progress::Progress;
+pub use referee::{Ends, Referee};
 pub use report::{RECORDED_SCANNER, Report};
 pub use sim_laser::{SimLaser, Truth};
 

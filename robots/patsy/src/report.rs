@@ -75,7 +75,7 @@ impl Report {
     }
 }
 
-fn read_labels(path: &Path) -> Result<BTreeMap<u64, [f64; 4]>, ReadError> {
+pub(crate) fn read_labels(path: &Path) -> Result<BTreeMap<u64, [f64; 4]>, ReadError> {
     let mut reader = CsvReader::open(path, true)?;
     let (mut labels, mut row) = (BTreeMap::new(), Vec::new());
     while reader.read(&mut row)? {
@@ -108,7 +108,8 @@ mod tests {
     #[test]
     fn counts_what_lies_in_its_box_and_what_does_not() {
         let mut report = Report { labels: BTreeMap::from([(1, [0.0, 0.0, 2.0, 2.0])]), ..Report::default() };
-        let container = |x| Container { pose: Pose2::new(x, 1.0, 0.0), error: 0.0, inliers: 5, outliers: 0, wheels: 3 };
+        let container =
+            |x| Container { pose: Pose2::new(x, 1.0, 0.0), error: 0.0, inliers: 5, outliers: 0, wheels: 3, model: 0 };
         for (id, found) in [(1, Some(container(1.0))), (1, Some(container(3.0))), (1, None), (2, Some(container(1.0)))]
         {
             let entry = LogEntry { id, ..LogEntry::default() };

@@ -1,6 +1,6 @@
 use apex_nodes::{
     math::normalize_angle,
-    nav::Twist,
+    nav::{Twist, trailer_rotation},
     scan::{Point2, Pose2},
 };
 
@@ -89,8 +89,7 @@ impl Tractor {
     pub fn step(&mut self, command: &Twist, dt: f32) {
         self.base.step(command, dt);
         let Twist { x, omega, .. } = self.base.twist;
-        let (sin, cos) = libm::sincosf(self.base.pose.theta - self.trailer);
-        let turn = (x * sin - self.hitch * omega * cos) / self.drawbar;
+        let turn = trailer_rotation(x, omega, self.base.pose.theta - self.trailer, self.hitch, self.drawbar);
         self.trailer = normalize_angle(&(self.trailer + turn * dt));
     }
 

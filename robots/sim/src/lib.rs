@@ -1,8 +1,8 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
 //! (feature `camera`), time-of-flight cameras (feature `tof`), and buildings from plans (feature `building`).
 //!
-//! Available as nodes: a [`DifferentialBase`] and a [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]),
-//! and a [`LiveView`] of it. `apex new` creates a robot with these nodes.
+//! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, and a [`LaserScanner`] in a world
+//! drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a robot with such nodes.
 //!
 //! Deterministic: the same seed gives the same scans on every platform. Much faster than real time.
 //!
@@ -19,6 +19,7 @@ mod note;
 mod odometry;
 #[cfg(feature = "building")]
 mod office;
+mod payload;
 mod plan;
 mod scanner;
 #[cfg(feature = "camera")]
@@ -27,6 +28,7 @@ mod scene;
 pub mod tof;
 #[cfg(feature = "building")]
 mod tour;
+mod tractor;
 mod view;
 mod world;
 
@@ -42,11 +44,13 @@ pub use note::Note;
 pub use odometry::{Odometry, OdometryNoise};
 #[cfg(feature = "building")]
 pub use office::OfficePlan;
+pub use payload::{Footprint, Lift};
 pub use plan::{FloorPlan, PlanError};
 pub use scanner::LaserScanner;
 #[cfg(feature = "camera")]
 pub use scene::{Look, Panel, Picture, Pillar, Scene};
 #[cfg(feature = "building")]
 pub use tour::{BuildingTour, Tour, TourError};
+pub use tractor::TractorBase;
 pub use view::{LiveView, ViewError};
 pub use world::{Disc, Wall, World};

@@ -86,7 +86,8 @@ impl World {
 }
 
 impl Wall {
-    fn distance(&self, point: Point2) -> f32 {
+    /// Distance to a point, in m.
+    pub(crate) fn distance(&self, point: Point2) -> f32 {
         let (along, from) = (self.b - self.a, point - self.a);
         let share = (from.dot(along) / along.norm_squared()).clamp(0.0, 1.0);
         // A wall without a length is a point.

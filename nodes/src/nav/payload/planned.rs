@@ -1,0 +1,353 @@
+use super::{
+    dubins::{Curve, advanced, curves},
+    vehicle::{Arrival, Articulated, approach_speed, arrival, trailer_rotation},
+};
+use crate::{
+    math::normalize_angle,
+    nav::{Twist, twist::Halt},
+    scan::{Point2, Pose2},
+};
+use apex_rt::{Ctx, Event, node};
+use libm::sinf;
+
+/// Step of the prediction of the trailer, in m.
+const STEP: f32 = 0.1;
+/// Step of the search for the nearest point of the curve, in m.
+const FINE: f32 = 0.01;
+/// Distance ahead that the nearest point of the curve is searched in, in m.
+const AHEAD: f32 = 0.3;
+/// Number of positions where the straight line to the container may begin, and the distance between them, in m.
+const LINES: (u8, f32) = (13, 0.25);
+/// Gains of the offset (1/m²) and of the heading (1/m) from the curve: the offset decays within half a metre.
+const GAINS: [f32; 2] = [8.0, 5.0];
+/// Largest offset of the trailer's rear from the centre line at the end of a plan, in m.
+const STRAIGHT: f32 = 0.02;
+/// Largest offset from the curve, in m. Farther away, another one is planned.
+const OFF_CURVE: f32 = 0.2;
+
+/// Steers a tractor with a passively steered trailer beneath a container, along a planned curve.
+///
+/// The ports are those of [`ReactiveApproach`](super::ReactiveApproach). At the first container, and whenever the
+/// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins curves
+/// to a line before the container, on which the predicted trailer comes into line, is never bent by more than
+/// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
+/// no such curve, or if the vehicle is beside its goal at the end. Obstacles are the task of the safety field behind
+/// this node.
+#[node]
+#[derive(Debug, Clone)]
+pub struct PlannedApproach {
+    /// Radius of the curves.
+    #[param(unit = "m", default = 0.8, range = 0.1..=10.0)]
+    radius: f32,
+    /// Maximum angle between tractor and trailer.
+    #[param(unit = "rad", default = 1.0, range = 0.1..=1.5)]
+    max_bend: f32,
+    /// Maximum speed.
+    #[param(unit = "m/s", default = 0.5, range = 0.001..=10.0)]
+    max_speed: f32,
+    /// Minimum speed.
+    #[param(unit = "m/s", default = 0.03, range = 0.001..=1.0)]
+    min_speed: f32,
+    /// Deceleration before the goal.
+    #[param(unit = "m/s^2", default = 0.2, range = 0.01..=10.0)]
+    deceleration: f32,
+    /// Distance of the tractor's axis from its front.
+    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
+    front: f32,
+    /// Distance from the tractor's axis back to the hitch.
+    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
+    hitch: f32,
+    /// Distance from the hitch back to the trailer's axis.
+    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
+    drawbar: f32,
+    /// Distance from the trailer's axis back to its rear.
+    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
+    rear: f32,
+    /// Width of the vehicle.
+    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
+    width: f32,
+    /// Length of the container.
+    #[param(unit = "m", default = 1.2, range = 0.0..=10.0)]
+    container_length: f32,
+    /// Width of the container.
+    #[param(unit = "m", default = 0.76, range = 0.0..=10.0)]
+    container_width: f32,
+    /// Width of the free strip between its wheels, including castors that are turned.
+    #[param(unit = "m", default = 0.43, range = 0.0..=10.0)]
+    free_width: f32,
+    /// Distance kept from the container beside the strip.
+    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
+    margin: f32,
+    /// Maximum change of the container's pose without another plan, in position (m) and in heading (rad).
+    #[param(default = 0.05, range = 0.001..=1.0)]
+    replan: f32,
+    /// Maximum offset of the vehicle from the middle of the container at the end, along and across.
+    #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
+    tolerance: f32,
+    container: Option<Pose2>,
+    plan: Option<Plan>,
+    halt: Halt,
+}
+
+/// Planned curve and how far it has been driven.
+#[derive(Debug, Clone, Copy)]
+struct Plan {
+    /// Container that the curve leads to.
+    container: Pose2,
+    curve: Curve,
+    /// Distance driven on the curve, in m.
+    driven: f32,
+}
+
+#[node]
+impl PlannedApproach {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        base: &Pose2,
+        trailer: &Pose2,
+        container: Option<&Pose2>,
+        reached: Event<()>,
+        #[failure] missed: Event<()>,
+    ) -> Option<Twist> {
+        if !ctx.active() {
+            return self.halt.rest();
+        }
+        self.container = container.filter(|pose| pose.is_finite()).copied().or(self.container);
+        let Some(container) = self.container.filter(|_| base.is_finite() && trailer.is_finite()) else {
+            return self.halt.rest();
+        };
+        let vehicle = self.vehicle();
+        let rear = container.to_inner(vehicle.rear_most(trailer));
+        match arrival(&base.relative_to(&container), rear, vehicle.axis(), self.tolerance) {
+            Arrival::Reached => {
+                reached.emit(());
+                return self.halt.drive(Twist::ZERO);
+            }
+            Arrival::Missed if self.is_past(base, &container) => {
+                missed.emit(());
+                return self.halt.drive(Twist::ZERO);
+            }
+            _ => {}
+        }
+        let Some(plan) = self.planned(base, trailer.theta, container) else {
+            missed.emit(());
+            return self.halt.drive(Twist::ZERO);
+        };
+        let twist = self.follow(base, &plan);
+        self.plan = Some(plan);
+        self.halt.drive(twist)
+    }
+
+    /// Forgets the container and the plan of the last approach.
+    #[on_activate]
+    fn forget(&mut self) {
+        (self.container, self.plan) = (None, None);
+    }
+
+    fn vehicle(&self) -> Articulated {
+        let Self { front, hitch, drawbar, rear, width, .. } = *self;
+        Articulated { hitch, drawbar, front, rear, width }
+    }
+
+    /// Returns `true` at the end of the curve. Before, the vehicle may pass the container.
+    fn is_past(&self, base: &Pose2, container: &Pose2) -> bool {
+        let Some(plan) = &self.plan else { return false };
+        let at_goal = base.relative_to(container).position() - Point2::new(self.vehicle().axis(), 0.0);
+        plan.curve.length() - plan.driven < self.tolerance || at_goal.norm() < 2.0 * self.tolerance
+    }
+
+    /// The plan for the present pose, or `None` if there is no way.
+    fn planned(&self, base: &Pose2, trailer: f32, container: Pose2) -> Option<Plan> {
+        if let Some(mut plan) = self.plan {
+            plan.driven = nearest(&plan.curve, plan.driven, base);
+            let off = base.relative_to(&plan.curve.at(plan.driven).0);
+            let moved = container.relative_to(&plan.container);
+            let is_same = moved.position().norm() <= self.replan && moved.theta.abs() <= self.replan;
+            if is_same && off.position().norm() <= OFF_CURVE {
+                return Some(plan);
+            }
+            // Near the goal only straight lines are left; without one, the old curve is the best that there is.
+            return self.plan(base, trailer, container).or(Some(plan));
+        }
+        self.plan(base, trailer, container)
+    }
+
+    /// Shortest curve beneath the container on which the trailer fits.
+    fn plan(&self, base: &Pose2, trailer: f32, container: Pose2) -> Option<Plan> {
+        let goal = self.vehicle().axis();
+        let mut best: Option<Curve> = None;
+        for line in 0..LINES.0 {
+            let straight = LINES.1 * f32::from(line);
+            let begin = container.compose(&Pose2::new(goal - straight, 0.0, 0.0));
+            for curve in curves(base, &begin, self.radius, straight) {
+                let is_shorter = best.is_none_or(|best| curve.length() < best.length());
+                if is_shorter && self.fits(&curve, trailer, &container) {
+                    best = Some(curve);
+                }
+            }
+        }
+        best.map(|curve| Plan { container, curve, driven: 0.0 })
+    }
+
+    /// Returns `true` if tractor and trailer touch nothing on the curve and are in line at its end.
+    fn fits(&self, curve: &Curve, trailer: f32, container: &Pose2) -> bool {
+        let vehicle = self.vehicle();
+        let (mut base, mut heading) = (curve.start.relative_to(container), trailer - container.theta);
+        for (curvature, length) in curve.parts {
+            let steps = libm::ceilf(length / STEP);
+            let step = if steps > 0.0 { length / steps } else { 0.0 };
+            for _ in 0..steps as u16 {
+                let bend = normalize_angle(&(base.theta - heading));
+                if bend.abs() > self.max_bend && !is_relaxing(bend, curvature, &vehicle) {
+                    return false;
+                }
+                let turn = trailer_rotation(1.0, curvature, bend, vehicle.hitch, vehicle.drawbar);
+                heading += turn * step;
+                base = advanced(&base, curvature, step);
+                if self.touches(&vehicle, &base, heading) {
+                    return false;
+                }
+            }
+        }
+        vehicle.rear_most(&vehicle.trailer(&base, heading)).y.abs() <= STRAIGHT
+    }
+
+    /// Returns `true` if the vehicle reaches into the container beside the free strip. Poses are in the frame of the
+    /// container.
+    fn touches(&self, vehicle: &Articulated, base: &Pose2, heading: f32) -> bool {
+        let (x, y) = (0.5 * self.container_length + self.margin, 0.5 * self.container_width + self.margin);
+        if base.position().norm() > x + y + vehicle.length() {
+            return false;
+        }
+        let blocked = |p: Point2| p.x.abs() <= x && p.y.abs() <= y && p.y.abs() > 0.5 * self.free_width;
+        vehicle.outline(base, heading).into_iter().any(blocked)
+    }
+
+    /// Twist along the plan.
+    fn follow(&self, base: &Pose2, plan: &Plan) -> Twist {
+        let (pose, curvature) = plan.curve.at(plan.driven);
+        let off = base.relative_to(&pose);
+        let left = plan.curve.length() - plan.driven;
+        let speed = approach_speed(left, self.deceleration, [self.min_speed, self.max_speed]);
+        let bend = curvature - GAINS[0] * off.y - GAINS[1] * sinf(off.theta);
+        let sharpest = 2.0 / self.radius;
+        Twist::new(speed, 0.0, speed * bend.clamp(-sharpest, sharpest))
+    }
+}
+
+/// Returns `true` if a bend becomes smaller on a curve.
+fn is_relaxing(bend: f32, curvature: f32, vehicle: &Articulated) -> bool {
+    let change = curvature - trailer_rotation(1.0, curvature, bend, vehicle.hitch, vehicle.drawbar);
+    change * bend < 0.0
+}
+
+/// Distance along the curve of the point nearest to the vehicle, not before `driven`.
+fn nearest(curve: &Curve, driven: f32, base: &Pose2) -> f32 {
+    let off = |distance: f32| (curve.at(distance).0.position() - base.position()).norm_squared();
+    let candidates = (0..=(AHEAD / FINE) as u8).map(|i| driven + FINE * f32::from(i));
+    candidates.min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(driven)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nav::payload::ReactiveApproach;
+    use apex_rt::{Construct, Time};
+    use core::f32::consts::{FRAC_PI_2, PI};
+
+    const CONTAINER: Pose2 = Pose2::new(4.0, 0.0, 0.0);
+
+    fn planned() -> PlannedApproach {
+        PlannedApproach::construct((
+            0.8, 1.0, 0.5, 0.03, 0.2, 0.25, 0.1, 0.55, 0.15, 0.4, 1.2, 0.76, 0.43, 0.05, 0.05, 0.05,
+        ))
+    }
+
+    fn reactive() -> ReactiveApproach {
+        ReactiveApproach::construct((0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, 0.25, 0.1, 0.55, 0.15, 0.05))
+    }
+
+    /// Drives until the end, or for 100 s. Returns the pose of the base and whether it was reached or missed.
+    fn drive(
+        mut process: impl FnMut(&Pose2, &Pose2, Event<()>, Event<()>) -> Option<Twist>,
+        start: Pose2,
+    ) -> (Pose2, bool, bool) {
+        let (mut base, mut heading) = (start, start.theta);
+        for _ in 0..2000 {
+            let (mut reached, mut missed) = (None, None);
+            let trailer = Articulated::PATSY.trailer(&base, heading);
+            let twist = process(&base, &trailer, apex_rt::event(&mut reached), apex_rt::event(&mut missed));
+            if reached.is_some() || missed.is_some() {
+                return (base, reached.is_some(), missed.is_some());
+            }
+            let Twist { x, omega, .. } = twist.expect("a twist while it is active");
+            heading += trailer_rotation(x, omega, base.theta - heading, 0.1, 0.55) * 0.05;
+            base = advanced(&base, if x > 0.0 { omega / x } else { 0.0 }, 0.05 * x);
+        }
+        (base, false, false)
+    }
+
+    fn active() -> Ctx {
+        Ctx::new(Time::ZERO).of_node(true)
+    }
+
+    #[test]
+    fn both_drive_beneath_a_container_ahead() {
+        let (mut a, mut b) = (planned(), reactive());
+        let ahead = Pose2::new(0.0, 0.0, 0.0);
+        for start in [ahead, Pose2::new(0.0, 0.2, 0.0), Pose2::new(-1.0, -0.5, 0.1)] {
+            a.forget();
+            let (end, reached, _) = drive(|p, t, r, m| a.process(&active(), p, t, Some(&CONTAINER), r, m), start);
+            assert!(reached && (end.x - 4.0 - Articulated::PATSY.axis()).abs() < 0.06, "{end:?}");
+        }
+        let (end, reached, _) = drive(|p, t, r, m| b.process(&active(), p, t, Some(&CONTAINER), r, m), ahead);
+        assert!(reached && end.y.abs() < 0.06, "{end:?}");
+    }
+
+    #[test]
+    fn the_plan_comes_from_the_side_and_from_behind() {
+        let mut node = planned();
+        for start in [Pose2::new(2.0, 4.0, 0.5), Pose2::new(2.5, -1.0, FRAC_PI_2), Pose2::new(6.0, 1.0, PI)] {
+            node.forget();
+            // The container is seen once.
+            let mut container = Some(&CONTAINER);
+            let (end, reached, _) = drive(|p, t, r, m| node.process(&active(), p, t, container.take(), r, m), start);
+            assert!(reached && end.y.abs() < 0.03 && end.theta.abs() < 0.03, "{end:?} from {start:?}");
+        }
+    }
+
+    #[test]
+    fn a_container_that_turns_out_to_be_elsewhere_is_approached_there() {
+        let (mut node, mut firing) = (planned(), 0);
+        let moved = Pose2::new(4.1, 0.3, 0.1);
+        let (end, reached, _) = drive(
+            |p, t, r, m| {
+                firing += 1;
+                let container = if firing < 40 { CONTAINER } else { moved };
+                node.process(&active(), p, t, Some(&container), r, m)
+            },
+            Pose2::new(0.0, 0.0, 0.0),
+        );
+        assert!(reached && end.relative_to(&moved).y.abs() < 0.03, "{end:?}");
+    }
+
+    #[test]
+    fn no_way_is_reported_and_bad_poses_stop() {
+        let nothing = || Event::unconnected();
+        let (mut node, at) = (planned(), Pose2::default());
+        node.free_width = 0.3;
+        let mut missed = None;
+        let twist = node.process(&active(), &at, &at, Some(&CONTAINER), nothing(), apex_rt::event(&mut missed));
+        assert_eq!((twist, missed.is_some()), (Some(Twist::ZERO), true));
+        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
+        let (mut a, mut b) = (planned(), reactive());
+        assert_eq!(a.process(&active(), &nan, &at, Some(&CONTAINER), nothing(), nothing()), None);
+        assert_eq!(b.process(&active(), &at, &at, Some(&nan), nothing(), nothing()), None);
+        let inactive = Ctx::new(Time::ZERO);
+        assert_eq!(a.process(&inactive, &at, &at, Some(&CONTAINER), nothing(), nothing()), None);
+        assert!(a.process(&active(), &at, &at, Some(&CONTAINER), nothing(), nothing()).is_some());
+        let halted = a.process(&inactive, &at, &at, None, nothing(), nothing());
+        assert_eq!(halted, Some(Twist::ZERO), "it stops when it is interrupted");
+    }
+}

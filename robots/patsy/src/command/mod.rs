@@ -1,0 +1,80 @@
+//! Commands of the program.
+
+mod approach;
+mod args;
+mod simulate;
+mod times;
+mod validate;
+
+use lexopt::Parser;
+use std::{env, ffi::OsString, process::ExitCode};
+
+const HELP: &str = "\
+PATSY looks for containers in laser scans and draws what it sees.
+
+Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE]]
+       patsy obstacles [OPTIONS]
+       patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
+       patsy times [--first-seed N] [--seeds N]
+       patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
+
+Without arguments it plays 5000 scans in simulated rooms and measures itself. Pictures are written to out/patsy.
+
+  --log FILE        scans from a recording: .csv (number, source number, ranges in m) or CARMEN .log, also packed (.gz)
+  --container KIND  what to look for in a recording: pallet (default) or cart
+  --labels FILE     boxes that the containers lie in: number, x_min, y_min, x_max, y_max in m
+  --table FILE      where the detections are written (default out/patsy/detections.csv)
+  --help            this text
+
+`obstacles` measures the detection of obstacles with a time-of-flight camera; `patsy obstacles --help` lists its
+options.
+
+`approach` drives tractor and trailer beneath a container from 459 poses, with the controller of the thesis and with the
+planned one, and draws from where they arrive.
+
+  --first-seed N    first seed (default 1): of the directions of the castors, of rooms, motions and noise
+  --seeds N         number of seeds (default 1)
+  --jobs N          number of threads (default: as many as there are cores)
+  --out FILE        the picture (default out/patsy/approach.svg)
+
+`times` measures the computing time of the search in simulated rooms, on one thread.
+
+`validate` chooses the limits of the search for pallets on all blocks of time of a recording but one, counts what it
+finds in that block, and does so for each block.
+
+  --with FILE       scans with a pallet each, whose boxes are in the file of --labels
+  --without FILE    scans without a pallet
+  --folds N         number of blocks (default 5)
+
+Exit codes: 0 fine, 1 some scans could not be read, 2 nothing could be done.
+";
+
+/// Command: reads its options and does its work. An error is the reason why this was not possible.
+type Command = fn(&mut Parser) -> Result<ExitCode, String>;
+
+const COMMANDS: [(&str, Command); 3] =
+    [("approach", approach::approach), ("times", times::times), ("validate", validate::validate)];
+
+/// Runs the command that the arguments of the program name. Without a name, it is the simulation.
+pub fn run() -> Result<ExitCode, String> {
+    let mut args = env::args_os().skip(1).peekable();
+    let is_name = |arg: &OsString| !arg.as_encoded_bytes().starts_with(b"-");
+    let name = args.next_if(is_name);
+    // It has a help of its own.
+    if name.as_ref().is_some_and(|name| name == "obstacles") {
+        return patsy::obstacles::run(args);
+    }
+    let args: Vec<OsString> = args.collect();
+    if args.iter().any(|arg| arg == "--help" || arg == "-h") {
+        print!("{HELP}");
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut parser = Parser::from_args(args);
+    let Some(name) = name else { return simulate::simulate_or_replay(&mut parser) };
+    let command = COMMANDS.iter().find(|(known, _)| name == *known);
+    let (_, command) = command.ok_or_else(|| {
+        let known: Vec<String> = COMMANDS.iter().map(|(known, _)| format!("`{known}`")).collect();
+        format!("`{}` is not a command; there are {}, and `--help`", name.display(), known.join(", "))
+    })?;
+    command(&mut parser)
+}
