@@ -94,7 +94,13 @@ impl BoxModel {
 
     /// Share of the beams between two wheels of the near side that are not stopped before it: 1 if there are none.
     pub fn passing(&self, [a, b]: [&View; 2], scan: &Scan) -> f32 {
-        let (Some(from), Some(to)) = (scan.beam_towards(a.bearing), scan.beam_towards(b.bearing)) else { return 1.0 };
+        // Seen obliquely, the wheels themselves are before the line that joins their centres.
+        let inner = |one: &View, other: &View| {
+            let ends = one.ends.map(|end| end.angle());
+            let off = |angle: &f32| (angle - other.bearing).abs();
+            scan.beam_towards(if off(&ends[0]) < off(&ends[1]) { ends[0] } else { ends[1] })
+        };
+        let (Some(from), Some(to)) = (inner(a, b), inner(b, a)) else { return 1.0 };
         let (mut free, mut all) = (0_u16, 0_u16);
         let across = b.centre - a.centre;
         for beam in from.min(to) + 1..from.max(to) {
@@ -235,8 +241,10 @@ mod tests {
     fn beams_between_the_near_wheels_pass_or_are_stopped() {
         let mut scan = Scan { angle_min: -0.5, angle_increment: 0.01, range_max: 20.0, ..Scan::default() };
         scan.ranges.extend([10.0; 101]);
-        let [a, b] =
-            [0.2, -0.2].map(|bearing| View { bearing, centre: Point2::polar(2.0, bearing), ..View::default() });
+        let [a, b] = [0.2, -0.2].map(|bearing| {
+            let centre = Point2::polar(2.0, bearing);
+            View { bearing, centre, ends: [centre; 2], ..View::default() }
+        });
         assert_eq!(MODEL.passing([&a, &b], &scan), 1.0);
         // From 1 m on the left, something stands in the way.
         scan.ranges[50..80].fill(1.0);
