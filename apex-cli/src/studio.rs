@@ -17,7 +17,7 @@ use apex_dsl::{
     ide::{ArgumentPlace, set_argument},
     program::Program,
 };
-use apex_studio::{ParamChange, Remote, Robot, Source, Studio};
+use apex_studio::{ParamChange, Remote, Replayed, Robot, Source, Studio};
 use std::{
     env, fs,
     io::{self, IsTerminal as _, Write as _},
@@ -25,7 +25,7 @@ use std::{
     path::{Path, PathBuf},
     process::{Command, ExitCode},
     sync::{Arc, Mutex, PoisonError},
-    time::{Duration, Instant},
+    time::{Duration, Instant, SystemTime},
 };
 
 /// A robot that is built and started.
@@ -56,7 +56,8 @@ pub fn speed(text: &str) -> Result<f64, String> {
 
 /// Runs the robot and serves its page until Ctrl-C.
 pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
-    let text = Arc::new(Text { file: launch.file.clone(), errors: Mutex::default() });
+    let (file, replay) = (launch.file.clone(), launch.replay.clone());
+    let text = Arc::new(Text { file, replay, has_params: launch.params.is_some(), errors: Mutex::default() });
     let speed = Some(page.speed);
     let served = match &page.connect {
         Some(address) => {
@@ -96,6 +97,10 @@ impl Page {
 /// The source file.
 struct Text {
     file: PathBuf,
+    /// Recording that the robot repeats.
+    replay: Option<PathBuf>,
+    /// `true` if the robot begins with the parameters of a file.
+    has_params: bool,
     /// Its errors, for which a changed robot is not started.
     errors: Mutex<Option<String>>,
 }
@@ -127,22 +132,35 @@ impl Source for Text {
     }
 
     fn save_params(&self, params: &str) -> Result<String, String> {
+        let head = "# Parameters that were changed in `apex studio`, for `--params`.\n";
         let names = (1..).map(|n| if n == 1 { "params.toml".to_owned() } else { format!("params-{n}.toml") });
-        for path in names.map(|end| self.file.with_extension(end)) {
-            match fs::File::create_new(&path) {
-                Ok(mut file) => {
-                    let head = "# Parameters that were changed in `apex studio`, for `--params`.\n";
-                    let written = file.write_all(head.as_bytes()).and_then(|()| file.write_all(params.as_bytes()));
-                    return match written {
-                        Ok(()) => Ok(path.display().to_string()),
-                        Err(error) => Err(format!("cannot write `{}`: {error}", path.display())),
-                    };
-                }
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(format!("cannot write `{}`: {error}", path.display())),
-            }
+        create(names.map(|end| self.file.with_extension(end)), &[head, params]).map(|path| path.display().to_string())
+    }
+
+    fn replayed(&self) -> Result<Option<Replayed>, String> {
+        if self.has_params {
+            return Err("a test has the parameters of the source, and the robot began with those of a file".to_owned());
         }
-        unreachable!("there are as many names as numbers")
+        let Some(replay) = &self.replay else { return Ok(None) };
+        let folder = self.file.canonicalize().ok().and_then(|file| Some(file.parent()?.to_path_buf()));
+        let path = replay.canonicalize().map_err(|e| format!("cannot find `{}`: {e}", replay.display()))?;
+        let inside = folder.and_then(|folder| Some(path.strip_prefix(folder).ok()?.to_path_buf()));
+        let channels = recorded_channels(&path).map_err(|why| format!("cannot read `{}`: {why}", path.display()))?;
+        Ok(Some(Replayed { file: inside.unwrap_or(path).display().to_string(), channels }))
+    }
+
+    fn write_test(&self, program: &str, test: &str) -> Result<String, String> {
+        let module = self.file.file_stem().and_then(|stem| stem.to_str()).ok_or("the source file has no name")?;
+        let text = format!("//! A moment in a run of `{program}`.\nuse {module}::{program};\n\n{test}");
+        let name = |n: u32| if n == 1 { format!("{module}_moment.afg") } else { format!("{module}_moment_{n}.afg") };
+        let path = create((1..).map(|n| self.file.with_file_name(name(n))), &[&text])?;
+        let checked = project::check(&path)?;
+        if checked.diagnostics.has_errors() {
+            // Nothing that does not work stays.
+            let _ = fs::remove_file(&path);
+            return Err(checked.rendered());
+        }
+        Ok(path.display().to_string())
     }
 
     fn write_param(&self, change: &ParamChange<'_>) -> Result<String, String> {
@@ -161,6 +179,32 @@ impl Source for Text {
     }
 }
 
+/// Names of the channels of a recording that have tokens.
+fn recorded_channels(path: &Path) -> Result<Vec<String>, String> {
+    let bytes = fs::read(path).map_err(|error| error.to_string())?;
+    let summary = mcap::Summary::read(&bytes).map_err(|error| error.to_string())?.unwrap_or_default();
+    // A file that was cut off has no statistics.
+    let counts = summary.stats.ok_or("it is incomplete")?.channel_message_counts;
+    let has_tokens = |id: &u16| counts.get(id).is_some_and(|count| *count > 0);
+    Ok(summary.channels.iter().filter(|(id, _)| has_tokens(id)).map(|(_, channel)| channel.topic.clone()).collect())
+}
+
+/// Writes `parts` to the first of these files that does not exist. Returns its path.
+fn create(mut paths: impl Iterator<Item = PathBuf>, parts: &[&str]) -> Result<PathBuf, String> {
+    loop {
+        let path = paths.next().ok_or("there is no free name")?;
+        let error = match fs::File::create_new(&path) {
+            Ok(mut file) => match parts.iter().try_for_each(|part| file.write_all(part.as_bytes())) {
+                Ok(()) => return Ok(path),
+                Err(error) => error,
+            },
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+            Err(error) => error,
+        };
+        return Err(format!("cannot write `{}`: {error}", path.display()));
+    }
+}
+
 /// Interval between checks of the files.
 const INTERVAL: Duration = Duration::from_millis(300);
 
@@ -173,8 +217,9 @@ struct Launched {
     socket: PathBuf,
     /// A program that has been built, but not started.
     built: Option<Found>,
-    /// Command that has started the current program.
+    /// Command that has started the current program, and the time at which that was built.
     command: Option<Command>,
+    built_at: Option<SystemTime>,
     running: Option<Running>,
     has_started: bool,
     folders: Vec<PathBuf>,
@@ -195,6 +240,7 @@ impl Launched {
             socket,
             built: None,
             command: None,
+            built_at: None,
             running: None,
             has_started: false,
             folders,
@@ -210,8 +256,8 @@ impl Launched {
             profile: None,
             recording: launch.replay.as_deref().map_or(Recording::Stated, Recording::Repeated),
             args: &launch.args,
-            // Parameters that were set survive a restart. A recording has its own.
-            watch: launch.replay.is_none(),
+            // Parameters that were set survive a restart. In simulated time they are set again at the same reactions.
+            watch: launch.replay.is_none() && !launch.simulated,
             stream: Stream::WaitAt(socket),
             simulated: launch.simulated,
             how: launch.how,
@@ -260,6 +306,7 @@ impl Robot for Launched {
         }
         let mut command = Self::wanted(&self.launch, &self.params, &socket).command(&built);
         self.running = Some(Running::new(command.spawn().map_err(|e| built.not_started(&e))?));
+        self.built_at = built_at(&command);
         self.command = Some(command);
         Ok(socket)
     }
@@ -285,12 +332,23 @@ impl Robot for Launched {
         if !is_stable || now == *built {
             return false;
         }
-        self.build().unwrap_or_else(|message| {
+        let is_built = self.build().unwrap_or_else(|message| {
             print_error(&format!("error: {message}"));
             self.text.set_errors(Some(message));
             false
-        })
+        });
+        // A new file that the program does not use, such as a test, does not change it.
+        let is_same = self.command.as_ref().is_some_and(|command| built_at(command) == self.built_at);
+        if is_built && is_same {
+            self.built = None;
+        }
+        is_built && !is_same
     }
+}
+
+/// Time at which the program of a command was built.
+fn built_at(command: &Command) -> Option<SystemTime> {
+    fs::metadata(command.get_program()).and_then(|file| file.modified()).ok()
 }
 
 impl Drop for Launched {

@@ -75,15 +75,26 @@ impl RemoteParams {
         T: Send + 'static,
         F: FnOnce(&mut dyn Access) -> Result<T, Rejection> + Send + 'static,
     {
-        let param = find(self.params, name)?;
         let (answer, answered) = sync_channel(1);
+        // Nobody waits for the answer of a thread that has ended.
+        self.post(name, act, move |result| drop(answer.send(result)))?;
+        answered.recv().unwrap_or(Err(ParamError::Ended))
+    }
+
+    /// Lets `act` be called on the thread of the parameter's group, and `answer` there with its result. A program that
+    /// has ended calls neither.
+    pub(crate) fn post<T, F, A>(&self, name: &str, act: F, answer: A) -> Result<(), ParamError>
+    where
+        F: FnOnce(&mut dyn Access) -> Result<T, Rejection> + Send + 'static,
+        A: FnOnce(Result<T, ParamError>) + Send + 'static,
+    {
+        let param = find(self.params, name)?;
         let act = move |access: Option<&mut dyn Access>| {
-            // Nobody waits for the answer of a thread that has ended.
-            let _ = answer.send(access.map_or(Err(Rejection::Opaque), act));
+            let result = access.map_or(Err(Rejection::Opaque), act);
+            answer(result.map_err(|refusal| ParamError::Refused { param, refusal }));
         };
         self.requests.put(Request { name: param.name, act: Box::new(act) });
-        let result = answered.recv().map_err(|_| ParamError::Ended)?;
-        result.map_err(|refusal| ParamError::Refused { param, refusal })
+        Ok(())
     }
 }
 
@@ -128,6 +139,12 @@ impl Requests {
         let mut waiting = self.waiting();
         waiting.ended = true;
         waiting.requests.clear();
+    }
+
+    /// Forgets all requests that wait.
+    #[cfg(feature = "studio")]
+    pub fn forget(&self) {
+        self.waiting().requests.clear();
     }
 
     /// Registers this thread: it is unparked by each request as long as the result lives.

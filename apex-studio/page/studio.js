@@ -6,6 +6,7 @@ import { Params } from "./params.js";
 import { Values } from "./values.js";
 import { Text } from "./text.js";
 import { Why } from "./why.js";
+import { Moment } from "./moment.js";
 
 /** @typedef {{name: string, kind: string, docs: string, file: number, line: number, column: number, ports: [string, string, string][]}} AboutNode */
 /** @typedef {{from: number, output: string, to: number, input: string}} Connection */
@@ -66,6 +67,7 @@ const params = new Params(element("params"), element("params-filter"));
 const values = new Values(element("values"), element("values-filter"));
 const text = new Text(element("text"));
 const why = new Why(element("why"), picture, timeline);
+const moment = new Moment(timeline);
 
 let paused = false;
 /** @type {number | null} */
@@ -77,25 +79,28 @@ const tells = {
   about({ about, texts, readonly, travels, repeats }) {
     robot.about = about;
     robot.readonly = readonly;
-    robot.now = 0;
-    if (robot.times) robot.times = new Map();
-    robot.nodes = about.nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
-    robot.connections = about.connections.map(() => ({ count: 0, fresh: false, rate: 0 }));
-    rates.length = 0;
+    forget();
     document.title = `${about.name} – Apex Studio`;
     element("name").textContent = about.name;
     element("name").title = about.docs;
     element("pace").hidden = !about.simulated || readonly;
     element("restart").hidden = readonly;
     for (const id of ["back", "goto"]) element(id).hidden = !travels || readonly;
-    element("problems").replaceChildren();
-    problems = 0;
-    showActive();
     params.begin();
     values.begin();
     text.begin(texts);
     why.begin();
     if (!repeats) timeline.begin();
+    moment.begin();
+  },
+  back() {
+    forget();
+    values.begin();
+    why.begin();
+  },
+  checkpoints(why) {
+    element("back").title = "before the last reaction (,)" + (why === null ? "" : `. Repeats the run from its start: ${why}`);
+    element("back").textContent = why === null ? "Back" : "Back, from the start";
   },
   break(error) {
     element("break").classList.toggle("is-wrong", error !== null);
@@ -116,12 +121,26 @@ const tells = {
     picture.heat();
   },
   why(lines) { why.update(lines); },
+  test(result) { moment.tell(result); },
   saved(result) { params.tell(result); },
   tokens(all) { values.update(all); },
   lanes(lanes) { timeline.show(lanes); },
   refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
 };
 let refused = false;
+
+/** Forgets everything that the robot has done. */
+function forget() {
+  const { nodes, connections } = robot.about ?? { nodes: [], connections: [] };
+  robot.now = 0;
+  if (robot.times) robot.times = new Map();
+  robot.nodes = nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
+  robot.connections = connections.map(() => ({ count: 0, fresh: false, rate: 0 }));
+  rates.length = 0;
+  element("problems").replaceChildren();
+  problems = 0;
+  showActive();
+}
 
 /** A place below an element, for a tip. @param {HTMLElement} of */
 function centre(of) {

@@ -18,6 +18,7 @@ export class Timeline {
     /** Time of the last request in ms. */
     this.asked = 0;
     /** @type {number | null} */ this.cursor = null;
+    /** A marked interval in s. @type {[number, number] | null} */ this.marked = null;
     /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[], before: any[], differs: number | null} | null} */
     this.lanes = null;
     this.begin();
@@ -89,6 +90,13 @@ export class Timeline {
     this.axis(c, color, height);
     canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
     lanes.forEach((lane, at) => this.lane(c, color, lane, AXIS + at * HEIGHT));
+    if (this.marked !== null) {
+      const [a, b] = this.marked.map((time) => Math.max(LABELS, this.x(time)));
+      c.fillStyle = color("--accent");
+      c.globalAlpha = 0.15;
+      c.fillRect(a, 0, Math.max(1, b - a), height);
+      c.globalAlpha = 1;
+    }
     const differs = this.lanes?.differs ?? null;
     if (differs !== null && this.x(differs) >= LABELS) {
       c.fillStyle = color("--bad");
@@ -204,8 +212,10 @@ export class Timeline {
       this.request();
       this.draw();
     }, { passive: false });
-    let drag = /** @type {{x: number, moved: boolean} | null} */ (null);
-    canvas.addEventListener("pointerdown", (event) => { drag = { x: event.clientX, moved: false }; });
+    let drag = /** @type {{x: number, moved: boolean, marks: number | null} | null} */ (null);
+    canvas.addEventListener("pointerdown", (event) => {
+      drag = { x: event.clientX, moved: false, marks: event.ctrlKey ? this.time(event) : null };
+    });
     canvas.addEventListener("pointermove", (event) => {
       if (!drag) {
         const lane = this.filtered()[Math.floor((event.offsetY - AXIS) / HEIGHT)];
@@ -216,9 +226,14 @@ export class Timeline {
       const by = event.clientX - drag.x;
       if (!drag.moved && Math.abs(by) < 4) return;
       if (!drag.moved) canvas.setPointerCapture(event.pointerId);
+      if (drag.marks !== null) {
+        drag.moved = true;
+        canvas.dispatchEvent(new CustomEvent("mark", { detail: [drag.marks, this.time(event)] }));
+        return;
+      }
       this.stop();
       this.end -= (by / this.width()) * this.span;
-      drag = { x: event.clientX, moved: true };
+      drag = { x: event.clientX, moved: true, marks: null };
       this.request();
       this.draw();
     });

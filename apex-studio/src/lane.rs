@@ -8,6 +8,7 @@ const MAX_BUCKETS: usize = 200_000;
 const BUCKET: i64 = 1_000_000;
 
 /// History of a node.
+#[derive(Clone)]
 pub struct Lane {
     /// Beginning and end of each time of activity in ns, in sequence; the last one may have no end yet.
     spans: Vec<(i64, i64)>,
@@ -97,6 +98,43 @@ impl Lane {
     /// A problem occurs.
     pub fn mark(&mut self, now: i64) {
         self.marks.push(now);
+    }
+
+    /// The part of it up to a time with this state of the node: activity, and number of firings.
+    pub fn until(&self, now: i64, active: bool, fired: u64) -> Self {
+        let mut spans: Vec<(i64, i64)> = self.spans.iter().copied().take_while(|span| span.0 <= now).collect();
+        if let Some(last) = spans.last_mut().filter(|_| active) {
+            last.1 = i64::MAX;
+        } else if let Some(last) = spans.last_mut()
+            && last.1 > now
+        {
+            // It became active only in a later reaction at the same time.
+            spans.pop();
+        }
+        let end = self.fired.partition_point(|(_, count)| *count < fired);
+        let mut buckets = self.fired[..(end + 1).min(self.fired.len())].to_vec();
+        match buckets.last_mut() {
+            Some(last) if fired > 0 => last.1 = fired,
+            _ => buckets.clear(),
+        }
+        let marks = self.marks.iter().copied().take_while(|mark| *mark <= now).collect();
+        Self { spans, bucket: self.bucket, fired: buckets, marks }
+    }
+
+    /// `true` if it is active after the reactions at a time.
+    pub fn is_active_at(&self, time: i64) -> bool {
+        let begun = self.spans.partition_point(|span| span.0 <= time);
+        begun > 0 && self.spans[begun - 1].1 > time
+    }
+
+    /// Times of activity that end after `from` and begin until `to`.
+    pub fn spans_in(&self, from: i64, to: i64) -> impl Iterator<Item = (i64, i64)> + '_ {
+        self.spans.iter().copied().filter(move |(begin, end)| *end > from && *begin <= to)
+    }
+
+    /// `true` if it was active at any time.
+    pub fn was_active(&self) -> bool {
+        !self.spans.is_empty()
     }
 
     /// `true` if it was active or had problems at any time.
@@ -189,6 +227,25 @@ mod tests {
         assert_eq!(drawn, Drawn { node: 2, spans: vec![(0, 1), (500, 750)], ticks: vec![], marks: vec![0] });
         let near = Window { from: 4_000_000, to: 6_000_000, columns: 100 };
         assert_eq!(lane.draw(2, near, 2_700_000_000_000).spans, [(50, 51)]);
+    }
+
+    #[test]
+    fn a_lane_is_taken_back_to_an_earlier_state() {
+        let (mut early, mut late, ms) = (Lane::default(), Lane::default(), |ms: f64| (ms * 1e6) as i64);
+        for lane in [&mut early, &mut late] {
+            lane.activity(ms(1.0), true);
+            [1.0, 2.1, 2.2].into_iter().for_each(|at| lane.fire(ms(at)));
+            lane.mark(ms(2.0));
+        }
+        late.fire(ms(2.3));
+        late.fire(ms(4.0));
+        late.activity(ms(4.0), false);
+        late.activity(ms(5.0), true);
+        late.mark(ms(5.0));
+        let back = late.until(ms(2.2), true, 3);
+        assert_eq!((back.spans, back.fired, back.marks), (early.spans, early.fired, early.marks));
+        let begin = late.until(0, false, 0);
+        assert_eq!((begin.spans, begin.fired, begin.marks), (vec![], vec![], vec![]));
     }
 
     #[test]

@@ -7,6 +7,7 @@ mod condition;
 mod journey;
 mod lane;
 mod live;
+mod moment;
 mod picture;
 mod robot;
 mod server;
@@ -44,8 +45,29 @@ pub trait Source: Send + Sync + 'static {
     /// The value in the source is not a plain one, or the file cannot be written.
     fn write_param(&self, change: &ParamChange<'_>) -> Result<String, String>;
 
+    /// The recording that the robot repeats, if it repeats one.
+    ///
+    /// # Errors
+    /// Reason why a test cannot begin as the robot did.
+    fn replayed(&self) -> Result<Option<Replayed>, String>;
+
+    /// Writes a test of the graph `program` to a new file beside the source file. Returns its path.
+    ///
+    /// # Errors
+    /// The file cannot be written, or the compiler finds mistakes in the test.
+    fn write_test(&self, program: &str, test: &str) -> Result<String, String>;
+
     /// Contents of these files; empty for those that cannot be read.
     fn texts(&self, files: &[String]) -> Vec<String>;
+}
+
+/// A recording that a robot repeats.
+#[derive(Debug, Clone)]
+pub struct Replayed {
+    /// Path of the file, from the folder of the source file.
+    pub file: String,
+    /// Names of the channels that have tokens.
+    pub channels: Vec<String>,
 }
 
 /// A new value of a parameter for the source.

@@ -62,6 +62,12 @@ pub struct Live {
     pub measured: u64,
     /// `true` if this run repeats an earlier one up to a point.
     pub repeats: bool,
+    /// Number of times that this run went back to a checkpoint.
+    pub returns: u64,
+    /// Reason why there are no checkpoints.
+    pub no_checkpoints: Option<String>,
+    /// States at the robot's checkpoints.
+    checkpoints: Vec<Checkpoint>,
     /// The last steps.
     pub steps: Steps,
     lanes: Vec<Lane>,
@@ -69,9 +75,22 @@ pub struct Live {
     before: Option<Before>,
 }
 
+/// A state at a checkpoint, as far as it does not follow from the history.
+struct Checkpoint {
+    reactions: u64,
+    now: i64,
+    nodes: Vec<Node>,
+    handled: Vec<u64>,
+    problem_count: u64,
+    lost: u64,
+}
+
 /// A run before this one, for comparison.
 struct Before {
-    lanes: Vec<Lane>,
+    /// Lanes by node of this run; `None` for nodes that the earlier one did not have.
+    lanes: Vec<Option<Lane>>,
+    /// Nodes of the earlier run.
+    about: Arc<About>,
     times: Vec<i64>,
     now: i64,
 }
@@ -124,6 +143,16 @@ pub struct Tokens {
     pub bytes: Vec<u8>,
 }
 
+impl Before {
+    /// Gives the lanes the numbers of the same nodes in a robot whose source may have changed.
+    fn map_to(&mut self, about: &Arc<About>) {
+        let known = self.about.nodes.iter().map(|node| node.name.as_str());
+        let mut lanes: BTreeMap<&str, Option<Lane>> = known.zip(self.lanes.drain(..)).collect();
+        let lanes = about.nodes.iter().map(|node| lanes.remove(node.name.as_str()).flatten()).collect();
+        (self.lanes, self.about) = (lanes, Arc::clone(about));
+    }
+}
+
 impl Default for Live {
     fn default() -> Self {
         Self {
@@ -145,6 +174,9 @@ impl Default for Live {
             calls: vec![],
             measured: 0,
             repeats: false,
+            returns: 0,
+            no_checkpoints: None,
+            checkpoints: vec![],
             steps: Steps::default(),
             lanes: vec![],
             before: None,
@@ -156,12 +188,14 @@ impl Live {
     /// Begins a run of the robot that a message describes.
     pub fn begin(&mut self, about: About) {
         let (runs, repeats) = (self.runs + 1, self.repeats);
-        let before = self.before.take().filter(|_| repeats);
+        let mut before = self.before.take().filter(|_| repeats);
+        let about = Arc::new(about);
+        before.iter_mut().for_each(|before| before.map_to(&about));
         *self = Self { runs, repeats, before, run: Run::Running, ..Self::default() };
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::default()).collect();
         self.handled = vec![0; about.connections.len()];
-        self.about = Some(Arc::new(about));
+        self.about = Some(about);
     }
 
     /// Takes note of a message. Numbers that do not fit the description of the robot are ignored.
@@ -227,6 +261,8 @@ impl Live {
             Report::Lost(count) => self.lost += count,
             Report::Param { name, value, reactions } => self.param(name, value, reactions),
             Report::Pace { paused, speed, .. } => (self.paused, self.speed) = (paused, speed),
+            Report::Checkpoints(all) => self.keep(&all),
+            Report::NoCheckpoints(why) => (self.no_checkpoints, self.checkpoints) = (Some(why), vec![]),
             Report::Ended => self.run = Run::Ended,
         }
     }
@@ -317,12 +353,61 @@ impl Live {
         changed.map(|(name, param)| format!("{name} = {}\n", param.value)).collect()
     }
 
+    /// Takes note of the robot's checkpoints. The last one may be new.
+    fn keep(&mut self, all: &[u64]) {
+        self.checkpoints.retain(|checkpoint| all.contains(&checkpoint.reactions));
+        let now = self.times.len() as u64;
+        let is_new = self.checkpoints.last().is_none_or(|last| last.reactions < now);
+        if is_new && all.last() == Some(&now) {
+            let Self { nodes, handled, problem_count, lost, now: time, .. } = self;
+            self.checkpoints.push(Checkpoint {
+                reactions: now,
+                now: *time,
+                nodes: nodes.clone(),
+                handled: handled.clone(),
+                problem_count: *problem_count,
+                lost: *lost,
+            });
+        }
+    }
+
+    /// `true` if there is a checkpoint that has at most this number of reactions before it.
+    pub fn has_checkpoint(&self, reactions: u64) -> bool {
+        self.checkpoints.first().is_some_and(|first| first.reactions <= reactions)
+    }
+
+    /// Goes back to the checkpoint with this number of reactions before it. Returns `false` if it is not known.
+    pub fn go_back(&mut self, reactions: u64) -> bool {
+        let Some(at) = self.checkpoints.iter().position(|checkpoint| checkpoint.reactions == reactions) else {
+            return false;
+        };
+        self.checkpoints.truncate(at + 1);
+        let Checkpoint { now, nodes, handled, problem_count, lost, .. } = &self.checkpoints[at];
+        for (lane, node) in self.lanes.iter_mut().zip(nodes) {
+            *lane = lane.until(*now, node.active, node.fired);
+        }
+        let known = self.problem_count - self.problems.len() as u64;
+        self.problems.truncate(usize::try_from(problem_count.saturating_sub(known)).unwrap_or(usize::MAX));
+        (self.now, self.problem_count, self.lost) = (*now, *problem_count, *lost);
+        (self.nodes, self.handled) = (nodes.clone(), handled.clone());
+        self.times.truncate(usize::try_from(reactions).unwrap_or(usize::MAX));
+        self.sets.retain(|(at, ..)| *at < reactions);
+        self.steps.take_back(reactions);
+        for tokens in self.tokens.values_mut() {
+            tokens.newest.retain(|(at, _)| *at <= self.now);
+            tokens.count = tokens.newest.len() as u64;
+        }
+        (self.returns, self.run, self.repeats) = (self.returns + 1, Run::Running, true);
+        true
+    }
+
     /// Keeps this run for comparison with the next one, which repeats it up to a point.
     pub fn depart(&mut self) {
+        let Some(about) = self.about.clone() else { return };
         let goes_further = |before: &Before| before.now >= self.now && self.differs().is_none();
         if !self.before.as_ref().is_some_and(goes_further) {
-            let lanes = std::mem::replace(&mut self.lanes, self.nodes.iter().map(|_| Lane::default()).collect());
-            self.before = Some(Before { lanes, times: self.times.clone(), now: self.now });
+            let lanes = self.lanes.iter().cloned().map(Some).collect();
+            self.before = Some(Before { lanes, about, times: self.times.clone(), now: self.now });
         }
         self.repeats = true;
     }
@@ -338,19 +423,88 @@ impl Live {
     pub fn differs(&self) -> Option<i64> {
         let before = self.before.as_ref()?;
         let until = self.now.min(before.now);
-        self.lanes.iter().zip(&before.lanes).filter_map(|(lane, other)| lane.differs(other, until)).min()
+        let both = self.lanes.iter().zip(&before.lanes).filter_map(|(lane, other)| Some((lane, other.as_ref()?)));
+        both.filter_map(|(lane, other)| lane.differs(other, until)).min()
     }
 
     /// The lanes of the run that this one repeats, for the nodes of `lanes`.
     pub fn draw_before(&self, window: Window, lanes: &[Drawn]) -> Vec<Drawn> {
         let Some(before) = &self.before else { return vec![] };
-        lanes.iter().filter_map(|lane| Some(before.lanes.get(lane.node)?.draw(lane.node, window, before.now))).collect()
+        let drawn = |node: usize| Some(before.lanes.get(node)?.as_ref()?.draw(node, window, before.now));
+        lanes.iter().filter_map(|lane| drawn(lane.node)).collect()
+    }
+
+    /// History of each node.
+    pub fn lanes(&self) -> &[Lane] {
+        &self.lanes
     }
 
     /// The lanes of all nodes that were active or had problems, and of those in `also`.
     pub fn draw(&self, window: Window, also: &[usize]) -> Vec<Drawn> {
-        let was = |at: usize| self.before.as_ref().and_then(|b| b.lanes.get(at)).is_some_and(Lane::is_of_interest);
+        let was =
+            |at: usize| self.before.as_ref().and_then(|b| b.lanes.get(at)?.as_ref()).is_some_and(Lane::is_of_interest);
         let is_drawn = |(at, lane): &(usize, &Lane)| lane.is_of_interest() || was(*at) || also.contains(at);
         self.lanes.iter().enumerate().filter(is_drawn).map(|(at, lane)| lane.draw(at, window, self.now)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::studio::message::AboutNode;
+
+    fn begun() -> Live {
+        let node = |name: &str| AboutNode {
+            name: name.to_owned(),
+            kind: String::new(),
+            docs: String::new(),
+            file: 0,
+            line: 1,
+            column: 1,
+            ports: vec![],
+        };
+        let mut live = Live::default();
+        live.begin(About {
+            version: 0,
+            name: String::new(),
+            docs: String::new(),
+            files: vec![],
+            simulated: true,
+            nodes: ["a", "b"].map(node).into(),
+            connections: vec![],
+            groups: vec![],
+            claims: vec![],
+            channels: vec![],
+            params: vec![],
+        });
+        live
+    }
+
+    fn react(live: &mut Live, ms: i64) {
+        live.note(Report::Reaction { group: 0, now: ms * 1_000_000 });
+        live.note(Report::Fired(0));
+        live.note(Report::Activity { node: 1, active: ms % 2 == 0 });
+        live.note(Report::Failed { node: 0, error: ms.to_string() });
+    }
+
+    #[test]
+    fn a_run_goes_back_to_a_checkpoint_and_is_compared_with_what_it_was() {
+        let mut live = begun();
+        (0..4).for_each(|ms| react(&mut live, ms));
+        live.note(Report::Checkpoints(vec![2]));
+        live.note(Report::Checkpoints(vec![2, 4]));
+        let (nodes, steps) = (live.nodes.clone(), live.steps.until(i64::MAX));
+        (4..9).for_each(|ms| react(&mut live, ms));
+        // The first list came too late for the state then.
+        assert!(!live.has_checkpoint(3) && live.has_checkpoint(5) && !live.go_back(2));
+        live.depart();
+        assert!(live.go_back(4));
+        assert_eq!((live.now, live.times.len(), live.problems.len(), live.problem_count), (3_000_000, 4, 4, 4));
+        assert_eq!((&live.nodes, live.steps.until(i64::MAX)), (&nodes, steps));
+        assert_eq!(live.reactions_until(7_000_000), 8);
+        (4..6).for_each(|ms| react(&mut live, ms));
+        assert_eq!(live.differs(), None);
+        [6, 8, 9].into_iter().for_each(|ms| react(&mut live, ms));
+        assert_eq!(live.differs(), Some(7_000_000));
     }
 }

@@ -67,6 +67,8 @@ impl Robot for Remote {
 
 /// Time between two attempts to connect.
 const RETRY: Duration = Duration::from_millis(50);
+/// Time between two looks at a robot that runs.
+const LOOK: Duration = Duration::from_millis(5);
 /// Time that a started robot has to open its socket.
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -90,6 +92,8 @@ struct Link {
     stop: String,
     /// The way to the state that the next run begins with.
     journey: Option<Journey>,
+    /// `true` if the robot was told to go back to a checkpoint.
+    returns: bool,
     over: bool,
 }
 
@@ -158,7 +162,7 @@ impl Shared {
         self.changed.notify_all();
     }
 
-    /// Goes to the state after this number of reactions, by a new run if it is in the past.
+    /// Goes to the state after this number of reactions: if it is in the past, from a checkpoint or by a new run.
     pub fn travel(&self, goal: u64) {
         let mut live = self.live();
         if goal >= live.times.len() as u64 {
@@ -166,13 +170,36 @@ impl Shared {
             self.tell(&Command::RunTo { reactions: goal });
             return;
         }
-        let journey = Journey::of(&live, goal);
+        let (journey, returns) = (Journey::of(&live, goal), live.has_checkpoint(goal));
         live.depart();
         drop(live);
         let mut link = locked(&self.link);
         link.journey = Some(journey);
-        link.restart = true;
+        (link.returns, link.restart) = (returns, !returns);
+        if returns {
+            link.tell(&Command::GoBack { reactions: goal });
+        }
         self.changed.notify_all();
+    }
+
+    /// Starts the robot again if it should have gone back to a checkpoint.
+    fn has_no_checkpoint(&self) {
+        let mut link = locked(&self.link);
+        if std::mem::take(&mut link.returns) {
+            link.restart = true;
+        }
+    }
+
+    /// Lets the next run, of a changed robot, do what this one did, if that can be repeated.
+    fn repeat_changed(&self) {
+        let mut live = self.live();
+        let journey = live.about.as_ref().is_some_and(|about| about.simulated).then(|| Journey::of_changed(&live));
+        if journey.is_some() {
+            live.depart();
+        }
+        drop(live);
+        let mut link = locked(&self.link);
+        (link.journey, link.returns, link.restart) = (journey, false, true);
     }
 
     /// Ends the connection for good.
@@ -210,8 +237,14 @@ pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64
         }
         let journey = locked(&shared.link).journey.take();
         shared.live().repeats = journey.is_some();
-        match robot.start(journey.is_some()) {
-            Ok(address) => run(&mut robot, &address, shared, &mut speed, journey),
+        match robot.start(journey.as_ref().is_some_and(|journey| !journey.is_of_changed())) {
+            Ok(address) => {
+                let travels = !robot.comes_back();
+                let mut way = Way { travels, journey, returns: false };
+                while let Some(next) = run(&mut robot, &address, shared, &mut speed, way) {
+                    way = Way { travels, journey: Some(next), returns: true };
+                }
+            }
             Err(error) => shared.set(Run::Lost(error)),
         }
         robot.stop();
@@ -219,30 +252,55 @@ pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64
     }
 }
 
-/// Takes note of one run.
-fn run(robot: &mut impl Robot, address: &str, shared: &Arc<Shared>, speed: &mut Option<f64>, journey: Option<Journey>) {
-    let Some((from, to)) = connection(robot, address, shared) else { return };
+/// The begin of a connection.
+struct Way {
+    /// `true` if the robot can go back in time.
+    travels: bool,
+    journey: Option<Journey>,
+    /// `true` if the robot is at one of its checkpoints.
+    returns: bool,
+}
+
+/// Takes note of what a robot does until the connection ends. If the robot has gone back to a checkpoint, returns the
+/// way from there.
+fn run(
+    robot: &mut impl Robot,
+    address: &str,
+    shared: &Arc<Shared>,
+    speed: &mut Option<f64>,
+    way: Way,
+) -> Option<Journey> {
+    let (from, to) = connection(robot, address, shared)?;
     locked(&shared.link).wire = Some(to);
     let reader = thread::scope(|scope| {
-        let reader = scope.spawn(|| read(from, shared, *speed, journey));
+        let reader = scope.spawn(|| read(from, shared, *speed, way));
         while !reader.is_finished() {
-            if shared.is_over() || locked(&shared.link).restart || robot.has_changed() {
+            let has_changed = robot.has_changed();
+            if has_changed {
+                shared.repeat_changed();
+            }
+            if shared.is_over() || has_changed || locked(&shared.link).restart {
                 robot.stop();
                 locked(&shared.link).wire = None;
             }
-            thread::sleep(RETRY);
+            thread::sleep(LOOK);
         }
         reader.join().unwrap_or_else(|_| Err("the connection has failed".to_owned()))
     });
-    locked(&shared.link).wire = None;
+    let mut link = locked(&shared.link);
+    link.wire = None;
+    let goes_back = std::mem::take(&mut link.returns) && !link.restart && !link.over;
+    let journey = if goes_back { link.journey.take() } else { None };
+    drop(link);
     let mut live = shared.live();
     // The speed that somebody has chosen holds for the next run.
     if speed.is_some() && live.speed.is_finite() {
         *speed = Some(live.speed);
     }
-    if live.run != Run::Ended {
+    if live.run != Run::Ended && journey.is_none() {
         live.run = Run::Lost(reader.err().unwrap_or_else(|| "the robot has broken off".to_owned()));
     }
+    journey
 }
 
 fn connection(robot: &mut impl Robot, address: &str, shared: &Shared) -> Option<(Box<dyn Wire>, Box<dyn Wire>)> {
@@ -266,43 +324,85 @@ fn connection(robot: &mut impl Robot, address: &str, shared: &Shared) -> Option<
 }
 
 /// Reads messages until the connection ends, and guides the robot on its journey.
-fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, mut journey: Option<Journey>) -> Result<(), String> {
+fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, way: Way) -> Result<(), String> {
     let mut from = BufReader::with_capacity(1 << 16, from);
-    loop {
-        let report = match message::read::<Report>(&mut from) {
-            Ok(Some(report)) => report,
-            Ok(None) => return Ok(()),
-            // It was killed in the middle of a message.
-            Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(()),
-            Err(error) => return Err(error.to_string()),
-        };
-        if let Report::About(about) = report {
-            if about.version != message::VERSION {
-                return Err(format!(
-                    "the robot sends version {} of its messages, and this program reads {}: build both with the same version of Apex",
-                    about.version,
-                    message::VERSION
-                ));
+    let Way { travels, mut journey, mut returns } = way;
+    let mut wants = Wants { travels, params: 0, speed: speed.filter(|_| journey.is_none()) };
+    while let Some(report) = next(&mut from)? {
+        match &report {
+            Report::About(about) => {
+                is_readable(about)?;
+                wants.params = about.params.len();
+                if returns {
+                    continue;
+                }
+                let first = journey.as_mut().and_then(|journey| journey.begin(wants.params));
+                greet(shared, about, &wants, first);
             }
-            let first = journey.as_mut().and_then(|journey| journey.begin(about.params.len()));
-            greet(shared, &about, speed.filter(|_| journey.is_none()), first);
-            shared.live().note(Report::About(about));
-            continue;
+            // The history knows who is active at the checkpoint.
+            Report::Active(_) if returns => continue,
+            Report::Pace { reactions, .. } if returns => {
+                returns = false;
+                let mut rest = journey.take().map(|journey| journey.rest_from(*reactions));
+                if !shared.live().go_back(*reactions) {
+                    shared.restart();
+                    return Ok(());
+                }
+                let first = rest.as_mut().and_then(|journey| journey.begin(wants.params));
+                journey = rest;
+                let about = shared.live().about.clone();
+                about.inspect(|about| greet(shared, about, &wants, first));
+            }
+            Report::NoCheckpoints(_) => shared.has_no_checkpoint(),
+            _ => {}
         }
         if let Some(command) = journey.as_mut().and_then(|journey| journey.after(&report)) {
             shared.tell(&command);
-        } else if journey.as_ref().is_some_and(|journey| journey.ends(&report)) {
-            journey = None;
+        } else if let Some(ended) = journey.take_if(|journey| journey.ends(&report)) {
+            ended.last().inspect(|command| shared.tell(command));
         }
         shared.live().note(report);
     }
+    Ok(())
+}
+
+/// Reads the next message. Returns `None` at the end of the connection.
+fn next(from: &mut BufReader<Box<dyn Wire>>) -> Result<Option<Report>, String> {
+    match message::read::<Report>(from) {
+        Ok(report) => Ok(report),
+        // It was killed in the middle of a message.
+        Err(error) if matches!(error.kind(), ErrorKind::UnexpectedEof | ErrorKind::ConnectionReset) => Ok(None),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn is_readable(about: &About) -> Result<(), String> {
+    if about.version == message::VERSION {
+        return Ok(());
+    }
+    Err(format!(
+        "the robot sends version {} of its messages, and this program reads {}: build both with the same version of Apex",
+        about.version,
+        message::VERSION
+    ))
+}
+
+/// Wishes for a new robot, besides those of the pages.
+struct Wants {
+    /// `true` if it may go back in time.
+    travels: bool,
+    /// Number of its parameters.
+    params: usize,
+    /// Speed at which it starts.
+    speed: Option<f64>,
 }
 
 /// Sends what a new robot has to know.
-fn greet(shared: &Shared, about: &About, speed: Option<f64>, first: Option<Command>) {
+fn greet(shared: &Shared, about: &About, wants: &Wants, first: Option<Command>) {
     let mut link = locked(&shared.link);
     link.tell(&Command::Params);
     link.tell(&Command::Follow(true));
+    link.tell(&Command::Keep(wants.travels && about.simulated));
     let channels: Vec<u32> = link.watches.keys().copied().collect();
     channels.into_iter().for_each(|channel| link.tell(&Command::Watch { channel, every: EVERY }));
     let measures = link.measures > 0;
@@ -310,7 +410,7 @@ fn greet(shared: &Shared, about: &About, speed: Option<f64>, first: Option<Comma
     // Nodes may have other numbers now; a condition on nodes that are gone is void.
     let stop = condition::parse(&link.stop, about).unwrap_or_default();
     link.tell(&Command::Break(stop));
-    let start = speed.map(|speed| Command::Run { speed });
+    let start = wants.speed.map(|speed| Command::Run { speed });
     start.into_iter().chain(first).for_each(|command| link.tell(&command));
 }
 
@@ -322,8 +422,11 @@ fn wait_for_restart(robot: &mut impl Robot, shared: &Shared) {
             return;
         }
         drop(shared.changed.wait_timeout(link, 4 * RETRY).unwrap_or_else(PoisonError::into_inner));
-        if robot.comes_back() || robot.has_changed() {
+        if robot.comes_back() {
             return;
+        }
+        if robot.has_changed() {
+            shared.repeat_changed();
         }
     }
 }

@@ -62,10 +62,11 @@ struct File {
     text: &'static str,
 }
 
-const FILES: [File; 11] = [
+const FILES: [File; 12] = [
     File { path: "/", kind: "text/html; charset=utf-8", text: include_str!("../page/index.html") },
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
     File { path: "/why.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/why.js") },
+    File { path: "/moment.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/moment.js") },
     File { path: "/studio.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/studio.js") },
     File { path: "/picture.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/picture.js") },
     File { path: "/timeline.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/timeline.js") },

@@ -4,6 +4,7 @@ use crate::{
     ParamChange, Source,
     lane::{Drawn, Window},
     live::{Live, Node, Param, Problem, Run},
+    moment,
     picture::Picture,
     robot::Shared,
     why::{Line, why},
@@ -22,6 +23,10 @@ use std::{
 pub enum Told {
     /// A robot. Everything about an earlier one is obsolete.
     About(AboutRun),
+    /// The robot has gone back to a checkpoint. All numbers, problems and tokens come again.
+    Back(u64),
+    /// Reason why the robot repeats its run from the start to go back.
+    Checkpoints(Option<String>),
     /// The picture.
     Picture { svg: String, graphs: Vec<String>, open: BTreeSet<String>, lines: BTreeMap<String, Vec<usize>> },
     /// Changes since the last such message.
@@ -42,6 +47,8 @@ pub enum Told {
     Break(Option<String>),
     /// The changed parameters were written to this file, or could not be.
     Saved(Result<String, String>),
+    /// A marked moment was written to this file as a test, or could not be.
+    Test(Result<String, String>),
     /// Lanes of the timeline.
     Lanes {
         from: f64,
@@ -126,6 +133,8 @@ pub enum Asked {
     Measure(bool),
     /// Asks why a node is active and fired, or why not, at a time in s; without one, now.
     Why { node: usize, at: Option<f64> },
+    /// Writes a test of the interval between two times in s.
+    Test(f64, f64),
     /// Asks for the lanes of the timeline, with those of `also`. Times are in s.
     Lanes { from: f64, to: f64, columns: u32, also: Vec<usize> },
 }
@@ -151,6 +160,8 @@ pub struct Session {
 #[derive(Default)]
 struct Seen {
     runs: u64,
+    returns: u64,
+    no_checkpoints: Option<String>,
     nodes: Vec<Node>,
     handled: Vec<u64>,
     problems: u64,
@@ -221,6 +232,7 @@ impl Session {
                 let changed = self.shared.live().changed_params();
                 return Some(Told::Saved(self.source.save_params(&changed)));
             }
+            Asked::Test(from, to) => return Some(Told::Test(self.write_test(from, to))),
             Asked::Write(name) => return Some(Told::Saved(self.write(&name))),
             Asked::Set { name, value } => Command::Set { name, value },
             Asked::Pause => Command::Pause,
@@ -229,6 +241,16 @@ impl Session {
         };
         self.shared.tell(&command);
         None
+    }
+
+    /// Writes a test of an interval. Returns the path of its file.
+    fn write_test(&self, from: f64, to: f64) -> Result<String, String> {
+        let replayed = self.source.replayed()?;
+        let live = self.shared.live();
+        let test = moment::test(&live, (from * 1e9).round() as i64, (to * 1e9).round() as i64, replayed.as_ref())?;
+        let name = live.about.as_ref().map_or_else(String::new, |about| about.name.clone());
+        drop(live);
+        self.source.write_test(&name, &test)
     }
 
     /// Writes a parameter into the source. Returns the place.
@@ -256,9 +278,7 @@ impl Session {
         let live = shared.live();
         let mut told = vec![];
         if let Some(about) = live.about.clone().filter(|_| live.runs != self.seen.runs) {
-            self.seen = Seen { runs: live.runs, ..Seen::default() };
-            self.seen.nodes = vec![Node::default(); live.nodes.len()];
-            self.seen.handled = vec![0; live.handled.len()];
+            self.seen = Seen::of(&live);
             let picture = self.source.picture(&about.name);
             self.picture = picture.map(Picture::new);
             let texts = self.source.texts(&about.files);
@@ -291,7 +311,17 @@ impl Session {
         if live.runs != self.seen.runs {
             return vec![];
         }
-        let mut told = vec![Told::Tick(self.seen.tick(live))];
+        let mut told = vec![];
+        if live.returns != self.seen.returns {
+            let (errors, no_checkpoints) = (self.seen.errors.take(), self.seen.no_checkpoints.take());
+            self.seen = Seen { errors, no_checkpoints, ..Seen::of(live) };
+            told.push(Told::Back(live.returns));
+        }
+        told.push(Told::Tick(self.seen.tick(live)));
+        if live.no_checkpoints != self.seen.no_checkpoints {
+            self.seen.no_checkpoints.clone_from(&live.no_checkpoints);
+            told.push(Told::Checkpoints(live.no_checkpoints.clone()));
+        }
         let new = usize::try_from(live.problem_count - self.seen.problems).unwrap_or(usize::MAX);
         if new > 0 {
             self.seen.problems = live.problem_count;
@@ -328,6 +358,12 @@ fn seconds(nanos: i64) -> f64 {
 }
 
 impl Seen {
+    /// Knowledge of a page that knows nothing but the robot.
+    fn of(live: &Live) -> Self {
+        let (nodes, handled) = (vec![Node::default(); live.nodes.len()], vec![0; live.handled.len()]);
+        Self { runs: live.runs, returns: live.returns, nodes, handled, ..Self::default() }
+    }
+
     fn tick(&mut self, live: &Live) -> Tick {
         let mut nodes = vec![];
         for (at, (node, seen)) in live.nodes.iter().zip(&mut self.nodes).enumerate() {

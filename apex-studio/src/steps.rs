@@ -51,6 +51,11 @@ impl Steps {
         self.steps.push_back(step);
     }
 
+    /// Forgets the steps after this number of reactions.
+    pub fn take_back(&mut self, reactions: u64) {
+        self.steps.truncate(self.steps.partition_point(|step| u64::from(step.reaction) <= reactions));
+    }
+
     /// `true` if there is no room for the first steps of the run any more.
     pub fn begin_is_forgotten(&self) -> bool {
         self.forgotten

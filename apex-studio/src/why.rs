@@ -13,7 +13,7 @@ const MAX_LINES: usize = 80;
 /// Maximum number of causes one behind the other.
 const MAX_DEPTH: u32 = 24;
 /// Kinds of nodes that only hand tokens on, and of the ports of the program.
-const SILENT: [&str; 9] = ["relay", "probe", "delay", "cell", "input", "output", "slot", "event", "start"];
+pub const SILENT: [&str; 9] = ["relay", "probe", "delay", "cell", "input", "output", "slot", "event", "start"];
 
 /// A line of an answer: a fact, and below it, deeper by one, its causes.
 #[derive(Debug, Clone, PartialEq, Serialize)]

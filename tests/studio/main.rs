@@ -1,6 +1,8 @@
 //! Running programs as viewers and as pages of the studio see them.
 
 mod browser;
+mod checkpoints;
+mod measure;
 mod page;
 mod pictures;
 mod stream;
@@ -14,6 +16,7 @@ use apex_rt::{
 use std::{env, path::PathBuf};
 
 graph!("studio/counts.afg");
+graph!("studio/counts_moment.afg");
 
 /// A socket for the program of a test.
 fn socket(name: &str) -> PathBuf {

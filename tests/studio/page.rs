@@ -1,18 +1,21 @@
 //! The page of the studio in a real browser: what it shows, by what stands in it.
 
-use crate::{browser::Browser, drive, open, socket};
+use crate::{browser::Browser, checkpoints::Own, drive, open, socket};
 use apex_diagram::{Item, diagram};
 use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
 use apex_host::{Disk, Seen, Workspace};
 use apex_rt::studio::StreamedTime;
-use apex_studio::{ParamChange, Remote, Robot, Source, Studio};
+use apex_studio::{ParamChange, Remote, Replayed, Robot, Source, Studio};
 use std::{
-    env, fs,
+    fs,
     io::{Read as _, Write as _},
     net::TcpStream,
-    path::{Path, PathBuf},
-    process::{Child, Command, Stdio},
-    sync::{Arc, Mutex, mpsc::channel},
+    path::Path,
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicU32, Ordering},
+        mpsc::channel,
+    },
     thread,
 };
 
@@ -50,6 +53,16 @@ impl Source for Text {
     fn write_param(&self, change: &ParamChange<'_>) -> Result<String, String> {
         *self.saved.lock().unwrap() = format!("{change:?}");
         Err("not a plain <b>number</b>".to_owned())
+    }
+
+    fn replayed(&self) -> Result<Option<Replayed>, String> {
+        Ok(None)
+    }
+
+    fn write_test(&self, program: &str, test: &str) -> Result<String, String> {
+        *self.saved.lock().unwrap() =
+            format!("//! A moment in a run of `{program}`.\nuse counts::{program};\n\n{test}");
+        Ok("counts_moment.afg".to_owned())
     }
 
     fn texts(&self, files: &[String]) -> Vec<String> {
@@ -101,27 +114,28 @@ impl Drop for Started {
     }
 }
 
-/// A robot in a process of its own, which can be started again: this program, as `robot_of_its_own`.
+/// A robot in a process of its own, which can be started again.
 struct Restarted {
     name: &'static str,
-    process: Option<Child>,
+    /// Kind of the robot.
+    kind: Option<&'static str>,
+    /// Kind of the robot after a change of its source, once there was one.
+    changed: Arc<Mutex<Option<&'static str>>>,
+    starts: Arc<AtomicU32>,
+    process: Option<Own>,
 }
 
-/// Environment variable with the name of its socket.
-const OWN: &str = "APEX_TEST_ROBOT";
-
-/// Path of the socket of a robot in another process.
-fn address(process: u32, name: &str) -> PathBuf {
-    env::temp_dir().join(format!("apex-studio-{process}-{name}"))
+impl Restarted {
+    fn new(name: &'static str, kind: Option<&'static str>) -> Self {
+        Self { name, kind, changed: Arc::default(), starts: Arc::default(), process: None }
+    }
 }
 
 impl Robot for Restarted {
     fn start(&mut self, _again: bool) -> Result<String, String> {
-        let mut command = Command::new(env::current_exe().map_err(|e| e.to_string())?);
-        let command = command.args(["--ignored", "--exact", "page::robot_of_its_own"]).env(OWN, self.name);
-        self.process = Some(command.stdout(Stdio::null()).spawn().map_err(|e| e.to_string())?);
-        let id = self.process.as_ref().map_or(0, Child::id);
-        Ok(address(id, self.name).display().to_string())
+        self.starts.fetch_add(1, Ordering::Relaxed);
+        let own = Own::start(self.name, 1, self.kind);
+        Ok(self.process.insert(own).path.display().to_string())
     }
 
     fn runs(&mut self) -> bool {
@@ -129,31 +143,64 @@ impl Robot for Restarted {
     }
 
     fn stop(&mut self) {
-        if let Some(mut process) = self.process.take() {
-            process.kill().expect("it runs");
-            process.wait().expect("it ends");
-            let _ = fs::remove_file(address(process.id(), self.name));
-        }
+        self.process = None;
     }
-}
 
-impl Drop for Restarted {
-    fn drop(&mut self) {
-        self.stop();
+    fn has_changed(&mut self) -> bool {
+        let changed = self.changed.lock().unwrap().take();
+        self.kind = changed.or(self.kind);
+        changed.is_some()
     }
 }
 
 #[test]
-#[ignore = "other tests start it as a process of its own"]
-fn robot_of_its_own() {
-    if let Ok(name) = env::var(OWN) {
-        drive(&open(&name, StreamedTime::Waiting), 3600);
-    }
+fn a_robot_with_another_text_does_the_same_again_and_is_compared() {
+    let robot = Restarted::new("changed", None);
+    let changed = Arc::clone(&robot.changed);
+    let Some(mut page) = Browser::open(&studio_of(robot, false).0) else { return };
+    page.wait_for(RUNNING);
+    page.wait_for("parseFloat(document.getElementById('now').textContent) > 0.3");
+    let row = "document.querySelector('[data-param=\"times.factor\"]')";
+    page.value(&format!(
+        "{{ const text = {row}.querySelector('input[type=text]'); text.value = '5'; text.dispatchEvent(new Event('change')); }}"
+    ));
+    page.wait_for(&format!("{row}.classList.contains('is-changed')"));
+    page.wait_for("parseFloat(document.getElementById('now').textContent) > 1");
+    assert_eq!(page.value("document.getElementById('differs').textContent"), "");
+    *changed.lock().unwrap() = Some("slow");
+    page.wait_for("document.getElementById('name').textContent === 'SlowCounts'");
+    // The parameter is set again, and the robot goes on, as the old one did.
+    page.wait_for(&format!("{row}.classList.contains('is-changed')"));
+    page.wait_for(RUNNING);
+    page.wait_for("parseFloat(document.getElementById('now').textContent) > 1.5");
+    page.wait_for("document.getElementById('differs').textContent === 'differs from the run before since 0.010 s'");
+    assert_eq!(page.complaints, Vec::<String>::new());
 }
 
 #[test]
-fn a_robot_goes_back_in_time_and_to_conditions() {
-    let Some(mut page) = Browser::open(&studio_of(Restarted { name: "back", process: None }, false).0) else { return };
+fn a_robot_goes_back_to_a_checkpoint_and_to_conditions() {
+    let robot = Restarted::new("back", None);
+    let starts = Arc::clone(&robot.starts);
+    goes_back(robot);
+    // At its first start, and at the restart in the end.
+    assert_eq!(starts.load(Ordering::Relaxed), 2);
+}
+
+#[test]
+fn a_robot_with_threads_goes_back_by_a_new_run() {
+    let robot = Restarted::new("back-anew", Some("thread"));
+    let starts = Arc::clone(&robot.starts);
+    goes_back(robot);
+    assert_eq!(starts.load(Ordering::Relaxed), 4);
+}
+
+fn goes_back(robot: Restarted) {
+    let has_thread = robot.kind.is_some();
+    let Some(mut page) = Browser::open(&studio_of(robot, false).0) else { return };
+    goes_back_on(&mut page, has_thread);
+}
+
+fn goes_back_on(page: &mut Browser, has_thread: bool) {
     page.wait_for(RUNNING);
     page.wait_for("parseFloat(document.getElementById('now').textContent) > 0.5");
     page.press(" ");
@@ -167,7 +214,9 @@ fn a_robot_goes_back_in_time_and_to_conditions() {
     };
     let row = "document.querySelector('[data-param=\"times.factor\"]')";
     let factor = |of: &str| format!("{row}.querySelector('input[type=text]').value === '{of}'");
-    let set_at = now(&mut page);
+    let back = if has_thread { "Back, from the start" } else { "Back" };
+    page.wait_for(&format!("document.getElementById('back').textContent === '{back}'"));
+    let set_at = now(page);
     page.value(&format!(
         "{{ const text = {row}.querySelector('input[type=text]'); text.value = '5'; text.dispatchEvent(new Event('change')); }}"
     ));
@@ -177,7 +226,7 @@ fn a_robot_goes_back_in_time_and_to_conditions() {
     page.press(" ");
     page.wait_for(halted);
     // One reaction back, with the parameter as it was set.
-    let last = now(&mut page);
+    let last = now(page);
     page.press(",");
     page.wait_for(&format!("document.getElementById('now').textContent === '{:.3} s'", last - 0.01));
     page.wait_for(halted);
@@ -198,9 +247,9 @@ fn a_robot_goes_back_in_time_and_to_conditions() {
             "{{ const halt = document.getElementById('break'); halt.value = '{text}'; halt.dispatchEvent(new Event('change')); }}"
         ));
     };
-    condition(&mut page, "active(cuont)");
+    condition(page, "active(cuont)");
     page.wait_for("document.getElementById('tip').textContent.includes('did you mean')");
-    condition(&mut page, "active(gated) && !active(count)");
+    condition(page, "active(gated) && !active(count)");
     page.wait_for("!document.getElementById('break').classList.contains('is-wrong')");
     page.value("document.getElementById('restart').click()");
     page.wait_for("document.getElementById('now').textContent === '0.000 s'");
@@ -331,6 +380,37 @@ fn parameters_are_set_checked_undone_and_saved() {
     }
     page.value(&format!("{row}.querySelector('.undo').click()"));
     page.wait_for(&format!("!{row}.classList.contains('is-changed')"));
+}
+
+#[test]
+fn a_marked_moment_becomes_a_test() {
+    let _robot = start("moment", 3600);
+    let (address, text) = studio("moment", false);
+    let Some(mut page) = Browser::open(&address) else { return };
+    page.wait_for(RUNNING);
+    page.wait_for("parseFloat(document.getElementById('now').textContent) > 0.5");
+    let mark = |page: &mut Browser, from: f64, to: f64| {
+        page.value(&format!(
+            "document.getElementById('timeline').dispatchEvent(new CustomEvent('mark', {{ detail: [{from}, {to}] }}))"
+        ));
+        page.value("document.getElementById('moment-test').click()");
+    };
+    mark(&mut page, 9000.0, 9001.0);
+    page.wait_for("document.getElementById('moment').textContent === 'mark an interval in the past'");
+    // Out of order, as when one drags to the left.
+    mark(&mut page, 0.3, 0.1);
+    page.wait_for("document.getElementById('moment').textContent === 'written to counts_moment.afg'");
+    // This text is a test of this crate, too: it passes.
+    assert_eq!(*text.saved.lock().unwrap(), include_str!("counts_moment.afg"));
+    let row = "document.querySelector('[data-param=\"times.factor\"]')";
+    page.value(&format!(
+        "{{ const text = {row}.querySelector('input[type=text]'); text.value = '7'; text.dispatchEvent(new Event('change')); }}"
+    ));
+    page.wait_for(&format!("{row}.classList.contains('is-changed')"));
+    page.value("new Promise((done) => setTimeout(done, 300))");
+    mark(&mut page, 0.1, 9000.0);
+    page.wait_for("document.getElementById('moment').textContent.includes('write it into the source')");
+    assert_eq!(page.complaints, Vec::<String>::new());
 }
 
 #[test]

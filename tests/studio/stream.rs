@@ -5,28 +5,36 @@ use apex_rt::studio::{
     StreamedTime, Wire, connect,
     message::{self, About, Command, Report, Test},
 };
-use std::{fs, io::Write as _, thread};
+use std::{
+    fs,
+    io::{self, Write as _},
+    thread,
+};
 
 /// A viewer of a program that runs on another thread.
-struct Viewer {
-    from: Box<dyn Wire>,
+pub struct Viewer {
+    pub from: Box<dyn Wire>,
     to: Box<dyn Wire>,
 }
 
 impl Viewer {
-    fn tell(&mut self, command: &Command) {
+    pub fn connect(address: &str) -> io::Result<Self> {
+        connect(address).map(|(from, to)| Self { from, to })
+    }
+
+    pub fn tell(&mut self, command: &Command) {
         let mut bytes = vec![];
         message::write(command, &mut bytes);
         self.to.write_all(&bytes).expect("the robot listens");
     }
 
     /// The next message, `None` after the last one.
-    fn next(&mut self) -> Option<Report> {
+    pub fn next(&mut self) -> Option<Report> {
         message::read(&mut self.from).expect("messages are well-formed")
     }
 
     /// Messages until the one that `last` accepts, which is included.
-    fn until(&mut self, last: impl Fn(&Report) -> bool) -> Vec<Report> {
+    pub fn until(&mut self, last: impl Fn(&Report) -> bool) -> Vec<Report> {
         let mut all = vec![];
         while let Some(report) = self.next() {
             let found = last(&report);
@@ -38,14 +46,14 @@ impl Viewer {
         panic!("the stream ended: {:?}", all.last_chunk::<5>())
     }
 
-    fn about(&mut self) -> About {
+    pub fn about(&mut self) -> About {
         match self.next() {
             Some(Report::About(about)) => about,
             other => panic!("{other:?} instead of a description"),
         }
     }
 
-    fn set(&mut self, name: &str, value: &str) -> Result<String, String> {
+    pub fn set(&mut self, name: &str, value: &str) -> Result<String, String> {
         self.tell(&Command::Set { name: name.to_owned(), value: value.to_owned() });
         match self.until(|report| matches!(report, Report::Param { .. })).pop() {
             Some(Report::Param { name: of, value, .. }) if of == name => value,

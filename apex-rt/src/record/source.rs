@@ -83,9 +83,26 @@ pub struct Source {
     over: bool,
 }
 
+/// File with a position of its own: a checkpoint of the process (feature `studio`) has another one.
+struct Positioned {
+    file: File,
+    at: u64,
+}
+
+impl Read for Positioned {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        #[cfg(unix)]
+        let count = std::os::unix::fs::FileExt::read_at(&self.file, into, self.at)?;
+        #[cfg(not(unix))]
+        let count = self.file.read(into)?;
+        self.at += count as u64;
+        Ok(count)
+    }
+}
+
 /// File with the checksum of the bytes that were read.
 struct Summed {
-    file: BufReader<File>,
+    file: BufReader<Positioned>,
     sum: Hasher,
 }
 
@@ -116,7 +133,8 @@ impl Source {
         if path.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
-        let mut file = Summed { file: BufReader::new(File::open(path)?), sum: Hasher::new() };
+        let file = BufReader::new(Positioned { file: File::open(path)?, at: 0 });
+        let mut file = Summed { file, sum: Hasher::new() };
         let mut magic = vec![];
         (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
         if !MAGIC.starts_with(&magic) {

@@ -11,7 +11,7 @@ use std::{
 };
 
 /// Version of the messages. It changes with every change of their types.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 /// Maximum size of a message in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -115,6 +115,10 @@ pub enum Report {
         /// Number of reactions so far.
         reactions: u64,
     },
+    /// Numbers of reactions before all checkpoints, in sequence. The last one may be new: it is then the current state.
+    Checkpoints(Vec<u64>),
+    /// The program has no checkpoints, for this reason, or cannot go back to one.
+    NoCheckpoints(String),
     /// The program has ended. No message follows.
     Ended,
 }
@@ -157,8 +161,22 @@ pub enum Command {
         /// Number of reactions since its start.
         reactions: u64,
     },
+    /// Lets a simulated robot continue as fast as possible, and halts it before the first reaction at this time or a
+    /// later one.
+    RunUntil {
+        /// Time in ns.
+        now: i64,
+    },
     /// Halts a simulated robot between two reactions whenever this condition has become true. An empty one never is.
     Break(Vec<Test>),
+    /// Lets a simulated robot make checkpoints from time to time, or no longer.
+    Keep(bool),
+    /// Halts a simulated robot at the last checkpoint that has no more than this number of reactions before it. The
+    /// connection ends; the next one at the same address is to the robot at the checkpoint.
+    GoBack {
+        /// Number of reactions since its start.
+        reactions: u64,
+    },
 }
 
 /// Times of the calls of a node: firings, and tokens at its slots.

@@ -6,6 +6,10 @@
 //! lets it run. Anyone who can connect can set parameters: use addresses that others cannot reach, such as
 //! `127.0.0.1:7400`.
 
+#[cfg(feature = "studio")]
+mod checkpoint;
+#[cfg(feature = "studio")]
+mod fork;
 pub mod message;
 #[cfg(feature = "studio")]
 mod run;

@@ -1,5 +1,6 @@
 use super::{
     Stream,
+    checkpoint::Checkpoints,
     message::{self, About},
     server::Server,
     shared::{Pace, Shared},
@@ -12,7 +13,6 @@ use std::{
     env, io,
     string::String,
     sync::{Arc, Mutex, PoisonError, atomic::Ordering},
-    thread::{self, JoinHandle},
     vec,
     vec::Vec,
 };
@@ -33,7 +33,6 @@ pub struct Studio {
     /// Rings of the groups that have no stream yet.
     rings: Mutex<Vec<Producer<u8>>>,
     address: String,
-    thread: Option<JoinHandle<()>>,
 }
 
 /// Time of a streamed program.
@@ -88,9 +87,8 @@ impl Studio {
         let description = About::new(info, &channels, P::PARAMS, time != StreamedTime::Real);
         message::write(&message::Report::About(description), &mut about);
         let (address, params) = (listener.address(), RemoteParams::new(Arc::clone(&requests), P::PARAMS));
-        let server = Server { listener, rings: far, shared: Arc::clone(&shared), channels, about, params };
-        let thread = thread::Builder::new().name("apex-studio".into()).spawn(move || server.run())?;
-        Ok(Self { info, shared, requests, rings: Mutex::new(near), address, thread: Some(thread) })
+        shared.start(Server::new(listener, far, Arc::clone(&shared), channels, about, params))?;
+        Ok(Self { info, shared, requests, rings: Mutex::new(near), address })
     }
 
     /// Address of the socket, with the port that the system has chosen if the given one was 0.
@@ -112,6 +110,7 @@ impl Studio {
             frame: vec![],
             now: 0,
             times: Times::default(),
+            checkpoints: Checkpoints::default(),
         })
     }
 }
@@ -120,9 +119,6 @@ impl Drop for Studio {
     fn drop(&mut self) {
         self.requests.end();
         self.shared.over.store(true, Ordering::Release);
-        if let Some(thread) = self.thread.take() {
-            // A panic there concerns only the viewers.
-            let _ = thread.join();
-        }
+        drop(self.shared.stop());
     }
 }

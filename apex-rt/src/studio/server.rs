@@ -1,6 +1,7 @@
 //! The thread that talks to viewers.
 
 use super::{
+    fork::Lifeline,
     message::{self, Command, Report},
     shared::{Pace, Shared},
     socket::{Listener, Wire},
@@ -8,7 +9,7 @@ use super::{
 };
 use crate::{
     RemoteParams,
-    params::{ParamError, with_text},
+    params::{Access, ParamError, with_text},
     record::Channel,
 };
 use core::time::Duration;
@@ -42,14 +43,19 @@ const MAX_TEXT: usize = 16 << 10;
 /// Maximum length of a token that is converted to text, in bytes.
 const MAX_SHOWN: usize = 64 << 10;
 
+/// Everything that the thread has.
 pub struct Server {
-    pub listener: Listener,
-    pub rings: Vec<Consumer<u8>>,
-    pub shared: Arc<Shared>,
-    pub channels: Vec<Channel>,
+    listener: Listener,
+    rings: Vec<Consumer<u8>>,
+    shared: Arc<Shared>,
+    channels: Vec<Channel>,
     /// Description of the robot, as a message.
-    pub about: Vec<u8>,
-    pub params: RemoteParams,
+    about: Vec<u8>,
+    params: RemoteParams,
+    answers: (Sender<Report>, Receiver<Report>),
+    viewers: Vec<Viewer>,
+    /// Ends if the process ends whose checkpoint this one was.
+    pub lifeline: Option<Lifeline>,
 }
 
 /// A connected viewer.
@@ -65,44 +71,45 @@ struct Viewer {
     measures: bool,
     /// `true` if it wants to know of every token.
     follows: bool,
+    /// `true` if it wants checkpoints.
+    keeps: bool,
     /// `true` after an error or the end of its commands.
     gone: bool,
 }
 
-/// A request for parameters, which the program serves between two reactions.
-enum Ask {
-    All,
-    Set(String, String),
-}
-
 impl Server {
-    /// Serves viewers until the end of the program.
-    pub fn run(mut self) {
-        let (ask, asked) = channel();
-        let (answer, answers) = channel();
-        let (params, shared) = (self.params.clone(), Arc::clone(&self.shared));
-        // Answers take as long as a reaction; meanwhile messages have to be sent.
-        let asker = thread::Builder::new()
-            .name("apex-studio-params".into())
-            .spawn(move || serve(&params, &shared, &asked, &answer));
-        if asker.is_err() {
-            return;
-        }
-        let (mut viewers, mut batch): (Vec<Viewer>, Vec<u8>) = (vec![], vec![]);
+    pub fn new(
+        listener: Listener,
+        rings: Vec<Consumer<u8>>,
+        shared: Arc<Shared>,
+        channels: Vec<Channel>,
+        about: Vec<u8>,
+        params: RemoteParams,
+    ) -> Self {
+        Self { listener, rings, shared, channels, about, params, answers: channel(), viewers: vec![], lifeline: None }
+    }
+
+    /// Serves viewers until the end of the program, or until it has to stop.
+    pub fn run(mut self) -> Self {
+        let mut batch: Vec<u8> = vec![];
         loop {
             // Loaded before the rings are read, so that all messages from before the end are seen.
             let over = self.shared.over.load(Acquire);
+            if self.shared.stops.load(Acquire) && !over {
+                return self;
+            }
+            self.lifeline.as_ref().inspect(|lifeline| lifeline.check());
+            let mut viewers = core::mem::take(&mut self.viewers);
             self.welcome(&mut viewers);
             for viewer in &mut viewers {
-                viewer.receive(&self.shared, &ask);
+                viewer.receive(&self);
             }
-            self.shared.measured.store(viewers.iter().any(|viewer| viewer.measures), Relaxed);
-            self.shared.followed.store(viewers.iter().any(|viewer| viewer.follows), Relaxed);
+            self.note_wishes(&viewers);
             self.collect(&mut batch);
             if let Some(report) = self.shared.pace.as_ref().and_then(Pace::news) {
                 message::write(&report, &mut batch);
             }
-            answers.try_iter().for_each(|report| message::write(&report, &mut batch));
+            self.answers.1.try_iter().for_each(|report| message::write(&report, &mut batch));
             self.values(&mut viewers);
             if over {
                 message::write(&Report::Ended, &mut batch);
@@ -116,12 +123,30 @@ impl Server {
             self.dismiss(&mut viewers);
             if over {
                 farewell(&mut viewers);
-                return;
+                return self;
             }
             if is_quiet {
-                thread::sleep(if viewers.is_empty() { DOZE } else { LOOK });
+                thread::park_timeout(if viewers.is_empty() { DOZE } else { LOOK });
             }
+            self.viewers = viewers;
         }
+    }
+
+    /// Leaves all viewers, and forgets what was to be sent to them: another process serves them.
+    pub fn leave_viewers(&mut self) {
+        self.viewers.clear();
+        self.collect(&mut vec![]);
+        self.answers = channel();
+        self.shared.watched.store(false, Release);
+        self.note_wishes(&[]);
+        self.update_channels(&[]);
+    }
+
+    /// Stores what the viewers want to know.
+    fn note_wishes(&self, viewers: &[Viewer]) {
+        self.shared.measured.store(viewers.iter().any(|viewer| viewer.measures), Relaxed);
+        self.shared.followed.store(viewers.iter().any(|viewer| viewer.follows), Relaxed);
+        self.shared.keeps.store(viewers.iter().any(|viewer| viewer.keeps), Relaxed);
     }
 
     /// Greets new viewers.
@@ -142,6 +167,7 @@ impl Server {
                 watches: vec![],
                 measures: false,
                 follows: false,
+                keeps: false,
                 gone: false,
             });
         }
@@ -218,6 +244,42 @@ impl Server {
         Some(Report::Value { channel: channel as u32, now, text: shortened(text, MAX_TEXT), bytes })
     }
 
+    /// Asks the program for the values of all parameters. The answers come after its reaction.
+    fn ask_for_all(&self) {
+        for param in self.params.all() {
+            let (tell, refused) = (self.tells(param.name.into(), None), self.tells(param.name.into(), None));
+            let asked = self.params.post(param.name, |access| Ok((access.get().to_string(), None)), tell);
+            asked.unwrap_or_else(|error| refused(Err(error)));
+        }
+    }
+
+    /// Asks the program to set a parameter.
+    fn set(&self, name: String, value: String) {
+        let (tell, refused) = (self.tells(name.clone(), Some(0)), self.tells(name.clone(), Some(0)));
+        let shared = Arc::clone(&self.shared);
+        let act = move |access: &mut dyn Access| {
+            with_text(&value, |value| access.set(value))?;
+            Ok((access.get().to_string(), Some(shared.pace.as_ref().map_or(0, Pace::reactions))))
+        };
+        self.params.post(&name, act, tell).unwrap_or_else(|error| refused(Err(error)));
+    }
+
+    /// Returns a function that sends the value of a parameter, and the number of reactions before it was set, or `unset`
+    /// after an error.
+    fn tells(
+        &self,
+        name: String,
+        unset: Option<u64>,
+    ) -> impl FnOnce(Result<(String, Option<u64>), ParamError>) + Send + use<> {
+        let answer = self.answers.0.clone();
+        move |result| {
+            let reactions = result.as_ref().map_or(unset, |(_, reactions)| *reactions);
+            let value = result.map(|(value, _)| value).map_err(|error| error.to_string());
+            // After the end nobody wants to know.
+            let _ = answer.send(Report::Param { name, value, reactions });
+        }
+    }
+
     fn update_channels(&self, viewers: &[Viewer]) {
         for (at, wanted) in self.shared.channels.iter().enumerate() {
             let is = viewers.iter().any(|viewer| viewer.watches.iter().any(|watch| watch.0 == at));
@@ -228,7 +290,7 @@ impl Server {
 
 impl Viewer {
     /// Obeys the commands that have come.
-    fn receive(&mut self, shared: &Shared, ask: &Sender<Ask>) {
+    fn receive(&mut self, server: &Server) {
         let mut bytes = [0; 4096];
         loop {
             match self.wire.read(&mut bytes) {
@@ -249,7 +311,7 @@ impl Viewer {
         }
         loop {
             match message::take(&mut self.came) {
-                Ok(Some(command)) => self.obey(command, shared, ask),
+                Ok(Some(command)) => self.obey(command, server),
                 Ok(None) => return,
                 Err(_) => {
                     self.gone = true;
@@ -259,23 +321,27 @@ impl Viewer {
         }
     }
 
-    fn obey(&mut self, command: Command, shared: &Shared, ask: &Sender<Ask>) {
+    fn obey(&mut self, command: Command, server: &Server) {
         match command {
             Command::Watch { channel, every } => {
                 let channel = channel as usize;
                 self.watches.retain(|watch| watch.0 != channel);
-                if every > 0 && channel < shared.channels.len() {
+                if every > 0 && channel < server.shared.channels.len() {
                     self.watches.push((channel, Duration::from_millis(every.into()), None));
                 }
             }
             Command::Measure(measures) => self.measures = measures,
             Command::Follow(follows) => self.follows = follows,
-            // The other thread lives as long as this one.
-            Command::Params => drop(ask.send(Ask::All)),
-            Command::Set { name, value } => drop(ask.send(Ask::Set(name, value))),
+            Command::Keep(keeps) => {
+                self.keeps = keeps;
+                // Before the next command, which may let the program run.
+                server.shared.keeps.fetch_or(keeps, Relaxed);
+            }
+            Command::Params => server.ask_for_all(),
+            Command::Set { name, value } => server.set(name, value),
             pace => {
-                if let Some(state) = &shared.pace {
-                    state.obey(&pace, &shared.active);
+                if let Some(state) = &server.shared.pace {
+                    state.obey(&pace, &server.shared.active);
                 }
             }
         }
@@ -304,33 +370,4 @@ fn farewell(viewers: &mut [Viewer]) {
         viewers.iter_mut().for_each(Viewer::flush);
         thread::sleep(LOOK);
     }
-}
-
-/// Serves requests for parameters until the program ends.
-fn serve(params: &RemoteParams, shared: &Arc<Shared>, asked: &Receiver<Ask>, answer: &Sender<Report>) {
-    let tell = |name: String, value: Result<String, ParamError>, reactions| {
-        let value = value.map_err(|error| error.to_string());
-        answer.send(Report::Param { name, value, reactions }).is_ok()
-    };
-    for ask in asked {
-        let go_on = match ask {
-            Ask::All => params.all().iter().all(|param| tell(param.name.into(), params.get_text(param.name), None)),
-            Ask::Set(name, value) => {
-                let result = set(params, Arc::clone(shared), &name, value);
-                let reactions = result.as_ref().map_or(0, |(_, reactions)| *reactions);
-                tell(name, result.map(|(value, _)| value), Some(reactions))
-            }
-        };
-        if !go_on {
-            return;
-        }
-    }
-}
-
-/// Sets a parameter. Returns its new value, and the number of reactions before.
-fn set(params: &RemoteParams, shared: Arc<Shared>, name: &str, value: String) -> Result<(String, u64), ParamError> {
-    params.ask(name, move |access| {
-        with_text(&value, |value| access.set(value))?;
-        Ok((access.get().to_string(), shared.pace.as_ref().map_or(0, Pace::reactions)))
-    })
 }

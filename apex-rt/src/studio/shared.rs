@@ -1,13 +1,21 @@
 //! State that the thread groups of a program share with the thread that talks to viewers.
 
-use super::message::{Command, Report, Test};
+use super::{
+    message::{Command, Report, Test},
+    server::Server,
+};
 use core::time::Duration;
 use std::{
     boxed::Box,
+    io,
     sync::{
         Condvar, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicBool, AtomicU64, Ordering::Relaxed},
+        atomic::{
+            AtomicBool, AtomicU64,
+            Ordering::{Relaxed, Release},
+        },
     },
+    thread::{self, JoinHandle},
     time::Instant,
     vec::Vec,
 };
@@ -27,8 +35,13 @@ pub struct Shared {
     pub followed: AtomicBool,
     /// Number of messages that did not fit into a ring.
     pub lost: AtomicU64,
+    /// `true` while a viewer wants checkpoints.
+    pub keeps: AtomicBool,
     /// Pace of the program, if its time is simulated.
     pub pace: Option<Pace>,
+    /// `true` while the thread that talks to viewers is to stop.
+    pub stops: AtomicBool,
+    thread: Mutex<Option<JoinHandle<Server>>>,
 }
 
 /// A channel that a viewer may ask for.
@@ -57,8 +70,29 @@ impl Shared {
             measured: AtomicBool::new(false),
             followed: AtomicBool::new(false),
             lost: AtomicU64::new(0),
+            keeps: AtomicBool::new(false),
             pace,
+            stops: AtomicBool::new(false),
+            thread: Mutex::new(None),
         }
+    }
+
+    /// Starts the thread that talks to viewers.
+    pub fn start(&self, server: Server) -> io::Result<()> {
+        let thread = thread::Builder::new().name("apex-studio".into()).spawn(move || server.run())?;
+        *self.thread.lock().unwrap_or_else(PoisonError::into_inner) = Some(thread);
+        Ok(())
+    }
+
+    /// Stops that thread, and returns all that it has, or `None` if there is no such thread.
+    pub fn stop(&self) -> Option<Server> {
+        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take()?;
+        self.stops.store(true, Release);
+        thread.thread().unpark();
+        // A panic there concerns only the viewers.
+        let server = thread.join().ok();
+        self.stops.store(false, Release);
+        server
     }
 
     /// Returns all active nodes.
@@ -78,8 +112,10 @@ struct State {
     paused: bool,
     /// Number of reactions so far.
     reactions: u64,
-    /// Number of reactions after which the program halts; until then it does not wait.
-    goal: Option<u64>,
+    /// The point at which the program halts; until then it does not wait.
+    goal: Option<Goal>,
+    /// Number of reactions to which it is to go back.
+    back: Option<u64>,
     speed: f64,
     /// Simulated time in ns and the machine's time at which the current speed began to hold.
     since: Option<(i64, Instant)>,
@@ -89,6 +125,25 @@ struct State {
     is_new: bool,
 }
 
+/// A point at which a program halts.
+#[derive(Clone, Copy)]
+enum Goal {
+    /// After this number of reactions.
+    Reactions(u64),
+    /// Before the first reaction at this time in ns or a later one.
+    Time(i64),
+}
+
+/// The next act of a program between two reactions.
+pub enum Turn {
+    /// It reacts.
+    React,
+    /// It looks for requests, and waits again.
+    Wait,
+    /// It goes back to this number of reactions.
+    GoBack(u64),
+}
+
 /// Time after which a waiting program looks for requests.
 const LOOK: Duration = Duration::from_millis(10);
 
@@ -96,7 +151,7 @@ impl Pace {
     /// A pace of as fast as possible; `paused` if the program waits for a viewer.
     pub fn new(paused: bool) -> Self {
         let (speed, stop) = (f64::INFINITY, (Vec::new(), false));
-        let state = State { paused, reactions: 0, goal: None, speed, since: None, stop, is_new: false };
+        let state = State { paused, reactions: 0, goal: None, back: None, speed, since: None, stop, is_new: false };
         Self { state: Mutex::new(state), changed: Condvar::new() }
     }
 
@@ -126,8 +181,13 @@ impl Pace {
         let mut state = self.state();
         match command {
             Command::Pause => (state.paused, state.goal) = (true, None),
-            Command::Step => state.goal = Some(state.goal.unwrap_or(state.reactions) + 1),
-            Command::RunTo { reactions } => state.goal = Some(*reactions),
+            Command::Step => {
+                let from = if let Some(Goal::Reactions(goal)) = state.goal { goal } else { state.reactions };
+                state.goal = Some(Goal::Reactions(from + 1));
+            }
+            Command::RunTo { reactions } => state.goal = Some(Goal::Reactions(*reactions)),
+            Command::RunUntil { now } => state.goal = Some(Goal::Time(*now)),
+            Command::GoBack { reactions } => state.back = Some(*reactions),
             // Not a number, or nothing at all: the program would never continue.
             Command::Run { speed } if speed.is_nan() || *speed <= 0.0 => state.paused = true,
             Command::Run { speed } => (state.paused, state.goal, state.speed) = (false, None, *speed),
@@ -145,20 +205,34 @@ impl Pace {
         self.obey(&Command::Run { speed: f64::INFINITY }, &[]);
     }
 
-    /// Waits until the program may react at `now` (in ns), and calls `serve` from time to time. `active` has the active
-    /// nodes.
-    pub fn wait(&self, now: i64, active: &[AtomicBool], mut serve: impl FnMut()) {
+    /// Halts the program if the condition for that has become true. `active` has the active nodes.
+    pub fn halt_if_wanted(&self, active: &[AtomicBool]) {
         self.state().stop(active);
-        loop {
-            let mut state = self.state();
-            let left = state.left(now);
-            if left.is_zero() {
-                state.reactions += 1;
-                return;
-            }
-            drop(self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner));
-            serve();
+    }
+
+    /// Waits for a short time, unless the program may react at `now` (in ns) or has something else to do.
+    pub fn turn(&self, now: i64) -> Turn {
+        let mut state = self.state();
+        if let Some(reactions) = state.back.take() {
+            return Turn::GoBack(reactions);
         }
+        let left = state.left(now);
+        if left.is_zero() {
+            return Turn::React;
+        }
+        drop(self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner));
+        Turn::Wait
+    }
+
+    /// Counts a reaction, which begins now.
+    pub fn begin(&self) {
+        self.state().reactions += 1;
+    }
+
+    /// Halts the program until a viewer lets it run.
+    pub fn halt(&self) {
+        let mut state = self.state();
+        (state.paused, state.goal, state.back, state.since, state.is_new) = (true, None, None, None, true);
     }
 }
 
@@ -178,9 +252,13 @@ impl State {
 
     /// Time to wait before the reaction at `now`, at most [`LOOK`].
     fn left(&mut self, now: i64) -> Duration {
-        match self.goal {
-            Some(goal) if self.reactions < goal => return Duration::ZERO,
-            Some(_) => (self.goal, self.paused, self.is_new) = (None, true, true),
+        let is_there = |goal: Goal| match goal {
+            Goal::Reactions(goal) => self.reactions >= goal,
+            Goal::Time(goal) => now >= goal,
+        };
+        match self.goal.map(is_there) {
+            Some(false) => return Duration::ZERO,
+            Some(true) => (self.goal, self.paused, self.is_new) = (None, true, true),
             None => {}
         }
         if self.paused {

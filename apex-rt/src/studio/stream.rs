@@ -1,6 +1,8 @@
 use super::{
+    checkpoint::Checkpoints,
     message::{self, Report},
-    shared::Shared,
+    server::Server,
+    shared::{Shared, Turn},
     times::Times,
 };
 use crate::{Info, Observer, Parameters, Time, record::Codec, remote::ServedRequests};
@@ -38,6 +40,7 @@ pub struct Stream {
     /// Time of the current reaction in ns.
     pub(super) now: i64,
     pub(super) times: Times,
+    pub(super) checkpoints: Checkpoints,
 }
 
 impl Stream {
@@ -71,6 +74,49 @@ impl Stream {
     }
 }
 
+/// A program in simulated time, between two reactions.
+impl Stream {
+    /// Waits until the program may react.
+    fn wait(&mut self, params: &mut impl Parameters) {
+        let shared = Arc::clone(&self.shared);
+        let Some(pace) = &shared.pace else { return };
+        self.checkpoints.stop_clock();
+        pace.halt_if_wanted(&shared.active);
+        loop {
+            match pace.turn(self.now) {
+                Turn::React if shared.keeps.load(Relaxed) && self.checkpoints.is_due() => {
+                    self.beside(|checkpoints, server| checkpoints.make(server, pace.reactions()));
+                }
+                Turn::React => {
+                    if !shared.keeps.load(Relaxed) {
+                        self.checkpoints.give_up();
+                    }
+                    break;
+                }
+                Turn::Wait => self.requests.serve(params),
+                Turn::GoBack(goal) => self.beside(|checkpoints, server| checkpoints.go_back(server, goal)),
+            }
+        }
+        pace.begin();
+        self.checkpoints.start_clock();
+    }
+
+    /// Does something while the process has no other threads of the studio.
+    fn beside(&mut self, act: impl FnOnce(&mut Checkpoints, Server) -> (Server, Option<Report>)) {
+        let Some(server) = self.shared.stop() else { return };
+        let (server, report) = act(&mut self.checkpoints, server);
+        if report.is_none() {
+            // This process has been woken. The requests are those of the original.
+            self.requests.shared.forget();
+            self.shared.pace.as_ref().inspect(|pace| pace.halt());
+        }
+        if let Err(error) = self.shared.start(server) {
+            std::eprintln!("error: no viewer is served any more: {error}");
+        }
+        report.into_iter().for_each(|report| self.send(|| report));
+    }
+}
+
 /// A run that may be streamed.
 impl Observer for Option<Stream> {
     #[inline]
@@ -80,9 +126,7 @@ impl Observer for Option<Stream> {
         stream.now = now.as_nanos();
         stream.requests.serve(params);
         let (group, now) = (stream.group, stream.now);
-        if let Some(pace) = &stream.shared.pace {
-            pace.wait(now, &stream.shared.active, || stream.requests.serve(params));
-        }
+        stream.wait(params);
         stream.send(|| Report::Reaction { group, now });
     }
 
