@@ -19,3 +19,4 @@ mod uri;
 
 pub use serve::{PATIENCE, serve};
 pub use stdio::stdio;
+pub use uri::from_path;

@@ -10,8 +10,10 @@ mod hover;
 mod lex;
 mod occurrences;
 mod outline;
+mod paint;
 mod rename;
 mod rust;
+mod statement;
 
 use crate::{
     catalog::Catalog,
@@ -26,8 +28,10 @@ pub use definition::{Definition, MachineId, NodeType, Origin, ParamFacts, PortFa
 pub use hover::{declaration, describe, describe_link, describe_word, flow_word};
 pub use occurrences::{Occurrence, at, occurrences};
 pub use outline::{Symbol, SymbolKind, outline};
+pub use paint::{Paint, paint};
 pub use rename::{may_rename, rename};
 pub use rust::{Part, place_in_rust};
+pub use statement::{Statement, statement};
 
 /// A source file with the meanings of the names in it.
 #[derive(Clone, Copy)]
