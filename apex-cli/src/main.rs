@@ -269,17 +269,19 @@ enum Command {
     },
     /// Run a robot and open a page on which it can be seen: what is active, fires and fails, values, and parameters.
     #[command(
-        after_help = "Prints the address of the page, which has a secret token. The robot is built again after each change of its source files;\nwhile these have errors, the old one continues. In simulated time (--simulated or --replay) it can be halted and run step\nby step.\n\nExample:\n  apex studio --simulated robot.afg\n  apex studio --replay run.mcap robot.afg\n  apex studio --connect 10.0.0.7:7400 robot.afg"
+        after_help = "Prints the address of the page, which has a secret token. The robot is built again after each change of its source files;\nwhile these have errors, the old one continues. In simulated time (--simulated or --replay) it can be halted and run step\nby step.\n\nExample:\n  apex studio --simulated robot.afg\n  apex studio --replay run.mcap robot.afg\n  apex studio --connect 10.0.0.7:7400 robot.afg\n  apex studio --connect 10.0.0.7:7400 --connect 10.0.0.8:7400"
     )]
     Studio {
-        /// Source file.
-        file: PathBuf,
+        /// Source file. With --connect, the robot can also be shown without it.
+        #[arg(required_unless_present = "connect")]
+        file: Option<PathBuf>,
         /// Name of the robot or graph, if the file has several.
         #[arg(long)]
         robot: Option<String>,
-        /// Look at a robot that runs already: `apex run --stream HOST:PORT`.
+        /// Look at a robot that runs already: `apex run --stream HOST:PORT`. Given several times, the page shows one of
+        /// them at a time.
         #[arg(long, value_name = "HOST:PORT", conflicts_with_all = ["replay", "simulated", "params", "release", "quiet"])]
-        connect: Option<String>,
+        connect: Vec<String>,
         /// Repeat this recording instead of running the robot.
         #[arg(long, value_name = "FILE")]
         replay: Option<PathBuf>,
@@ -376,8 +378,14 @@ fn main() -> ExitCode {
         }
         Command::Top { address } => studio::top(address),
         Command::Studio { file, robot, connect, replay, simulated, speed, params, listen, read_only, how, args } => {
-            let launch = studio::Launch { file, robot, replay, simulated, params, args, how: how.how() };
-            studio::run(launch, &studio::Page { connect, listen, read_only, speed })
+            let page = studio::Page { listen, read_only, speed };
+            match file {
+                Some(file) if connect.is_empty() => {
+                    let launch = studio::Launch { file, robot, replay, simulated, params, args, how: how.how() };
+                    studio::run(launch, &page)
+                }
+                file => studio::connect(connect, file, &page),
+            }
         }
         Command::Run { file, robot, params, save_params, watch, profile, record, stream, how, args } => {
             let params = run::Params { load: params, save: save_params };

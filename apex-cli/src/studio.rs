@@ -17,7 +17,7 @@ use apex_dsl::{
     ide::{ArgumentPlace, set_argument},
     program::Program,
 };
-use apex_studio::{ParamChange, Remote, Replayed, Robot, Source, Studio};
+use apex_studio::{ParamChange, Remote, Replayed, Robot, Seat, Source, Studio};
 use std::{
     env, fs,
     io::{self, IsTerminal as _, Write as _},
@@ -41,8 +41,6 @@ pub struct Launch {
 
 /// The page.
 pub struct Page {
-    /// Address of a robot that runs already.
-    pub connect: Option<String>,
     pub listen: SocketAddr,
     pub read_only: bool,
     pub speed: f64,
@@ -56,24 +54,26 @@ pub fn speed(text: &str) -> Result<f64, String> {
 
 /// Runs the robot and serves its page until Ctrl-C.
 pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
-    let (file, replay) = (launch.file.clone(), launch.replay.clone());
+    let (file, replay) = (Some(launch.file.clone()), launch.replay.clone());
     let text = Arc::new(Text { file, replay, has_params: launch.params.is_some(), errors: Mutex::default() });
-    let speed = Some(page.speed);
-    let served = match &page.connect {
-        Some(address) => {
-            project::check(&launch.file)?.print_diagnostics();
-            let robot = Remote { address: address.clone() };
-            page.serve(Studio { robot, source: text, address: page.listen, readonly: page.read_only, speed: None })
-        }
-        None => {
-            let mut robot = Launched::new(launch, Arc::clone(&text))?;
-            if !robot.build()? {
-                return Ok(ExitCode::from(1));
-            }
-            page.serve(Studio { robot, source: text, address: page.listen, readonly: page.read_only, speed })
-        }
+    let name = launch.file.display().to_string();
+    let mut robot = Launched::new(launch, Arc::clone(&text))?;
+    if !robot.build()? {
+        return Ok(ExitCode::from(1));
+    }
+    page.serve(vec![Seat { name, robot, source: text }], Some(page.speed)).map(|()| ExitCode::SUCCESS)
+}
+
+/// Serves a page of robots that run already until Ctrl-C. `file` has their text.
+pub fn connect(addresses: Vec<String>, file: Option<PathBuf>, page: &Page) -> Result<ExitCode, String> {
+    if let Some(file) = &file {
+        project::check(file)?.print_diagnostics();
+    }
+    let seat = |address: String| {
+        let text = Text { file: file.clone(), replay: None, has_params: false, errors: Mutex::default() };
+        Seat { name: address.clone(), robot: Remote { address }, source: Arc::new(text) }
     };
-    served.map(|()| ExitCode::SUCCESS)
+    page.serve(addresses.into_iter().map(seat).collect(), None).map(|()| ExitCode::SUCCESS)
 }
 
 /// Shows a robot in the terminal.
@@ -86,7 +86,8 @@ pub fn top(address: String) -> Result<ExitCode, String> {
 }
 
 impl Page {
-    fn serve<R: Robot + 'static>(&self, studio: Studio<R>) -> Result<(), String> {
+    fn serve<R: Robot + 'static>(&self, robots: Vec<Seat<R>>, speed: Option<f64>) -> Result<(), String> {
+        let studio = Studio { robots, address: self.listen, readonly: self.read_only, speed };
         let opened = |address: &str| print_error(&format!("studio: {address}\nCtrl-C ends it"));
         studio.serve(opened).map_err(|error| {
             format!("cannot open the page at {}: {error}; choose another address with `--listen`", self.listen)
@@ -96,7 +97,8 @@ impl Page {
 
 /// The source file.
 struct Text {
-    file: PathBuf,
+    /// Its path; `None` for a robot whose text is not at hand.
+    file: Option<PathBuf>,
     /// Recording that the robot repeats.
     replay: Option<PathBuf>,
     /// `true` if the robot begins with the parameters of a file.
@@ -109,9 +111,22 @@ impl Text {
     /// Path of a source file. Robots name those that the compiler was given, from a folder around the package.
     fn find(&self, file: &str) -> Option<PathBuf> {
         let is_text = Path::new(file).extension().is_some_and(|e| e == "afg" || e == "rs");
-        let package = project::package_of(&self.file).unwrap_or_default();
+        let package = project::package_of(self.file.as_ref()?).unwrap_or_default();
         let mut places = package.ancestors().map(|folder| folder.join(file)).filter(|path| is_text && path.is_file());
         places.next()
+    }
+
+    /// Path of the source file of the robot.
+    fn main_file(&self) -> Result<&Path, String> {
+        self.file.as_deref().ok_or_else(|| "there is no source file: start the studio with one".to_owned())
+    }
+
+    /// Path of a source file that may be changed: one in the package of the robot.
+    fn own(&self, file: &str) -> Option<PathBuf> {
+        let path = fs::canonicalize(self.find(file)?).ok()?;
+        let own = fs::canonicalize(self.file.as_ref()?).ok()?;
+        let folder = project::package_of(&own).or_else(|| Some(own.parent()?.to_owned()))?;
+        path.starts_with(fs::canonicalize(folder).ok()?).then_some(path)
     }
 
     fn set_errors(&self, errors: Option<String>) {
@@ -121,7 +136,7 @@ impl Text {
 
 impl Source for Text {
     fn picture(&self, name: &str) -> Option<Item> {
-        let checked = project::check(&self.file).ok()?;
+        let checked = project::check(self.file.as_ref()?).ok()?;
         let mut graphs = checked.programs.iter().map(|program| &program.graph).chain(&checked.parts);
         let graph = graphs.find(|graph| graph.name == name)?;
         Some(diagram(graph, &checked.texts.machines, &checked.catalog))
@@ -134,7 +149,8 @@ impl Source for Text {
     fn save_params(&self, params: &str) -> Result<String, String> {
         let head = "# Parameters that were changed in `apex studio`, for `--params`.\n";
         let names = (1..).map(|n| if n == 1 { "params.toml".to_owned() } else { format!("params-{n}.toml") });
-        create(names.map(|end| self.file.with_extension(end)), &[head, params]).map(|path| path.display().to_string())
+        let own = self.main_file()?;
+        create(names.map(|end| own.with_extension(end)), &[head, params]).map(|path| path.display().to_string())
     }
 
     fn replayed(&self) -> Result<Option<Replayed>, String> {
@@ -142,7 +158,7 @@ impl Source for Text {
             return Err("a test has the parameters of the source, and the robot began with those of a file".to_owned());
         }
         let Some(replay) = &self.replay else { return Ok(None) };
-        let folder = self.file.canonicalize().ok().and_then(|file| Some(file.parent()?.to_path_buf()));
+        let folder = self.main_file()?.canonicalize().ok().and_then(|file| Some(file.parent()?.to_path_buf()));
         let path = replay.canonicalize().map_err(|e| format!("cannot find `{}`: {e}", replay.display()))?;
         let inside = folder.and_then(|folder| Some(path.strip_prefix(folder).ok()?.to_path_buf()));
         let channels = recorded_channels(&path).map_err(|why| format!("cannot read `{}`: {why}", path.display()))?;
@@ -150,10 +166,11 @@ impl Source for Text {
     }
 
     fn write_test(&self, program: &str, test: &str) -> Result<String, String> {
-        let module = self.file.file_stem().and_then(|stem| stem.to_str()).ok_or("the source file has no name")?;
+        let own = self.main_file()?;
+        let module = own.file_stem().and_then(|stem| stem.to_str()).ok_or("the source file has no name")?;
         let text = format!("//! A moment in a run of `{program}`.\nuse {module}::{program};\n\n{test}");
         let name = |n: u32| if n == 1 { format!("{module}_moment.afg") } else { format!("{module}_moment_{n}.afg") };
-        let path = create((1..).map(|n| self.file.with_file_name(name(n))), &[&text])?;
+        let path = create((1..).map(|n| own.with_file_name(name(n))), &[&text])?;
         let checked = project::check(&path)?;
         if checked.diagnostics.has_errors() {
             // Nothing that does not work stays.
@@ -176,6 +193,15 @@ impl Source for Text {
     fn texts(&self, files: &[String]) -> Vec<String> {
         let read = |file: &String| fs::read_to_string(self.find(file)?).ok();
         files.iter().map(|file| read(file).unwrap_or_default()).collect()
+    }
+
+    fn path(&self, file: &str) -> Option<PathBuf> {
+        self.own(file)
+    }
+
+    fn write_text(&self, file: &str, text: &str) -> Result<(), String> {
+        let path = self.own(file).ok_or_else(|| format!("`{file}` does not belong to the package of the robot"))?;
+        replace::replace(&path, text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))
     }
 }
 

@@ -2,6 +2,8 @@
 // The picture of the robot: the SVG of `apex graph`, alive.
 import { ask, robot, select, tip } from "./studio.js";
 
+/** @typedef {{within: string, names: string[], connects: boolean, text: string}} Concern */
+
 export class Picture {
   /** @param {HTMLElement} place */
   constructor(place) {
@@ -13,6 +15,8 @@ export class Picture {
     /** @type {Set<string>} */ this.open = new Set();
     /** A node to be shown when its graph is open. @type {string | null} */ this.wanted = null;
     /** Nodes of the last answer to "why". @type {Set<number>} */ this.lit = new Set();
+    /** What the errors of the text concern. @type {Concern[]} */ this.concerns = [];
+    /** Errors of the text, by what they concern. @type {Map<Element, string>} */ this.errors = new Map();
     this.view = { x: 0, y: 0, width: 1, height: 1 };
     this.listen();
   }
@@ -51,7 +55,17 @@ export class Picture {
     this.update();
     this.heat();
     this.relight();
+    this.wrong(this.concerns);
     if (this.wanted) this.jump(this.wanted);
+  }
+
+  /** Forgets the picture of a robot. */
+  forget() {
+    this.svg = null;
+    this.items.clear();
+    this.lines = [];
+    this.concerns = [];
+    this.place.replaceChildren();
   }
 
   /** Shows what is active, fires and fails. */
@@ -62,8 +76,11 @@ export class Picture {
       element.classList.toggle("is-firing", states.some((node) => node.fresh));
       element.classList.toggle("has-problem", states.some((node) => node.problems > 0));
     }
+    const waiting = new Set([...robot.awaited].map((at) => robot.about?.connections[at]?.to));
+    for (const { element, nodes } of this.items.values()) element.classList.toggle("is-waiting", nodes.length === 1 && waiting.has(nodes[0]));
     for (const { element, connections } of this.lines) {
       element.classList.toggle("flows", connections.some((at) => this.flows(at)));
+      element.classList.toggle("is-awaited", connections.some((at) => robot.awaited.has(at)));
     }
   }
 
@@ -117,13 +134,41 @@ export class Picture {
     }
   }
 
+  /** Lays errors of the text over the picture. @param {Concern[]} concerns */
+  wrong(concerns) {
+    this.concerns = concerns;
+    this.errors.clear();
+    for (const { within, names, connects, text } of concerns) {
+      const places = connects ? names.slice(1).flatMap((name, at) => this.between(within, names[at], name)) : [];
+      const all = places.length > 0 ? places : names.map((name) => this.around(within === "" ? name : `${within}.${name}`));
+      for (const element of all) if (element) this.errors.set(element, text);
+    }
+    for (const { element } of [...this.items.values(), ...this.lines]) element.classList.toggle("is-wrong", this.errors.has(element));
+  }
+
+  /** The lines between two nodes, or ports, of a graph. @param {string} within @param {string} from @param {string} to */
+  between(within, from, to) {
+    const is = (/** @type {string | null} */ end, /** @type {string} */ name) =>
+      end === `${within}:${name}` || end?.split(":")[0] === (within === "" ? name : `${within}.${name}`);
+    return this.lines.flatMap(({ element }) => (is(element.getAttribute("data-from"), from) && is(element.getAttribute("data-to"), to) ? [element] : []));
+  }
+
+  /** A node, or the closed graph that it is in. @param {string} name */
+  around(name) {
+    for (let path = name; path !== ""; path = path.slice(0, Math.max(0, path.lastIndexOf(".")))) {
+      const item = this.items.get(path);
+      if (item) return item.element;
+    }
+    return null;
+  }
+
   /** @param {string | null} name */
   select(name) {
     for (const { element, path } of this.items.values()) element.classList.toggle("is-selected", path === name);
   }
 
-  /** Selects a node and brings it into view, and opens the graphs around it. @param {string} name */
-  jump(name) {
+  /** Selects a node and brings it into view, and opens the graphs around it. @param {string} name @param {number} smallest */
+  jump(name, smallest = 30) {
     const around = this.graphs.filter((graph) => name.startsWith(`${graph}.`));
     if (around.some((graph) => !this.open.has(graph))) {
       this.wanted = name;
@@ -137,11 +182,30 @@ export class Picture {
     const place = this.place.getBoundingClientRect();
     if (!box) return;
     const is = box.left >= place.left && box.right <= place.right && box.top >= place.top && box.bottom <= place.bottom;
-    if (is && box.width > 30) return;
+    if (is && box.width > smallest) return;
     const scale = this.view.width / place.width;
     this.view.x += ((box.left + box.right) / 2 - (place.left + place.right) / 2) * scale;
     this.view.y += ((box.top + box.bottom) / 2 - (place.top + place.bottom) / 2) * scale;
     this.look();
+  }
+
+  /** Selects the nearest box in a direction. @param {number} dx @param {number} dy */
+  step(dx, dy) {
+    const boxes = [...this.items.values()].filter(({ element }) => !element.classList.contains("frame")).map((item) => {
+      const { left, right, top, bottom } = item.element.getBoundingClientRect();
+      return { ...item, x: (left + right) / 2, y: (top + bottom) / 2, bottom };
+    });
+    const from = boxes.find(({ path }) => path === robot.selected);
+    const cost = (/** @type {typeof boxes[0]} */ { x, y }) => {
+      if (!from) return x + y;
+      const [along, across] = [(x - from.x) * dx + (y - from.y) * dy, Math.abs((x - from.x) * dy) + Math.abs((y - from.y) * dx)];
+      return along > 2 ? along + 2 * across : Infinity;
+    };
+    const best = boxes.reduce((best, box) => (cost(box) < cost(best) ? box : best), boxes[0]);
+    if (!best || cost(best) === Infinity) return;
+    this.jump(best.path, 0);
+    const { left, bottom } = best.element.getBoundingClientRect();
+    tip(this.words(best.element), /** @type {any} */ ({ clientX: left, clientY: bottom - 8 }));
   }
 
   /** Opens or closes a nested graph. @param {string | null} name */
@@ -181,17 +245,21 @@ export class Picture {
     if (line) {
       const title = target.querySelector("title")?.textContent ?? "";
       const words = line.connections.map((at) => this.flowWords(at));
-      return [title, ...words.slice(0, 6)].join("\n");
+      return [title, ...words.slice(0, 6), this.errors.get(target) ?? ""].filter(Boolean).join("\n");
     }
     const path = target.closest("[data-item]")?.getAttribute("data-item");
     const item = path ? this.items.get(path) : undefined;
     if (!item) return null;
     const title = target.closest("[data-item]")?.querySelector(":scope > title")?.textContent ?? "";
-    if (item.nodes.length !== 1) return title;
+    const error = this.errors.get(item.element);
+    const head = error ? `${title}\n${error}` : title;
+    if (item.nodes.length !== 1) return head;
     const node = robot.nodes[item.nodes[0]];
     const fired = node.fired === 0 ? "has not fired" : `fired ${node.fired} times, ${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
+    const missing = [...robot.awaited].flatMap((at) => robot.about?.connections[at] ?? []).filter(({ to }) => to === item.nodes[0]);
+    const waits = missing.length === 0 ? "" : `\nwaits for ${missing.map(({ from, output }) => `${robot.about?.nodes[from].name}.${output}`).join(", ")}`;
     const problems = node.problems > 0 ? `\n${node.problems} problems` : "";
-    return `${title}\n${node.active ? "active; " : ""}${fired}${problems}${this.timeWords(item.nodes[0])}`;
+    return `${head}\n${node.active ? "active; " : ""}${fired}${waits}${problems}${this.timeWords(item.nodes[0])}`;
   }
 
   /** @param {number} at */
@@ -240,6 +308,14 @@ export class Picture {
       drag = null;
     });
     place.addEventListener("pointerleave", () => tip(null));
+    place.addEventListener("blur", () => tip(null));
+    place.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+      if (way) {
+        event.preventDefault();
+        this.step(way[0], way[1]);
+      } else if (event.key === "Enter") this.toggle(robot.selected);
+    });
     place.addEventListener("dblclick", (event) => {
       const path = /** @type {Element} */ (event.target).closest("[data-item]")?.getAttribute("data-item") ?? null;
       this.toggle(path);

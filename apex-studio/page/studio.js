@@ -23,6 +23,7 @@ export const robot = {
   /** @type {About | null} */ about: null,
   /** @type {NodeState[]} */ nodes: [],
   /** @type {{count: number, fresh: boolean, rate: number}[]} */ connections: [],
+  /** Connections over which a node waits for a token. @type {Set<number>} */ awaited: new Set(),
   now: 0,
   readonly: false,
   /** Times of calls by node, while they are measured. @type {Map<number, {calls: number, total: number, worst: number}> | null} */
@@ -38,11 +39,11 @@ export function ask(message) {
   if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
 }
 
-/** Selects a node or a nested graph by its full name, everywhere. @param {string | null} name */
-export function select(name) {
+/** Selects a node or a nested graph by its full name, everywhere. @param {string | null} name @param {string} [by] */
+export function select(name, by) {
   robot.selected = name;
   picture.select(name);
-  text.select(name);
+  text.select(name, by);
   values.select(name);
   timeline.draw();
 }
@@ -65,7 +66,7 @@ const picture = new Picture(element("picture"));
 const timeline = new Timeline(element("timeline"));
 const params = new Params(element("params"), element("params-filter"));
 const values = new Values(element("values"), element("values-filter"));
-const text = new Text(element("text"));
+const text = new Text(element("text"), picture);
 const why = new Why(element("why"), picture, timeline);
 const moment = new Moment(timeline);
 
@@ -76,7 +77,7 @@ let problems = 0;
 
 /** What the studio tells, by kind. @type {Record<string, (told: any) => void>} */
 const tells = {
-  about({ about, texts, readonly, travels, repeats }) {
+  about({ about, texts, editable, rebuilds, readonly, travels, repeats }) {
     robot.about = about;
     robot.readonly = readonly;
     forget();
@@ -88,7 +89,7 @@ const tells = {
     for (const id of ["back", "goto"]) element(id).hidden = !travels || readonly;
     params.begin();
     values.begin();
-    text.begin(texts);
+    text.begin(texts, editable, rebuilds);
     why.begin();
     if (!repeats) timeline.begin();
     moment.begin();
@@ -110,7 +111,9 @@ const tells = {
   },
   picture(told) { picture.show(told); },
   tick(told) { tick(told); },
+  written(told) { text.update(told); },
   errors(errors) {
+    if (errors !== null) text.say("");
     element("errors").hidden = errors === null;
     element("errors").textContent = errors ?? "";
   },
@@ -125,6 +128,12 @@ const tells = {
   saved(result) { params.tell(result); },
   tokens(all) { values.update(all); },
   lanes(lanes) { timeline.show(lanes); },
+  robots({ names, shown }) {
+    const choice = element("robot");
+    choice.hidden = names.length < 2;
+    choice.replaceChildren(...names.map((/** @type {string} */ name, /** @type {number} */ at) => new Option(name, String(at))));
+    choice.value = String(shown);
+  },
   refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
 };
 let refused = false;
@@ -171,11 +180,14 @@ function tick(told) {
   for (const node of robot.nodes) node.fresh = false;
   for (const line of robot.connections) line.fresh = false;
   let changed = false;
+  // Before another robot is there, the last words of this one are void.
+  if (robot.about === null) return;
   for (const [at, active, since, fired, last, problems] of told.nodes) {
     const node = robot.nodes[at];
     changed ||= node.active !== active;
     Object.assign(node, { active, since, fresh: fired !== node.fired, fired, last, problems });
   }
+  robot.awaited = new Set(told.awaited);
   for (const [at, count] of told.handled) Object.assign(robot.connections[at], { fresh: true, count });
   measure();
   if (changed) showActive();
@@ -254,6 +266,19 @@ function showProblems(count, all) {
   tab.append(number);
 }
 
+/** Shows another robot. @param {number} at */
+function look(at) {
+  select(null);
+  text.forget();
+  picture.forget();
+  Object.assign(robot, { about: null, nodes: [], connections: [], awaited: new Set() });
+  for (const list of ["active", "problems"]) element(list).replaceChildren();
+  element("name").textContent = "Apex Studio";
+  ask({ robot: at });
+  element("robot").blur();
+  if (robot.times !== null) ask({ measure: true });
+}
+
 /** Connects to the studio, again and again. */
 function open() {
   const token = location.hash.slice(1) || sessionStorage.getItem("token") || "";
@@ -291,6 +316,7 @@ element("back").addEventListener("click", () => ask("back"));
 element("goto").addEventListener("click", () => timeline.go());
 element("break").addEventListener("change", () => ask({ break: element("break").value }));
 element("restart").addEventListener("click", () => ask("restart"));
+element("robot").addEventListener("change", () => look(Number(element("robot").value)));
 element("speed").addEventListener("change", () => {
   const chosen = element("speed").value;
   ask({ run: { speed: chosen === "" ? null : Number(chosen) } });
@@ -301,18 +327,44 @@ element("speed").addEventListener("change", () => {
 export function show(name) {
   for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
     tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
+    // One of them is reached by Tab, the others from there by the arrow keys.
+    tab.tabIndex = tab.dataset.tab === name ? 0 : -1;
   }
   for (const panel of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-panel]"))) {
     panel.hidden = panel.dataset.panel !== name;
   }
+  if (name === "text") text.show();
 }
 for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
   tab.addEventListener("click", () => (tab.dataset.tab === "why" ? why.ask() : show(tab.dataset.tab ?? "")));
 }
 
+const tabs = /** @type {HTMLElement[]} */ ([...document.querySelectorAll("[data-tab]")]);
+element("active").closest("aside").querySelector("nav").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+  const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+  const at = tabs.indexOf(/** @type {HTMLElement} */ (event.target));
+  if (step === undefined || at < 0) return;
+  const next = tabs[(at + step + tabs.length) % tabs.length];
+  next.click();
+  next.focus();
+});
+element("help").addEventListener("click", () => element("keys").showModal());
+element("keys").addEventListener("click", () => element("keys").close());
+
 document.addEventListener("keydown", (event) => {
   const target = /** @type {HTMLElement} */ (event.target);
-  if (target.matches("input, select") || event.ctrlKey || event.metaKey || event.altKey) {
+  if (event.key === "s" && (event.ctrlKey || event.metaKey)) {
+    event.preventDefault();
+    text.save(false);
+    return;
+  }
+  if (event.key === "F8") {
+    event.preventDefault();
+    show("text");
+    text.next();
+    return;
+  }
+  if (target.matches("input, select, textarea") || event.ctrlKey || event.metaKey || event.altKey) {
     if (event.key === "Escape") target.blur();
     return;
   }
@@ -331,7 +383,10 @@ document.addEventListener("keydown", (event) => {
     "+": () => picture.zoom(0.8),
     "-": () => picture.zoom(1.25),
     0: () => picture.fit(),
+    "?": () => element("keys").showModal(),
   };
+  tabs.forEach((tab, at) => { keys[String(at + 1)] = () => tab.click(); });
+  if (element("keys").open) return;
   if (target.matches("button") && event.key === " ") return;
   const act = keys[event.key];
   if (act) {
@@ -340,5 +395,6 @@ document.addEventListener("keydown", (event) => {
   }
 });
 
+show("active");
 addEventListener("hashchange", () => location.reload());
 open();

@@ -177,6 +177,15 @@ export class Timeline {
     this.draw();
   }
 
+  /** Shows a longer or shorter time around the cursor. @param {number} by */
+  scale(by) {
+    const [time, span] = [this.cursor ?? this.end, Math.min(Math.max(this.span * by, 0.002), 86400)];
+    if (!this.isFollowing) this.end = time + ((this.end - time) * span) / this.span;
+    this.span = span;
+    this.request();
+    this.draw();
+  }
+
   /** Lets the robot go to the cursor. */
   go() {
     if (this.cursor !== null) ask({ goto: this.cursor });
@@ -246,6 +255,19 @@ export class Timeline {
       drag = null;
     });
     canvas.addEventListener("pointerleave", () => tip(null));
+    canvas.addEventListener("keydown", (event) => {
+      const by = (this.span / 100) * (event.shiftKey ? 10 : 1);
+      /** @type {Record<string, () => void>} */
+      const keys = {
+        ArrowLeft: () => this.look(Math.max(0, (this.cursor ?? robot.now) - by)),
+        ArrowRight: () => this.look((this.cursor ?? robot.now) + by),
+        ArrowUp: () => this.scale(1 / 1.2),
+        ArrowDown: () => this.scale(1.2),
+      };
+      if (!keys[event.key]) return;
+      event.preventDefault();
+      keys[event.key]();
+    });
     // For tests, and for other tools.
     canvas.addEventListener("goto", (event) => {
       this.look(/** @type {CustomEvent} */ (event).detail);

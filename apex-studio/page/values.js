@@ -136,11 +136,25 @@ export class Values {
       text = document.createElement("pre");
       row.append(text);
     }
+    const own = view(this.messages.get(at));
+    text.hidden = own !== null;
     text.textContent = last.text;
+    if (own !== null) return this.own(row, own);
     const schema = robot.about?.channels[at].schema?.name ?? "";
     if (schema === "sensor_msgs/msg/Image" && this.messages.has(at)) this.image(row, this.messages.get(at));
     const numbers = tokens.map(({ time, text }) => ({ time, value: Number(text) })).filter(({ value }) => Number.isFinite(value));
     if (numbers.length > 1 && Number.isFinite(Number(last.text))) this.plot(row, numbers);
+  }
+
+  /** Shows the view that a node brings. An image runs no scripts, and loads nothing. @param {HTMLElement} row @param {string} svg */
+  own(row, svg) {
+    let image = row.querySelector("img");
+    if (!image) {
+      image = document.createElement("img");
+      image.alt = `view of ${row.dataset.channel}`;
+      row.append(image);
+    }
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
   }
 
   /** @param {HTMLElement} row @param {any} message */
@@ -186,3 +200,6 @@ export class Values {
     c.fillText(String(low), 2, height - 2);
   }
 }
+
+/** The drawing in a token that is one: a text with SVG. @param {any} message @returns {string | null} */
+const view = (message) => (typeof message?.data === "string" && message.data.startsWith("<svg") ? message.data : null);

@@ -25,6 +25,15 @@ const DRAWN = {
     world.line(all.map(({ x, y }) => [x, y]), color);
     if (all.length > 0) world.arrow(all[all.length - 1], color);
   },
+  "sensor_msgs/msg/PointCloud2": (world, cloud, color) => {
+    const offset = (/** @type {string} */ name) => cloud.fields.find((/** @type {any} */ field) => field.name === name && field.datatype === 7)?.offset;
+    const [x, y] = [offset("x"), offset("y")];
+    const count = Math.min(cloud.width * cloud.height, Math.floor(cloud.data.length / cloud.point_step));
+    if (x === undefined || y === undefined || !(count > 0)) return;
+    const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
+    const all = Array.from({ length: count }, (_, at) => [x, y].map((place) => view.getFloat32(at * cloud.point_step + place, !cloud.is_bigendian)));
+    world.points(all.filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b)), color);
+  },
   "nav_msgs/msg/OccupancyGrid": (world, { info, data }) => {
     const shade = (/** @type {number} */ at) => (data[at] < 0 ? null : 255 - 2.2 * data[at]);
     world.grid(planar(info.origin), info.width, info.height, info.resolution, shade);

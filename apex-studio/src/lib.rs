@@ -4,8 +4,11 @@
 //! page to browsers on this machine. It holds no state that a robot needs: it may come and go.
 
 mod condition;
+mod drawn;
+mod editor;
 mod journey;
 mod lane;
+mod language;
 mod live;
 mod moment;
 mod picture;
@@ -14,6 +17,7 @@ mod server;
 mod session;
 mod steps;
 mod top;
+mod waits;
 mod why;
 
 pub use robot::{Remote, Robot};
@@ -21,8 +25,8 @@ pub use top::top;
 
 use apex_diagram::Item;
 use robot::{Shared, follow};
-use server::Serving;
-use std::{fmt::Write as _, io, net::SocketAddr, sync::Arc, thread};
+use server::{Served, Serving};
+use std::{fmt::Write as _, io, net::SocketAddr, path::PathBuf, sync::Arc, thread};
 use tokio::net::TcpListener;
 
 /// The source of a robot.
@@ -59,6 +63,15 @@ pub trait Source: Send + Sync + 'static {
 
     /// Contents of these files; empty for those that cannot be read.
     fn texts(&self, files: &[String]) -> Vec<String>;
+
+    /// Absolute path of a source file of the robot that may be changed; `None` for files elsewhere.
+    fn path(&self, file: &str) -> Option<PathBuf>;
+
+    /// Replaces the text of a source file of the robot that may be changed.
+    ///
+    /// # Errors
+    /// The file may not be changed, or cannot be written.
+    fn write_text(&self, file: &str, text: &str) -> Result<(), String>;
 }
 
 /// A recording that a robot repeats.
@@ -89,16 +102,24 @@ pub struct ParamChange<'a> {
 
 /// A studio to be opened.
 pub struct Studio<R> {
-    /// The robot.
-    pub robot: R,
-    /// Its source.
-    pub source: Arc<dyn Source>,
+    /// The robots, of which a page shows one at a time.
+    pub robots: Vec<Seat<R>>,
     /// Address of the page.
     pub address: SocketAddr,
     /// `true` if the page may only look.
     pub readonly: bool,
     /// Speed at which a simulated robot starts, in simulated seconds per second.
     pub speed: Option<f64>,
+}
+
+/// A robot with its place in the studio.
+pub struct Seat<R> {
+    /// Name that distinguishes it from others of the same kind, such as its address.
+    pub name: String,
+    /// The robot.
+    pub robot: R,
+    /// Its source.
+    pub source: Arc<dyn Source>,
 }
 
 impl<R: Robot + 'static> Studio<R> {
@@ -113,18 +134,23 @@ impl<R: Robot + 'static> Studio<R> {
             let listener = TcpListener::bind(self.address).await?;
             let address = listener.local_addr()?;
             opened(&format!("http://{address}/#{token}"));
-            let shared = Arc::<Shared>::default();
-            let travels = !self.robot.comes_back();
-            let (robot, speed, following) = (self.robot, self.speed, Arc::clone(&shared));
-            let thread = thread::Builder::new().name("robot".to_owned());
-            let thread = thread.spawn(move || follow(robot, &following, speed))?;
-            let (source, readonly) = (self.source, self.readonly);
+            let (mut robots, mut threads) = (vec![], vec![]);
+            for Seat { name, robot, source } in self.robots {
+                let (shared, travels, speed) = (Arc::<Shared>::default(), !robot.comes_back(), self.speed);
+                let following = Arc::clone(&shared);
+                let thread = thread::Builder::new().name("robot".to_owned());
+                threads.push(thread.spawn(move || follow(robot, &following, speed))?);
+                robots.push(Served { name, shared, source, travels });
+            }
+            let robots: Arc<[Served]> = robots.into();
             let serving =
-                Serving { shared: Arc::clone(&shared), source, token: token.into(), address, readonly, travels };
+                Serving { robots: Arc::clone(&robots), token: token.into(), address, readonly: self.readonly };
             let served = server::serve(serving, listener, stopped()).await;
-            shared.end();
-            // It has ended its robot then.
-            let _ = thread.join();
+            robots.iter().for_each(|robot| robot.shared.end());
+            for thread in threads {
+                // It has ended its robot then.
+                let _ = thread.join();
+            }
             served
         })
     }

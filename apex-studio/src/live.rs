@@ -3,6 +3,7 @@
 use crate::{
     lane::{Drawn, Lane, Window},
     steps::{Step, Steps, What},
+    waits::Waits,
 };
 use apex_rt::studio::message::{About, NodeTimes, Report};
 use serde::Serialize;
@@ -70,6 +71,8 @@ pub struct Live {
     checkpoints: Vec<Checkpoint>,
     /// The last steps.
     pub steps: Steps,
+    /// Nodes that wait for others.
+    pub waits: Waits,
     lanes: Vec<Lane>,
     /// The earlier run.
     before: Option<Before>,
@@ -178,6 +181,7 @@ impl Default for Live {
             no_checkpoints: None,
             checkpoints: vec![],
             steps: Steps::default(),
+            waits: Waits::default(),
             lanes: vec![],
             before: None,
         }
@@ -195,6 +199,7 @@ impl Live {
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::default()).collect();
         self.handled = vec![0; about.connections.len()];
+        self.waits = Waits::new(&about);
         self.about = Some(about);
     }
 
@@ -210,13 +215,17 @@ impl Live {
             }
             Report::Fired(node) => {
                 self.step(What::Fires(node));
+                self.waits.fired(node);
                 self.fire(node);
             }
             Report::Handled(connection) => {
                 self.step(What::Takes(connection));
                 self.handle(connection);
             }
-            Report::Sent(channel) => self.step(What::Sends(channel)),
+            Report::Sent(channel) => {
+                self.step(What::Sends(channel));
+                self.waits.sent(channel);
+            }
             Report::Activity { node, active } => self.activity(node, active),
             Report::Failed { node, error } => self.problem(Some(node), error),
             Report::Late { node, age } => {

@@ -28,6 +28,16 @@ impl Picture {
         graphs
     }
 
+    /// Full names of all uses of a graph; the empty one for the whole.
+    pub fn instances(&self, graph: &str) -> Vec<String> {
+        let mut instances = vec![];
+        if self.whole.name == graph {
+            instances.push(String::new());
+        }
+        uses(&self.whole, "", graph, &mut instances);
+        instances
+    }
+
     /// The nested graphs that are open at the beginning: level by level, as long as the picture is readable.
     pub fn first_open(&self) -> BTreeSet<String> {
         let mut graphs = self.graphs();
@@ -69,6 +79,16 @@ fn collect(item: &Item, path: &str, graphs: &mut Vec<String>) {
         let path = joined(path, &inner.name);
         collect(inner, &path, graphs);
         graphs.push(path);
+    }
+}
+
+fn uses(item: &Item, path: &str, graph: &str, found: &mut Vec<String>) {
+    for inner in item.inside.iter().flat_map(|frame| &frame.items).filter(|inner| inner.inside.is_some()) {
+        let path = joined(path, &inner.name);
+        uses(inner, &path, graph, found);
+        if inner.words.first().is_some_and(|name| name == graph) {
+            found.push(path);
+        }
     }
 }
 

@@ -31,11 +31,17 @@ const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-
 /// Everything that a page needs.
 #[derive(Clone)]
 pub struct Serving {
-    pub shared: Arc<Shared>,
-    pub source: Arc<dyn Source>,
+    pub robots: Arc<[Served]>,
     pub token: Arc<str>,
     pub address: SocketAddr,
     pub readonly: bool,
+}
+
+/// A robot that is shown.
+pub struct Served {
+    pub name: String,
+    pub shared: Arc<Shared>,
+    pub source: Arc<dyn Source>,
     /// `true` if the robot can be started again, and thus go back in time.
     pub travels: bool,
 }
@@ -62,7 +68,7 @@ struct File {
     text: &'static str,
 }
 
-const FILES: [File; 12] = [
+const FILES: [File; 13] = [
     File { path: "/", kind: "text/html; charset=utf-8", text: include_str!("../page/index.html") },
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
     File { path: "/why.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/why.js") },
@@ -74,6 +80,7 @@ const FILES: [File; 12] = [
     File { path: "/values.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/values.js") },
     File { path: "/cdr.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/cdr.js") },
     File { path: "/world.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/world.js") },
+    File { path: "/area.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/area.js") },
     File { path: "/text.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/text.js") },
 ];
 
@@ -113,6 +120,23 @@ impl Serving {
     }
 }
 
+impl Serving {
+    /// A page of one of the robots.
+    fn session(&self, robot: usize) -> Option<Session> {
+        let Served { shared, source, travels, .. } = self.robots.get(robot)?;
+        Some(Session::new(Arc::clone(shared), Arc::clone(source), self.readonly, *travels))
+    }
+
+    /// The names of all robots. Two of the same kind differ by their addresses.
+    fn names(&self, shown: usize) -> Told {
+        let name = |robot: &Served| {
+            let about = robot.shared.live().about.clone();
+            about.map_or_else(|| robot.name.clone(), |about| format!("{} ({})", about.name, robot.name))
+        };
+        Told::Robots { names: self.robots.iter().map(name).collect(), shown }
+    }
+}
+
 /// Talks to a page until it leaves.
 async fn talk(serving: Serving, mut socket: WebSocket) {
     let token = time::timeout(PATIENCE, socket.recv()).await;
@@ -123,7 +147,11 @@ async fn talk(serving: Serving, mut socket: WebSocket) {
         let _ = socket.send(Message::Text("{\"refused\":null}".into())).await;
         return;
     }
-    let mut session = Session::new(serving.shared, serving.source, serving.readonly, serving.travels);
+    let mut shown = 0;
+    let Some(mut session) = serving.session(shown) else { return };
+    if !send(&mut socket, &serving.names(shown)).await {
+        return;
+    }
     let mut tick = time::interval(TICK);
     // A page that was slow gets the newest state, not all that it missed.
     tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
@@ -132,6 +160,13 @@ async fn talk(serving: Serving, mut socket: WebSocket) {
             _ = tick.tick() => session.news(),
             message = socket.recv() => match message {
                 Some(Ok(Message::Text(text))) => match serde_json::from_str::<Asked>(&text) {
+                    Ok(Asked::Robot(robot)) => match serving.session(robot) {
+                        Some(other) => {
+                            (session, shown) = (other, robot);
+                            vec![serving.names(shown)]
+                        }
+                        None => vec![],
+                    },
                     Ok(asked) => session.answer(asked).into_iter().collect(),
                     Err(_) => vec![],
                 },

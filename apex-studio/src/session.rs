@@ -2,7 +2,10 @@
 
 use crate::{
     ParamChange, Source,
+    drawn::drawn,
+    editor::{Editor, Written},
     lane::{Drawn, Window},
+    language::Place,
     live::{Live, Node, Param, Problem, Run},
     moment,
     picture::Picture,
@@ -21,6 +24,8 @@ use std::{
 #[derive(Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Told {
+    /// Names of all robots, and which of them is shown.
+    Robots { names: Vec<String>, shown: usize },
     /// A robot. Everything about an earlier one is obsolete.
     About(AboutRun),
     /// The robot has gone back to a checkpoint. All numbers, problems and tokens come again.
@@ -45,6 +50,8 @@ pub enum Told {
     Tokens(BTreeMap<u32, NewTokens>),
     /// The condition at which the robot halts has a mistake, or none.
     Break(Option<String>),
+    /// About the source files.
+    Written(Written),
     /// The changed parameters were written to this file, or could not be.
     Saved(Result<String, String>),
     /// A marked moment was written to this file as a test, or could not be.
@@ -77,6 +84,10 @@ pub struct AboutRun {
     run: u64,
     about: Arc<About>,
     texts: Vec<String>,
+    /// `true` for each text that may be changed.
+    editable: Vec<bool>,
+    /// `true` if the robot is built and started again when a text has changed.
+    rebuilds: bool,
     readonly: bool,
     /// `true` if it can go back in time.
     travels: bool,
@@ -99,12 +110,16 @@ pub struct Tick {
     nodes: Vec<(usize, bool, f64, u64, f64, u64)>,
     /// Connections that have changed, with the number of their tokens.
     handled: Vec<(usize, u64)>,
+    /// Connections over which a node waits for a token, while others have brought theirs.
+    awaited: Vec<u32>,
 }
 
 /// A message of the page.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Asked {
+    /// Shows another robot, by its number.
+    Robot(usize),
     /// Opens these nested graphs, and closes all others.
     Open(BTreeSet<String>),
     /// Sets a parameter to a value in TOML.
@@ -127,6 +142,14 @@ pub enum Asked {
     Save,
     /// Writes a parameter into the source.
     Write(String),
+    /// Takes note of a text of the page.
+    Edit { file: usize, version: u32, text: String },
+    /// Asks for a description of what is at a place.
+    Hover(Place),
+    /// Asks for completions at a place.
+    Complete(Place),
+    /// Saves a text, also `over` one that others have saved.
+    Keep { file: usize, text: String, over: bool },
     /// Asks for the tokens of these channels, and of no others.
     Watch(BTreeSet<u32>),
     /// Asks for the times of calls, or no longer.
@@ -150,6 +173,7 @@ pub struct Session {
     travels: bool,
     seen: Seen,
     picture: Option<Picture>,
+    editor: Editor,
     watched: BTreeSet<u32>,
     measures: bool,
     /// The open graphs, from the first choice of the user on.
@@ -175,7 +199,8 @@ struct Seen {
 impl Session {
     pub fn new(shared: Arc<Shared>, source: Arc<dyn Source>, readonly: bool, travels: bool) -> Self {
         let (seen, watched) = (Seen::default(), BTreeSet::new());
-        Self { shared, source, readonly, travels, seen, picture: None, watched, measures: false, open: None }
+        let editor = Editor::new(Arc::clone(&source));
+        Self { shared, source, readonly, travels, seen, picture: None, editor, watched, measures: false, open: None }
     }
 
     /// Answers the page.
@@ -211,7 +236,19 @@ impl Session {
                 let time = at.map_or(live.now, |at| (at * 1e9) as i64);
                 return Some(Told::Why(why(&live, node, time)));
             }
+            Asked::Edit { file, version, text } => return self.editor.edit(file, version, text).map(Told::Written),
+            Asked::Hover(place) => {
+                self.editor.hover(place);
+                return None;
+            }
+            Asked::Complete(place) => {
+                self.editor.complete(place);
+                return None;
+            }
+            // Another page shows it.
+            Asked::Robot(_) => return None,
             _ if self.readonly => return None,
+            Asked::Keep { file, text, over } => return Some(Told::Written(self.editor.keep(file, &text, over))),
             Asked::Restart => {
                 self.shared.restart();
                 return None;
@@ -279,12 +316,12 @@ impl Session {
         let mut told = vec![];
         if let Some(about) = live.about.clone().filter(|_| live.runs != self.seen.runs) {
             self.seen = Seen::of(&live);
-            let picture = self.source.picture(&about.name);
-            self.picture = picture.map(Picture::new);
-            let texts = self.source.texts(&about.files);
-            let (readonly, travels) = (self.readonly, self.travels && about.simulated);
+            let picture = self.source.picture(&about.name).unwrap_or_else(|| drawn(&about));
+            self.picture = Some(Picture::new(picture));
+            let (texts, editable) = self.editor.begin(&about.files);
+            let (readonly, rebuilds, travels) = (self.readonly, self.travels, self.travels && about.simulated);
             let (run, repeats) = (live.runs, live.repeats);
-            told.push(Told::About(AboutRun { run, about, texts, readonly, travels, repeats }));
+            told.push(Told::About(AboutRun { run, about, texts, editable, rebuilds, readonly, travels, repeats }));
             drop(live);
             told.extend(self.draw());
             told.extend(self.since(&shared.live()));
@@ -294,8 +331,12 @@ impl Session {
         let errors = self.source.errors();
         if errors != self.seen.errors {
             self.seen.errors.clone_from(&errors);
+            if errors.is_some() {
+                self.editor.check();
+            }
             told.push(Told::Errors(errors));
         }
+        told.extend(self.editor.news(self.picture.as_ref()).into_iter().map(Told::Written));
         told
     }
 
@@ -382,7 +423,7 @@ impl Seen {
         }
         let speed = live.speed.is_finite().then_some(live.speed);
         let (run, now) = (live.run.clone(), seconds(live.now));
-        Tick { run, now, paused: live.paused, speed, lost: live.lost, nodes, handled }
+        Tick { run, now, paused: live.paused, speed, lost: live.lost, nodes, handled, awaited: live.waits.awaited() }
     }
 
     fn params(&mut self, live: &Live) -> BTreeMap<String, Param> {

@@ -2,10 +2,13 @@
 
 mod browser;
 mod checkpoints;
+mod figures;
 mod measure;
 mod page;
 mod pictures;
+mod several;
 mod stream;
+mod text;
 
 use apex_macros::graph;
 use apex_rt::{
@@ -30,7 +33,12 @@ fn open(name: &str, time: StreamedTime) -> Studio {
 
 /// Runs the program for `seconds` of simulated time.
 fn drive(studio: &Studio, seconds: i64) {
-    let (mut program, mut clock) = (Counts::new(), SimClock::until(Time::from_secs(seconds)));
+    drive_of(studio, Counts::new(), seconds);
+}
+
+/// Runs a program for `seconds` of simulated time.
+fn drive_of(studio: &Studio, mut program: impl Program, seconds: i64) {
+    let mut clock = SimClock::until(Time::from_secs(seconds));
     let mut stream = studio.stream(0);
     loop {
         let now = clock.now();

@@ -5,12 +5,12 @@ use apex_diagram::{Item, diagram};
 use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
 use apex_host::{Disk, Seen, Workspace};
 use apex_rt::studio::StreamedTime;
-use apex_studio::{ParamChange, Remote, Replayed, Robot, Source, Studio};
+use apex_studio::{ParamChange, Remote, Replayed, Robot, Seat, Source, Studio};
 use std::{
     fs,
     io::{Read as _, Write as _},
     net::TcpStream,
-    path::Path,
+    path::{Path, PathBuf},
     sync::{
         Arc, Mutex,
         atomic::{AtomicU32, Ordering},
@@ -23,9 +23,11 @@ const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
 
 /// The source of the program, with errors if a test wants some.
 #[derive(Default)]
-struct Text {
+pub struct Text {
     errors: Mutex<Option<String>>,
     saved: Mutex<String>,
+    /// Its text, if it was changed.
+    pub text: Mutex<Option<String>>,
 }
 
 impl Source for Text {
@@ -35,7 +37,8 @@ impl Source for Text {
         let mut catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
         let mut sources = Sources::default();
         let path = Path::new(FOLDER).join("studio/counts.afg");
-        let file = sources.add(path, include_str!("counts.afg"));
+        let text = fs::read_to_string(&path).ok()?;
+        let file = sources.add(path, text);
         let checked = passes::check(file, &mut catalog, &mut sources, &mut disk, &mut Diagnostics::default());
         let graph = checked.programs.iter().map(|program| &program.graph).find(|graph| graph.name == name)?;
         Some(diagram(graph, &checked.texts.machines, &catalog))
@@ -68,35 +71,51 @@ impl Source for Text {
     fn texts(&self, files: &[String]) -> Vec<String> {
         // Paths are those that the compiler was given: from the folder of the workspace.
         let root = Path::new(FOLDER).parent().expect("the folder of the workspace");
-        files.iter().map(|file| fs::read_to_string(root.join(file)).unwrap_or_default()).collect()
+        let written = self.text.lock().unwrap().clone();
+        let read = |file: &String| fs::read_to_string(root.join(file)).unwrap_or_default();
+        files.iter().map(|file| written.clone().unwrap_or_else(|| read(file))).collect()
+    }
+
+    fn path(&self, file: &str) -> Option<PathBuf> {
+        Path::new(FOLDER).parent().map(|root| root.join(file))
+    }
+
+    fn write_text(&self, _file: &str, text: &str) -> Result<(), String> {
+        *self.text.lock().unwrap() = Some(text.to_owned());
+        Ok(())
     }
 }
 
 /// Starts a studio for the socket `name`, and returns the address of its page.
-fn studio(name: &str, readonly: bool) -> (String, Arc<Text>) {
+pub fn studio(name: &str, readonly: bool) -> (String, Arc<Text>) {
     studio_of(Remote { address: socket(name).display().to_string() }, readonly)
 }
 
 /// Starts a studio for a robot.
-fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Text>) {
+pub fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Text>) {
     let source = Arc::new(Text::default());
-    let (text, (opened, address)) = (Arc::clone(&source), channel());
+    let text: Arc<Text> = Arc::clone(&source);
+    (opened(vec![Seat { name: "robot".to_owned(), robot, source }], readonly), text)
+}
+
+/// Starts a studio for several robots, and returns the address of its page.
+pub fn opened<R: Robot + 'static>(robots: Vec<Seat<R>>, readonly: bool) -> String {
+    let (opened, address) = channel();
     thread::spawn(move || {
-        let address = "127.0.0.1:0".parse().unwrap();
-        let studio = Studio { robot, source: text, address, readonly, speed: Some(1.0) };
+        let studio = Studio { robots, address: "127.0.0.1:0".parse().unwrap(), readonly, speed: Some(1.0) };
         studio.serve(|address| opened.send(address.to_owned()).unwrap()).expect("a free port");
     });
-    (address.recv().expect("it opens"), source)
+    address.recv().expect("it opens")
 }
 
 /// Runs the program for `seconds` at the speed that the studio chooses.
-fn start(name: &'static str, seconds: i64) -> Started {
+pub fn start(name: &'static str, seconds: i64) -> Started {
     let robot = open(name, StreamedTime::Waiting);
     Started { name, thread: Some(thread::spawn(move || drive(&robot, seconds))) }
 }
 
 /// A program that runs at least until the end of its test.
-struct Started {
+pub struct Started {
     name: &'static str,
     thread: Option<thread::JoinHandle<()>>,
 }
@@ -115,7 +134,7 @@ impl Drop for Started {
 }
 
 /// A robot in a process of its own, which can be started again.
-struct Restarted {
+pub struct Restarted {
     name: &'static str,
     /// Kind of the robot.
     kind: Option<&'static str>,
@@ -126,7 +145,7 @@ struct Restarted {
 }
 
 impl Restarted {
-    fn new(name: &'static str, kind: Option<&'static str>) -> Self {
+    pub fn new(name: &'static str, kind: Option<&'static str>) -> Self {
         Self { name, kind, changed: Arc::default(), starts: Arc::default(), process: None }
     }
 }
@@ -256,7 +275,7 @@ fn goes_back_on(page: &mut Browser, has_thread: bool) {
     page.wait_for(halted);
 }
 
-const RUNNING: &str = "document.getElementById('run').textContent === 'running'";
+pub const RUNNING: &str = "document.getElementById('run').textContent === 'running'";
 
 #[test]
 fn the_picture_is_alive_and_nothing_in_names_is_executed() {
@@ -432,6 +451,11 @@ fn tokens_are_shown_of_pinned_ports_only() {
     page.wait_for(
         "[...document.getElementById('world').getContext('2d').getImageData(0, 0, 400, 200).data].some((byte) => byte > 0)",
     );
+    // A view that a node brings, whose script does not run.
+    let view = "document.querySelector('[data-channel^=\"drawn_count\"]')";
+    page.value(&format!("{view}.querySelector('input').click()"));
+    page.wait_for(&format!("{view}.querySelector('img')?.naturalWidth > 0"));
+    page.wait_for(&format!("{view}.querySelector('pre').hidden"));
     assert_eq!(page.complaints, Vec::<String>::new());
 }
 

@@ -40,3 +40,12 @@ pub fn pose_on_circle(number: &i64) -> Pose2 {
     let angle = *number as f32 / 100.0;
     Pose2::new(angle.cos(), angle.sin(), angle)
 }
+
+/// Draws a number as a bar: a view of its own. The script in it must not run.
+#[node]
+pub fn drawn_count(number: &i64) -> String {
+    let width = number % 100;
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 10'><script>alert(1)</script><rect width='{width}' height='10' fill='teal'/></svg>"
+    )
+}

@@ -1,0 +1,153 @@
+//! The text on the page of the studio: edited, checked by the language server, and saved.
+
+use crate::{
+    browser::Browser,
+    page::{RUNNING, start, studio},
+};
+
+const AREA: &str = "document.querySelector('#text-area textarea')";
+const SELECTED: &str = "document.querySelector('#text .is-selected')";
+
+/// Opens the text of a robot on its page.
+fn open(page: &mut Browser) {
+    page.wait_for(RUNNING);
+    page.value("document.querySelector('[data-tab=text]').click()");
+    page.wait_for(&format!("{AREA}.value.includes('graph Counts')"));
+    page.wait_for("document.querySelector('#text .keyword')?.textContent === 'use'");
+}
+
+/// Replaces words of the text as if they were typed.
+fn replace(page: &mut Browser, old: &str, new: &str) {
+    page.value(&format!(
+        "{{ const area = {AREA}; const at = area.value.indexOf('{old}'); area.focus();
+           area.setSelectionRange(at, at + '{old}'.length); document.execCommand('insertText', false, '{new}'); }}"
+    ));
+}
+
+/// Presses Ctrl-S.
+fn save(page: &mut Browser) {
+    page.value(&format!(
+        "{AREA}.dispatchEvent(new KeyboardEvent('keydown', {{ key: 's', ctrlKey: true, bubbles: true, cancelable: true }}))"
+    ));
+}
+
+#[test]
+fn errors_of_the_text_are_shown_in_it_and_over_the_running_picture() {
+    let _robot = start("errors", 3600);
+    let Some(mut page) = Browser::open(&studio("errors", false).0) else { return };
+    open(&mut page);
+    for kind in ["docs", "type", "number", "arrow"] {
+        page.wait_for(&format!("document.querySelector('#text .paper .{kind}')"));
+    }
+    // In a node, in the graph above.
+    replace(&mut page, "factor = 2", "faktor = 2");
+    page.wait_for("document.querySelector('#text .wrong')?.textContent.includes('faktor')");
+    page.wait_for("document.querySelector('[data-item=times].is-wrong')");
+    assert_eq!(page.value("document.querySelectorAll('#picture .is-wrong').length"), 1);
+    page.wait_for("document.getElementById('text-found').textContent.includes('1 error')");
+    // The old robot goes on.
+    assert_eq!(page.value(RUNNING), true);
+    replace(&mut page, "faktor = 2", "factor = 2");
+    page.wait_for("!document.querySelector('#picture .is-wrong')");
+    // In a connection.
+    replace(&mut page, "times -> gated.number", "times -> gated.enable");
+    page.wait_for("document.querySelector('#text .wrong')");
+    page.wait_for("document.querySelector('.line.is-wrong')?.dataset.from.startsWith('times:')");
+    replace(&mut page, "times -> gated.enable", "times -> gated.number");
+    page.wait_for("!document.querySelector('#picture .is-wrong')");
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn a_text_is_saved_unless_others_have_changed_it() {
+    let _robot = start("saves", 3600);
+    let (address, text) = studio("saves", false);
+    let Some(mut page) = Browser::open(&address) else { return };
+    open(&mut page);
+    let saved = |page: &mut Browser| page.wait_for("document.getElementById('text-said').textContent === 'saved'");
+    let is_own = "document.querySelector('[data-tab=text]').classList.contains('is-own')";
+    assert_eq!(page.value(is_own), false);
+    replace(&mut page, "factor = 2", "factor = 3");
+    page.wait_for(is_own);
+    save(&mut page);
+    saved(&mut page);
+    page.wait_for(&format!("!{is_own}"));
+    let written = text.text.lock().unwrap().clone().expect("it was saved");
+    assert!(written.contains("factor = 3") && written.contains("graph Counts"), "{written}");
+    // A change by others is taken if nothing was typed here.
+    let others = written.replace("factor = 3", "factor = 4");
+    *text.text.lock().unwrap() = Some(others.clone());
+    page.wait_for(&format!("{AREA}.value.includes('factor = 4')"));
+    // Otherwise it is neither taken nor overwritten.
+    replace(&mut page, "factor = 4", "factor = 5");
+    *text.text.lock().unwrap() = Some(others.replace("factor = 4", "factor = 6"));
+    save(&mut page);
+    page.wait_for("!document.getElementById('text-over').hidden");
+    assert!(text.text.lock().unwrap().as_ref().is_some_and(|text| text.contains("factor = 6")));
+    assert_eq!(page.value(&format!("{AREA}.value.includes('factor = 5')")), true);
+    page.value("document.getElementById('text-over').click()");
+    saved(&mut page);
+    page.wait_for("document.getElementById('text-over').hidden");
+    assert!(text.text.lock().unwrap().as_ref().is_some_and(|text| text.contains("factor = 5")));
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn names_are_completed_and_explained() {
+    let _robot = start("completes", 3600);
+    let Some(mut page) = Browser::open(&studio("completes", false).0) else { return };
+    open(&mut page);
+    // By the keyboard alone.
+    replace(&mut page, "times -> gated.number", "times -> gated.numb");
+    page.value(&format!(
+        "{AREA}.dispatchEvent(new KeyboardEvent('keydown', {{ key: ' ', ctrlKey: true, bubbles: true, cancelable: true }}))"
+    ));
+    page.wait_for("document.querySelector('#text .menu li[aria-selected=true]')?.textContent.startsWith('number')");
+    page.press("Enter");
+    page.wait_for(&format!("{AREA}.value.includes('times -> gated.number;')"));
+    page.wait_for("document.querySelector('#text .menu').hidden");
+    page.value(&format!(
+        "{{ const at = {AREA}.value.indexOf('CountUp() every'); {AREA}.setSelectionRange(at + 2, at + 2); }}"
+    ));
+    page.press("F1");
+    page.wait_for("document.getElementById('tip').textContent.includes('CountUp')");
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn lines_and_nodes_are_selected_together_also_while_the_text_changes() {
+    let _robot = start("lines", 3600);
+    let Some(mut page) = Browser::open(&studio("lines", false).0) else { return };
+    open(&mut page);
+    replace(&mut page, "/// Lets", "/// One.\\n/// Two.\\n/// Lets");
+    let click = |page: &mut Browser, words: &str| {
+        page.value(&format!(
+            "{{ const at = {AREA}.value.indexOf('{words}'); {AREA}.setSelectionRange(at, at); {AREA}.dispatchEvent(new MouseEvent('click')); }}"
+        ));
+    };
+    click(&mut page, "node times");
+    page.wait_for("document.querySelector('[data-item=times].is-selected')");
+    page.wait_for(&format!("{SELECTED}.textContent.includes('node times')"));
+    let count = "document.querySelector('[data-item=count]')";
+    page.value(&format!(
+        "for (const kind of ['pointerdown', 'pointerup']) {count}.dispatchEvent(new PointerEvent(kind, {{ bubbles: true }}))"
+    ));
+    page.wait_for(&format!("{SELECTED}.textContent.includes('node count')"));
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn who_may_only_look_changes_no_text() {
+    let _robot = start("locked", 3600);
+    let (address, text) = studio("locked", true);
+    let Some(mut page) = Browser::open(&address) else { return };
+    open(&mut page);
+    assert_eq!(page.value(&format!("{AREA}.readOnly")), true);
+    assert_eq!(page.value("document.getElementById('text-save').hidden"), true);
+    // Nor by messages of its own.
+    page.value(
+        "import('./studio.js').then(({ ask }) => ask({ keep: { file: 0, text: 'graph Other {}', over: true } }))",
+    );
+    page.value("new Promise((done) => setTimeout(done, 300))");
+    assert_eq!(*text.text.lock().unwrap(), None);
+}
