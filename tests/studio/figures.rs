@@ -39,7 +39,7 @@ fn many() -> About {
         output: "out".to_owned(),
         to: at + 1,
         input: "in".to_owned(),
-        activity: at % 3 == 0,
+        activity: at.is_multiple_of(3),
     };
     About {
         version: VERSION,

@@ -3,9 +3,6 @@ use core::fmt;
 /// First bytes of each forest file: its type and the version of its format.
 const MAGIC: &[u8] = b"apex-forest 1\n";
 
-/// Bytes after the magic: seed, number of inputs, of trees, of nodes, and length of the provenance.
-const HEADER: usize = 8 + 2 + 4 + 4 + 2;
-
 /// Bytes of a node: feature, offset of the right branch, threshold or value.
 const NODE: usize = 8;
 
@@ -209,7 +206,7 @@ pub fn forest_bytes(
     let length = (0..=provenance.len().min(usize::from(u16::MAX))).rev().find(fits).unwrap_or(0);
     let count: usize = trees.iter().map(std::vec::Vec::len).sum();
     let mut bytes = MAGIC.to_vec();
-    bytes.reserve(HEADER + length + 4 * trees.len() + NODE * count);
+    bytes.reserve(length + 4 * trees.len() + NODE * count);
     bytes.extend(seed.to_le_bytes());
     bytes.extend((inputs as u16).to_le_bytes());
     bytes.extend((trees.len() as u32).to_le_bytes());

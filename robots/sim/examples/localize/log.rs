@@ -66,7 +66,7 @@ fn table(path: &Path) -> Result<Recording, String> {
             ..Scan::default()
         };
         scan.ranges.extend(row[10..].iter().map(|range| *range as f32));
-        records.push(Record { odometry: pose(2), scan, truth: pose(5), is_scored: row[0] as u64 % 5 != 0 });
+        records.push(Record { odometry: pose(2), scan, truth: pose(5), is_scored: !(row[0] as u64).is_multiple_of(5) });
     }
     Ok(Recording { records, mount: MOUNT })
 }
