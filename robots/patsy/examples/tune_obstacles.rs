@@ -5,11 +5,12 @@
 //! split into three parts; each part is measured with the weights that were chosen on the other two.
 
 use apex_nodes::cloud::Label;
+use apex_sim::in_order;
 use apex_sim::{
     Random,
     tof::{TofFrame, Truth},
 };
-use patsy::obstacles::{Detector, Scores, Weights, in_order, labelled_scene};
+use patsy::obstacles::{Detector, Scores, Weights, labelled_scene};
 
 /// Number of random weights, and of attempts to improve the best ones.
 const ROUNDS: (usize, usize) = (60, 240);

@@ -8,7 +8,6 @@ mod cart;
 mod drive;
 mod evaluate;
 mod finder;
-mod jobs;
 mod motion;
 pub mod obstacles;
 mod progress;

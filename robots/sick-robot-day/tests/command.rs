@@ -37,12 +37,15 @@ fn help_tells_about_everything() {
 
 #[test]
 fn what_cannot_be_meant_is_refused() {
-    let cases: [(&[&str], &str); 11] = [
+    let cases: [(&[&str], &str); 14] = [
         (&["dance"], "`dance` is no command; there are `compete`, `bench` and `perception`, and `--help`"),
         (&["--sed", "1"], "invalid option '--sed'; `--help` lists the options"),
         (&["bench", "--seed", "1"], "invalid option '--seed'; `--help` lists the options"),
         (&["--seed", "-1"], "`--seed` is a whole number from 0, not `-1`"),
         (&["bench", "--seeds", "0"], "`--seeds` is a whole number from 1, not `0`"),
+        (&["bench", "--jobs", "0"], "`--jobs` is a whole number from 1 to 1024, not `0`"),
+        (&["bench", "--first-seed", "18446744073709551615"], "the last seed is too large"),
+        (&["bench", "--times", "--jobs", "2"], "`--times` measures one competition at a time: without `--jobs`"),
         (&["--minutes", "nan"], "`--minutes` is a number above 0, at most 1440, not `nan`"),
         (&["--mission", "bt"], "`--mission` is `afg` or `sdf`, not `bt`"),
         (&["--fault", "laser@1s..2s"], "`laser` is no kind of fault; there are laser-frozen, "),
@@ -90,6 +93,10 @@ fn a_bench_has_a_line_for_each_seed() {
         "{text}"
     );
     assert!(text.contains("0 (median), 0 to 0"), "{text}");
+    let options = ["bench", "--first-seed", "7", "--seeds", "2", "--jobs", "1", "--minutes", "0.02"];
+    let (_, text, _) = run(Path::new("."), &options);
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[1].starts_with("     7 ") && lines[2].starts_with("     8 "), "{text}");
     let (code, text, _) = run(Path::new("."), &["bench", "--seeds", "1", "--minutes", "0.02", "--times"]);
     assert_eq!(code, Some(0));
     for part in ["surroundings / localize ", "see / find_sign", "last minute"] {

@@ -14,6 +14,7 @@ mod building;
 #[cfg(feature = "camera")]
 mod camera;
 mod drive;
+mod jobs;
 mod laser;
 mod note;
 mod odometry;
@@ -39,6 +40,7 @@ pub use building::{BUILDING, Building};
 #[cfg(feature = "camera")]
 pub use camera::{CameraSim, Light, NotLevel, expose};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
+pub use jobs::in_order;
 pub use laser::Laser;
 pub use note::Note;
 pub use odometry::{Odometry, OdometryNoise};

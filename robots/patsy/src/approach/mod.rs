@@ -6,17 +6,20 @@ mod picture;
 pub use drive::{Approach, Controller, End, drive, starts};
 pub use picture::picture;
 
-use crate::jobs;
-use std::fmt::Write as _;
+use apex_sim::in_order;
+use std::{fmt::Write as _, io, num::NonZero};
 
-/// Approaches from all start poses, with each of the seeds and both controllers.
-pub fn approaches(seeds: &[u64], threads: usize) -> Vec<Approach> {
+/// Approaches from all start poses, with each of the seeds and both controllers, on `threads` threads.
+///
+/// # Errors
+/// If a thread cannot be started.
+pub fn approaches(seeds: &[u64], threads: Option<NonZero<usize>>) -> io::Result<Vec<Approach>> {
     let work: Vec<_> = Controller::ALL
         .iter()
         .flat_map(|controller| seeds.iter().map(move |seed| (*controller, *seed)))
         .flat_map(|(controller, seed)| starts().map(move |start| (controller, seed, start)))
         .collect();
-    jobs::run(&work, threads, |(controller, seed, start)| drive(*controller, *seed, *start))
+    in_order(&work, threads, |(controller, seed, start)| drive(*controller, *seed, *start), |_| {})
 }
 
 /// Table of the ends of approaches, by controller.

@@ -15,7 +15,7 @@ pub fn approach(parser: &mut Parser) -> Result<ExitCode, String> {
         }
     }
     let all = seeds.all();
-    let approaches = approaches(&all, seeds.jobs);
+    let approaches = approaches(&all, seeds.jobs).map_err(|e| e.to_string())?;
     print!("{}", table(&approaches));
     out.parent()
         .map_or(Ok(()), fs::create_dir_all)

@@ -1,21 +1,21 @@
 //! Options that several commands have.
 
 use lexopt::{Arg, Parser, prelude::Long};
-use std::{num::NonZero, path::PathBuf, thread};
+use std::{num::NonZero, path::PathBuf};
 
 /// Maximum number of seeds.
 const MOST_SEEDS: u64 = 1_000_000;
 
-/// Seeds of a measurement, and the number of threads. The number of threads does not change the results.
+/// Seeds of a measurement, and the number of threads (`None`: all cores), which does not change the results.
 pub struct Seeds {
     first: u64,
     count: u64,
-    pub jobs: usize,
+    pub jobs: Option<NonZero<usize>>,
 }
 
 impl Seeds {
-    pub fn new(count: u64) -> Self {
-        Self { first: 1, count, jobs: thread::available_parallelism().map_or(1, NonZero::get) }
+    pub const fn new(count: u64) -> Self {
+        Self { first: 1, count, jobs: None }
     }
 
     /// Reads `--first-seed`, `--seeds` or `--jobs`; other options are errors.
@@ -23,7 +23,7 @@ impl Seeds {
         match option {
             Some("first-seed") => self.first = number(parser, "--first-seed", 0..=u64::MAX - MOST_SEEDS)?,
             Some("seeds") => self.count = number(parser, "--seeds", 1..=MOST_SEEDS)?,
-            Some("jobs") => self.jobs = number(parser, "--jobs", 1..=1024)? as usize,
+            Some("jobs") => self.jobs = NonZero::new(number(parser, "--jobs", 1..=1024)? as usize),
             _ => return Err(arg),
         }
         Ok(())

@@ -1,7 +1,8 @@
 use super::{
-    Detector, RANGES, RangeClass, RangeTable, RecordedTable, SceneFigure, StepTimes, Summary, in_order, labelled_scene,
+    Detector, RANGES, RangeClass, RangeTable, RecordedTable, SceneFigure, StepTimes, Summary, labelled_scene,
     labelled_scores,
 };
+use apex_sim::in_order;
 use lexopt::{Parser, prelude::*};
 use std::{
     ffi::OsString,
@@ -133,7 +134,11 @@ fn work<J: Sync, R: Send>(
             let _ = write!(io::stderr(), "\r\x1b[K{line}").and_then(|()| io::stderr().flush());
         }
     };
-    let results = in_order(jobs, threads, work, |done| show(&format!("{what}: {done} of {}", jobs.len())));
+    let mut done = 0;
+    let results = in_order(jobs, threads, work, |_| {
+        done += 1;
+        show(&format!("{what}: {done} of {}", jobs.len()));
+    });
     show("");
     results.map_err(|e| e.to_string())
 }

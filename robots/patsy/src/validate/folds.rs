@@ -1,7 +1,8 @@
 use super::knobs::{Choice, KNOBS};
 use crate::{Finder, RECORDED_SCANNER, report::read_labels};
 use apex_nodes::{io::ScanLogReader, scan::Scan};
-use std::{collections::BTreeMap, fmt::Write as _, path::Path, sync::Mutex};
+use apex_sim::in_order;
+use std::{collections::BTreeMap, fmt::Write as _, num::NonZero, path::Path, sync::Mutex};
 
 /// Weight of a false detection beside that of a missed pallet.
 const COST: f64 = 4.0;
@@ -116,10 +117,11 @@ type Memory = Mutex<BTreeMap<Choice, Vec<Outcome>>>;
 
 /// Chooses the limits on all blocks of time but one and counts the detections in that one, for each of `folds` blocks;
 /// then chooses them on all blocks. Returns the table.
-pub fn validate(data: &Data, folds: usize, jobs: usize) -> Result<String, String> {
+pub fn validate(data: &Data, folds: usize, jobs: Option<NonZero<usize>>) -> Result<String, String> {
     let memory = Memory::default();
     let work: Vec<Option<usize>> = (0..folds).map(Some).chain([None]).collect();
-    let chosen = crate::jobs::run(&work, jobs, |fold| choose(data, &memory, folds, *fold));
+    let chosen =
+        in_order(&work, jobs, |fold| choose(data, &memory, folds, *fold), |_| {}).map_err(|e| e.to_string())?;
     let mut text = format!(
         "{:<6}{:>10}{:>8}{:>8}{:>12}{:>8}  chosen on the other blocks\n",
         "block", "pallets", "found", "wrong", "no pallet", "wrong"

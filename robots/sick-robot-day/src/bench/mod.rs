@@ -1,11 +1,9 @@
 //! Measures the robot in many halls: its score, the cost of faults, and its computing time.
 
 mod faults;
-mod jobs;
 mod score;
 mod times;
 
 pub use faults::{Toll, fault_at};
-pub use jobs::on_all_cores;
 pub use score::{Score, Summary};
 pub use times::Times;

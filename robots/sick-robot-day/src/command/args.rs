@@ -1,17 +1,18 @@
-use super::Command;
+use super::{Command, Seeds};
 use lexopt::{
     Arg, Parser,
     prelude::{Long, Short},
 };
 use sick_robot_day::run::{Mission, Recording, Setup};
-use std::{ffi::OsString, path::PathBuf, str::FromStr, time::Duration};
+use std::{ffi::OsString, num::NonZero, path::PathBuf, str::FromStr, time::Duration};
 
 pub const HELP: &str = "\
 The robot of the SICK Robot Day 2014, in simulation: it fetches cubes and takes them to the stations that they name.
 
 Usage: sick-robot-day [compete] [--seed N] [--mission afg|sdf] [--minutes M] [--fault KIND@FROM..UNTIL]...
                       [--out FOLDER] [--film FILE] [--record FILE [--record-images]]
-       sick-robot-day bench [--seeds N] [--mission afg|sdf] [--minutes M] [--faults] [--times]
+       sick-robot-day bench [--first-seed N] [--seeds N] [--jobs N] [--mission afg|sdf] [--minutes M] [--faults]
+                      [--times]
        sick-robot-day perception [--seeds N] [--out FOLDER]
 
 `compete`, which is meant if nothing is named, plays a competition against three rivals. It shows it on a terminal, and
@@ -30,9 +31,12 @@ leaves a table of what the robot did and pictures: its map, its phases, and what
                   A file that is there is not overwritten: the next one is FILE-2
   --record-images with the images of the cameras: 220 MB a minute
 
-`bench` plays one competition for each of many seeds, on all cores, and says how they went.
+`bench` plays one competition for each of many seeds, and says how they went.
 
-  --seeds N       the seeds 1 to N (default 20; of `perception` 50)
+  --first-seed N  the first seed (default 1)
+  --seeds N       how many seeds (default 20; of `perception` 50)
+  --jobs N        how many competitions at once (default: as many as there are cores); the table does not depend on it,
+                  but for the computing times
   --faults        each of them also with each kind of fault, at a time that the seed draws
   --times         where the time goes, by part of the robot; one competition after the other
 
@@ -51,6 +55,9 @@ station; 2 it could not be done.
 
 /// Default folder of the pictures.
 pub const PICTURES: &str = "out/sick-robot-day";
+
+/// Maximum number of threads.
+const MOST_JOBS: usize = 1024;
 
 /// Maximum duration of a run, in minutes: a day. Longer runs are typing errors.
 const MOST_MINUTES: f64 = 1440.0;
@@ -101,11 +108,14 @@ fn compete(parser: &mut Parser) -> Result<Command, String> {
 
 fn bench(parser: &mut Parser) -> Result<Command, String> {
     let mut setup = Setup { duration: Duration::from_secs(600), ..Setup::default() };
-    let (mut seeds, mut faults, mut times) = (20, false, false);
+    let mut seeds = Seeds { first: 1, count: 20, jobs: None };
+    let (mut faults, mut times) = (false, false);
     while let Some(arg) = next(parser)? {
         match arg {
             Long("help") | Short('h') => return Ok(Command::Help),
-            Long("seeds") => seeds = number(parser, "--seeds", 1)?,
+            Long("first-seed") => seeds.first = number(parser, "--first-seed", 0)?,
+            Long("seeds") => seeds.count = number(parser, "--seeds", 1)?,
+            Long("jobs") => seeds.jobs = jobs(parser)?,
             Long("mission") => setup.mission = mission(parser)?,
             Long("minutes") => setup.duration = minutes(parser)?,
             Long("faults") => faults = true,
@@ -115,6 +125,12 @@ fn bench(parser: &mut Parser) -> Result<Command, String> {
     }
     if faults && times {
         return Err("`--faults` and `--times` are measured one at a time".to_owned());
+    }
+    if times && seeds.jobs.is_some() {
+        return Err("`--times` measures one competition at a time: without `--jobs`".to_owned());
+    }
+    if seeds.first.checked_add(seeds.count - 1).is_none() {
+        return Err("the last seed is too large".to_owned());
     }
     Ok(Command::Bench { seeds, setup, faults, times })
 }
@@ -152,6 +168,12 @@ fn number(parser: &mut Parser, option: &str, least: u64) -> Result<u64, String> 
     let value = text(parser)?;
     let number = u64::from_str(&value).ok().filter(|number| *number >= least);
     number.ok_or_else(|| format!("`{option}` is a whole number from {least}, not `{value}`"))
+}
+
+fn jobs(parser: &mut Parser) -> Result<Option<NonZero<usize>>, String> {
+    let value = text(parser)?;
+    let jobs = usize::from_str(&value).ok().and_then(NonZero::new).filter(|jobs| jobs.get() <= MOST_JOBS);
+    jobs.map(Some).ok_or_else(|| format!("`--jobs` is a whole number from 1 to {MOST_JOBS}, not `{value}`"))
 }
 
 fn minutes(parser: &mut Parser) -> Result<Duration, String> {

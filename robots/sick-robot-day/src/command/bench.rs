@@ -1,14 +1,15 @@
-use super::say;
+use super::{Seeds, say};
+use apex_sim::in_order;
 use sick_robot_day::{
-    bench::{Score, Summary, Times, Toll, fault_at, on_all_cores},
+    bench::{Score, Summary, Times, Toll, fault_at},
     contest::FaultKind,
     measure::Progress,
     run::{Setup, Watch},
 };
-use std::{process::ExitCode, time::Instant};
+use std::{num::NonZero, process::ExitCode, time::Instant};
 
-/// Plays competitions with the seeds 1 to `seeds`.
-pub fn bench(seeds: u64, setup: &Setup, faults: bool, times: bool) -> Result<ExitCode, String> {
+/// Plays competitions with these seeds.
+pub fn bench(seeds: Seeds, setup: &Setup, faults: bool, times: bool) -> Result<ExitCode, String> {
     if times {
         return measure_times(seeds, setup);
     }
@@ -17,15 +18,14 @@ pub fn bench(seeds: u64, setup: &Setup, faults: bool, times: bool) -> Result<Exi
     if faults {
         kinds.extend(FaultKind::ALL.map(Some));
     }
-    let seeds = usize::try_from(seeds).map_err(|_| "so many seeds have no room in memory".to_owned())?;
-    let jobs: Vec<Setup> =
-        kinds.iter().flat_map(|kind| (1..=seeds as u64).map(|seed| job(setup, seed, *kind))).collect();
-    let scores = scores(&jobs)?;
-    let without = &scores[..seeds];
+    let count = usize::try_from(seeds.count).map_err(|_| "so many seeds have no room in memory".to_owned())?;
+    let jobs: Vec<Setup> = kinds.iter().flat_map(|kind| seeds.numbers().map(|seed| job(setup, seed, *kind))).collect();
+    let scores = scores(&jobs, seeds.jobs)?;
+    let without = &scores[..count];
     say(&format!("\n{}\n", Summary(without)))?;
     if faults {
         say(&format!("\n{}\n", Toll::HEAD))?;
-        let tolls = kinds.iter().zip(scores.chunks(seeds)).map(|(kind, scores)| Toll { kind: *kind, scores, without });
+        let tolls = kinds.iter().zip(scores.chunks(count)).map(|(kind, scores)| Toll { kind: *kind, scores, without });
         tolls.map(|toll| format!("{toll}\n")).try_for_each(|line| say(&line))?;
     }
     let is_fine = scores.iter().all(|score| score.wrong + score.caused + score.failures.len() == 0);
@@ -38,7 +38,7 @@ fn job(setup: &Setup, seed: u64, kind: Option<FaultKind>) -> Setup {
 }
 
 /// Plays all competitions, and prints a line for each.
-fn scores(jobs: &[Setup]) -> Result<Vec<Score>, String> {
+fn scores(jobs: &[Setup], threads: Option<NonZero<usize>>) -> Result<Vec<Score>, String> {
     let (progress, mut done, mut printed) = (Progress::default(), 0, Ok(()));
     let show = |score: &Result<Score, String>| {
         let fault = jobs[done].faults.first().map(|fault| format!("  {fault}")).unwrap_or_default();
@@ -49,7 +49,7 @@ fn scores(jobs: &[Setup]) -> Result<Vec<Score>, String> {
         }
         progress.step("competitions", done as u64, jobs.len() as u64);
     };
-    let scores = on_all_cores(jobs, |setup| play(setup, &mut ()), show).map_err(|e| e.to_string())?;
+    let scores = in_order(jobs, threads, |setup| play(setup, &mut ()), show).map_err(|e| e.to_string())?;
     progress.clear();
     printed?;
     scores.into_iter().collect()
@@ -62,16 +62,16 @@ fn play(setup: &Setup, watch: &mut impl Watch) -> Result<Score, String> {
 }
 
 /// In sequence, as parallel runs would slow one another down.
-fn measure_times(seeds: u64, setup: &Setup) -> Result<ExitCode, String> {
+fn measure_times(seeds: Seeds, setup: &Setup) -> Result<ExitCode, String> {
     let (progress, info) = (Progress::default(), setup.mission.info());
     let mut all = Times::new(info, setup.end());
-    for seed in 1..=seeds {
-        progress.step("competitions", seed, seeds);
+    for (done, seed) in (1..).zip(seeds.numbers()) {
+        progress.step("competitions", done, seeds.count);
         let mut times = Times::new(info, setup.end());
         play(&job(setup, seed, None), &mut times)?;
         all.add(&times);
     }
     progress.clear();
-    say(&format!("{all}\n\nseeds 1 to {seeds}\n"))?;
+    say(&format!("{all}\n\n{seeds}\n"))?;
     Ok(ExitCode::SUCCESS)
 }

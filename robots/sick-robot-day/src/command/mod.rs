@@ -10,16 +10,43 @@ use sick_robot_day::{
     run::Setup,
 };
 use std::{
+    fmt,
     io::{self, Write as _},
+    num::NonZero,
+    ops::RangeInclusive,
     path::PathBuf,
     process::ExitCode,
 };
+
+/// Seeds of a measurement, and the number of its threads (`None`: all cores), on which the results do not depend.
+#[derive(Clone, Copy)]
+pub struct Seeds {
+    first: u64,
+    count: u64,
+    jobs: Option<NonZero<usize>>,
+}
+
+impl Seeds {
+    const fn last(&self) -> u64 {
+        self.first + (self.count - 1)
+    }
+
+    const fn numbers(&self) -> RangeInclusive<u64> {
+        self.first..=self.last()
+    }
+}
+
+impl fmt::Display for Seeds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "seeds {} to {}", self.first, self.last())
+    }
+}
 
 /// Command to carry out.
 pub enum Command {
     Help,
     Compete { setup: Setup, out: Option<PathBuf>, film: Option<PathBuf> },
-    Bench { seeds: u64, setup: Setup, faults: bool, times: bool },
+    Bench { seeds: Seeds, setup: Setup, faults: bool, times: bool },
     Perception { seeds: u64, out: Option<PathBuf> },
 }
 

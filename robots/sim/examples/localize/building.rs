@@ -1,6 +1,6 @@
 //! Localization in a simulated building.
 
-use crate::{draw::Picture, jobs, options::Options, table};
+use crate::{draw::Picture, for_each_seed, options::Options, table};
 use apex_nodes::{
     localize::{Change, Filter, Settings, VisibilityTable},
     scan::Scan,
@@ -33,9 +33,7 @@ struct Score {
 pub fn run(options: &Options, plan: &Path) -> Result<(), String> {
     let building = Building::read(plan).map_err(|e| e.to_string())?;
     let table = table(&building.plan, options.table)?;
-    let runs = jobs::run(options.seeds as usize, options.jobs, |i| {
-        play(options, &building, &table, options.first_seed + i as u64)
-    });
+    let runs = for_each_seed(options, |seed| play(options, &building, &table, seed))?;
     let runs: Option<Vec<_>> = runs.into_iter().collect();
     let runs = runs.ok_or_else(|| format!("{}: no place for the robot in this plan", plan.display()))?;
     println!(

@@ -3,12 +3,12 @@
 
 mod building;
 mod draw;
-mod jobs;
 mod log;
 mod options;
 mod replay;
 
 use apex_nodes::localize::{TableSettings, VisibilityTable};
+use apex_sim::in_order;
 use options::{Options, Task};
 use std::{path::Path, process::ExitCode, time::Instant};
 
@@ -26,6 +26,19 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Runs `work` for each seed. The results are in the order of the seeds.
+fn for_each_seed<R: Send>(options: &Options, work: impl Fn(u64) -> R + Sync) -> Result<Vec<R>, String> {
+    let seeds: Vec<u64> = (0..options.seeds).map(|i| options.first_seed + i).collect();
+    let mut done = 0;
+    let show = |_: &R| {
+        done += 1;
+        eprint!("\r{done} of {}  ", seeds.len());
+    };
+    let results = in_order(&seeds, options.jobs, |seed| work(*seed), show).map_err(|e| e.to_string());
+    eprint!("\r                    \r");
+    results
 }
 
 /// Loads or builds the table of a map, and prints its size.

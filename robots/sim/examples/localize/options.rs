@@ -1,5 +1,5 @@
 use apex_nodes::localize::{Settings, TableSettings};
-use std::{path::PathBuf, str::FromStr};
+use std::{num::NonZero, path::PathBuf, str::FromStr};
 
 const HELP: &str = "\
 Measures the localization on plans.
@@ -42,7 +42,7 @@ pub struct Options {
     pub furniture: usize,
     pub first_seed: u64,
     pub seeds: u64,
-    pub jobs: usize,
+    pub jobs: Option<NonZero<usize>>,
     pub settings: Settings,
     pub table: TableSettings,
     pub trace: bool,
@@ -95,7 +95,7 @@ impl Options {
             furniture: 300,
             first_seed: 1,
             seeds: 5,
-            jobs: std::thread::available_parallelism().map_or(1, usize::from),
+            jobs: None,
             settings: Settings::default(),
             table: TableSettings::default(),
             trace: false,
@@ -116,7 +116,7 @@ impl Options {
             "reach" => self.table.reach = number(name, value)?,
             "first-seed" => self.first_seed = number(name, value)?,
             "seeds" => self.seeds = number(name, value)?,
-            "jobs" => self.jobs = number(name, value)?,
+            "jobs" => self.jobs = Some(number(name, value)?),
             "set" => {
                 let (name, value) = value.split_once('=').ok_or("`--set` is NAME=VALUE")?;
                 set(&mut self.settings, name, value)?;

@@ -1,6 +1,6 @@
 //! Localization on recordings.
 
-use crate::{jobs, log, options::Options, table};
+use crate::{for_each_seed, log, options::Options, table};
 use apex_nodes::{
     io::{PlanOptions, read_plan},
     localize::{Change, Filter, Settings, VisibilityTable},
@@ -39,11 +39,9 @@ pub fn run(options: &Options, map: &Path, logs: &[PathBuf]) -> Result<(), String
     );
     for path in logs {
         let recording = log::read(path)?;
-        let seeds = options.seeds as usize;
-        let scores = jobs::run(seeds, options.jobs, |i| {
-            let seed = options.first_seed + i as u64;
+        let scores = for_each_seed(options, |seed| {
             play(&recording, &table, Settings { mount: recording.mount, seed, ..options.settings }, options.trace)
-        });
+        })?;
         for (i, score) in scores.into_iter().enumerate() {
             let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
             show(name, options.first_seed + i as u64, score);
