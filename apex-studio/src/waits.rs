@@ -1,5 +1,5 @@
-//! Nodes that wait for others: a node fires when all of its inputs have a token. While only some have one, it waits for those
-//! that the others come from.
+//! Nodes that wait for others: a node fires when all of its inputs have a token. While only some have one, it waits for
+//! those that the others come from.
 
 use apex_rt::studio::message::{About, PortRole};
 

@@ -264,8 +264,8 @@ impl Server {
         self.params.post(&name, act, tell).unwrap_or_else(|error| refused(Err(error)));
     }
 
-    /// Returns a function that sends the value of a parameter, and the number of reactions before it was set, or `unset`
-    /// after an error.
+    /// Returns a function that sends the value of a parameter, and the number of reactions before it was set, or
+    /// `unset` after an error.
     fn tells(
         &self,
         name: String,

@@ -118,7 +118,7 @@ fn bulge(points: impl Iterator<Item = Point2>, first: Point2, last: Point2) -> f
     sign * sum / f32::max(count, 1.0)
 }
 
-/// How much farther than the ends of a segment the points next to it are.
+/// Distances by which the points next to a segment are farther than its ends.
 fn background(scan: &Scan, segment: &Segment) -> [f32; 2] {
     let (first, last) = (usize::from(segment.first), usize::from(segment.last));
     let before = (first.saturating_sub(MARGIN)..first).rev().find_map(|beam| scan.range(beam));

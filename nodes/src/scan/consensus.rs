@@ -77,8 +77,8 @@ impl BoxModel {
         sighting
     }
 
-    /// Returns `true` if the ends of a segment, in the frame of the model, are in one wheel box, or on one board: a wall
-    /// reaches beyond them.
+    /// Returns `true` if the ends of a segment, in the frame of the model, are in one wheel box, or on one board: a
+    /// wall reaches beyond them.
     fn holds(&self, ends: [Point2; 2]) -> bool {
         let both = |area: &[f32; 4]| ends.iter().all(|end| in_box(*end, area));
         self.wheels.iter().chain(self.boards).any(both)

@@ -95,8 +95,8 @@ impl WheelShape {
     /// estimate. Also returns the root mean square of the remaining distances, in m. Needs two wheels.
     ///
     /// Wheels that do not turn are fitted by least squares. Castors are fitted for each combination of their possible
-    /// pivots, and the result is the mean of these poses, weighted by their likelihood. If all castors point in the same
-    /// direction, nothing tells on which side their pivots are: the mean is then in the middle.
+    /// pivots, and the result is the mean of these poses, weighted by their likelihood. If all castors point in the
+    /// same direction, nothing tells on which side their pivots are: the mean is then in the middle.
     pub fn fit(&self, wheels: &[(Point2, View)], prior: &Pose2) -> Option<(Pose2, f32)> {
         if wheels.len() < 2 {
             return None;

@@ -11,8 +11,8 @@ use std::{
 /// Size of the stack of a thread, in bytes. Robots are large, and may be on the stack for a while.
 const STACK: usize = 64 << 20;
 
-/// Runs all jobs on `threads` threads (`None`: as many as the machine has cores), and shows each result. The results are
-/// in the order of the jobs, and do not depend on the number of threads.
+/// Runs all jobs on `threads` threads (`None`: as many as the machine has cores), and shows each result. The results
+/// are in the order of the jobs, and do not depend on the number of threads.
 ///
 /// # Errors
 /// If a thread cannot be started.

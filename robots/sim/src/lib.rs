@@ -1,8 +1,8 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
 //! (feature `camera`), time-of-flight cameras (feature `tof`), and buildings from plans (feature `building`).
 //!
-//! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, and a [`LaserScanner`] in a world
-//! drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a robot with such nodes.
+//! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, and a [`LaserScanner`] in a
+//! world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a robot with such nodes.
 //!
 //! Deterministic: the same seed gives the same scans on every platform. Much faster than real time.
 //!

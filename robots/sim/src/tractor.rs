@@ -11,9 +11,9 @@ const STEP: f32 = 0.01;
 /// Simulated tractor with a passively steered trailer and a lift in a drawn world (thesis 6.7). It is a source with
 /// slots for twists and for the lift.
 ///
-/// Stands at the start of the [`FloorPlan`] with its trailer in line. Stops at obstacles, and when twists no longer come.
-/// `raise` lifts a container that stands above it: from then on, until it is down again, the vehicle has the footprint
-/// of the container, too, which turns with the trailer. It needs a period, for example `every 50ms`.
+/// Stands at the start of the [`FloorPlan`] with its trailer in line. Stops at obstacles, and when twists no longer
+/// come. `raise` lifts a container that stands above it: from then on, until it is down again, the vehicle has the
+/// footprint of the container, too, which turns with the trailer. It needs a period, for example `every 50ms`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TractorBase {

@@ -28,8 +28,8 @@ const OFF_CURVE: f32 = 0.2;
 /// Steers a tractor with a passively steered trailer beneath a container, along a planned curve.
 ///
 /// The ports are those of [`ReactiveApproach`](super::ReactiveApproach). At the first container, and whenever the
-/// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins curves
-/// to a line before the container, on which the predicted trailer comes into line, is never bent by more than
+/// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins
+/// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
 /// no such curve, or if the vehicle is beside its goal at the end. Obstacles are the task of the safety field behind
 /// this node.

@@ -88,8 +88,8 @@ pub(super) enum Arrival {
     Missed,
 }
 
-/// Compares a vehicle with its goal: `base` is the pose of the tractor and `rear` the rear-most point, both in the frame
-/// of the container, and `goal` is the x coordinate of the goal.
+/// Compares a vehicle with its goal: `base` is the pose of the tractor and `rear` the rear-most point, both in the
+/// frame of the container, and `goal` is the x coordinate of the goal.
 pub(super) fn arrival(base: &Pose2, rear: Point2, goal: f32, tolerance: f32) -> Arrival {
     if base.x < goal - 0.5 * tolerance {
         return Arrival::Ahead;

@@ -36,8 +36,8 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Values that the thesis gives (6.5.2), without a weight of the elevation, which it does not have. κ_max and I_max,
-    /// for which it gives no values, were chosen on scenes with seeds from 1001.
+    /// Values that the thesis gives (6.5.2), without a weight of the elevation, which it does not have. κ_max and
+    /// I_max, for which it gives no values, were chosen on scenes with seeds from 1001.
     pub const THESIS: Self = Self {
         alpha: 25.57,
         beta: 19.18,

@@ -25,7 +25,7 @@ Usage: localize MAP LOG...  [OPTIONS]    on recordings; MAP is .dxf, .csv (x1,y1
   --trace            one line per used scan
 ";
 
-/// What is measured.
+/// Measurement.
 pub enum Task {
     Logs { map: PathBuf, logs: Vec<PathBuf> },
     Building { plan: PathBuf },
