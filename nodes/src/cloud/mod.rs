@@ -1,4 +1,5 @@
-//! Structured point clouds of depth cameras (feature `std`), and the detection of obstacles in them (thesis 6.5).
+//! Structured point clouds of depth cameras (feature `std`), the detection of obstacles in them (thesis 6.5), and
+//! the verification of containers (thesis 6.6.2).
 //!
 //! A structured cloud has the order of the pixels of its camera: row 0 is the uppermost, column 0 the leftmost. Points
 //! are in m, x forward, y left, z up. A pixel without a measurement has NaN as its coordinates.
@@ -10,7 +11,9 @@
 
 mod bright;
 mod classify;
+mod cluster;
 mod columns;
+mod container;
 mod edge;
 mod floor;
 mod grow;
@@ -25,7 +28,9 @@ mod smooth;
 
 pub use bright::BrightFilter;
 pub use classify::{ColumnClassifier, Probabilities};
+pub use cluster::{Cluster, ClusterCloud, Clusters};
 pub use columns::{Columns, MountCloud};
+pub use container::VerifyContainer;
 pub use edge::EdgeFilter;
 pub use floor::{FloorFit, FloorSurface};
 pub use hazard::{Area, Hazard, HazardKind, HazardMap};

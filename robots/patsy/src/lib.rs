@@ -3,6 +3,7 @@
 //!
 //! The scanner is at the origin and faces along x; a cart moves in front of it.
 
+pub mod accuracy;
 pub mod approach;
 mod cart;
 mod drive;

@@ -1,5 +1,6 @@
 //! Commands of the program.
 
+mod accuracy;
 mod approach;
 mod args;
 mod simulate;
@@ -14,6 +15,7 @@ PATSY looks for containers in laser scans and draws what it sees.
 
 Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE]]
        patsy obstacles [OPTIONS]
+       patsy accuracy [--first-seed N] [--seeds N] [--jobs N]
        patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy times [--first-seed N] [--seeds N]
        patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
@@ -28,6 +30,9 @@ Without arguments it plays 5000 scans in simulated rooms and measures itself. Pi
 
 `obstacles` measures the detection of obstacles with a time-of-flight camera; `patsy obstacles --help` lists its
 options.
+
+`accuracy` measures the errors of the pose of a container by its distance, in the scan alone and with a time-of-flight
+camera. It draws a cart, the errors of the camera and the noise for each seed (default: seeds 1 to 200).
 
 `approach` drives tractor and trailer beneath a container from 459 poses, with the controller of the thesis and with the
 planned one, and draws from where they arrive.
@@ -52,8 +57,12 @@ Exit codes: 0 fine, 1 some scans could not be read, 2 nothing could be done.
 /// Command: reads its options and does its work. An error is the reason why this was not possible.
 type Command = fn(&mut Parser) -> Result<ExitCode, String>;
 
-const COMMANDS: [(&str, Command); 3] =
-    [("approach", approach::approach), ("times", times::times), ("validate", validate::validate)];
+const COMMANDS: [(&str, Command); 4] = [
+    ("accuracy", accuracy::accuracy),
+    ("approach", approach::approach),
+    ("times", times::times),
+    ("validate", validate::validate),
+];
 
 /// Runs the command that the arguments of the program name. Without a name, it is the simulation.
 pub fn run() -> Result<ExitCode, String> {
