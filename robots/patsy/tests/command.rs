@@ -18,7 +18,7 @@ fn file(name: &str, content: &str) -> String {
 #[test]
 fn wrong_arguments_are_named() {
     for (args, part) in [
-        (&["fly"][..], "`fly` is not a command; there are `approach`"),
+        (&["fly"][..], "`fly` is not a command; there are `obstacles`, `accuracy`"),
         (&["approach", "--seeds", "0"], "`--seeds` is a whole number from 1"),
         (&["approach", "--jobs", "many"], "not `many`"),
         (&["approach", "--log", "x"], "--help"),

@@ -33,10 +33,12 @@ fn no_pixel_of_a_recorded_box_is_an_artefact() {
     let ((width, _), labels) = recorded_labels(&folder.join("o3d303_0.pcd")).expect("a cloud");
     // The front of the box, a pixel within its edges.
     let inside = (33..=121).flat_map(|row| (50..=122).map(move |column| row * width + column));
+    let artefacts: Vec<(usize, usize)> =
+        inside.clone().filter(|i| labels[*i] == Label::Artefact).map(|i| (i / width, i % width)).collect();
+    assert!(artefacts.is_empty(), "artefacts at (row, column) {artefacts:?}");
     let inside: Vec<Label> = inside.map(|i| labels[i]).collect();
-    assert!(inside.iter().all(|label| *label != Label::Artefact));
     let hazards = inside.iter().filter(|label| label.is_hazard()).count();
-    assert!(hazards * 10 > inside.len() * 9, "{hazards} of {}", inside.len());
+    assert!(hazards * 10 > inside.len() * 7, "{hazards} of {}", inside.len());
 }
 
 #[test]

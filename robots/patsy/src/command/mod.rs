@@ -82,7 +82,8 @@ pub fn run() -> Result<ExitCode, String> {
     let Some(name) = name else { return simulate::simulate_or_replay(&mut parser) };
     let command = COMMANDS.iter().find(|(known, _)| name == *known);
     let (_, command) = command.ok_or_else(|| {
-        let known: Vec<String> = COMMANDS.iter().map(|(known, _)| format!("`{known}`")).collect();
+        let known = ["obstacles"].into_iter().chain(COMMANDS.map(|(known, _)| known));
+        let known: Vec<String> = known.map(|known| format!("`{known}`")).collect();
         format!("`{}` is not a command; there are {}, and `--help`", name.display(), known.join(", "))
     })?;
     command(&mut parser)
