@@ -94,13 +94,7 @@ impl BoxModel {
 
     /// Share of the beams between two wheels of the near side that are not stopped before it: 1 if there are none.
     pub fn passing(&self, [a, b]: [&View; 2], scan: &Scan) -> f32 {
-        // Seen obliquely, the wheels themselves are before the line that joins their centres.
-        let inner = |one: &View, other: &View| {
-            let ends = one.ends.map(|end| end.angle());
-            let off = |angle: &f32| (angle - other.bearing).abs();
-            scan.beam_towards(if off(&ends[0]) < off(&ends[1]) { ends[0] } else { ends[1] })
-        };
-        let (Some(from), Some(to)) = (inner(a, b), inner(b, a)) else { return 1.0 };
+        let (Some(from), Some(to)) = (scan.beam_towards(a.bearing), scan.beam_towards(b.bearing)) else { return 1.0 };
         let (mut free, mut all) = (0_u16, 0_u16);
         let across = b.centre - a.centre;
         for beam in from.min(to) + 1..from.max(to) {

@@ -388,6 +388,8 @@ mod tests {
     #[test]
     fn from_the_side_only_if_allowed() {
         let pose = Pose2::new(2.5, 0.0, 1.2);
+        // Beams that hit the wheels themselves are before the line that joins their centres.
+        let node = || ContainerSearch { min_passing: 0.3, ..node() };
         assert!(search(node(), &wheels(&pose)).is_some());
         assert_eq!(search(ContainerSearch { max_view_angle: 0.3, ..node() }, &wheels(&pose)), None);
     }
