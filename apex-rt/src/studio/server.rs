@@ -275,7 +275,7 @@ impl Server {
         move |result| {
             let reactions = result.as_ref().map_or(unset, |(_, reactions)| *reactions);
             let value = result.map(|(value, _)| value).map_err(|error| error.to_string());
-            // After the end nobody wants to know.
+            // The viewer may have gone.
             let _ = answer.send(Report::Param { name, value, reactions });
         }
     }

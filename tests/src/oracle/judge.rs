@@ -201,8 +201,8 @@ fn replay(
     let is_connected = |node: NodeId, port: usize| graph.incoming(PortId { node, port }).is_some();
     // For each input of the node that fired last whether it is connected.
     let mut inputs: Vec<bool> = vec![];
-    let mut replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
-    replay = replay.hesitating(hesitant.clone());
+    let replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
+    let mut replay = replay.hesitating(hesitant.clone());
     for (step, record) in records.iter().enumerate() {
         let result = match record {
             Record::Begin(now) => {
