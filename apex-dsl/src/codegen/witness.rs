@@ -188,8 +188,8 @@ impl Generator<'_> {
         let silent = self.silent();
         let ports = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let copies = ports.filter(|end| graph.origin(*end) == *end).filter_map(|end| {
-            let connection = graph.connections.iter().find(|c| c.from == end)?;
             let name = self.copying(graph, end)?;
+            let connection = graph.connections.iter().find(|c| c.from == end)?;
             let message = self.message(&Message {
                 text: format!("the tokens of `{}` are copied, and `{{Self}}` is not `Clone`", graph.end_name(end)),
                 place: connection.span,

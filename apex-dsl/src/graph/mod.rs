@@ -392,8 +392,10 @@ impl Graph {
         // The number of steps is bounded, as a loop of nothing but delays has no origin.
         for _ in 0..self.nodes.len() {
             let passes_on = matches!(self.nodes[end.node].kind, NodeKind::Delay(_) | NodeKind::Relay);
-            match self.incoming(PortId { node: end.node, port: 0 }).filter(|_| passes_on && self.port(end).kind.sends())
-            {
+            if !passes_on || !self.port(end).kind.sends() {
+                break;
+            }
+            match self.incoming(PortId { node: end.node, port: 0 }) {
                 Some(connection) => end = connection.from,
                 None => break,
             }
