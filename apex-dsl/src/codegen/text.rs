@@ -81,8 +81,11 @@ fn abbreviated(code: TokenStream) -> TokenStream {
     for token in code {
         match token {
             TokenTree::Group(group) => {
-                let mut inner = Group::new(group.delimiter(), abbreviated(group.stream()));
-                inner.set_span(group.span());
+                let (delimiter, span, stream) = (group.delimiter(), group.span(), group.stream());
+                // The tokens are moved, as nothing else holds them.
+                drop(group);
+                let mut inner = Group::new(delimiter, abbreviated(stream));
+                inner.set_span(span);
                 short.push(inner.into());
             }
             TokenTree::Ident(name) if name == "apex_rt" && ends_in_colons(&short) => {
