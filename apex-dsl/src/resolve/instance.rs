@@ -17,7 +17,7 @@ use crate::{
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PortKind, TypeExpr},
+    syntax::tree::{Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,6 +36,8 @@ pub struct Builder<'a> {
     pub arrays: BTreeSet<WireEnd>,
     /// Unknown names of nodes or ports in each graph, which have been reported.
     pub unknown: BTreeSet<(GraphId, String)>,
+    /// What the instances at each place of a text are made by: a graph that is used many times names the same.
+    made: BTreeMap<Span, Result<Constructor, Option<Box<Diagnostic>>>>,
     /// The initial tokens of delays, as written.
     pub delays: Vec<(graph::NodeId, Expr)>,
     pub claims: Vec<Claim>,
@@ -118,6 +120,7 @@ impl<'a> Builder<'a> {
             suppressed: BTreeSet::new(),
             arrays: BTreeSet::new(),
             unknown: BTreeSet::new(),
+            made: BTreeMap::new(),
             delays: vec![],
             claims: vec![],
             open,
@@ -342,7 +345,7 @@ impl<'a> Builder<'a> {
 
     /// An instance of a node or graph.
     pub fn instance(&mut self, body: &Body<'_>, name: &Ident, instance: &Instance, docs: &str) -> Option<Symbol> {
-        let made = match self.texts.made(&instance.path, self.catalog) {
+        let made = match self.constructor(&instance.path) {
             Ok(made) => made,
             Err(error) => {
                 error.into_iter().for_each(|error| self.diagnostics.push(*error));
@@ -370,6 +373,11 @@ impl<'a> Builder<'a> {
             }
         };
         self.delayed(body, name, symbol, &instance.modifiers)
+    }
+
+    fn constructor(&mut self, path: &PathExpr) -> Result<Constructor, Option<Box<Diagnostic>>> {
+        let (texts, catalog) = (self.texts, self.catalog);
+        self.made.entry(path.span).or_insert_with(|| texts.made(path, catalog)).clone()
     }
 
     fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
