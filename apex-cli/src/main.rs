@@ -288,6 +288,10 @@ enum Command {
         /// Simulate the time, for robots whose sources do so.
         #[arg(long)]
         simulated: bool,
+        /// Let a second robot get the inputs of the first one, with parameters of its own: the page shows both, and
+        /// where they differ. The first one records its run to a temporary file for that.
+        #[arg(long, conflicts_with_all = ["connect", "replay"])]
+        shadow: bool,
         /// Simulated seconds per second at the beginning.
         #[arg(long, default_value_t = 1.0, value_parser = studio::speed)]
         speed: f64,
@@ -377,11 +381,25 @@ fn main() -> ExitCode {
             })
         }
         Command::Top { address } => studio::top(address),
-        Command::Studio { file, robot, connect, replay, simulated, speed, params, listen, read_only, how, args } => {
+        Command::Studio {
+            file,
+            robot,
+            connect,
+            replay,
+            simulated,
+            shadow,
+            speed,
+            params,
+            listen,
+            read_only,
+            how,
+            args,
+        } => {
             let page = studio::Page { listen, read_only, speed };
             match file {
                 Some(file) if connect.is_empty() => {
-                    let launch = studio::Launch { file, robot, replay, simulated, params, args, how: how.how() };
+                    let launch =
+                        studio::Launch { file, robot, replay, simulated, shadow, params, args, how: how.how() };
                     studio::run(launch, &page)
                 }
                 file => studio::connect(connect, file, &page),

@@ -64,7 +64,7 @@ fn has_folder(file: &Path) -> Result<(), String> {
 }
 
 /// Environment variables with the files for the made program, whose arguments belong to the nodes.
-const LOAD: &str = "APEX_PARAMS";
+pub const LOAD: &str = "APEX_PARAMS";
 const SAVE: &str = "APEX_SAVE_PARAMS";
 pub const KEPT: &str = "APEX_KEPT_PARAMS";
 /// Environment variable with the file of the profile, for every program (`apex_rt::drive`).

@@ -1,31 +1,26 @@
 //! `apex studio`: builds and starts a robot, and opens the page on which it can be seen.
 
+mod launched;
+
 use crate::{
     build::How,
     project::{self, print_error},
     replace,
-    run::{Found, KEPT, Params, Recording, Stream, Wanted},
-    watch::{
-        files::Files,
-        folders,
-        program::{Running, forget},
-    },
 };
 use apex_diagram::{Item, diagram};
 use apex_dsl::{
     fix::applied,
     ide::{ArgumentPlace, set_argument},
-    program::Program,
 };
-use apex_studio::{ParamChange, Remote, Replayed, Robot, Seat, Source, Studio};
+use apex_studio::{ParamChange, Recorded, Remote, Replayed, Robot, Seat, Shadow, Source, Studio};
+use launched::Launched;
 use std::{
-    env, fs,
+    fs,
     io::{self, IsTerminal as _, Write as _},
     net::SocketAddr,
     path::{Path, PathBuf},
-    process::{Command, ExitCode},
+    process::ExitCode,
     sync::{Arc, Mutex, PoisonError},
-    time::{Duration, Instant, SystemTime},
 };
 
 /// A robot that is built and started.
@@ -34,6 +29,8 @@ pub struct Launch {
     pub robot: Option<String>,
     pub replay: Option<PathBuf>,
     pub simulated: bool,
+    /// `true` for a second robot that gets the inputs of the first one.
+    pub shadow: bool,
     pub params: Option<PathBuf>,
     pub args: Vec<String>,
     pub how: How,
@@ -57,11 +54,17 @@ pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
     let (file, replay) = (Some(launch.file.clone()), launch.replay.clone());
     let text = Arc::new(Text { file, replay, has_params: launch.params.is_some(), errors: Mutex::default() });
     let name = launch.file.display().to_string();
-    let mut robot = Launched::new(launch, Arc::clone(&text))?;
+    let recorded = launch.shadow.then(Arc::<Recorded>::default);
+    let mut robot = Launched::new(launch, Arc::clone(&text), recorded.clone())?;
     if !robot.build()? {
         return Ok(ExitCode::from(1));
     }
-    page.serve(vec![Seat { name, robot, source: text }], Some(page.speed)).map(|()| ExitCode::SUCCESS)
+    let mut robots = vec![Seat { name, robot: Box::new(robot), source: Arc::clone(&text) as _, shadow_of: None }];
+    if let Some(recorded) = recorded {
+        let robot: Box<dyn Robot> = Box::new(Shadow::new(recorded));
+        robots.push(Seat { name: "shadow".to_owned(), robot, source: text, shadow_of: Some(0) });
+    }
+    page.serve(robots, Some(page.speed)).map(|()| ExitCode::SUCCESS)
 }
 
 /// Serves a page of robots that run already until Ctrl-C. `file` has their text.
@@ -71,7 +74,7 @@ pub fn connect(addresses: Vec<String>, file: Option<PathBuf>, page: &Page) -> Re
     }
     let seat = |address: String| {
         let text = Text { file: file.clone(), replay: None, has_params: false, errors: Mutex::default() };
-        Seat { name: address.clone(), robot: Remote { address }, source: Arc::new(text) }
+        Seat { name: address.clone(), robot: Box::new(Remote { address }), source: Arc::new(text), shadow_of: None }
     };
     page.serve(addresses.into_iter().map(seat).collect(), None).map(|()| ExitCode::SUCCESS)
 }
@@ -86,7 +89,7 @@ pub fn top(address: String) -> Result<ExitCode, String> {
 }
 
 impl Page {
-    fn serve<R: Robot + 'static>(&self, robots: Vec<Seat<R>>, speed: Option<f64>) -> Result<(), String> {
+    fn serve(&self, robots: Vec<Seat>, speed: Option<f64>) -> Result<(), String> {
         let studio = Studio { robots, address: self.listen, readonly: self.read_only, speed };
         let opened = |address: &str| print_error(&format!("studio: {address}\nCtrl-C ends it"));
         studio.serve(opened).map_err(|error| {
@@ -229,170 +232,4 @@ fn create(mut paths: impl Iterator<Item = PathBuf>, parts: &[&str]) -> Result<Pa
         };
         return Err(format!("cannot write `{}`: {error}", path.display()));
     }
-}
-
-/// Interval between checks of the files.
-const INTERVAL: Duration = Duration::from_millis(300);
-
-/// A robot that this program builds and starts.
-struct Launched {
-    launch: Launch,
-    params: Params,
-    text: Arc<Text>,
-    /// Path of the robot's socket.
-    socket: PathBuf,
-    /// A program that has been built, but not started.
-    built: Option<Found>,
-    /// Command that has started the current program, and the time at which that was built.
-    command: Option<Command>,
-    built_at: Option<SystemTime>,
-    running: Option<Running>,
-    has_started: bool,
-    folders: Vec<PathBuf>,
-    /// The files at the last build, at the last check, and the time of that.
-    files: (Files, Files, Instant),
-}
-
-impl Launched {
-    fn new(launch: Launch, text: Arc<Text>) -> Result<Self, String> {
-        let socket = private_folder()?.join("robot");
-        let params = Params { load: launch.params.clone(), save: None };
-        let folders = folders(&launch.file)?;
-        let files = (Files::default(), Files::default(), Instant::now());
-        Ok(Self {
-            launch,
-            params,
-            text,
-            socket,
-            built: None,
-            command: None,
-            built_at: None,
-            running: None,
-            has_started: false,
-            folders,
-            files,
-        })
-    }
-
-    fn wanted<'a>(launch: &'a Launch, params: &'a Params, socket: &'a str) -> Wanted<'a> {
-        Wanted {
-            file: &launch.file,
-            robot: launch.robot.as_deref(),
-            params,
-            profile: None,
-            recording: launch.replay.as_deref().map_or(Recording::Stated, Recording::Repeated),
-            args: &launch.args,
-            // Parameters that were set survive a restart. In simulated time they are set again at the same reactions.
-            watch: launch.replay.is_none() && !launch.simulated,
-            stream: Stream::WaitAt(socket),
-            simulated: launch.simulated,
-            how: launch.how,
-        }
-    }
-
-    /// Builds the program. Returns `false` after errors, which are printed.
-    fn build(&mut self) -> Result<bool, String> {
-        let files = Files::below(&self.folders);
-        self.files = (files.clone(), files, Instant::now());
-        let socket = self.socket.to_string_lossy().into_owned();
-        let wanted = Self::wanted(&self.launch, &self.params, &socket);
-        let Some(programs) = self.check(&wanted)? else { return Ok(false) };
-        self.built = wanted.build(&programs)?;
-        let failed = "the program cannot be built; the terminal has the errors";
-        self.text.set_errors(self.built.is_none().then(|| failed.to_owned()));
-        Ok(self.built.is_some())
-    }
-
-    fn check(&self, wanted: &Wanted<'_>) -> Result<Option<Vec<Program>>, String> {
-        let checked = project::check(wanted.file)?;
-        checked.print_diagnostics();
-        if checked.diagnostics.has_errors() {
-            self.text.set_errors(Some(checked.rendered()));
-            return Ok(None);
-        }
-        Ok(Some(checked.programs))
-    }
-}
-
-impl Robot for Launched {
-    fn start(&mut self, again: bool) -> Result<String, String> {
-        let socket = self.socket.to_string_lossy().into_owned();
-        if let Some(command) = self.command.as_mut().filter(|_| again) {
-            // With the parameters of the text, not with those at the end of the last run.
-            let child = command.env_remove(KEPT).spawn();
-            self.running = Some(Running::new(child.map_err(|e| format!("cannot start the robot again: {e}"))?));
-            return Ok(socket);
-        }
-        if self.built.is_none() && !self.build()? {
-            return Err("the program has errors".to_owned());
-        }
-        let built = self.built.take().ok_or("the program has not been built")?;
-        if !std::mem::replace(&mut self.has_started, true) {
-            forget(&built);
-        }
-        let mut command = Self::wanted(&self.launch, &self.params, &socket).command(&built);
-        self.running = Some(Running::new(command.spawn().map_err(|e| built.not_started(&e))?));
-        self.built_at = built_at(&command);
-        self.command = Some(command);
-        Ok(socket)
-    }
-
-    fn runs(&mut self) -> bool {
-        self.running.as_mut().is_some_and(|running| running.ended().is_none())
-    }
-
-    fn stop(&mut self) {
-        if let Some(running) = self.running.take() {
-            running.end();
-        }
-    }
-
-    fn has_changed(&mut self) -> bool {
-        let (built, last, at) = &mut self.files;
-        if at.elapsed() < INTERVAL {
-            return false;
-        }
-        let now = Files::below(&self.folders);
-        let is_stable = now == std::mem::replace(last, now.clone());
-        *at = Instant::now();
-        if !is_stable || now == *built {
-            return false;
-        }
-        let is_built = self.build().unwrap_or_else(|message| {
-            print_error(&format!("error: {message}"));
-            self.text.set_errors(Some(message));
-            false
-        });
-        // A new file that the program does not use, such as a test, does not change it.
-        let is_same = self.command.as_ref().is_some_and(|command| built_at(command) == self.built_at);
-        if is_built && is_same {
-            self.built = None;
-        }
-        is_built && !is_same
-    }
-}
-
-/// Time at which the program of a command was built.
-fn built_at(command: &Command) -> Option<SystemTime> {
-    fs::metadata(command.get_program()).and_then(|file| file.modified()).ok()
-}
-
-impl Drop for Launched {
-    fn drop(&mut self) {
-        self.stop();
-        // A robot that was killed has left its socket there.
-        let _ = self.socket.parent().map(fs::remove_dir_all);
-    }
-}
-
-/// Makes a folder that only this user can enter: everyone who can connect to a robot can set its parameters.
-fn private_folder() -> Result<PathBuf, String> {
-    let folder = env::temp_dir().join(format!("apex-studio-{}", std::process::id()));
-    // One of an earlier process with the same number; it cannot be removed if it belongs to another user.
-    let _ = fs::remove_dir_all(&folder);
-    let mut builder = fs::DirBuilder::new();
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.create(&folder).map_err(|e| format!("cannot create `{}` for the socket: {e}", folder.display()))?;
-    Ok(folder)
 }

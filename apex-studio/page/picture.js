@@ -4,6 +4,9 @@ import { ask, robot, select, tip } from "./studio.js";
 
 /** @typedef {{within: string, names: string[], connects: boolean, text: string}} Concern */
 
+/** `true` for a node that the compiler has inserted into a connection. @param {number} node */
+const isInserted = (node) => ["relay", "probe"].includes(robot.about?.nodes[node]?.kind ?? "");
+
 export class Picture {
   /** @param {HTMLElement} place */
   constructor(place) {
@@ -110,7 +113,16 @@ export class Picture {
     const connection = robot.about?.connections[at];
     if (!connection) return false;
     if (robot.connections[at].fresh) return true;
-    return !this.isEvent(connection) && robot.nodes[connection.from].fresh && robot.nodes[connection.to].fresh;
+    const fires = (/** @type {number} */ node, /** @type {boolean} */ back) => this.behind(node, back).some((of) => robot.nodes[of].fresh);
+    return !this.isEvent(connection) && fires(connection.from, true) && fires(connection.to, false);
+  }
+
+  /** The node itself, or if it only passes tokens on, those before or behind it. @param {number} node @param {boolean} back @returns {number[]} */
+  behind(node, back, depth = 0) {
+    if (!isInserted(node) || depth > 8) return [node];
+    const all = robot.about?.connections ?? [];
+    const next = back ? all.filter(({ to }) => to === node).map(({ from }) => from) : all.filter(({ from }) => from === node).map(({ to }) => to);
+    return next.flatMap((other) => this.behind(other, back, depth + 1));
   }
 
   /** `true` if the connection ends at a slot. @param {import("./studio.js").Connection} connection */
@@ -244,8 +256,8 @@ export class Picture {
     const line = this.lines.find(({ element }) => element === target);
     if (line) {
       const title = target.querySelector("title")?.textContent ?? "";
-      const words = line.connections.map((at) => this.flowWords(at));
-      return [title, ...words.slice(0, 6), this.errors.get(target) ?? ""].filter(Boolean).join("\n");
+      const words = new Set(line.connections.map((at) => this.flowWords(at)));
+      return [title, ...[...words].slice(0, 6), this.errors.get(target) ?? ""].filter(Boolean).join("\n");
     }
     const path = target.closest("[data-item]")?.getAttribute("data-item");
     const item = path ? this.items.get(path) : undefined;
@@ -267,6 +279,7 @@ export class Picture {
     const connection = robot.about?.connections[at];
     if (!connection) return "";
     if (!this.isEvent(connection)) {
+      if (isInserted(connection.from)) return "";
       const node = robot.nodes[connection.from];
       return node.fired === 0 ? "its source has not fired" : `${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
     }

@@ -26,6 +26,8 @@ export const robot = {
   /** Connections over which a node waits for a token. @type {Set<number>} */ awaited: new Set(),
   now: 0,
   readonly: false,
+  /** The robot beside it, with which it is compared: its shadow, or the robot whose shadow it is. @type {"shadow" | "robot" | null} */
+  beside: null,
   /** Times of calls by node, while they are measured. @type {Map<number, {calls: number, total: number, worst: number}> | null} */
   times: null,
   /** @type {string | null} */ selected: null,
@@ -77,9 +79,11 @@ let problems = 0;
 
 /** What the studio tells, by kind. @type {Record<string, (told: any) => void>} */
 const tells = {
-  about({ about, texts, editable, rebuilds, readonly, travels, repeats }) {
+  about({ about, texts, editable, rebuilds, readonly, travels, repeats, beside }) {
     robot.about = about;
     robot.readonly = readonly;
+    robot.beside = beside;
+    element("take").hidden = beside !== "robot" || readonly;
     forget();
     document.title = `${about.name} – Apex Studio`;
     element("name").textContent = about.name;
@@ -127,12 +131,20 @@ const tells = {
   test(result) { moment.tell(result); },
   saved(result) { params.tell(result); },
   tokens(all) { values.update(all); },
+  beside(all) { values.updateBeside(all); },
   lanes(lanes) { timeline.show(lanes); },
   robots({ names, shown }) {
     const choice = element("robot");
     choice.hidden = names.length < 2;
     choice.replaceChildren(...names.map((/** @type {string} */ name, /** @type {number} */ at) => new Option(name, String(at))));
     choice.value = String(shown);
+  },
+  runs({ earlier, last, shown: run }) {
+    const choice = element("earlier");
+    choice.hidden = earlier.length === 0;
+    const name = (/** @type {[number, number]} */ [number, end]) => `run ${number}, until ${shown(end)}`;
+    choice.replaceChildren(...earlier.map((/** @type {[number, number]} */ run) => new Option(name(run), String(run[0]))), new Option(`run ${last}`, String(last)));
+    choice.value = String(run);
   },
   refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
 };
@@ -177,6 +189,8 @@ function tick(told) {
   if (document.activeElement !== element("speed")) element("speed").value = speed === null ? "" : String(speed);
   element("lost").hidden = told.lost === 0;
   element("lost").textContent = `${told.lost} messages lost`;
+  element("forgotten").hidden = told.forgotten === null;
+  element("forgotten").textContent = told.forgotten === null ? "" : `only sums before ${shown(told.forgotten)}`;
   for (const node of robot.nodes) node.fresh = false;
   for (const line of robot.connections) line.fresh = false;
   let changed = false;
@@ -311,12 +325,17 @@ function pause() { ask(paused ? { run: { speed } } : "pause"); }
 
 element("pause").addEventListener("click", pause);
 element("step").addEventListener("click", () => ask("step"));
+element("take").addEventListener("click", () => ask("take"));
 element("heat").addEventListener("click", heat);
 element("back").addEventListener("click", () => ask("back"));
 element("goto").addEventListener("click", () => timeline.go());
 element("break").addEventListener("change", () => ask({ break: element("break").value }));
 element("restart").addEventListener("click", () => ask("restart"));
 element("robot").addEventListener("change", () => look(Number(element("robot").value)));
+element("earlier").addEventListener("change", () => {
+  ask({ look: Number(element("earlier").value) });
+  element("earlier").blur();
+});
 element("speed").addEventListener("change", () => {
   const chosen = element("speed").value;
   ask({ run: { speed: chosen === "" ? null : Number(chosen) } });

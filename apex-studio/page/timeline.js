@@ -102,7 +102,8 @@ export class Timeline {
       c.fillStyle = color("--bad");
       c.fillRect(this.x(differs), 0, 1.5, height);
     }
-    element("differs").textContent = differs === null ? "" : `differs from the run before since ${shown(differs)}`;
+    const other = robot.beside === null ? "the run before" : robot.beside === "shadow" ? "its shadow" : "the robot";
+    element("differs").textContent = differs === null ? "" : `differs from ${other} since ${shown(differs)}`;
     if (this.cursor !== null) {
       c.fillStyle = color("--accent");
       c.fillRect(this.x(this.cursor), 0, 1.5, height);

@@ -12,6 +12,7 @@ export class Values {
     this.filter = filter;
     /** Pinned channels, by name: they survive a restart. @type {Set<string>} */ this.pinned = new Set();
     /** @type {Map<number, {time: number, text: string}[]>} */ this.tokens = new Map();
+    /** Those of the robot beside this one. @type {Map<number, {time: number, text: string}[]>} */ this.beside = new Map();
     /** @type {Map<number, HTMLElement>} */ this.rows = new Map();
     /** The newest tokens that are messages. @type {Map<number, any>} */ this.messages = new Map();
     /** Names of the channels with the poses from which others are seen. @type {Map<string, string>} */ this.seenFrom = new Map();
@@ -21,6 +22,7 @@ export class Values {
 
   begin() {
     this.tokens.clear();
+    this.beside.clear();
     this.messages.clear();
     this.list();
     this.watch();
@@ -110,13 +112,19 @@ export class Values {
     ask({ watch: channels.flatMap(({ name }, at) => (this.pinned.has(name) ? [at] : [])) });
   }
 
+  /** @param {Record<string, {texts: [number, string][]}>} all */
+  updateBeside(all) {
+    for (const [channel, { texts }] of Object.entries(all)) {
+      keep(this.beside, Number(channel), texts);
+      this.draw(Number(channel));
+    }
+  }
+
   /** @param {Record<string, {texts: [number, string][], bytes: string}>} all */
   update(all) {
     for (const [channel, { texts, bytes }] of Object.entries(all)) {
       const at = Number(channel);
-      const kept = this.tokens.get(at) ?? [];
-      kept.push(...texts.map(([time, text]) => ({ time, text })));
-      this.tokens.set(at, kept.slice(-MAX));
+      keep(this.tokens, at, texts);
       const definition = robot.about?.channels[at]?.schema?.definition ?? "";
       const message = bytes === "" || definition === "" ? null : read(definition, Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0)));
       if (message) this.messages.set(at, message);
@@ -142,8 +150,8 @@ export class Values {
     if (own !== null) return this.own(row, own);
     const schema = robot.about?.channels[at].schema?.name ?? "";
     if (schema === "sensor_msgs/msg/Image" && this.messages.has(at)) this.image(row, this.messages.get(at));
-    const numbers = tokens.map(({ time, text }) => ({ time, value: Number(text) })).filter(({ value }) => Number.isFinite(value));
-    if (numbers.length > 1 && Number.isFinite(Number(last.text))) this.plot(row, numbers);
+    const numbers = finite(tokens);
+    if (numbers.length > 1 && Number.isFinite(Number(last.text))) this.plot(row, numbers, finite(this.beside.get(at) ?? []));
   }
 
   /** Shows the view that a node brings. An image runs no scripts, and loads nothing. @param {HTMLElement} row @param {string} svg */
@@ -168,8 +176,8 @@ export class Values {
     drawImage(canvas, message);
   }
 
-  /** @param {HTMLElement} row @param {{time: number, value: number}[]} numbers */
-  plot(row, numbers) {
+  /** @param {HTMLElement} row @param {{time: number, value: number}[]} numbers @param {{time: number, value: number}[]} beside */
+  plot(row, numbers, beside) {
     let canvas = row.querySelector("canvas");
     if (!canvas) {
       canvas = document.createElement("canvas");
@@ -185,21 +193,35 @@ export class Values {
     c.scale(scale, scale);
     const end = numbers[numbers.length - 1].time;
     const start = Math.max(numbers[0].time, end - 30);
-    const seen = numbers.filter(({ time }) => time >= start);
-    const [low, high] = [Math.min(...seen.map((n) => n.value)), Math.max(...seen.map((n) => n.value))];
+    const [seen, other] = [numbers, beside].map((all) => all.filter(({ time }) => time >= start && time <= end));
+    const all = [...seen, ...other].map((n) => n.value);
+    const [low, high] = [Math.min(...all), Math.max(...all)];
+    row.dataset.beside = String(other.length);
     const x = (/** @type {number} */ time) => ((time - start) / Math.max(1e-9, end - start)) * (width - 4) + 2;
     const y = (/** @type {number} */ value) => height - 12 - ((value - low) / (high - low || 1)) * (height - 24);
-    c.strokeStyle = style.getPropertyValue("--fire");
-    c.lineWidth = 1.5;
-    c.beginPath();
-    for (const { time, value } of seen) c.lineTo(x(time), y(value));
-    c.stroke();
+    for (const [curve, color] of /** @type {const} */ ([[other, "--soft"], [seen, "--fire"]])) {
+      c.strokeStyle = style.getPropertyValue(color);
+      c.lineWidth = 1.5;
+      c.beginPath();
+      for (const { time, value } of curve) c.lineTo(x(time), y(value));
+      c.stroke();
+    }
     c.fillStyle = style.getPropertyValue("--soft");
     c.font = "10px system-ui, sans-serif";
     c.fillText(String(high), 2, 9);
     c.fillText(String(low), 2, height - 2);
   }
 }
+
+/** Keeps tokens of a channel. @param {Map<number, {time: number, text: string}[]>} all @param {number} at @param {[number, string][]} texts */
+function keep(all, at, texts) {
+  const kept = all.get(at) ?? [];
+  kept.push(...texts.map(([time, text]) => ({ time, text })));
+  all.set(at, kept.slice(-MAX));
+}
+
+/** Tokens that are numbers. @param {{time: number, text: string}[]} tokens */
+const finite = (tokens) => tokens.map(({ time, text }) => ({ time, value: Number(text) })).filter(({ value }) => Number.isFinite(value));
 
 /** The drawing in a token that is one: a text with SVG. @param {any} message @returns {string | null} */
 const view = (message) => (typeof message?.data === "string" && message.data.startsWith("<svg") ? message.data : null);

@@ -115,31 +115,10 @@ impl Parser<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use apex_rt::studio::message::AboutNode;
+    use crate::samples::robot;
 
     fn about() -> About {
-        let node = |name: &str| AboutNode {
-            name: name.to_owned(),
-            kind: String::new(),
-            docs: String::new(),
-            file: 0,
-            line: 1,
-            column: 1,
-            ports: vec![],
-        };
-        About {
-            version: 0,
-            name: String::new(),
-            docs: String::new(),
-            files: vec![],
-            simulated: true,
-            nodes: ["a", "b.c", "b.d", "bc"].map(node).into(),
-            connections: vec![],
-            groups: vec![],
-            claims: vec![],
-            channels: vec![],
-            params: vec![],
-        }
+        robot(&["a", "b.c", "b.d", "bc"])
     }
 
     #[test]

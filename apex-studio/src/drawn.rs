@@ -1,11 +1,10 @@
 //! The picture of a robot without its text, from what it says about itself: nodes in the graphs that their names tell.
 
+use crate::kinds::is_inserted;
 use apex_diagram::{Anchor, Flow, Frame, Item, Line, Port, Shape, Side, joined};
 use apex_rt::studio::message::{About, AboutConnection, PortRole};
 use std::collections::BTreeMap;
 
-/// Kinds of nodes that are not drawn, because a text does not have them.
-const HIDDEN: [&str; 2] = ["relay", "probe"];
 /// Maximum number of hidden nodes one behind the other.
 const MAX_RELAYS: usize = 64;
 
@@ -13,7 +12,7 @@ const MAX_RELAYS: usize = 64;
 pub fn drawn(about: &About) -> Item {
     let mut graphs = Graphs { all: vec![Graph::new(&about.name, None)], place: BTreeMap::new() };
     for (at, node) in about.nodes.iter().enumerate() {
-        if !HIDDEN.contains(&node.kind.as_str()) {
+        if !is_inserted(&node.kind) {
             graphs.add(at, &node.name, &node.kind, &node.docs);
         }
     }
@@ -29,7 +28,7 @@ pub fn drawn(about: &About) -> Item {
 fn targets<'a>(about: &'a About, connection: &'a AboutConnection, depth: usize) -> Vec<(usize, &'a str, PortRole)> {
     let to = connection.to as usize;
     let Some(node) = about.nodes.get(to) else { return vec![] };
-    if HIDDEN.contains(&node.kind.as_str()) {
+    if is_inserted(&node.kind) {
         let next = about.connections.iter().filter(|next| next.from == connection.to && depth > 0);
         return next.flat_map(|next| targets(about, next, depth - 1)).collect();
     }
@@ -200,42 +199,23 @@ fn side(role: PortRole) -> Side {
 }
 
 #[cfg(test)]
-pub mod tests {
+mod tests {
     use super::*;
-    use crate::picture::Picture;
+    use crate::{
+        picture::Picture,
+        samples::{node, robot},
+    };
     use apex_rt::studio::message::AboutNode;
-
-    /// A robot without nodes.
-    pub fn about() -> About {
-        About {
-            version: 0,
-            name: "Robot".into(),
-            docs: String::new(),
-            files: vec![],
-            simulated: false,
-            nodes: vec![],
-            connections: vec![],
-            groups: vec![],
-            claims: vec![],
-            channels: vec![],
-            params: vec![],
-        }
-    }
 
     #[test]
     fn nodes_are_in_the_graphs_of_their_names_and_lines_lead_to_their_connections() {
         let node = |name: &str, kind: &str| AboutNode {
-            name: name.into(),
-            kind: kind.into(),
-            docs: String::new(),
-            file: 0,
-            line: 1,
-            column: 1,
             ports: vec![("in".into(), PortRole::Input, String::new()), ("out".into(), PortRole::Output, String::new())],
+            ..node(name, kind)
         };
         let connection =
             |from, to| AboutConnection { from, output: "out".into(), to, input: "in".into(), activity: false };
-        let mut about = about();
+        let mut about = robot(&[]);
         about.nodes =
             vec![node("a.b.x", "X"), node("a.y", "Y"), node("relay", "relay"), node("c.z", "Z"), node("z", "Z")];
         about.connections =
@@ -246,6 +226,10 @@ pub mod tests {
         assert_eq!(lines["a.b:x a.y:in"], [0]);
         assert_eq!(lines["a.b.x:out a.b:x"], [0, 3]);
         assert_eq!(lines["a:x z:in"], [3]);
+        // Over the relay.
+        for line in ["a.y:out a:y", "a:y c:z.in", "c:z.in c.z:in"] {
+            assert_eq!(lines[line], [1, 2], "{line}");
+        }
         let svg = picture.svg(&picture.first_open());
         for name in ["a.b.x", "a.y", "c.z", "z"] {
             assert!(svg.contains(&format!("data-item=\"{name}\"")), "{name}: {svg}");

@@ -15,9 +15,17 @@ pub struct Journey {
     /// Number of parameters whose values are not known yet.
     unknown: usize,
     /// Times of the points, if they are not numbers of reactions: a changed robot may react more often, or less.
-    times: Option<Vec<i64>>,
+    times: Option<Times>,
     /// Speed at which it goes on at the end.
     speed: Option<f64>,
+}
+
+/// Times in ns of the points of a journey.
+struct Times {
+    /// Those of the reactions after the points at which parameters were set.
+    sets: BTreeMap<u64, i64>,
+    /// A time after the last reaction.
+    end: i64,
 }
 
 impl Journey {
@@ -31,7 +39,9 @@ impl Journey {
     /// A journey of a robot whose source has changed, to the time of this run, where it goes on if this one did.
     pub fn of_changed(live: &Live) -> Self {
         let speed = (!live.paused && live.run == Run::Running).then_some(live.speed);
-        Self { times: Some(live.times.clone()), speed, ..Self::along(live, live.times.len() as u64) }
+        let sets = live.sets.iter().filter_map(|(at, ..)| Some((*at, live.steps.time_of(*at)?))).collect();
+        let times = Times { sets, end: if live.reactions > 0 { live.now + 1 } else { 0 } };
+        Self { times: Some(times), speed, ..Self::along(live, live.reactions) }
     }
 
     /// The rest of the journey of a robot that goes back to a checkpoint with `reactions` reactions before it.
@@ -105,10 +115,7 @@ impl Journey {
         match &self.times {
             None => Command::RunTo { reactions },
             // Before the reaction that came next, or after the last one.
-            Some(times) => {
-                let next = usize::try_from(reactions).ok().and_then(|at| times.get(at).copied());
-                Command::RunUntil { now: next.unwrap_or_else(|| times.last().map_or(0, |last| last + 1)) }
-            }
+            Some(times) => Command::RunUntil { now: times.sets.get(&reactions).copied().unwrap_or(times.end) },
         }
     }
 }

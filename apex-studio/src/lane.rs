@@ -1,17 +1,25 @@
-//! History of a node: when it was active, and when it fired. Nothing is sampled: a lane can be drawn at every scale.
+//! History of a node: when it was active, and when it fired. Nothing is sampled: what happened long ago is summed up in
+//! intervals that grow with the length of the run.
 
 use serde::Serialize;
+use std::borrow::Cow;
 
-/// Number of buckets, beyond which two become one.
-const MAX_BUCKETS: usize = 200_000;
+/// Number of entries of all lanes of a robot, and the limits for one of them.
+const ENTRIES: usize = 4_000_000;
+const FEWEST: usize = 2_000;
+const MOST: usize = 100_000;
 /// Width of the first buckets in ns.
 const BUCKET: i64 = 1_000_000;
 
 /// History of a node.
 #[derive(Clone)]
 pub struct Lane {
+    /// Number of spans, buckets and marks, beyond which two become one.
+    room: usize,
     /// Beginning and end of each time of activity in ns, in sequence; the last one may have no end yet.
     spans: Vec<(i64, i64)>,
+    /// Width in ns of the gaps between spans, and of the distances between marks, that are left out; at first 0.
+    grain: i64,
     /// Width of a bucket in ns.
     bucket: i64,
     /// Beginning of each bucket with firings, and the number of firings up to its end.
@@ -45,6 +53,11 @@ pub struct Window {
 }
 
 impl Window {
+    /// Width of a column in ns.
+    pub fn column_width(&self) -> i64 {
+        (self.to.saturating_sub(self.from) / i64::from(self.columns.max(1))).max(1)
+    }
+
     /// Column of a time, limited to the window.
     fn column(&self, time: i64) -> u32 {
         let (all, at) = ((self.to - self.from).max(1) as f64, (time.clamp(self.from, self.to) - self.from) as f64);
@@ -54,19 +67,65 @@ impl Window {
 
 impl Default for Lane {
     fn default() -> Self {
-        Self { spans: vec![], bucket: BUCKET, fired: vec![], marks: vec![] }
+        Self::of(1)
     }
 }
 
 impl Lane {
+    /// A lane of one of so many nodes.
+    pub fn of(nodes: usize) -> Self {
+        let room = (ENTRIES / nodes.max(1)).clamp(FEWEST, MOST);
+        Self { room, spans: vec![], grain: 0, bucket: BUCKET, fired: vec![], marks: vec![] }
+    }
+
+    /// A lane with buckets of this width in ns, for a short time.
+    pub fn fine(bucket: i64) -> Self {
+        Self { room: usize::MAX, bucket, ..Self::of(1) }
+    }
+
     /// The node becomes active or inactive.
     pub fn activity(&mut self, now: i64, active: bool) {
         let open = self.spans.last_mut().filter(|span| span.1 == i64::MAX);
         match (open, active) {
-            (None, true) => self.spans.push((now, i64::MAX)),
+            (None, true) => match self.spans.last_mut() {
+                Some(last) if now - last.1 < self.grain => last.1 = i64::MAX,
+                _ => self.spans.push((now, i64::MAX)),
+            },
             (Some(span), false) => span.1 = now,
             _ => {}
         }
+        if self.spans.len() > self.room {
+            self.coarsen();
+        }
+    }
+
+    /// Leaves out gaps and distances of twice the width, until half of the room is free.
+    fn coarsen(&mut self) {
+        while self.spans.len().max(self.marks.len()) > self.room / 2 {
+            self.grain = (self.grain * 2).max(BUCKET);
+            self.leave_out();
+        }
+    }
+
+    /// Leaves out what is narrower than the grain.
+    fn leave_out(&mut self) {
+        let grain = self.grain;
+        self.spans.dedup_by(|next, last| {
+            let is_near = next.0.saturating_sub(last.1) < grain;
+            last.1 = if is_near { next.1 } else { last.1 };
+            is_near
+        });
+        self.marks.dedup_by(|next, last| *next - *last < grain);
+    }
+
+    /// `true` if all times are as they were.
+    pub fn is_exact(&self) -> bool {
+        self.grain == 0
+    }
+
+    /// `true` if something is summed up in intervals that are wider than a column of the window.
+    pub fn is_coarser_than(&self, window: Window) -> bool {
+        self.bucket.max(self.grain) > window.column_width()
     }
 
     /// The node fires.
@@ -76,7 +135,7 @@ impl Lane {
             Some(last) if last.0 >= start => last.1 += 1,
             _ => self.fired.push((start, before + 1)),
         }
-        if self.fired.len() > MAX_BUCKETS {
+        if self.fired.len() > self.room {
             self.widen();
         }
     }
@@ -84,7 +143,7 @@ impl Lane {
     /// Makes one bucket of two.
     fn widen(&mut self) {
         self.bucket *= 2;
-        let mut wide: Vec<(i64, u64)> = Vec::with_capacity(MAX_BUCKETS);
+        let mut wide: Vec<(i64, u64)> = Vec::with_capacity(self.fired.len());
         for (start, count) in self.fired.drain(..) {
             let start = start - start.rem_euclid(self.bucket);
             match wide.last_mut() {
@@ -97,7 +156,12 @@ impl Lane {
 
     /// A problem occurs.
     pub fn mark(&mut self, now: i64) {
-        self.marks.push(now);
+        if self.marks.last().is_none_or(|last| now - last >= self.grain) {
+            self.marks.push(now);
+        }
+        if self.marks.len() > self.room {
+            self.coarsen();
+        }
     }
 
     /// The part of it up to a time with this state of the node: activity, and number of firings.
@@ -118,7 +182,7 @@ impl Lane {
             _ => buckets.clear(),
         }
         let marks = self.marks.iter().copied().take_while(|mark| *mark <= now).collect();
-        Self { spans, bucket: self.bucket, fired: buckets, marks }
+        Self { room: self.room, spans, grain: self.grain, bucket: self.bucket, fired: buckets, marks }
     }
 
     /// `true` if it is active after the reactions at a time.
@@ -142,22 +206,44 @@ impl Lane {
         !self.spans.is_empty() || !self.marks.is_empty()
     }
 
-    /// Time of the first difference from another lane before `until`, if there is one.
-    pub fn differs(&self, other: &Self, until: i64) -> Option<i64> {
-        let spans = |lane: &Self| -> Vec<i64> {
-            let ends = lane.spans.iter().flat_map(|(from, to)| [*from, *to]);
-            ends.take_while(|time| *time < until).collect()
-        };
-        let fired = |lane: &Self| -> Vec<(i64, u64)> {
-            let whole = lane.fired.iter().take_while(|(start, _)| start + lane.bucket <= until);
-            whole.copied().collect()
-        };
-        let spans = first_difference(&spans(self), &spans(other), |time| *time);
-        // Buckets of different width are compared when both are as wide.
-        let fired = (self.bucket == other.bucket)
-            .then(|| first_difference(&fired(self), &fired(other), |(start, _)| *start))
-            .flatten();
+    /// Time of the first difference from another lane between two times, if there is one. What one of them has summed up
+    /// is compared as a sum.
+    pub fn differs(&self, other: &Self, from: i64, until: i64) -> Option<i64> {
+        let (bucket, grain) = (self.bucket.max(other.bucket), self.grain.max(other.grain));
+        let (one, other) = (self.with(bucket, grain), other.with(bucket, grain));
+        // A span at the end may be joined with one after it.
+        let spans = |lane: &Self| lane.changes(from, until.saturating_sub(grain));
+        let spans = first_difference(&spans(&one), &spans(&other), |time| *time);
+        let fired = first_difference(&one.counts(from, until), &other.counts(from, until), |(start, _)| *start);
         spans.into_iter().chain(fired).min()
+    }
+
+    /// Times at which activity begins or ends between two times; the first one, too, if it is active then.
+    fn changes(&self, from: i64, until: i64) -> Vec<i64> {
+        let first = self.is_active_at(from).then_some(from);
+        let ends = self.spans.iter().flat_map(|(begin, end)| [*begin, *end]);
+        first.into_iter().chain(ends.filter(|time| *time > from && *time < until)).collect()
+    }
+
+    /// Buckets between two times, with their numbers of firings.
+    fn counts(&self, from: i64, until: i64) -> Vec<(i64, u64)> {
+        let mut before = 0;
+        let counts = self.fired.iter().map(|(start, count)| (*start, count - std::mem::replace(&mut before, *count)));
+        counts.filter(|(start, _)| *start >= from && start + self.bucket <= until).collect()
+    }
+
+    /// The same lane with wider buckets, and a wider grain.
+    fn with(&self, bucket: i64, grain: i64) -> Cow<'_, Self> {
+        if (self.bucket, self.grain) == (bucket, grain) {
+            return Cow::Borrowed(self);
+        }
+        let mut lane = self.clone();
+        while lane.bucket < bucket {
+            lane.widen();
+        }
+        lane.grain = grain;
+        lane.leave_out();
+        Cow::Owned(lane)
     }
 
     /// The part of it in a window. `now` is the current time.
@@ -210,7 +296,7 @@ mod tests {
     fn an_hour_at_1_khz_is_drawn_without_loss() {
         let mut lane = Lane::default();
         (0..3_600_000).for_each(|ms| lane.fire(ms * 1_000_000));
-        assert!(lane.fired.len() <= MAX_BUCKETS);
+        assert!(lane.fired.len() <= MOST);
         let drawn = lane.draw(0, ALL, ALL.to);
         assert_eq!(drawn.ticks.len(), 1000);
         assert_eq!(drawn.ticks.iter().map(|(_, count)| count).sum::<u64>(), 3_600_000);
@@ -249,6 +335,24 @@ mod tests {
     }
 
     #[test]
+    fn activity_that_changes_all_the_time_needs_little_room() {
+        let lane = |changes: i64| {
+            let mut lane = Lane::of(2000);
+            for ms in 0..changes {
+                lane.activity(ms * 1_000_000, ms % 3 == 0);
+                lane.mark(ms * 1_000_000);
+            }
+            lane
+        };
+        let long = lane(300_000);
+        assert!(!long.is_exact() && long.spans.len().max(long.marks.len()) <= long.room);
+        let drawn = long.draw(0, Window { to: 300_000_000_000, columns: 100, ..ALL }, 300_000_000_000);
+        assert_eq!((drawn.spans, drawn.marks.len()), (vec![(0, 99)], 100));
+        // One that has summed up less is compared in the same way.
+        assert_eq!(long.differs(&lane(5000), 0, 4_000_000_000), None);
+    }
+
+    #[test]
     fn the_first_difference_of_two_runs_is_found() {
         let lane = |spans: &[(i64, i64)], fired: &[i64]| {
             let mut lane = Lane::default();
@@ -260,10 +364,14 @@ mod tests {
             lane
         };
         let (one, ms) = (lane(&[(1, 5), (8, 9)], &[1, 2, 3]), |ms: i64| ms * 1_000_000);
-        assert_eq!(one.differs(&lane(&[(1, 5), (8, 9)], &[1, 2, 3]), ms(99)), None);
-        assert_eq!(one.differs(&lane(&[(1, 5), (7, 9)], &[1, 2, 3]), ms(99)), Some(ms(7)));
-        assert_eq!(one.differs(&lane(&[(1, 5)], &[1, 2, 3]), ms(99)), Some(ms(8)));
-        assert_eq!(one.differs(&lane(&[(1, 5)], &[1, 2, 3]), ms(8)), None);
-        assert_eq!(one.differs(&lane(&[(1, 5), (8, 9)], &[1, 2, 2, 3]), ms(99)), Some(ms(2)));
+        let differs = |spans, fired, until| one.differs(&lane(spans, fired), ms(0), ms(until));
+        assert_eq!(differs(&[(1, 5), (8, 9)], &[1, 2, 3], 99), None);
+        assert_eq!(differs(&[(1, 5), (7, 9)], &[1, 2, 3], 99), Some(ms(7)));
+        assert_eq!(differs(&[(1, 5)], &[1, 2, 3], 99), Some(ms(8)));
+        assert_eq!(differs(&[(1, 5)], &[1, 2, 3], 8), None);
+        assert_eq!(differs(&[(1, 5), (8, 9)], &[1, 2, 2, 3], 99), Some(ms(2)));
+        // One of which only the end is known.
+        assert_eq!(one.differs(&lane(&[(3, 5), (8, 9)], &[3]), ms(3), ms(99)), None);
+        assert_eq!(one.differs(&lane(&[(4, 5), (8, 9)], &[3]), ms(3), ms(99)), Some(ms(3)));
     }
 }

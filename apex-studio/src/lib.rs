@@ -4,28 +4,37 @@
 //! page to browsers on this machine. It holds no state that a robot needs: it may come and go.
 
 mod condition;
+mod detail;
 mod drawn;
 mod editor;
 mod journey;
+mod kinds;
 mod lane;
 mod language;
 mod live;
 mod moment;
 mod picture;
 mod robot;
+#[cfg(test)]
+mod samples;
 mod server;
 mod session;
+mod shadow;
 mod steps;
+mod store;
+mod tokens;
 mod top;
 mod waits;
 mod why;
 
 pub use robot::{Remote, Robot};
+pub use shadow::{Recorded, Shadow};
 pub use top::top;
 
 use apex_diagram::Item;
 use robot::{Shared, follow};
 use server::{Served, Serving};
+use session::Beside;
 use std::{fmt::Write as _, io, net::SocketAddr, path::PathBuf, sync::Arc, thread};
 use tokio::net::TcpListener;
 
@@ -101,9 +110,9 @@ pub struct ParamChange<'a> {
 }
 
 /// A studio to be opened.
-pub struct Studio<R> {
+pub struct Studio {
     /// The robots, of which a page shows one at a time.
-    pub robots: Vec<Seat<R>>,
+    pub robots: Vec<Seat>,
     /// Address of the page.
     pub address: SocketAddr,
     /// `true` if the page may only look.
@@ -113,16 +122,18 @@ pub struct Studio<R> {
 }
 
 /// A robot with its place in the studio.
-pub struct Seat<R> {
+pub struct Seat {
     /// Name that distinguishes it from others of the same kind, such as its address.
     pub name: String,
     /// The robot.
-    pub robot: R,
+    pub robot: Box<dyn Robot>,
     /// Its source.
     pub source: Arc<dyn Source>,
+    /// Number of the robot before it whose shadow it is: a second one of the same kind that gets its inputs.
+    pub shadow_of: Option<usize>,
 }
 
-impl<R: Robot + 'static> Studio<R> {
+impl Studio {
     /// Opens the studio, calls `opened` with the address of the page, and serves it until Ctrl-C.
     ///
     /// # Errors
@@ -134,13 +145,20 @@ impl<R: Robot + 'static> Studio<R> {
             let listener = TcpListener::bind(self.address).await?;
             let address = listener.local_addr()?;
             opened(&format!("http://{address}/#{token}"));
-            let (mut robots, mut threads) = (vec![], vec![]);
-            for Seat { name, robot, source } in self.robots {
-                let (shared, travels, speed) = (Arc::<Shared>::default(), !robot.comes_back(), self.speed);
+            let (mut robots, mut threads) = (Vec::<Served>::new(), vec![]);
+            for Seat { name, mut robot, source, shadow_of } in self.robots {
+                let (shared, travels) = (Arc::<Shared>::default(), robot.repeats());
+                // A shadow is as fast as the robot.
+                let speed = if shadow_of.is_some() { Some(f64::INFINITY) } else { self.speed };
                 let following = Arc::clone(&shared);
                 let thread = thread::Builder::new().name("robot".to_owned());
-                threads.push(thread.spawn(move || follow(robot, &following, speed))?);
-                robots.push(Served { name, shared, source, travels });
+                threads.push(thread.spawn(move || follow(&mut *robot, &following, speed))?);
+                let own = shadow_of.and_then(|of| robots.get_mut(of));
+                let beside = own.map(|of| {
+                    of.beside = Some(Beside { shared: Arc::clone(&shared), is_shadow: true });
+                    Beside { shared: Arc::clone(&of.shared), is_shadow: false }
+                });
+                robots.push(Served { name, shared, source, travels, beside });
             }
             let robots: Arc<[Served]> = robots.into();
             let serving =

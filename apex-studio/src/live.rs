@@ -1,21 +1,24 @@
 //! Knowledge about a running robot.
 
 use crate::{
+    detail,
     lane::{Drawn, Lane, Window},
-    steps::{Step, Steps, What},
+    steps::{State, Step, Steps, What},
+    tokens::Tokens,
     waits::Waits,
 };
 use apex_rt::studio::message::{About, NodeTimes, Report};
 use serde::Serialize;
 use std::{
+    borrow::Cow,
     collections::{BTreeMap, VecDeque},
     sync::Arc,
 };
 
 /// Number of problems that are kept. The newest come first.
 const MAX_PROBLEMS: usize = 10_000;
-/// Number of tokens of a channel that are kept.
-const MAX_TOKENS: usize = 20_000;
+/// Maximum length of the text of a problem in bytes.
+const MAX_WORDS: usize = 1000;
 
 /// State of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -37,8 +40,9 @@ pub struct Live {
     pub runs: u64,
     pub run: Run,
     pub about: Option<Arc<About>>,
-    /// Time of the last reaction in ns.
+    /// Time of the last reaction in ns, and of the first one that is known.
     pub now: i64,
+    began: Option<i64>,
     pub nodes: Vec<Node>,
     /// Number of tokens that each connection has brought to a slot.
     pub handled: Vec<u64>,
@@ -53,8 +57,8 @@ pub struct Live {
     pub paused: bool,
     /// Simulated seconds per second.
     pub speed: f64,
-    /// Times of all reactions in ns.
-    pub times: Vec<i64>,
+    /// Number of reactions.
+    pub reactions: u64,
     /// Parameters that were set, with the numbers of reactions before.
     pub sets: Vec<(u64, String, String)>,
     /// Times of the calls of each node, as far as they were measured.
@@ -94,7 +98,8 @@ struct Before {
     lanes: Vec<Option<Lane>>,
     /// Nodes of the earlier run.
     about: Arc<About>,
-    times: Vec<i64>,
+    steps: Steps,
+    reactions: u64,
     now: i64,
 }
 
@@ -136,16 +141,6 @@ pub struct Param {
     pub version: u64,
 }
 
-/// The newest tokens of a channel, as time in ns and text.
-#[derive(Default)]
-pub struct Tokens {
-    /// Number of all tokens so far.
-    pub count: u64,
-    pub newest: VecDeque<(i64, String)>,
-    /// The newest token as a message in CDR.
-    pub bytes: Vec<u8>,
-}
-
 impl Before {
     /// Gives the lanes the numbers of the same nodes in a robot whose source may have changed.
     fn map_to(&mut self, about: &Arc<About>) {
@@ -163,6 +158,7 @@ impl Default for Live {
             run: Run::Starting("starting".to_owned()),
             about: None,
             now: 0,
+            began: None,
             nodes: vec![],
             handled: vec![],
             lost: 0,
@@ -172,7 +168,7 @@ impl Default for Live {
             tokens: BTreeMap::new(),
             paused: false,
             speed: f64::INFINITY,
-            times: vec![],
+            reactions: 0,
             sets: vec![],
             calls: vec![],
             measured: 0,
@@ -180,7 +176,7 @@ impl Default for Live {
             returns: 0,
             no_checkpoints: None,
             checkpoints: vec![],
-            steps: Steps::default(),
+            steps: Steps::new(Arc::default()),
             waits: Waits::default(),
             lanes: vec![],
             before: None,
@@ -189,28 +185,32 @@ impl Default for Live {
 }
 
 impl Live {
-    /// Begins a run of the robot that a message describes.
-    pub fn begin(&mut self, about: About) {
+    /// Begins a run of the robot that a message describes. Returns the run before it.
+    pub fn begin(&mut self, about: About) -> Self {
         let (runs, repeats) = (self.runs + 1, self.repeats);
         let mut before = self.before.take().filter(|_| repeats);
         let about = Arc::new(about);
         before.iter_mut().for_each(|before| before.map_to(&about));
-        *self = Self { runs, repeats, before, run: Run::Running, ..Self::default() };
+        let steps = Steps::new(self.steps.store());
+        let next = Self { runs, repeats, before, steps, run: Run::Running, ..Self::default() };
+        let last = std::mem::replace(self, next);
         self.nodes = vec![Node::default(); about.nodes.len()];
-        self.lanes = about.nodes.iter().map(|_| Lane::default()).collect();
+        self.lanes = about.nodes.iter().map(|_| Lane::of(about.nodes.len())).collect();
         self.handled = vec![0; about.connections.len()];
         self.waits = Waits::new(&about);
         self.about = Some(about);
+        last
     }
 
     /// Takes note of a message. Numbers that do not fit the description of the robot are ignored.
     pub fn note(&mut self, report: Report) {
         match report {
-            Report::About(about) => self.begin(about),
+            Report::About(about) => drop(self.begin(about)),
             Report::Active(nodes) => nodes.into_iter().for_each(|node| self.activity(node, true)),
             Report::Reaction { now, .. } => {
                 self.now = self.now.max(now);
-                self.times.push(now);
+                self.reactions += 1;
+                self.began.get_or_insert(now);
                 self.step(What::Begins);
             }
             Report::Fired(node) => {
@@ -249,13 +249,7 @@ impl Live {
                 self.problem(None, format!("the claim `{claim}` does not hold"));
             }
             Report::Value { channel, now, text, bytes } if self.has_channel(channel) => {
-                let tokens = self.tokens.entry(channel).or_default();
-                tokens.count += 1;
-                tokens.bytes = bytes;
-                tokens.newest.push_back((now, text));
-                if tokens.newest.len() > MAX_TOKENS {
-                    tokens.newest.pop_front();
-                }
+                self.tokens.entry(channel).or_default().push(now, text, bytes);
             }
             Report::Value { .. } => {}
             Report::Times(times) => {
@@ -277,8 +271,7 @@ impl Live {
     }
 
     fn step(&mut self, what: What) {
-        let reaction = u32::try_from(self.times.len()).unwrap_or(u32::MAX);
-        self.steps.push(Step { now: self.now, reaction, what });
+        self.steps.push(Step { now: self.now, reaction: self.reactions, what });
     }
 
     fn has_channel(&self, channel: u32) -> bool {
@@ -325,7 +318,8 @@ impl Live {
         self.problem(Some(connection.to), text);
     }
 
-    fn problem(&mut self, node: Option<u32>, text: String) {
+    fn problem(&mut self, node: Option<u32>, mut text: String) {
+        text.truncate((0..=MAX_WORDS.min(text.len())).rfind(|end| text.is_char_boundary(*end)).unwrap_or(0));
         if let Some((state, lane)) =
             node.and_then(|node| self.nodes.get_mut(node as usize).zip(self.lanes.get_mut(node as usize)))
         {
@@ -340,6 +334,9 @@ impl Live {
     }
 
     fn param(&mut self, name: String, value: Result<String, String>, reactions: Option<u64>) {
+        if !self.about.as_ref().is_some_and(|about| about.params.iter().any(|param| param.name == name)) {
+            return;
+        }
         let is_new = !self.params.contains_key(&name);
         let param = self.params.entry(name.clone()).or_default();
         param.version += 1;
@@ -356,16 +353,30 @@ impl Live {
         }
     }
 
+    /// Names and values of the parameters that differ from their initial values.
+    pub fn changed(&self) -> impl Iterator<Item = (&str, &str)> {
+        let changed = self.params.iter().filter(|(_, param)| param.value != param.initial);
+        changed.map(|(name, param)| (name.as_str(), param.value.as_str()))
+    }
+
     /// The parameters that differ from their initial values, as TOML for `--params`.
     pub fn changed_params(&self) -> String {
-        let changed = self.params.iter().filter(|(_, param)| param.value != param.initial);
-        changed.map(|(name, param)| format!("{name} = {}\n", param.value)).collect()
+        self.changed().map(|(name, value)| format!("{name} = {value}\n")).collect()
+    }
+
+    /// Names and values of the parameters that have other values in another run.
+    pub fn changed_from(&self, other: &Self) -> Vec<(String, String)> {
+        let is_other = |(name, param): &(&String, &Param)| {
+            other.params.get(*name).is_some_and(|other| !other.fixed && other.value != param.value)
+        };
+        let changed = self.params.iter().filter(is_other);
+        changed.map(|(name, param)| (name.clone(), param.value.clone())).collect()
     }
 
     /// Takes note of the robot's checkpoints. The last one may be new.
     fn keep(&mut self, all: &[u64]) {
         self.checkpoints.retain(|checkpoint| all.contains(&checkpoint.reactions));
-        let now = self.times.len() as u64;
+        let now = self.reactions;
         let is_new = self.checkpoints.last().is_none_or(|last| last.reactions < now);
         if is_new && all.last() == Some(&now) {
             let Self { nodes, handled, problem_count, lost, now: time, .. } = self;
@@ -399,13 +410,11 @@ impl Live {
         self.problems.truncate(usize::try_from(problem_count.saturating_sub(known)).unwrap_or(usize::MAX));
         (self.now, self.problem_count, self.lost) = (*now, *problem_count, *lost);
         (self.nodes, self.handled) = (nodes.clone(), handled.clone());
-        self.times.truncate(usize::try_from(reactions).unwrap_or(usize::MAX));
+        self.reactions = reactions;
         self.sets.retain(|(at, ..)| *at < reactions);
-        self.steps.take_back(reactions);
-        for tokens in self.tokens.values_mut() {
-            tokens.newest.retain(|(at, _)| *at <= self.now);
-            tokens.count = tokens.newest.len() as u64;
-        }
+        let active = (0..).zip(&self.nodes).filter(|(_, node)| node.active).map(|(node, _)| node).collect();
+        self.steps.take_back(State { now: self.now, reaction: reactions, active });
+        self.tokens.values_mut().for_each(|tokens| tokens.take_back(self.now));
         (self.returns, self.run, self.repeats) = (self.returns + 1, Run::Running, true);
         true
     }
@@ -416,16 +425,16 @@ impl Live {
         let goes_further = |before: &Before| before.now >= self.now && self.differs().is_none();
         if !self.before.as_ref().is_some_and(goes_further) {
             let lanes = self.lanes.iter().cloned().map(Some).collect();
-            self.before = Some(Before { lanes, about, times: self.times.clone(), now: self.now });
+            let (steps, reactions) = (self.steps.clone(), self.reactions);
+            self.before = Some(Before { lanes, about, steps, reactions, now: self.now });
         }
         self.repeats = true;
     }
 
     /// Number of reactions up to a time in ns, also in the future if that is known.
     pub fn reactions_until(&self, time: i64) -> u64 {
-        let known = self.before.as_ref().filter(|before| before.times.len() > self.times.len());
-        let times = known.map_or(&self.times, |before| &before.times);
-        times.partition_point(|at| *at <= time) as u64
+        let known = self.before.as_ref().filter(|before| before.reactions > self.reactions);
+        known.map_or(&self.steps, |before| &before.steps).reactions_until(time)
     }
 
     /// Time in ns at which this run begins to differ from the one that it repeats.
@@ -433,7 +442,25 @@ impl Live {
         let before = self.before.as_ref()?;
         let until = self.now.min(before.now);
         let both = self.lanes.iter().zip(&before.lanes).filter_map(|(lane, other)| Some((lane, other.as_ref()?)));
-        both.filter_map(|(lane, other)| lane.differs(other, until)).min()
+        both.filter_map(|(lane, other)| lane.differs(other, i64::MIN, until)).min()
+    }
+
+    /// Time in ns at which this run begins to differ from another one with the same inputs that runs at the same time.
+    /// Of threads in parallel it is not known in which order they did something.
+    pub fn differs_from(&self, other: &Self) -> Option<i64> {
+        let (about, since) = (self.about.as_ref()?, self.began?.max(other.began?));
+        let is_same = |about: &About, other: &About| about.nodes == other.nodes && about.groups.len() < 2;
+        if !is_same(about, other.about.as_ref()?) {
+            return None;
+        }
+        let until = self.now.min(other.now);
+        self.lanes.iter().zip(&other.lanes).filter_map(|(lane, other)| lane.differs(other, since, until)).min()
+    }
+
+    /// These lanes of another run.
+    pub fn draw_of(&self, window: Window, lanes: &[Drawn]) -> Vec<Drawn> {
+        let drawn = |node: usize| Some(self.lanes.get(node)?.draw(node, window, self.now));
+        lanes.iter().filter_map(|lane| drawn(lane.node)).collect()
     }
 
     /// The lanes of the run that this one repeats, for the nodes of `lanes`.
@@ -448,44 +475,43 @@ impl Live {
         &self.lanes
     }
 
+    /// Exact history of each node between two times in ns, and perhaps before and after; `None` if it is not known any
+    /// more.
+    pub fn exact_lanes(&self, from: i64, to: i64) -> Option<Cow<'_, [Lane]>> {
+        if self.lanes.iter().all(Lane::is_exact) {
+            return Some(Cow::Borrowed(&self.lanes));
+        }
+        detail::lanes(&self.steps, self.about.as_deref()?, from, to, to.saturating_sub(from).max(1)).map(Cow::Owned)
+    }
+
     /// The lanes of all nodes that were active or had problems, and of those in `also`.
     pub fn draw(&self, window: Window, also: &[usize]) -> Vec<Drawn> {
         let was =
             |at: usize| self.before.as_ref().and_then(|b| b.lanes.get(at)?.as_ref()).is_some_and(Lane::is_of_interest);
         let is_drawn = |(at, lane): &(usize, &Lane)| lane.is_of_interest() || was(*at) || also.contains(at);
-        self.lanes.iter().enumerate().filter(is_drawn).map(|(at, lane)| lane.draw(at, window, self.now)).collect()
+        let is_coarse = self.lanes.iter().any(|lane| lane.is_coarser_than(window));
+        let about = self.about.as_deref().filter(|_| is_coarse);
+        let fine = about
+            .and_then(|about| detail::lanes(&self.steps, about, window.from, window.to, window.column_width()))
+            .unwrap_or_default();
+        let drawn = |(at, lane): (usize, &Lane)| {
+            let drawn = lane.draw(at, window, self.now);
+            fine.get(at)
+                .map(|fine| Drawn { marks: drawn.marks.clone(), ..fine.draw(at, window, self.now) })
+                .unwrap_or(drawn)
+        };
+        self.lanes.iter().enumerate().filter(is_drawn).map(drawn).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use apex_rt::studio::message::AboutNode;
+    use crate::samples::robot;
 
     fn begun() -> Live {
-        let node = |name: &str| AboutNode {
-            name: name.to_owned(),
-            kind: String::new(),
-            docs: String::new(),
-            file: 0,
-            line: 1,
-            column: 1,
-            ports: vec![],
-        };
         let mut live = Live::default();
-        live.begin(About {
-            version: 0,
-            name: String::new(),
-            docs: String::new(),
-            files: vec![],
-            simulated: true,
-            nodes: ["a", "b"].map(node).into(),
-            connections: vec![],
-            groups: vec![],
-            claims: vec![],
-            channels: vec![],
-            params: vec![],
-        });
+        live.begin(About { simulated: true, ..robot(&["a", "b"]) });
         live
     }
 
@@ -502,14 +528,14 @@ mod tests {
         (0..4).for_each(|ms| react(&mut live, ms));
         live.note(Report::Checkpoints(vec![2]));
         live.note(Report::Checkpoints(vec![2, 4]));
-        let (nodes, steps) = (live.nodes.clone(), live.steps.until(i64::MAX));
+        let (nodes, steps) = (live.nodes.clone(), live.steps.around(i64::MAX).len());
         (4..9).for_each(|ms| react(&mut live, ms));
         // The first list came too late for the state then.
         assert!(!live.has_checkpoint(3) && live.has_checkpoint(5) && !live.go_back(2));
         live.depart();
         assert!(live.go_back(4));
-        assert_eq!((live.now, live.times.len(), live.problems.len(), live.problem_count), (3_000_000, 4, 4, 4));
-        assert_eq!((&live.nodes, live.steps.until(i64::MAX)), (&nodes, steps));
+        assert_eq!((live.now, live.reactions, live.problems.len(), live.problem_count), (3_000_000, 4, 4, 4));
+        assert_eq!((&live.nodes, live.steps.around(i64::MAX).len()), (&nodes, steps));
         assert_eq!(live.reactions_until(7_000_000), 8);
         (4..6).for_each(|ms| react(&mut live, ms));
         assert_eq!(live.differs(), None);

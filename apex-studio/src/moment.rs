@@ -1,6 +1,6 @@
 //! An interval of a run as a `test` item: what became active in it, what stayed active, and what never was.
 
-use crate::{Replayed, lane::Lane, live::Live, why::SILENT};
+use crate::{Replayed, kinds::is_silent, lane::Lane, live::Live};
 use apex_rt::studio::message::{About, AboutNode};
 use std::fmt::Write as _;
 
@@ -27,7 +27,8 @@ pub fn test(live: &Live, from: i64, to: i64, replayed: Option<&Replayed>) -> Res
             "`{name}` was set while the robot ran, and a test cannot do that: write it into the source"
         ));
     }
-    let mut moment = Moment { about, live, now: from, text: String::new(), lines: 0 };
+    let lanes = live.exact_lanes(from, to).ok_or("the interval is too long, or too long ago: mark a shorter one")?;
+    let mut moment = Moment { about, live, lanes: &lanes, now: from, text: String::new(), lines: 0 };
     moment.feeds(replayed)?;
     moment.begin(from, to);
     moment.middle(from, to);
@@ -43,6 +44,8 @@ pub fn test(live: &Live, from: i64, to: i64, replayed: Option<&Replayed>) -> Res
 struct Moment<'a> {
     about: &'a About,
     live: &'a Live,
+    /// Exact lanes in the interval.
+    lanes: &'a [Lane],
     /// Time of the test after its last line.
     now: i64,
     text: String,
@@ -62,10 +65,10 @@ impl<'a> Moment<'a> {
         self.lines += 1;
     }
 
-    /// Nodes that a test can name, with their lanes.
+    /// Nodes that were active and that a test can name, with their lanes.
     fn nodes(&self) -> impl Iterator<Item = (&'a AboutNode, &'a Lane)> + use<'a> {
-        let nodes = self.about.nodes.iter().zip(self.live.lanes());
-        nodes.filter(|(node, lane)| lane.was_active() && has_name(node))
+        let nodes = self.about.nodes.iter().zip(self.live.lanes()).zip(self.lanes);
+        nodes.filter(|((node, whole), _)| whole.was_active() && has_name(node)).map(|((node, _), lane)| (node, lane))
     }
 
     /// The tokens of a recording for all ports that got some.
@@ -144,7 +147,7 @@ fn has_name(node: &AboutNode) -> bool {
         number.parse::<u32>().is_ok() && word.replace('_', "") == ty.replace('_', "")
     });
     let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
-    !SILENT.contains(&node.kind.as_str()) && !is_numbered && node.name.chars().all(is_word)
+    !is_silent(&node.kind) && !is_numbered && node.name.chars().all(is_word)
 }
 
 /// A time in the largest unit in which it is whole.

@@ -1,5 +1,6 @@
 //! The picture of a robot, and which of its connections each line stands for.
 
+use crate::kinds::is_inserted;
 use apex_diagram::{Anchor, Frame, Item, joined, svg};
 use apex_rt::studio::message::About;
 use std::collections::{BTreeMap, BTreeSet};
@@ -92,6 +93,30 @@ fn uses(item: &Item, path: &str, graph: &str, found: &mut Vec<String>) {
     }
 }
 
+/// The connections between these ports, also over nodes of the compiler that are not in the picture.
+fn between(about: &About, from: &[End], to: &[End]) -> Vec<usize> {
+    let is = |ends: &[End], node: u32, port: &str| {
+        let node = about.nodes.get(node as usize).map_or("", |node| &node.name);
+        ends.iter().any(|end| end.0 == node && (end.1.is_empty() || end.1 == port))
+    };
+    let kind = |node: u32| about.nodes.get(node as usize).map_or("", |node| &node.kind);
+    let connections = || about.connections.iter().enumerate();
+    let (mut found, mut passed) = (BTreeSet::new(), BTreeSet::new());
+    for (first, c) in connections().filter(|(_, c)| is(from, c.from, &c.output)) {
+        // The ways from here, each as its connections.
+        let mut ways = vec![(c, vec![first])];
+        while let Some((last, way)) = ways.pop() {
+            if is(to, last.to, &last.input) {
+                found.extend(way);
+            } else if is_inserted(kind(last.to)) && passed.insert((first, last.to)) {
+                let next = connections().filter(|(_, next)| next.from == last.to);
+                ways.extend(next.map(|(at, next)| (next, [&way[..], &[at]].concat())));
+            }
+        }
+    }
+    found.into_iter().collect()
+}
+
 /// An open item, with the one around it and its place there.
 struct Within<'a> {
     item: &'a Item,
@@ -113,14 +138,8 @@ impl Within<'_> {
             let (mut from, mut to) = (vec![], vec![]);
             self.ends(frame, line.from, Towards::Source, &mut from);
             self.ends(frame, line.to, Towards::Target, &mut to);
-            let is = |ends: &[End], node: u32, port: &str| {
-                let node = about.nodes.get(node as usize).map_or("", |node| &node.name);
-                ends.iter().any(|end| end.0 == node && (end.1.is_empty() || end.1 == port))
-            };
-            let connections = about.connections.iter().enumerate();
-            let meant = connections.filter(|(_, c)| is(&from, c.from, &c.output) && is(&to, c.to, &c.input));
             let name = format!("{} {}", self.name(frame, line.from), self.name(frame, line.to));
-            lines.insert(name, meant.map(|(at, _)| at).collect());
+            lines.insert(name, between(about, &from, &to));
         }
         for (at, item) in frame.items.iter().enumerate() {
             Within { item, path: joined(&self.path, &item.name), around: Some((self, at)) }.lines(about, lines);

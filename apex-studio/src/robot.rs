@@ -10,7 +10,7 @@ use apex_rt::studio::{
     message::{self, About, Command, Report},
 };
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, VecDeque},
     io::{BufReader, ErrorKind, Write as _},
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     thread,
@@ -35,6 +35,11 @@ pub trait Robot: Send {
     /// `true` if it is started by others, and may come back at any time.
     fn comes_back(&self) -> bool {
         false
+    }
+
+    /// `true` if it can do again what it did: it can go back in time, and a changed one repeats its run.
+    fn repeats(&self) -> bool {
+        !self.comes_back()
     }
 
     /// `true` if a new robot should take its place, because its source has changed.
@@ -76,9 +81,17 @@ const PATIENCE: Duration = Duration::from_secs(20);
 #[derive(Default)]
 pub struct Shared {
     live: Mutex<Live>,
+    /// The last runs before this one, of which one was replaced by the next.
+    earlier: Mutex<VecDeque<Earlier>>,
     link: Mutex<Link>,
     changed: Condvar,
 }
+
+/// A run that is over.
+pub type Earlier = Arc<Mutex<Live>>;
+
+/// Number of runs that are kept after their end.
+const MAX_EARLIER: usize = 4;
 
 #[derive(Default)]
 struct Link {
@@ -92,6 +105,8 @@ struct Link {
     stop: String,
     /// The way to the state that the next run begins with.
     journey: Option<Journey>,
+    /// Parameters that the next run begins with, if it does not repeat this one.
+    sets: Vec<(String, String)>,
     /// `true` if the robot was told to go back to a checkpoint.
     returns: bool,
     over: bool,
@@ -100,13 +115,31 @@ struct Link {
 /// Interval in ms at which tokens are asked for.
 const EVERY: u32 = 30;
 
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Shared {
     pub fn live(&self) -> MutexGuard<'_, Live> {
         locked(&self.live)
+    }
+
+    /// The last runs before this one, in sequence.
+    pub fn earlier(&self) -> Vec<Earlier> {
+        locked(&self.earlier).iter().cloned().collect()
+    }
+
+    /// Takes note of a message. A run that was replaced by the next one can still be looked at.
+    fn note(&self, report: Report) {
+        let Report::About(about) = report else { return self.live().note(report) };
+        let last = self.live().begin(about);
+        if last.reactions > 0 {
+            let mut earlier = locked(&self.earlier);
+            earlier.push_back(Arc::new(Mutex::new(last)));
+            if earlier.len() > MAX_EARLIER {
+                earlier.pop_front();
+            }
+        }
     }
 
     /// Sends a command to the robot, if there is one.
@@ -165,7 +198,7 @@ impl Shared {
     /// Goes to the state after this number of reactions: if it is in the past, from a checkpoint or by a new run.
     pub fn travel(&self, goal: u64) {
         let mut live = self.live();
-        if goal >= live.times.len() as u64 {
+        if goal >= live.reactions {
             drop(live);
             self.tell(&Command::RunTo { reactions: goal });
             return;
@@ -188,6 +221,13 @@ impl Shared {
         if std::mem::take(&mut link.returns) {
             link.restart = true;
         }
+    }
+
+    /// Lets the next run begin with the parameters of this one.
+    fn begin_changed(&self) {
+        let sets = self.live().changed().map(|(name, value)| (name.to_owned(), value.to_owned())).collect();
+        let mut link = locked(&self.link);
+        (link.sets, link.restart) = (sets, true);
     }
 
     /// Lets the next run, of a changed robot, do what this one did, if that can be repeated.
@@ -230,7 +270,7 @@ impl Link {
 }
 
 /// Follows a robot until [`end`](Shared::end): starts it, takes note of its messages, and waits for a restart.
-pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64>) {
+pub fn follow(robot: &mut dyn Robot, shared: &Arc<Shared>, mut speed: Option<f64>) {
     while !shared.is_over() {
         if !robot.comes_back() {
             shared.set(Run::Starting("building".to_owned()));
@@ -239,16 +279,16 @@ pub fn follow(mut robot: impl Robot, shared: &Arc<Shared>, mut speed: Option<f64
         shared.live().repeats = journey.is_some();
         match robot.start(journey.as_ref().is_some_and(|journey| !journey.is_of_changed())) {
             Ok(address) => {
-                let travels = !robot.comes_back();
+                let travels = robot.repeats();
                 let mut way = Way { travels, journey, returns: false };
-                while let Some(next) = run(&mut robot, &address, shared, &mut speed, way) {
+                while let Some(next) = run(robot, &address, shared, &mut speed, way) {
                     way = Way { travels, journey: Some(next), returns: true };
                 }
             }
             Err(error) => shared.set(Run::Lost(error)),
         }
         robot.stop();
-        wait_for_restart(&mut robot, shared);
+        wait_for_restart(robot, shared);
     }
 }
 
@@ -264,7 +304,7 @@ struct Way {
 /// Takes note of what a robot does until the connection ends. If the robot has gone back to a checkpoint, returns the
 /// way from there.
 fn run(
-    robot: &mut impl Robot,
+    robot: &mut dyn Robot,
     address: &str,
     shared: &Arc<Shared>,
     speed: &mut Option<f64>,
@@ -275,10 +315,7 @@ fn run(
     let reader = thread::scope(|scope| {
         let reader = scope.spawn(|| read(from, shared, *speed, way));
         while !reader.is_finished() {
-            let has_changed = robot.has_changed();
-            if has_changed {
-                shared.repeat_changed();
-            }
+            let has_changed = changes(robot, shared);
             if shared.is_over() || has_changed || locked(&shared.link).restart {
                 robot.stop();
                 locked(&shared.link).wire = None;
@@ -303,7 +340,7 @@ fn run(
     journey
 }
 
-fn connection(robot: &mut impl Robot, address: &str, shared: &Shared) -> Option<(Box<dyn Wire>, Box<dyn Wire>)> {
+fn connection(robot: &mut dyn Robot, address: &str, shared: &Shared) -> Option<(Box<dyn Wire>, Box<dyn Wire>)> {
     // What an earlier run has shown, or why it was lost, stays until there is a new one.
     let is_first = matches!(shared.live().run, Run::Starting(_));
     if is_first {
@@ -361,7 +398,7 @@ fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, way: Way) -> R
         } else if let Some(ended) = journey.take_if(|journey| journey.ends(&report)) {
             ended.last().inspect(|command| shared.tell(command));
         }
-        shared.live().note(report);
+        shared.note(report);
     }
     Ok(())
 }
@@ -410,12 +447,25 @@ fn greet(shared: &Shared, about: &About, wants: &Wants, first: Option<Command>) 
     // Nodes may have other numbers now; a condition on nodes that are gone is void.
     let stop = condition::parse(&link.stop, about).unwrap_or_default();
     link.tell(&Command::Break(stop));
+    let sets = std::mem::take(&mut link.sets);
+    sets.into_iter().for_each(|(name, value)| link.tell(&Command::Set { name, value }));
     let start = wants.speed.map(|speed| Command::Run { speed });
     start.into_iter().chain(first).for_each(|command| link.tell(&command));
 }
 
+/// Prepares the next run if the robot has changed. Returns `true` if it has.
+fn changes(robot: &mut dyn Robot, shared: &Shared) -> bool {
+    let has_changed = robot.has_changed();
+    match robot.repeats() {
+        _ if !has_changed => {}
+        true => shared.repeat_changed(),
+        false => shared.begin_changed(),
+    }
+    has_changed
+}
+
 /// Waits until the robot is to be started again.
-fn wait_for_restart(robot: &mut impl Robot, shared: &Shared) {
+fn wait_for_restart(robot: &mut dyn Robot, shared: &Shared) {
     loop {
         let mut link = locked(&shared.link);
         if link.over || std::mem::take(&mut link.restart) {
@@ -425,8 +475,6 @@ fn wait_for_restart(robot: &mut impl Robot, shared: &Shared) {
         if robot.comes_back() {
             return;
         }
-        if robot.has_changed() {
-            shared.repeat_changed();
-        }
+        changes(robot, shared);
     }
 }

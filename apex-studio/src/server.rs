@@ -3,7 +3,7 @@
 use crate::{
     Source,
     robot::Shared,
-    session::{Asked, Session, Told},
+    session::{Asked, Beside, Session, Told},
 };
 use axum::{
     Router,
@@ -44,6 +44,8 @@ pub struct Served {
     pub source: Arc<dyn Source>,
     /// `true` if the robot can be started again, and thus go back in time.
     pub travels: bool,
+    /// The robot beside it, if it has a shadow or is one.
+    pub beside: Option<Beside>,
 }
 
 /// Serves pages until `stop` is complete.
@@ -123,8 +125,8 @@ impl Serving {
 impl Serving {
     /// A page of one of the robots.
     fn session(&self, robot: usize) -> Option<Session> {
-        let Served { shared, source, travels, .. } = self.robots.get(robot)?;
-        Some(Session::new(Arc::clone(shared), Arc::clone(source), self.readonly, *travels))
+        let Served { shared, source, travels, beside, .. } = self.robots.get(robot)?;
+        Some(Session::new(Arc::clone(shared), beside.clone(), Arc::clone(source), self.readonly, *travels))
     }
 
     /// The names of all robots. Two of the same kind differ by their addresses.

@@ -9,7 +9,7 @@ use crate::{
     live::{Live, Node, Param, Problem, Run},
     moment,
     picture::Picture,
-    robot::Shared,
+    robot::{Earlier, Shared, locked},
     why::{Line, why},
 };
 use apex_rt::studio::message::{About, Command};
@@ -17,7 +17,7 @@ use base64::{Engine as _, prelude::BASE64_STANDARD};
 use serde::{Deserialize, Serialize};
 use std::{
     collections::{BTreeMap, BTreeSet},
-    sync::Arc,
+    sync::{Arc, MutexGuard},
 };
 
 /// A message to the page.
@@ -26,6 +26,9 @@ use std::{
 pub enum Told {
     /// Names of all robots, and which of them is shown.
     Robots { names: Vec<String>, shown: usize },
+    /// Numbers and last times in s of the earlier runs of the robot that can be looked at, the number of this one, and
+    /// of the one that is shown.
+    Runs { earlier: Vec<(u64, f64)>, last: u64, shown: u64 },
     /// A robot. Everything about an earlier one is obsolete.
     About(AboutRun),
     /// The robot has gone back to a checkpoint. All numbers, problems and tokens come again.
@@ -48,6 +51,8 @@ pub enum Told {
     Why(Vec<Line>),
     /// New tokens of channels.
     Tokens(BTreeMap<u32, NewTokens>),
+    /// New tokens of the same channels of the robot beside it.
+    Beside(BTreeMap<u32, NewTokens>),
     /// The condition at which the robot halts has a mistake, or none.
     Break(Option<String>),
     /// About the source files.
@@ -93,6 +98,8 @@ pub struct AboutRun {
     travels: bool,
     /// `true` if it repeats the run before up to a point.
     repeats: bool,
+    /// The robot beside it, with whose lanes and tokens its own are compared: `shadow` or `robot`.
+    beside: Option<&'static str>,
 }
 
 /// State of the run.
@@ -105,6 +112,8 @@ pub struct Tick {
     /// Simulated seconds per second; `null` for as fast as possible.
     speed: Option<f64>,
     lost: u64,
+    /// Time in s before which only sums are known, if there is one.
+    forgotten: Option<f64>,
     /// Nodes that have changed: index, active, since when in s, number of firings, time of the last one in s, number of
     /// problems.
     nodes: Vec<(usize, bool, f64, u64, f64, u64)>,
@@ -120,6 +129,8 @@ pub struct Tick {
 pub enum Asked {
     /// Shows another robot, by its number.
     Robot(usize),
+    /// Shows an earlier run by its number, or the current one.
+    Look(u64),
     /// Opens these nested graphs, and closes all others.
     Open(BTreeSet<String>),
     /// Sets a parameter to a value in TOML.
@@ -138,6 +149,8 @@ pub enum Asked {
     Break(String),
     /// Starts it again.
     Restart,
+    /// Gives the robot the parameters of its shadow, which is shown.
+    Take,
     /// Writes all changed parameters to a file.
     Save,
     /// Writes a parameter into the source.
@@ -168,6 +181,10 @@ const MAX_COLUMNS: u32 = 10_000;
 /// A page.
 pub struct Session {
     shared: Arc<Shared>,
+    /// The run that is shown instead of the current one.
+    earlier: Option<Earlier>,
+    /// The robot beside it, if it has a shadow or is one.
+    beside: Option<Beside>,
     source: Arc<dyn Source>,
     readonly: bool,
     travels: bool,
@@ -184,6 +201,8 @@ pub struct Session {
 #[derive(Default)]
 struct Seen {
     runs: u64,
+    /// Numbers of the runs that can be looked at.
+    all_runs: Vec<u64>,
     returns: u64,
     no_checkpoints: Option<String>,
     nodes: Vec<Node>,
@@ -191,16 +210,57 @@ struct Seen {
     problems: u64,
     params: BTreeMap<String, u64>,
     tokens: BTreeMap<u32, u64>,
+    /// Number of tokens of the robot beside it, and of the run that they belong to.
+    beside: (u64, BTreeMap<u32, u64>),
     errors: Option<String>,
     /// Number of messages with times.
     measured: u64,
 }
 
+/// The other one of a robot and its shadow, which gets the same inputs.
+#[derive(Clone)]
+pub struct Beside {
+    pub shared: Arc<Shared>,
+    /// `true` if it is the shadow.
+    pub is_shadow: bool,
+}
+
 impl Session {
-    pub fn new(shared: Arc<Shared>, source: Arc<dyn Source>, readonly: bool, travels: bool) -> Self {
+    pub fn new(
+        shared: Arc<Shared>,
+        beside: Option<Beside>,
+        source: Arc<dyn Source>,
+        readonly: bool,
+        travels: bool,
+    ) -> Self {
         let (seen, watched) = (Seen::default(), BTreeSet::new());
         let editor = Editor::new(Arc::clone(&source));
-        Self { shared, source, readonly, travels, seen, picture: None, editor, watched, measures: false, open: None }
+        let (earlier, picture, measures, open) = (None, None, false, None);
+        Self { shared, earlier, beside, source, readonly, travels, seen, picture, editor, watched, measures, open }
+    }
+
+    /// The run that is shown.
+    fn live(&self) -> MutexGuard<'_, Live> {
+        self.earlier.as_ref().map_or_else(|| self.shared.live(), |earlier| locked(earlier))
+    }
+
+    /// The current run of the robot beside this one, while this one is shown as it is now.
+    fn beside(&self) -> Option<MutexGuard<'_, Live>> {
+        // All pages are served by one thread: no other one has locked these two in another sequence.
+        self.beside.as_ref().filter(|_| self.earlier.is_none()).map(|beside| beside.shared.live())
+    }
+
+    /// Gives the robot the parameters of its shadow, if this is the shadow.
+    fn take_over(&self) {
+        let Some(robot) = self.beside.as_ref().filter(|beside| !beside.is_shadow) else { return };
+        let changed = self.shared.live().changed_from(&robot.shared.live());
+        changed.into_iter().for_each(|(name, value)| robot.shared.tell(&Command::Set { name, value }));
+    }
+
+    /// Shows the run with this number; the current one if it is none of the earlier ones.
+    fn look(&mut self, run: u64) {
+        self.earlier = self.shared.earlier().into_iter().find(|earlier| locked(earlier).runs == run);
+        self.seen = Seen::default();
     }
 
     /// Answers the page.
@@ -211,8 +271,9 @@ impl Session {
                 return self.draw();
             }
             Asked::Watch(channels) => {
-                channels.difference(&self.watched).for_each(|channel| self.shared.watch(*channel));
-                self.watched.difference(&channels).for_each(|channel| self.shared.unwatch(*channel));
+                let both = || [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared));
+                channels.difference(&self.watched).for_each(|channel| both().for_each(|robot| robot.watch(*channel)));
+                self.watched.difference(&channels).for_each(|channel| both().for_each(|robot| robot.unwatch(*channel)));
                 self.watched = channels;
                 return None;
             }
@@ -226,13 +287,16 @@ impl Session {
             Asked::Lanes { from, to, columns, also } => {
                 let columns = columns.clamp(1, MAX_COLUMNS);
                 let window = Window { from: (from * 1e9) as i64, to: (to * 1e9) as i64, columns };
-                let live = self.shared.live();
+                let live = self.live();
                 let lanes = live.draw(window, &also);
-                let (before, differs) = (live.draw_before(window, &lanes), live.differs().map(seconds));
-                return Some(Told::Lanes { from, to, columns, lanes, before, differs });
+                let (before, differs) = match self.beside() {
+                    Some(other) => (other.draw_of(window, &lanes), live.differs_from(&other)),
+                    None => (live.draw_before(window, &lanes), live.differs()),
+                };
+                return Some(Told::Lanes { from, to, columns, lanes, before, differs: differs.map(seconds) });
             }
             Asked::Why { node, at } => {
-                let live = self.shared.live();
+                let live = self.live();
                 let time = at.map_or(live.now, |at| (at * 1e9) as i64);
                 return Some(Told::Why(why(&live, node, time)));
             }
@@ -247,7 +311,11 @@ impl Session {
             }
             // Another page shows it.
             Asked::Robot(_) => return None,
-            _ if self.readonly => return None,
+            Asked::Look(run) => {
+                self.look(run);
+                return None;
+            }
+            _ if self.readonly || self.earlier.is_some() => return None,
             Asked::Keep { file, text, over } => return Some(Told::Written(self.editor.keep(file, &text, over))),
             Asked::Restart => {
                 self.shared.restart();
@@ -255,7 +323,7 @@ impl Session {
             }
             Asked::Back | Asked::Goto(_) if !self.travels => return None,
             Asked::Back => {
-                let last = (self.shared.live().times.len() as u64).saturating_sub(1);
+                let last = self.shared.live().reactions.saturating_sub(1);
                 self.shared.travel(last);
                 return None;
             }
@@ -265,6 +333,10 @@ impl Session {
                 return None;
             }
             Asked::Break(text) => return Some(Told::Break(self.shared.halt_when(&text).err())),
+            Asked::Take => {
+                self.take_over();
+                return None;
+            }
             Asked::Save => {
                 let changed = self.shared.live().changed_params();
                 return Some(Told::Saved(self.source.save_params(&changed)));
@@ -311,20 +383,26 @@ impl Session {
 
     /// All that has happened since the last call.
     pub fn news(&mut self) -> Vec<Told> {
-        let shared = Arc::clone(&self.shared);
-        let live = shared.live();
-        let mut told = vec![];
+        let mut told = self.runs();
+        let (shared, earlier) = (Arc::clone(&self.shared), self.earlier.clone());
+        let shown = || earlier.as_ref().map_or_else(|| shared.live(), |earlier| locked(earlier));
+        let live = shown();
         if let Some(about) = live.about.clone().filter(|_| live.runs != self.seen.runs) {
-            self.seen = Seen::of(&live);
+            self.seen = Seen { all_runs: std::mem::take(&mut self.seen.all_runs), ..Seen::of(&live) };
             let picture = self.source.picture(&about.name).unwrap_or_else(|| drawn(&about));
             self.picture = Some(Picture::new(picture));
             let (texts, editable) = self.editor.begin(&about.files);
-            let (readonly, rebuilds, travels) = (self.readonly, self.travels, self.travels && about.simulated);
+            let is_over = self.earlier.is_some();
+            let (readonly, rebuilds) = (self.readonly || is_over, self.travels);
+            let travels = self.travels && about.simulated && !is_over;
             let (run, repeats) = (live.runs, live.repeats);
-            told.push(Told::About(AboutRun { run, about, texts, editable, rebuilds, readonly, travels, repeats }));
+            let beside = self.beside.as_ref().filter(|_| !is_over);
+            let beside = beside.map(|beside| if beside.is_shadow { "shadow" } else { "robot" });
+            let about = AboutRun { run, about, texts, editable, rebuilds, readonly, travels, repeats, beside };
+            told.push(Told::About(about));
             drop(live);
             told.extend(self.draw());
-            told.extend(self.since(&shared.live()));
+            told.extend(self.since(&shown()));
         } else {
             told.extend(self.since(&live));
         }
@@ -340,8 +418,22 @@ impl Session {
         told
     }
 
+    /// The runs that can be looked at, if they are others than before.
+    fn runs(&mut self) -> Vec<Told> {
+        let of = |run: &Live| (run.runs, seconds(run.now));
+        let earlier: Vec<(u64, f64)> = self.shared.earlier().iter().map(|run| of(&locked(run))).collect();
+        let last = self.shared.live().runs;
+        let all: Vec<u64> = earlier.iter().map(|(run, _)| *run).chain([last]).collect();
+        if all == self.seen.all_runs {
+            return vec![];
+        }
+        self.seen.all_runs = all;
+        let shown = self.live().runs;
+        vec![Told::Runs { earlier, last, shown }]
+    }
+
     fn draw(&mut self) -> Option<Told> {
-        let about = self.shared.live().about.clone()?;
+        let about = self.live().about.clone()?;
         let picture = self.picture.as_ref()?;
         let open = self.open.clone().unwrap_or_else(|| picture.first_open());
         let (svg, lines) = (picture.svg(&open), picture.lines(&about));
@@ -354,8 +446,8 @@ impl Session {
         }
         let mut told = vec![];
         if live.returns != self.seen.returns {
-            let (errors, no_checkpoints) = (self.seen.errors.take(), self.seen.no_checkpoints.take());
-            self.seen = Seen { errors, no_checkpoints, ..Seen::of(live) };
+            let Seen { errors, no_checkpoints, all_runs, .. } = std::mem::take(&mut self.seen);
+            self.seen = Seen { errors, no_checkpoints, all_runs, ..Seen::of(live) };
             told.push(Told::Back(live.returns));
         }
         told.push(Told::Tick(self.seen.tick(live)));
@@ -377,11 +469,22 @@ impl Session {
             self.seen.measured = live.measured;
             told.push(Told::Times(live.calls.iter().map(|t| (t.node, t.calls, t.total, t.worst)).collect()));
         }
-        let tokens = self.seen.tokens(live, &self.watched);
+        let tokens = new_tokens(&mut self.seen.tokens, live, &self.watched);
         if !tokens.is_empty() {
             told.push(Told::Tokens(tokens));
         }
+        told.extend(self.tokens_beside().map(Told::Beside));
         told
+    }
+
+    /// New tokens of the robot beside this one.
+    fn tokens_beside(&mut self) -> Option<BTreeMap<u32, NewTokens>> {
+        let shared = &self.beside.as_ref().filter(|_| self.earlier.is_none())?.shared;
+        let (live, (run, seen)) = (shared.live(), &mut self.seen.beside);
+        if *run != live.runs {
+            (*run, *seen) = (live.runs, BTreeMap::new());
+        }
+        Some(new_tokens(seen, &live, &self.watched)).filter(|tokens| !tokens.is_empty())
     }
 }
 
@@ -390,7 +493,9 @@ impl Drop for Session {
         if self.measures {
             self.shared.measure(false);
         }
-        self.watched.iter().for_each(|channel| self.shared.unwatch(*channel));
+        for robot in [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared)) {
+            self.watched.iter().for_each(|channel| robot.unwatch(*channel));
+        }
     }
 }
 
@@ -423,7 +528,8 @@ impl Seen {
         }
         let speed = live.speed.is_finite().then_some(live.speed);
         let (run, now) = (live.run.clone(), seconds(live.now));
-        Tick { run, now, paused: live.paused, speed, lost: live.lost, nodes, handled, awaited: live.waits.awaited() }
+        let (paused, forgotten) = (live.paused, live.steps.forgotten().map(seconds));
+        Tick { run, now, paused, speed, lost: live.lost, forgotten, nodes, handled, awaited: live.waits.awaited() }
     }
 
     fn params(&mut self, live: &Live) -> BTreeMap<String, Param> {
@@ -433,18 +539,19 @@ impl Seen {
         self.params.extend(new.iter().map(|(name, param)| (name.clone(), param.version)));
         new
     }
+}
 
-    fn tokens(&mut self, live: &Live, watched: &BTreeSet<u32>) -> BTreeMap<u32, NewTokens> {
-        let mut new = BTreeMap::new();
-        for (channel, tokens) in live.tokens.iter().filter(|(channel, _)| watched.contains(channel)) {
-            let seen = self.tokens.insert(*channel, tokens.count).unwrap_or(0);
-            let count = usize::try_from(tokens.count - seen).unwrap_or(usize::MAX);
-            let newest = tokens.newest.iter().skip(tokens.newest.len().saturating_sub(count));
-            let texts: Vec<(f64, String)> = newest.map(|(now, text)| (seconds(*now), text.clone())).collect();
-            if !texts.is_empty() {
-                new.insert(*channel, NewTokens { texts, bytes: BASE64_STANDARD.encode(&tokens.bytes) });
-            }
+/// Tokens of watched channels of which a page has `seen` only so many.
+fn new_tokens(seen: &mut BTreeMap<u32, u64>, live: &Live, watched: &BTreeSet<u32>) -> BTreeMap<u32, NewTokens> {
+    let mut new = BTreeMap::new();
+    for (channel, tokens) in live.tokens.iter().filter(|(channel, _)| watched.contains(channel)) {
+        let before = seen.insert(*channel, tokens.count).unwrap_or(0);
+        let count = usize::try_from(tokens.count.saturating_sub(before)).unwrap_or(usize::MAX);
+        let newest = tokens.newest.iter().skip(tokens.newest.len().saturating_sub(count));
+        let texts: Vec<(f64, String)> = newest.map(|(now, text)| (seconds(*now), text.clone())).collect();
+        if !texts.is_empty() {
+            new.insert(*channel, NewTokens { texts, bytes: BASE64_STANDARD.encode(&tokens.bytes) });
         }
-        new
     }
+    new
 }

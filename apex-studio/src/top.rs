@@ -27,10 +27,10 @@ const MEASURED: usize = 8;
 ///
 /// # Errors
 /// The terminal cannot be used.
-pub fn top(robot: Remote) -> io::Result<()> {
+pub fn top(mut robot: Remote) -> io::Result<()> {
     let shared = Arc::<Shared>::default();
     let following = Arc::clone(&shared);
-    thread::Builder::new().name("robot".to_owned()).spawn(move || follow(robot, &following, None))?;
+    thread::Builder::new().name("robot".to_owned()).spawn(move || follow(&mut robot, &following, None))?;
     terminal::enable_raw_mode()?;
     let shown = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide).and_then(|()| show(&shared));
     shared.end();
@@ -161,34 +161,14 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use apex_rt::studio::message::{About, AboutNode, Report};
+    use crate::samples::robot;
+    use apex_rt::studio::message::{About, Report};
 
     #[test]
     fn a_robot_is_shown_in_lines() {
-        let node = |name: &str| AboutNode {
-            name: name.to_owned(),
-            kind: String::new(),
-            docs: String::new(),
-            file: 0,
-            line: 1,
-            column: 1,
-            ports: vec![],
-        };
         let (mut live, mut rates) = (Live::default(), Rates::default());
         assert_eq!(lines(&live, &rates, 24), ["starting", "q: quit"]);
-        live.note(Report::About(About {
-            version: 0,
-            name: "Rover".to_owned(),
-            docs: String::new(),
-            files: vec![],
-            simulated: false,
-            nodes: ["base", "go.drive"].map(node).into(),
-            connections: vec![],
-            groups: vec![],
-            claims: vec![],
-            channels: vec![],
-            params: vec![],
-        }));
+        live.note(Report::About(About { name: "Rover".to_owned(), ..robot(&["base", "go.drive"]) }));
         rates.measure(&live);
         live.note(Report::Activity { node: 1, active: true });
         for now in 1..=20 {

@@ -1,10 +1,8 @@
 //! Nodes that wait for others: a node fires when all of its inputs have a token. While only some have one, it waits for
 //! those that the others come from.
 
+use crate::kinds::is_silent;
 use apex_rt::studio::message::{About, PortRole};
-
-/// Kinds of nodes that hand tokens on without being told of it.
-const SILENT: [&str; 5] = ["relay", "probe", "cell", "input", "slot"];
 
 /// Tokens that wait at inputs.
 #[derive(Default)]
@@ -29,7 +27,7 @@ impl Waits {
             };
             let is_input =
                 |(name, role, _): &(String, PortRole, String)| *name == connection.input && *role == PortRole::Input;
-            if !target.ports.iter().any(is_input) || SILENT.contains(&source.kind.as_str()) {
+            if !target.ports.iter().any(is_input) || is_silent(&source.kind) {
                 continue;
             }
             let begins = about.channels.iter().position(|channel| {
@@ -70,18 +68,14 @@ impl Waits {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::samples::{node, robot};
     use apex_rt::studio::message::{AboutChannel, AboutConnection, AboutNode};
 
     #[test]
     fn a_node_waits_for_the_inputs_without_a_token() {
         let node = |name: &str, ports: &[(&str, PortRole)]| AboutNode {
-            name: name.into(),
-            kind: String::new(),
-            docs: String::new(),
-            file: 0,
-            line: 1,
-            column: 1,
             ports: ports.iter().map(|(name, role)| ((*name).into(), *role, String::new())).collect(),
+            ..node(name, "")
         };
         let out = [("out", PortRole::Output)];
         let connection = |from, input: &str| AboutConnection {
@@ -92,7 +86,7 @@ mod tests {
             activity: false,
         };
         let channel = |name: &str, node| AboutChannel { name: name.into(), node, schema: None };
-        let mut about = crate::drawn::tests::about();
+        let mut about = robot(&[]);
         about.nodes = vec![
             node("a", &out),
             node("b", &out),

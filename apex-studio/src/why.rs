@@ -1,8 +1,9 @@
 //! Why a node is active and fired, or why not: the way back through the steps of the robot.
 
 use crate::{
+    kinds::is_silent,
     live::Live,
-    steps::{Steps, What},
+    steps::{Part, What},
 };
 use apex_rt::studio::message::{About, AboutConnection, PortRole};
 use serde::Serialize;
@@ -12,8 +13,6 @@ use std::{collections::BTreeSet, ops::Range};
 const MAX_LINES: usize = 80;
 /// Maximum number of causes one behind the other.
 const MAX_DEPTH: u32 = 24;
-/// Kinds of nodes that only hand tokens on, and of the ports of the program.
-pub const SILENT: [&str; 9] = ["relay", "probe", "delay", "cell", "input", "output", "slot", "event", "start"];
 
 /// A line of an answer: a fact, and below it, deeper by one, its causes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -29,10 +28,12 @@ pub struct Line {
 /// Explains the activity of a node and its firing, or why there was none, at a time in ns.
 pub fn why(live: &Live, node: usize, time: i64) -> Vec<Line> {
     let Some(about) = live.about.as_deref().filter(|about| node < about.nodes.len()) else { return vec![] };
-    let (steps, node, end) = (&live.steps, node as u32, live.steps.until(time));
-    let mut answer = Answer { about, steps, lines: vec![], told: BTreeSet::new() };
+    let steps = live.steps.around(time);
+    let (node, end) = (node as u32, steps.until(time));
+    let is_forgotten = steps.is_forgotten;
+    let mut answer = Answer { about, steps: &steps, lines: vec![], told: BTreeSet::new() };
     if end == 0 {
-        let why = match steps.begin_is_forgotten() {
+        let why = match is_forgotten {
             true => "what happened then is not known any more: go there, and ask again",
             false => "nothing has happened yet",
         };
@@ -46,7 +47,7 @@ pub fn why(live: &Live, node: usize, time: i64) -> Vec<Line> {
 
 struct Answer<'a> {
     about: &'a About,
-    steps: &'a Steps,
+    steps: &'a Part<'a>,
     lines: Vec<Line>,
     /// Steps that are explained already.
     told: BTreeSet<usize>,
@@ -98,7 +99,7 @@ impl<'a> Answer<'a> {
         let (mut origins, mut seen) = (vec![], BTreeSet::new());
         let mut open = vec![(c, false)];
         while let Some((c, delayed)) = open.pop() {
-            if !SILENT.contains(&self.kind(c.from)) {
+            if !is_silent(self.kind(c.from)) {
                 origins.push(Origin { node: c.from, output: &c.output, delayed });
             } else if seen.insert(c.from) {
                 let delayed = delayed || self.kind(c.from) == "delay";
@@ -150,7 +151,7 @@ impl<'a> Answer<'a> {
             }
             None if !connections.iter().any(passes) => {}
             None => {
-                let far = if self.steps.begin_is_forgotten() { " in the known steps" } else { "" };
+                let far = if self.steps.before.reaction > 0 { " in the last steps" } else { "" };
                 self.say(0, format!("`{name}` did not become active or inactive{far}"), node, now);
                 self.lacks_activity(node, end);
             }
@@ -222,7 +223,7 @@ impl<'a> Answer<'a> {
     }
 
     fn firing(&mut self, node: u32, end: usize) {
-        if SILENT.contains(&self.kind(node)) {
+        if is_silent(self.kind(node)) {
             return;
         }
         let reaction = self.steps.reaction(end - 1);
@@ -380,7 +381,7 @@ fn same(one: &AboutConnection, other: &AboutConnection) -> bool {
 /// A connection as it is written.
 fn way(answer: &Answer<'_>, c: &AboutConnection) -> String {
     let arrow = if c.activity { "=>" } else { "->" };
-    let from = match SILENT.contains(&answer.kind(c.from)) {
+    let from = match is_silent(answer.kind(c.from)) {
         true => answer.name(c.from).to_owned(),
         false => format!("{}.{}", answer.name(c.from), c.output),
     };

@@ -2,22 +2,23 @@
 
 use crate::{
     browser::Browser,
-    page::{RUNNING, Restarted, opened, studio_of},
+    page::{RUNNING, opened},
     several::NoText,
     socket,
 };
 use apex_rt::studio::message::{About, AboutChannel, AboutConnection, AboutNode, PortRole, Report, VERSION, write};
 use apex_studio::{Remote, Seat};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::{
     fs,
     io::Write as _,
+    net::TcpStream,
     os::unix::net::UnixListener,
-    path::Path,
     sync::Arc,
     thread,
-    time::{Duration, SystemTime, UNIX_EPOCH},
+    time::{Duration, Instant, SystemTime, UNIX_EPOCH},
 };
+use tungstenite::{Message, WebSocket, client, client::IntoClientRequest as _};
 
 const NODES: u32 = 1000;
 /// Number of nodes in each nested graph.
@@ -117,8 +118,8 @@ fn figures_of_a_thousand_nodes() {
     let path = socket("many");
     let listener = UnixListener::bind(&path).expect("a new socket");
     thread::spawn(move || play(&listener));
-    let robot = Remote { address: path.display().to_string() };
-    let seat = Seat { name: "many".to_owned(), robot, source: Arc::new(NoText) };
+    let robot = Box::new(Remote { address: path.display().to_string() });
+    let seat = Seat { name: "many".to_owned(), robot, source: Arc::new(NoText), shadow_of: None };
     let mut page = Browser::open(&opened(vec![seat], false)).expect("a browser");
     page.size(1280, 760, false);
     page.wait_for(RUNNING);
@@ -145,24 +146,97 @@ fn figures_of_a_thousand_nodes() {
     fs::remove_file(path).expect("it is still there");
 }
 
+/// Number of reactions in an hour at 1 kHz, and of the nodes that fire in each.
+const HOUR: u64 = 3_600_000;
+const BUSY: u32 = 20;
+
+/// Plays an hour of a robot at 1 kHz for a viewer, as fast as it can: 20 nodes fire in each reaction, tokens are sent
+/// over 20 channels, and one node becomes active and inactive all the time.
+fn play_an_hour(listener: &UnixListener) {
+    let (mut viewer, _) = listener.accept().expect("the studio connects");
+    let mut bytes = vec![];
+    write(&Report::About(many()), &mut bytes);
+    for step in 0..HOUR {
+        write(&Report::Reaction { group: 0, now: step as i64 * 1_000_000 }, &mut bytes);
+        for node in 0..BUSY {
+            write(&Report::Fired(node), &mut bytes);
+            write(&Report::Sent(node), &mut bytes);
+        }
+        if step.is_multiple_of(10) {
+            write(&Report::Activity { node: 3, active: step.is_multiple_of(20) }, &mut bytes);
+        }
+        if bytes.len() > 1 << 16 {
+            viewer.write_all(&bytes).expect("the studio reads");
+            bytes.clear();
+        }
+    }
+    viewer.write_all(&bytes).expect("the studio reads");
+    thread::sleep(Duration::from_secs(60));
+}
+
+/// A page without a browser.
+struct Socket(WebSocket<TcpStream>);
+
+impl Socket {
+    fn open(url: &str) -> Self {
+        let (host, token) =
+            url.strip_prefix("http://").and_then(|rest| rest.split_once("/#")).expect("an address with a token");
+        let mut request = format!("ws://{host}/live").into_client_request().expect("an address");
+        request.headers_mut().insert("Origin", format!("http://{host}").parse().expect("a header"));
+        let (mut socket, _) =
+            client(request, TcpStream::connect(host).expect("the studio listens")).expect("it answers");
+        socket.send(Message::Text(token.to_owned().into())).expect("it reads");
+        Self(socket)
+    }
+
+    /// Waits for a message with this field.
+    fn hear(&mut self, kind: &str) -> Value {
+        loop {
+            let Message::Text(text) = self.0.read().expect("the studio answers") else { continue };
+            let mut told: Value = serde_json::from_str(&text).expect("JSON");
+            if !told[kind].is_null() {
+                return told[kind].take();
+            }
+        }
+    }
+
+    /// The lanes between two times in s, and the duration of the answer.
+    fn lanes(&mut self, from: f64, to: f64) -> (Value, Duration) {
+        let (start, also) = (Instant::now(), [0_u32]);
+        let asked = json!({ "lanes": { "from": from, "to": to, "columns": 1000, "also": also } });
+        self.0.send(Message::Text(asked.to_string().into())).expect("it reads");
+        (self.hear("lanes"), start.elapsed())
+    }
+}
+
 #[test]
 #[ignore = "measures: cargo test --release -p apex-tests --test studio -- --ignored --nocapture figures"]
-fn figures_of_an_hour() {
-    assert!(Path::new("/proc/self/status").exists(), "memory is read from /proc");
-    let (address, _) = studio_of(Restarted::new("hour", None), false);
-    let mut page = Browser::open(&address).expect("a browser");
-    page.wait_for(RUNNING);
-    let before = memory();
-    page.value("import('./studio.js').then(({ ask }) => ask({ run: { speed: null } }))");
-    let mut now = 0.0;
-    while now < 3599.0 {
-        thread::sleep(Duration::from_secs(1));
-        let text = page.value("parseFloat(document.getElementById('now').textContent)");
-        now = text.as_f64().unwrap_or(0.0);
+fn figures_of_an_hour_at_1_khz() {
+    let path = socket("hour");
+    let listener = UnixListener::bind(&path).expect("a new socket");
+    let (before, start) = (memory(), Instant::now());
+    thread::spawn(move || play_an_hour(&listener));
+    let robot = Box::new(Remote { address: path.display().to_string() });
+    let seat = Seat { name: "hour".to_owned(), robot, source: Arc::new(NoText), shadow_of: None };
+    let mut page = Socket::open(&opened(vec![seat], false));
+    let (mut now, mut told) = (0.0, 0.0);
+    while now < 3599.999 {
+        now = page.hear("tick")["now"].as_f64().expect("a time");
+        if now >= told {
+            println!("{:.0} minutes: {} MB, {before} MB at the beginning", now / 60.0, memory());
+            told += 600.0;
+        }
     }
-    let heap = page.value("performance.memory.usedJSHeapSize / 1e6").as_f64().unwrap_or(f64::NAN);
-    println!(
-        "an hour at 100 Hz: the studio has {} MB, {before} MB at the beginning; the page has {heap:.0} MB",
-        memory()
-    );
+    println!("an hour at 1 kHz: {} MB; the studio has read it in {:.0?}", memory(), start.elapsed());
+    for (from, to) in [(0.0, 3600.0), (1800.0, 1860.0), (1800.0, 1801.0), (1800.0, 1800.05)] {
+        let (lanes, duration) = page.lanes(from, to);
+        let first = &lanes["lanes"][0];
+        let all = first["ticks"].as_array().into_iter().flatten();
+        let count: u64 = all.filter_map(|tick| tick[1].as_u64()).sum();
+        println!("lanes of {} s: {duration:.1?}, {count} firings of a node", to - from);
+        assert_eq!(first["node"], 0);
+        let expected = ((to - from) * 1000.0) as u64;
+        assert!(count.abs_diff(expected) <= 64, "{count} instead of {expected}");
+    }
+    fs::remove_file(path).expect("it is still there");
 }

@@ -7,6 +7,7 @@ mod measure;
 mod page;
 mod pictures;
 mod several;
+mod shadow;
 mod stream;
 mod text;
 

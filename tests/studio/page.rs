@@ -95,11 +95,12 @@ pub fn studio(name: &str, readonly: bool) -> (String, Arc<Text>) {
 pub fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Text>) {
     let source = Arc::new(Text::default());
     let text: Arc<Text> = Arc::clone(&source);
-    (opened(vec![Seat { name: "robot".to_owned(), robot, source }], readonly), text)
+    let seat = Seat { name: "robot".to_owned(), robot: Box::new(robot), source, shadow_of: None };
+    (opened(vec![seat], readonly), text)
 }
 
 /// Starts a studio for several robots, and returns the address of its page.
-pub fn opened<R: Robot + 'static>(robots: Vec<Seat<R>>, readonly: bool) -> String {
+pub fn opened(robots: Vec<Seat>, readonly: bool) -> String {
     let (opened, address) = channel();
     thread::spawn(move || {
         let studio = Studio { robots, address: "127.0.0.1:0".parse().unwrap(), readonly, speed: Some(1.0) };
@@ -471,6 +472,21 @@ fn a_robot_may_end_and_come_back_and_several_pages_see_it() {
     let again = start("returns", 3600);
     first.wait_for(RUNNING);
     second.wait_for(RUNNING);
+    // The first run can still be looked at.
+    let look = |page: &mut Browser, run: u32| {
+        page.wait_for(&format!("[...document.getElementById('earlier').options].some((run) => run.value === '{run}')"));
+        page.value(&format!(
+            "{{ const runs = document.getElementById('earlier'); runs.value = '{run}'; runs.dispatchEvent(new Event('change')); }}"
+        ));
+    };
+    look(&mut first, 1);
+    first.wait_for("document.getElementById('run').textContent === 'ended'");
+    first.wait_for("document.getElementById('now').textContent === '0.990 s'");
+    first.wait_for("document.getElementById('problems').textContent.includes('times: three')");
+    first.wait_for("document.getElementById('timeline').dataset.lanes.includes('gated.gate')");
+    assert_eq!(second.value(RUNNING), true);
+    look(&mut first, 2);
+    first.wait_for(RUNNING);
     drop(again);
     *text.errors.lock().unwrap() = Some("error: <b>wrong</b>".to_owned());
     first.wait_for("document.getElementById('errors').textContent === 'error: <b>wrong</b>'");

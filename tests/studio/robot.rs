@@ -1,5 +1,6 @@
 //! The robot of the tests in a process of its own: `apex-test-robot SOCKET [PAUSE [thread | slow]]`. Each reaction
-//! takes `PAUSE` in ms; with `thread` the program has a thread of its own, with `slow` another period.
+//! takes `PAUSE` in ms; with `thread` the program has a thread of its own, with `slow` another period. Without arguments
+//! the runtime drives it as the environment variables ask.
 #![allow(missing_docs, reason = "a program of tests")]
 
 use apex_macros::graph;
@@ -14,6 +15,9 @@ graph!("studio/counts.afg");
 
 fn main() {
     let args: Vec<String> = env::args().skip(1).collect();
+    if args.is_empty() {
+        return run(Counts::new(), SimClock::until(Time::from_secs(3600)));
+    }
     let pause = Duration::from_millis(args.get(1).map_or(0, |pause| pause.parse().expect("a number")));
     match args.get(2).map(String::as_str) {
         Some("thread") => {

@@ -50,8 +50,9 @@ impl Source for NoText {
     }
 }
 
-fn seat(name: &str, source: Arc<dyn Source>) -> Seat<Remote> {
-    Seat { name: name.to_owned(), robot: Remote { address: socket(name).display().to_string() }, source }
+fn seat(name: &str, source: Arc<dyn Source>) -> Seat {
+    let robot = Box::new(Remote { address: socket(name).display().to_string() });
+    Seat { name: name.to_owned(), robot, source, shadow_of: None }
 }
 
 #[test]

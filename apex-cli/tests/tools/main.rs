@@ -16,6 +16,8 @@ mod memory;
 mod new;
 mod nodes;
 mod record;
+#[cfg(unix)]
+mod studio;
 mod times;
 mod together;
 mod tour;

@@ -10,10 +10,18 @@ use mcap::{
 };
 use std::{
     collections::BTreeMap,
+    env,
     fs::File,
     io::{self, BufReader, Read},
     path::Path,
+    thread,
+    time::Duration,
 };
+
+/// Environment variable of a replay that waits at the end of a file which is still being written.
+const FOLLOW: &str = "APEX_REPLAY_FOLLOW";
+/// Interval at which such a file is looked at.
+const LOOK: Duration = Duration::from_millis(5);
 
 /// Maximum length of a record, in bytes. A larger length is damage.
 const LARGEST: u64 = 1 << 30;
@@ -87,10 +95,17 @@ pub struct Source {
 struct Positioned {
     file: File,
     at: u64,
+    /// The process for which the end of the file is waited for, as long as it is.
+    follows: Option<u32>,
 }
 
-impl Read for Positioned {
-    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+impl Positioned {
+    fn open(path: &Path) -> io::Result<Self> {
+        let follows = env::var_os(FOLLOW).map(|_| parent());
+        Ok(Self { file: File::open(path)?, at: 0, follows })
+    }
+
+    fn read_some(&mut self, into: &mut [u8]) -> io::Result<usize> {
         #[cfg(unix)]
         let count = std::os::unix::fs::FileExt::read_at(&self.file, into, self.at)?;
         #[cfg(not(unix))]
@@ -98,6 +113,26 @@ impl Read for Positioned {
         self.at += count as u64;
         Ok(count)
     }
+}
+
+impl Read for Positioned {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        loop {
+            let count = self.read_some(into)?;
+            if count > 0 || into.is_empty() || self.follows != Some(parent()) {
+                return Ok(count);
+            }
+            thread::sleep(LOOK);
+        }
+    }
+}
+
+/// Number of the process that has started this one; another one after its end.
+fn parent() -> u32 {
+    #[cfg(unix)]
+    return std::os::unix::process::parent_id();
+    #[cfg(not(unix))]
+    0
 }
 
 /// File with the checksum of the bytes that were read.
@@ -133,7 +168,7 @@ impl Source {
         if path.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
-        let file = BufReader::new(Positioned { file: File::open(path)?, at: 0 });
+        let file = BufReader::new(Positioned::open(path)?);
         let mut file = Summed { file, sum: Hasher::new() };
         let mut magic = vec![];
         (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
@@ -231,6 +266,7 @@ impl Source {
         self.file.read_exact(&mut sum).map_err(stop)?;
         is_sum(summed, u32::from_le_bytes(sum), "its index")?;
         self.file.read_exact(&mut magic).map_err(stop)?;
+        self.file.file.get_mut().follows = None;
         let is_end = self.file.read(&mut [0]).map_err(Stop::Io)? == 0;
         match length as usize == places.len() + sum.len() && magic == MAGIC && is_end {
             true => Ok(()),
