@@ -9,11 +9,12 @@ use super::{
 };
 use crate::{
     analyse::Analysis,
-    graph::{Graph, NodeId, NodeKind, PortId},
+    graph::{Connection, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::quote;
+use std::collections::BTreeMap;
 use syn::Ident;
 
 /// A field of the state of a program.
@@ -89,9 +90,14 @@ impl Generator<'_> {
     /// Tokens that are kept in the state of the program, or of a parallel body.
     pub fn token_state(&self, graph: &Graph, analysis: &Analysis) -> Vec<StateField> {
         let mut kept = vec![];
+        let mut leaving: BTreeMap<PortId, Vec<&Connection>> = BTreeMap::new();
+        graph.connections.iter().for_each(|c| leaving.entry(c.from).or_default().push(c));
         for (node, n) in graph.nodes.iter_enumerated() {
             let ports = (0..n.ports.len()).filter(|port| n.ports[*port].kind.sends());
-            kept.extend(ports.filter_map(|port| self.kept_token(graph, analysis, PortId { node, port })));
+            kept.extend(ports.filter_map(|port| {
+                let end = PortId { node, port };
+                self.kept_token(graph, analysis, end, leaving.get(&end).map_or(&[], Vec::as_slice))
+            }));
             kept.extend(self.kept_delay(graph, node));
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node))
                 && !each.parallel
@@ -102,10 +108,15 @@ impl Generator<'_> {
         kept
     }
 
-    /// Field of a token; `None` if the token does not outlive the firing of its cluster.
-    fn kept_token(&self, graph: &Graph, analysis: &Analysis, end: PortId) -> Option<StateField> {
-        let from_here = || graph.connections.iter().filter(|c| c.from == end);
-        let is_sent = from_here().any(|c| !graph.is_synchronous(c));
+    /// Field of a token on these connections; `None` if the token does not outlive the firing of its cluster.
+    fn kept_token(
+        &self,
+        graph: &Graph,
+        analysis: &Analysis,
+        end: PortId,
+        leaving: &[&Connection],
+    ) -> Option<StateField> {
+        let is_sent = leaving.iter().any(|c| !graph.is_synchronous(c));
         if graph.port(end).kind == PortKind::Event && !is_sent {
             return None;
         }
@@ -120,7 +131,7 @@ impl Generator<'_> {
                 quote!(::apex_rt::Out::new()),
             ));
         }
-        let crosses = || from_here().any(|c| analysis.cluster_of[c.to.node] != analysis.cluster_of[end.node]);
+        let crosses = || leaving.iter().any(|c| analysis.cluster_of[c.to.node] != analysis.cluster_of[end.node]);
         if !is_sent && !crosses() {
             return None;
         }
