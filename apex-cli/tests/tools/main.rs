@@ -19,6 +19,7 @@ mod record;
 mod times;
 mod together;
 mod tour;
+mod tune;
 mod watch;
 
 /// Target folder of all tests here, so that dependencies are built once.
