@@ -23,6 +23,7 @@ mod studio;
 mod test;
 mod texts;
 mod times;
+mod tune;
 mod watch;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -221,6 +222,11 @@ enum Command {
         #[command(flatten)]
         how: Building,
     },
+    /// Find good values of parameters, as a `tune` item of a source file states.
+    #[command(
+        after_help = "A `tune` item is a test that is repeated with other values:\n  tune Steady: Cart { vary pilot.gain in 0.1..=10; wait 20s; minimise error.rms; seeds 32; }\nThe program is built once, with optimisation. Every run is written to a journal: after Ctrl-C, --resume continues. The\nresult is the same on any number of cores, and merged from several machines (--shard, --merge).\nExit code 0: better values were found, 1: there are none (or the file has errors), 2: the study could not be run.\n\nExample:\n  apex tune robots/cart/cart.afg Swift --candidates 100\n  apex tune cart.afg Steady --resume --params tuned.toml\n  apex tune cart.afg Steady --searches 8 --shard 1/2 --output part1"
+    )]
+    Tune(tune::Wanted),
     /// Show a running robot in the terminal: what is active, what fires how often, what fails.
     #[command(
         after_help = "Space halts a robot in simulated time, `.` lets it react once, `q` ends.\n\nExample:\n  apex run --stream 127.0.0.1:7400 robot.afg\n  apex top 127.0.0.1:7400"
@@ -380,6 +386,7 @@ fn main() -> ExitCode {
                 how: how.how(),
             })
         }
+        Command::Tune(wanted) => tune::run(&wanted),
         Command::Top { address } => studio::top(address),
         Command::Studio {
             file,

@@ -56,7 +56,7 @@ impl Params {
 }
 
 /// Fails if the folder of the file does not exist.
-fn has_folder(file: &Path) -> Result<(), String> {
+pub fn has_folder(file: &Path) -> Result<(), String> {
     match file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         Some(folder) => Err(format!("there is no folder `{}`", folder.display())),
         None => Ok(()),

@@ -4,7 +4,8 @@ use crate::{
     build::{self, Built, How, Outcome, Turn},
     calls::{self, Call},
     made::{self, Made},
-    project, run,
+    project::{self, Checked},
+    run,
 };
 use apex_dsl::{
     codegen::module_name,
@@ -21,17 +22,40 @@ pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, Stri
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let scripts: Vec<&Script> = checked.programs.iter().filter_map(|p| p.script.as_ref()).collect();
+    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref()).filter(|script| script.study.is_none());
+    let scripts: Vec<&Script> = scripts.collect();
     if scripts.is_empty() {
         project::print(&format!("`{}` has no `test`", file.display()))?;
         return Ok(ExitCode::SUCCESS);
     }
     let names = chosen(&scripts, filter)?;
+    let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return Ok(ExitCode::from(2)) };
+    let mut command = built.command();
+    command.args(["--quiet", "--exact"]).args(names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
+    let mut child = command.spawn().map_err(|e| built.not_started(&e))?;
+    drop(turn);
+    let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
+    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// A program with tests.
+pub struct Found {
+    /// The program.
+    pub built: Built,
+    /// Names of the tests in it.
+    pub names: Vec<String>,
+    /// Lock on the program until it is started.
+    pub turn: Turn,
+}
+
+/// Builds the program with the tests or studies `names`. Returns `None` after compile errors, which cargo has printed.
+pub fn built(file: &Path, checked: &Checked, names: &[&str], how: How) -> Result<Option<Found>, String> {
     let folder = run::package(file)?;
     let workspace = Workspace::load(&folder)?;
     run::has_apex(&folder, &workspace)?;
     let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
-    let recorded = scripts.iter().flat_map(|script| &script.steps).any(is_recorded);
+    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref());
+    let recorded = scripts.flat_map(|script| &script.steps).any(is_recorded);
     let tests = Tests {
         text: &run::absolute(file)?,
         folder: &folder,
@@ -40,18 +64,12 @@ pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, Stri
         how,
     };
     let turn = Turn::wait(&workspace, how)?;
-    let found = match tests.own(&names)? {
+    let found = match tests.own(names)? {
         Own::Found(built, tests) => Some((built, tests)),
         Own::Broken => None,
-        Own::None => tests.made(&names)?,
+        Own::None => tests.made(names)?,
     };
-    let Some((built, names)) = found else { return Ok(ExitCode::from(2)) };
-    let mut command = built.command();
-    command.args(["--quiet", "--exact"]).args(names).current_dir(&folder).env("RUST_BACKTRACE", "0");
-    let mut child = command.spawn().map_err(|e| built.not_started(&e))?;
-    drop(turn);
-    let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
-    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(found.map(|(built, names)| Found { built, names, turn }))
 }
 
 /// Names of the tests to run.

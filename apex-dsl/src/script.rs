@@ -1,6 +1,7 @@
-//! Resolved scripts of `test` blocks: the steps that a test takes with a program.
+//! Resolved scripts of `test` and `tune` items: the steps that a test takes with a program, and what a study searches.
 
 use crate::{
+    catalog::Type,
     graph::{Condition, NodeId, Subject, Value},
     source::Span,
 };
@@ -17,6 +18,65 @@ pub struct Script {
     pub span: Span,
     /// Inputs and expectations, in order.
     pub steps: Vec<Step>,
+    /// The study, if it is the script of one.
+    pub study: Option<Study>,
+}
+
+/// A study: many runs of a script with other values of parameters.
+#[derive(Debug, Clone, Default)]
+pub struct Study {
+    /// Parameters that are searched.
+    pub vary: Vec<Varied>,
+    /// Goals.
+    pub goals: Vec<Goal>,
+    /// Names of the tests that must pass.
+    pub required: Vec<String>,
+    /// Names of the parameters that differ between the seeds.
+    pub seed_params: Vec<String>,
+    /// Number of seeds.
+    pub seeds: u64,
+    /// Number of further seeds that only score the result.
+    pub held_out: u64,
+    /// Recordings that only score the result, relative to the folder of the source file.
+    pub recordings: Vec<String>,
+}
+
+/// A parameter that a study searches.
+#[derive(Debug, Clone)]
+pub struct Varied {
+    /// Name, as written.
+    pub name: String,
+    /// Names of the parameters of the program that have its value.
+    pub targets: Vec<String>,
+    /// SI unit of its numbers.
+    pub unit: Option<String>,
+    /// Smallest value, in SI.
+    pub low: f64,
+    /// Largest value, in SI.
+    pub high: f64,
+    /// `true` if all values are integers.
+    pub integer: bool,
+    /// `true` if the values are of single precision.
+    pub single: bool,
+    /// Place in the source file.
+    pub span: Span,
+}
+
+/// A goal of a study: the last token of a run at a port.
+#[derive(Debug, Clone)]
+pub struct Goal {
+    /// Name of the port, as written.
+    pub name: String,
+    /// The probe at the port.
+    pub probe: NodeId,
+    /// Type of its tokens: a number or a time.
+    pub ty: Type,
+    /// Unit of its tokens.
+    pub unit: Option<String>,
+    /// `true` if greater is better.
+    pub maximise: bool,
+    /// Share of the runs that reach the value of a candidate, above 0 and at most 1.
+    pub share: f64,
 }
 
 /// A step of a test.

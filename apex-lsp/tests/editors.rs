@@ -28,6 +28,7 @@ fn words_of_the_textmate_grammar() {
         ("graph", KeywordPosition::Graph),
         ("machine", KeywordPosition::Machine),
         ("test", KeywordPosition::Test),
+        ("tune", KeywordPosition::Tune),
         ("modifier", KeywordPosition::Modifier),
         ("inside", KeywordPosition::Inside),
         ("value", KeywordPosition::Value),

@@ -1,8 +1,13 @@
 //! Runtime of generated tests: a program in simulated time, tokens for its ports, and expectations.
 
-use crate::{Next, Observer, Program, Time};
+mod study;
+
+pub use study::{Study, recorded, serve};
+
+use crate::{Next, Observer, Parameters, Program, Time};
 use core::{
     fmt::{Debug, Display, Write as _},
+    ops::Deref,
     time::Duration,
 };
 
@@ -87,9 +92,18 @@ pub struct Timeline {
     names: Vec<&'static str>,
     now: Moment,
     moments: Vec<(Time, Moment)>,
+    /// Last values of the goals of a study, NaN before the first one. A study needs no list of events.
+    goals: Option<Vec<f64>>,
 }
 
 impl Timeline {
+    /// Takes the value of a goal of a study.
+    pub fn goal(&mut self, number: usize, value: f64) {
+        if let Some(goal) = self.goals.as_mut().and_then(|goals| goals.get_mut(number)) {
+            *goal = value;
+        }
+    }
+
     /// Adds a token at a place that the test observes.
     pub fn token(&mut self, port: &str, token: &str) {
         match token.char_indices().nth(LONGEST) {
@@ -125,19 +139,31 @@ impl Timeline {
 
 impl Observer for Timeline {
     fn fired(&mut self, node: usize) {
+        if self.goals.is_some() {
+            return;
+        }
         let name = self.names[node];
         if !self.now.fired.contains(&name) {
             self.now.fired.push(name);
         }
     }
     fn activity(&mut self, node: usize, active: bool) {
+        if self.goals.is_some() {
+            return;
+        }
         let name = self.names[node];
         self.now.notes.push(format!("{name} is {}", if active { "active" } else { "no longer active" }));
     }
     fn failed(&mut self, node: usize, error: &impl Display) {
+        if self.goals.is_some() {
+            return;
+        }
         self.now.notes.push(format!("{} failed: {error}", self.names[node]));
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
+        if self.goals.is_some() {
+            return;
+        }
         self.now.notes.push(format!("{} refused {value:?} for {parameter}", self.names[node]));
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
@@ -170,14 +196,31 @@ pub struct Test<P> {
     nevers: Vec<(Seen<P>, &'static str, &'static str)>,
     timeline: Timeline,
     drain: fn(&mut P, &mut Timeline),
+    /// Time of the last token of the feeds that end.
+    last: Time,
 }
 
-impl<P: Program + 'static> Test<P> {
+impl<P: Program + Parameters + 'static> Test<P> {
     /// Returns the test `name` of `program`; `drain` empties its probes.
-    pub fn new(name: &'static str, program: P, drain: fn(&mut P, &mut Timeline)) -> Self {
+    pub fn new(name: &'static str, mut program: P, drain: fn(&mut P, &mut Timeline)) -> Self {
+        study::set(&mut program);
         let names = P::INFO.nodes.iter().map(|n| n.name).collect();
-        let timeline = Timeline { names, now: Moment::default(), moments: vec![] };
-        Self { name, program, now: Time::ZERO, feeds: vec![], nevers: vec![], timeline, drain }
+        let timeline = Timeline { names, now: Moment::default(), moments: vec![], goals: None };
+        let (now, last) = (Time::ZERO, Time::ZERO);
+        Self { name, program, now, feeds: vec![], nevers: vec![], timeline, drain, last }
+    }
+
+    /// Returns one run of the study `name` of `program`, with this number of goals; `drain` empties its probes.
+    pub fn of_study(name: &'static str, program: P, drain: fn(&mut P, &mut Timeline), goals: usize) -> Self {
+        let mut test = Self::new(name, program, drain);
+        test.timeline.goals = Some(vec![f64::NAN; goals]);
+        test
+    }
+
+    /// Runs until all feeds that end have ended, and returns the last values of the goals.
+    pub fn goals(mut self) -> Vec<f64> {
+        self.run(self.last.max(self.now), None);
+        self.timeline.goals.unwrap_or_default()
     }
 
     /// Feeds `tokens` from now on, one every `period`. A single token with a period is repeated. A token that finds no
@@ -189,6 +232,10 @@ impl<P: Program + 'static> Test<P> {
         put: fn(&mut P, T) -> Result<(), T>,
     ) {
         let tokens: Vec<T> = tokens.into_iter().collect();
+        if let (Some(period), Some(others)) = (period, tokens.len().checked_sub(1)) {
+            let others = u32::try_from(others).unwrap_or(u32::MAX);
+            self.last = self.last.max(self.now + period.saturating_mul(others));
+        }
         let mut at = 0;
         let feed = move |program: &mut P, due: Time| {
             if put(program, tokens[at].clone()).is_err() {
@@ -202,9 +249,16 @@ impl<P: Program + 'static> Test<P> {
     }
 
     /// Feeds each of `tokens` at its time after now. A token that finds no room is put in as soon as there is some.
-    pub fn feed_at<T: Clone + 'static>(&mut self, tokens: Vec<(Duration, T)>, put: fn(&mut P, T) -> Result<(), T>) {
+    pub fn feed_at<T: Clone + 'static>(
+        &mut self,
+        tokens: impl Deref<Target = [(Duration, T)]> + 'static,
+        put: fn(&mut P, T) -> Result<(), T>,
+    ) {
         let (start, mut at) = (self.now, 0);
         let Some((first, _)) = tokens.first() else { return };
+        if let Some((last, _)) = tokens.last() {
+            self.last = self.last.max(start + *last);
+        }
         let first = start + *first;
         let feed = move |program: &mut P, due: Time| {
             if put(program, tokens[at].1.clone()).is_err() {
@@ -306,7 +360,7 @@ mod tests {
 
     #[test]
     fn long_tokens_are_cut() {
-        let mut timeline = Timeline { names: Vec::new(), now: Moment::default(), moments: Vec::new() };
+        let mut timeline = Timeline { names: vec![], now: Moment::default(), moments: vec![], goals: None };
         timeline.token("name", &"é".repeat(LONGEST));
         timeline.token("scan", &"é".repeat(10_000));
         let shown = "é".repeat(LONGEST);

@@ -13,7 +13,7 @@ use apex_nodes::{
     optim::{Axis, Scale},
     slam::{Settings, Window},
 };
-use apex_tune::{Journal, Method, Objective, Parameter, Report, Study, Summary};
+use apex_tune::{Goal, Journal, Method, Objective, Parameter, Report, Study, Summary};
 use recordings::{Recording, errors, intel, play};
 use std::{
     error::Error,
@@ -66,11 +66,11 @@ fn settings(values: &[f64]) -> Settings {
 }
 
 impl Objective for Matching {
-    fn cost(&self, values: &[f64], seed: u64) -> f64 {
+    fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String> {
         let (part, start) = (&self.parts[seed as usize], Instant::now());
         let cost = rms(&errors(&play(part, settings(values)).1, &part.reference));
         self.busy.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
-        cost
+        Ok(vec![cost])
     }
 }
 
@@ -139,7 +139,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let study = Study {
         parameters: parameters(),
         method: Method::DifferentialEvolution,
-        summary: Summary::Mean,
+        goals: vec![Goal {
+            name: "error".to_owned(),
+            unit: "m".to_owned(),
+            maximise: false,
+            summary: Summary::Mean,
+            least: 0.0,
+        }],
         seeds: (0..split).collect(),
         held_out: (split..matching.parts.len() as u64).collect(),
         searches: 1,
@@ -164,7 +170,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (elapsed, busy) = (start.elapsed(), Duration::from_nanos(matching.busy.load(Ordering::Relaxed)));
     let share = 100.0 * busy.as_secs_f64() / (elapsed.as_secs_f64() * arguments.jobs as f64);
     println!("{elapsed:.1?}; runs took {share:.2} % of the time of {} threads", arguments.jobs);
-    let report = pool.install(|| Report::new(&study, found, &matching)).ok_or("all candidates failed")?;
+    let report =
+        pool.install(|| Report::new(&study, found, &matching, &mut journal))?.ok_or("all candidates failed")?;
     println!("{}", report.markdown());
     whole_rows(&whole, &study.defaults(), report.values());
     if let Some(out) = &arguments.out {

@@ -17,11 +17,11 @@ pub struct Run {
     pub seed: u64,
 }
 
-/// File with the cost of every run of a study, one per line in the order in which they ended. The first line describes
-/// the study.
+/// File with the values of every run of a study, one per line in the order in which they ended. The first line
+/// describes the study.
 #[derive(Debug)]
 pub struct Journal {
-    costs: HashMap<Run, f64>,
+    values: HashMap<Run, Vec<f64>>,
     file: Option<(PathBuf, File)>,
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for JournalError {
                 write!(f, "{}: the journal belongs to a study with other settings: use another file", path.display())
             }
             Self::BadLine(path, line) => {
-                write!(f, "{}:{line}: not a run: expected `search,candidate,seed,cost`", path.display())
+                write!(f, "{}:{line}: not a run: expected `search,candidate,seed,value`", path.display())
             }
         }
     }
@@ -55,7 +55,7 @@ impl std::error::Error for JournalError {}
 impl Journal {
     /// Journal without a file.
     pub fn in_memory() -> Self {
-        Self { costs: HashMap::new(), file: None }
+        Self { values: HashMap::new(), file: None }
     }
 
     /// Opens the journal of a study with this description, or creates it. Runs that are already in the file are not
@@ -68,53 +68,55 @@ impl Journal {
             Err(error) => return Err(fail(error)),
         };
         let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
-        let costs = parse(path, whole, description)?;
+        let values = parse(path, whole, description)?;
         let mut file = OpenOptions::new().create(true).append(true).open(path).map_err(fail)?;
         file.set_len(whole.len() as u64).map_err(fail)?;
         if whole.is_empty() {
             writeln!(file, "{description}").map_err(fail)?;
         }
-        Ok(Self { costs, file: Some((path.to_owned(), file)) })
+        Ok(Self { values, file: Some((path.to_owned(), file)) })
     }
 
     /// Reads the journals of several parts of a study into one without a file.
     pub fn merge(paths: &[PathBuf], description: &str) -> Result<Self, JournalError> {
-        let mut costs = HashMap::new();
+        let mut values = HashMap::new();
         for path in paths {
             let text = fs::read_to_string(path).map_err(|error| JournalError::File(path.clone(), error))?;
-            costs.extend(parse(path, &text[..text.rfind('\n').map_or(0, |end| end + 1)], description)?);
+            values.extend(parse(path, &text[..text.rfind('\n').map_or(0, |end| end + 1)], description)?);
         }
-        Ok(Self { costs, file: None })
+        Ok(Self { values, file: None })
     }
 
     /// Number of runs.
     pub fn len(&self) -> usize {
-        self.costs.len()
+        self.values.len()
     }
 
     /// Returns `true` if the journal has no runs.
     pub fn is_empty(&self) -> bool {
-        self.costs.is_empty()
+        self.values.is_empty()
     }
 
-    /// Cost of a run, if it has ended.
-    pub fn cost(&self, run: &Run) -> Option<f64> {
-        self.costs.get(run).copied()
+    /// Values of the goals of a run, if it has ended. They are NaN if it has failed.
+    pub fn values(&self, run: &Run) -> Option<&[f64]> {
+        self.values.get(run).map(Vec::as_slice)
     }
 
     /// Adds a run that has ended.
-    pub fn add(&mut self, run: Run, cost: f64) -> Result<(), JournalError> {
+    pub fn add(&mut self, run: Run, values: Vec<f64>) -> Result<(), JournalError> {
         if let Some((path, file)) = &mut self.file {
             // One write per line, and a form of the number from which the same bits are read.
-            let line = format!("{},{},{},{cost:?}\n", run.search, run.candidate, run.seed);
+            let mut line = format!("{},{},{}", run.search, run.candidate, run.seed);
+            values.iter().for_each(|value| line.push_str(&format!(",{value:?}")));
+            line.push('\n');
             file.write_all(line.as_bytes()).map_err(|error| JournalError::File(path.clone(), error))?;
         }
-        self.costs.insert(run, cost);
+        self.values.insert(run, values);
         Ok(())
     }
 }
 
-fn parse(path: &Path, text: &str, description: &str) -> Result<HashMap<Run, f64>, JournalError> {
+fn parse(path: &Path, text: &str, description: &str) -> Result<HashMap<Run, Vec<f64>>, JournalError> {
     let mut lines = text.lines();
     if lines.next().is_some_and(|first| first != description) {
         return Err(JournalError::OtherStudy(path.to_owned()));
@@ -123,7 +125,8 @@ fn parse(path: &Path, text: &str, description: &str) -> Result<HashMap<Run, f64>
         let mut words = line.split(',');
         let mut number = || words.next()?.parse().ok();
         let run = Run { search: number()?, candidate: number()?, seed: number()? };
-        Some((run, words.next()?.parse().ok()?))
+        let values: Vec<f64> = words.map(|word| word.parse().ok()).collect::<Option<_>>()?;
+        (!values.is_empty()).then_some((run, values))
     };
     let number = |(i, line)| run(line).ok_or_else(|| JournalError::BadLine(path.to_owned(), i + 2));
     lines.enumerate().map(number).collect()

@@ -5,6 +5,7 @@
 //! [`Journal`] when it ends: an interrupted study continues from there, and the journals of several machines are
 //! merged. The [`Report`] scores the result on seeds that the study has not seen.
 
+mod goal;
 mod journal;
 mod picture;
 mod race;
@@ -12,7 +13,9 @@ mod report;
 mod study;
 mod summary;
 
+pub use apex_nodes::optim::{Axis, BadAxis, Best, Scale};
+pub use goal::{Goal, Point};
 pub use journal::{Journal, JournalError, Run};
 pub use report::{Report, Score};
-pub use study::{Found, Method, Objective, Parameter, Progress, Study};
+pub use study::{Found, Method, Objective, Parameter, Progress, Study, StudyError, on_threads};
 pub use summary::Summary;

@@ -43,6 +43,28 @@ pub(crate) fn importance(names: &[&str], importance: &[f64]) -> io::Result<Strin
     })
 }
 
+/// Picture of the front of two goals, with the defaults (grey) and the result (red).
+pub(crate) fn front(
+    names: [&str; 2],
+    front: &[(f64, f64)],
+    defaults: (f64, f64),
+    tuned: (f64, f64),
+) -> io::Result<String> {
+    let is_finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
+    let all: Vec<(f64, f64)> = front.iter().copied().chain([defaults, tuned]).filter(is_finite).collect();
+    let (left, right) = range(all.iter().map(|(x, _)| *x));
+    let (low, high) = range(all.iter().map(|(_, y)| *y));
+    drawn(|area| {
+        let mut chart = chart(area).build_cartesian_2d(left..right, low..high)?;
+        chart.configure_mesh().x_desc(names[0]).y_desc(names[1]).light_line_style(TRANSPARENT).draw()?;
+        chart.draw_series(front.iter().map(|point| Circle::new(*point, 3, BLUE.filled())))?;
+        let marks = [(defaults, BLACK.mix(0.4)), (tuned, RED.mix(1.0))];
+        let marks = marks.into_iter().filter(|(point, _)| is_finite(point));
+        chart.draw_series(marks.map(|(point, colour)| Circle::new(point, 5, colour.filled())))?;
+        Ok(())
+    })
+}
+
 /// Range of values with a margin; not empty.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));

@@ -1,14 +1,18 @@
-use crate::{Found, Objective, Study, picture};
+use crate::{
+    Found, Goal, Journal, Objective, Point, Study, StudyError,
+    goal::{Fitness, add_to_front},
+    picture,
+};
 use apex_nodes::optim::Best;
 use std::{fmt::Write, fs, io, path::Path};
 
-/// Fitness on the seeds of the study, and on those that it has not seen.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Costs by goal, on the seeds of the study and on those that it has not seen.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Score {
-    /// Fitness on the seeds of the study.
-    pub training: f64,
-    /// Fitness on the seeds held out.
-    pub held_out: f64,
+    /// Costs on the seeds of the study.
+    pub training: Vec<f64>,
+    /// Costs on the seeds held out.
+    pub held_out: Vec<f64>,
 }
 
 /// Result of a study beside the defaults.
@@ -19,28 +23,47 @@ pub struct Report {
     best: Best,
     /// Score of the defaults.
     pub defaults: Score,
-    /// Score of the best candidate.
+    /// Score of the best candidate; with several goals, of the best one for equal weights.
     pub tuned: Score,
     /// Fitness on the seeds of the study that is lost if only this parameter has its default, by parameter.
     pub importance: Vec<f64>,
+    /// Candidates of which none is better than another one in all goals, if there are several goals.
+    pub front: Vec<Point>,
 }
 
 impl Report {
     /// Scores the best candidate of all searches and the defaults. Returns `None` if all candidates have failed.
-    pub fn new(study: &Study, found: Vec<Found>, objective: &dyn Objective) -> Option<Self> {
-        let best = found.iter().filter_map(|f| f.best.as_ref()).min_by(|a, b| a.fitness.total_cmp(&b.fitness))?.clone();
-        let score = |values: &[f64]| Score {
-            training: study.score(objective, values, &study.seeds),
-            held_out: study.score(objective, values, &study.held_out),
+    pub fn new(
+        study: &Study,
+        found: Vec<Found>,
+        objective: &dyn Objective,
+        journal: &mut Journal,
+    ) -> Result<Option<Self>, StudyError> {
+        let several = study.goals.len() > 1;
+        // With several goals, the searches have other weights.
+        let candidates = found.iter().filter_map(|f| f.best.as_ref());
+        let best = candidates.reduce(|a, b| if several || a.fitness <= b.fitness { a } else { b });
+        let Some(best) = best.cloned() else { return Ok(None) };
+        let fitness: Fitness = study.fitness(objective, journal)?(0);
+        let mut score = |number, values: &[f64], seeds: &[u64]| study.score(objective, journal, number, values, seeds);
+        let mut both = |number, values: &[f64]| -> Result<Score, StudyError> {
+            let training = score(number, values, &study.seeds)?;
+            Ok(Score { training, held_out: score(number, values, &study.held_out)? })
         };
-        let (defaults, tuned) = (score(&study.defaults()), score(&best.values));
-        let without = |i: usize| {
+        let (defaults, tuned) = (both(0, &study.defaults())?, both(1, &best.values)?);
+        let mut importance = Vec::new();
+        for (i, parameter) in study.parameters.iter().enumerate() {
             let mut values = best.values.clone();
-            values[i] = study.parameters[i].default;
-            study.score(objective, &values, &study.seeds) - tuned.training
-        };
-        let importance = (0..study.parameters.len()).map(without).collect();
-        Some(Self { study: study.clone(), found, best, defaults, tuned, importance })
+            values[i] = parameter.default;
+            let without = score(2 + i as u64, &values, &study.seeds)?;
+            importance.push(fitness.of(&without) - fitness.of(&tuned.training));
+        }
+        let mut front = Vec::new();
+        for point in found.iter().flat_map(|found| &found.front) {
+            add_to_front(&mut front, point.clone());
+        }
+        front.sort_by(|a, b| a.costs[0].total_cmp(&b.costs[0]));
+        Ok(Some(Self { study: study.clone(), found, best, defaults, tuned, importance, front }))
     }
 
     /// Values of the best candidate.
@@ -48,57 +71,141 @@ impl Report {
         &self.best.values
     }
 
+    /// Returns `true` if the best candidate is better than the defaults in at least one goal, on the seeds of the
+    /// study.
+    pub fn is_better(&self) -> bool {
+        self.tuned.training.iter().zip(&self.defaults.training).any(|(tuned, default)| tuned < default)
+    }
+
     /// Warning if the seeds held out do not confirm the result.
     pub fn warning(&self) -> Option<String> {
         if self.study.held_out.is_empty() {
-            return Some("no seeds are held out: the fitness is that of the seeds that chose the values".to_owned());
+            return Some("nothing is held out: the result is that of the seeds that chose the values".to_owned());
         }
-        let gain = |before: f64, after: f64| 1.0 - after / before;
-        let training = gain(self.defaults.training, self.tuned.training);
-        let held_out = gain(self.defaults.held_out, self.tuned.held_out);
-        let percent = |x: f64| format!("{:.1} %", 100.0 * x);
-        let parts = training > 0.0 && (held_out.is_nan() || held_out < 0.5 * training);
-        parts.then(|| {
-            let (training, held_out) = (percent(training), percent(held_out));
-            format!("the fitness improves by {training} on the seeds of the study, but by {held_out} on those held out")
-        })
+        let parts = self.study.goals.iter().enumerate().filter_map(|(i, goal)| {
+            let gain = |after: &[f64], before: &[f64]| before[i] - after[i];
+            let training = gain(&self.tuned.training, &self.defaults.training);
+            let held_out = gain(&self.tuned.held_out, &self.defaults.held_out);
+            let parts = training > 0.0 && (held_out.is_nan() || held_out < 0.5 * training);
+            parts.then(|| {
+                let (name, training, held_out) = (&goal.name, number(training), number(held_out));
+                format!(
+                    "`{name}` improves by {training} on the seeds of the study, but by {held_out} on those held out"
+                )
+            })
+        });
+        let parts: Vec<String> = parts.collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// Markdown with the tables of the values, the scores and the cost of the study.
+    /// Tables of the goals and of the parameters, as Markdown.
+    pub fn tables(&self) -> String {
+        let mut text =
+            "| goal | defaults | tuned | defaults, held out | tuned, held out |\n|---|---|---|---|---|\n".to_owned();
+        for (i, goal) in self.study.goals.iter().enumerate() {
+            let shown = |costs: &[f64]| number(goal.value(costs[i]));
+            let (d, t) = (&self.defaults, &self.tuned);
+            let word = if goal.maximise { "maximise" } else { "minimise" };
+            let all = [&d.training, &t.training].map(|costs| shown(costs));
+            let held = [&d.held_out, &t.held_out]
+                .map(|costs| if self.study.held_out.is_empty() { "–".into() } else { shown(costs) });
+            let (name, unit) = (&goal.name, in_brackets(&goal.unit));
+            let _ = writeln!(
+                text,
+                "| {word} `{name}`{unit} {} | {} | {} | {} | {} |",
+                goal.summary, all[0], all[1], held[0], held[1]
+            );
+        }
+        text.push_str("\n| parameter | default | tuned | range | lost with the default |\n|---|---|---|---|---|\n");
+        for ((p, value), importance) in self.study.parameters.iter().zip(&self.best.values).zip(&self.importance) {
+            let (low, high) = (number(p.axis.low()), number(p.axis.high()));
+            let (name, unit, default, value) = (&p.name, in_brackets(&p.unit), number(p.default), number(*value));
+            let scale = if p.axis.scale() == crate::Scale::Logarithmic { ", logarithmic" } else { "" };
+            let lost = number(*importance);
+            let _ = writeln!(text, "| `{name}`{unit} | {default} | {value} | {low} to {high}{scale} | {lost} |");
+        }
+        text
+    }
+
+    /// Table of the front, as Markdown.
+    fn front_table(&self) -> String {
+        let names = self.study.goals.iter().map(|goal| &goal.name).chain(self.study.parameters.iter().map(|p| &p.name));
+        let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+        let mut text = format!("| {} |\n|{}\n", names.join(" | "), "---|".repeat(names.len()));
+        for point in &self.front {
+            let goals = self.study.goals.iter().zip(&point.costs).map(|(goal, cost)| goal.value(*cost));
+            let row: Vec<String> = goals.chain(point.values.iter().copied()).map(number).collect();
+            let _ = writeln!(text, "| {} |", row.join(" | "));
+        }
+        text
+    }
+
+    /// Report as Markdown: tables of the goals, the parameters and the front, and the cost of the study.
     pub fn markdown(&self) -> String {
         let mut text = "# Study\n\n".to_owned();
         if let Some(warning) = self.warning() {
             let _ = writeln!(text, "**Warning:** {warning}.\n");
         }
-        text.push_str("| fitness (less is better) | seeds of the study | seeds held out |\n|---|---|---|\n");
-        for (name, score) in [("defaults", self.defaults), ("tuned", self.tuned)] {
-            let _ = writeln!(text, "| {name} | {:.6} | {:.6} |", score.training, score.held_out);
-        }
-        text.push_str(
-            "\n| parameter | default | tuned | range | fitness lost with the default |\n|---|---|---|---|---|\n",
-        );
-        for ((p, value), importance) in self.study.parameters.iter().zip(&self.best.values).zip(&self.importance) {
-            let (low, high) = (p.axis.low(), p.axis.high());
-            let (name, unit, default) = (&p.name, &p.unit, p.default);
-            let _ = writeln!(
-                text,
-                "| `{name}` | {default} {unit} | {value:.6} {unit} | {low} to {high} {unit} | {importance:.6} |"
-            );
-        }
-        let (runs, saved) = self.found.iter().fold((0, 0), |(runs, saved), f| (runs + f.runs, saved + f.saved));
-        let share = 100.0 * saved as f64 / (runs + saved).max(1) as f64;
-        let Study { searches, candidates, seed, .. } = &self.study;
-        let _ = writeln!(text, "\n{searches} × {candidates} candidates, seed {seed}: {runs} runs; {share:.1} % saved.");
+        text.push_str(&self.tables());
+        let _ = writeln!(text, "\n{}", self.cost());
         text.push_str("\n![Convergence](convergence.svg)\n\n![Importance](importance.svg)\n");
+        if !self.front.is_empty() {
+            let _ = write!(text, "\n## Front\n\n{}\n![Front](front.svg)\n", self.front_table());
+        }
         text
     }
 
-    /// Writes `report.md`, `convergence.svg` and `importance.svg` into a folder, which is created if necessary.
+    /// Number of runs, as a sentence.
+    pub fn cost(&self) -> String {
+        let (runs, saved) = self.found.iter().fold((0, 0), |(runs, saved), f| (runs + f.runs, saved + f.saved));
+        let share = 100.0 * saved as f64 / (runs + saved).max(1) as f64;
+        let Study { searches, candidates, seed, .. } = &self.study;
+        format!("{searches} × {candidates} candidates, seed {seed}: {runs} runs; {share:.1} % were not necessary.")
+    }
+
+    /// Writes `report.md` and its pictures into a folder, which is created if necessary.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         fs::write(folder.join("report.md"), self.markdown())?;
         fs::write(folder.join("convergence.svg"), picture::convergence(&self.found)?)?;
         let names: Vec<&str> = self.study.parameters.iter().map(|p| p.name.as_str()).collect();
-        fs::write(folder.join("importance.svg"), picture::importance(&names, &self.importance)?)
+        fs::write(folder.join("importance.svg"), picture::importance(&names, &self.importance)?)?;
+        if let ([first, second, ..], false) = (self.study.goals.as_slice(), self.front.is_empty()) {
+            let at = |costs: &[f64]| (first.value(costs[0]), second.value(costs[1]));
+            let front: Vec<(f64, f64)> = self.front.iter().map(|point| at(&point.costs)).collect();
+            let (defaults, tuned) = (at(&self.defaults.training), at(&self.tuned.training));
+            let label = |goal: &Goal| format!("{}{}", goal.name, in_brackets(&goal.unit));
+            let picture = picture::front([&label(first), &label(second)], &front, defaults, tuned)?;
+            fs::write(folder.join("front.svg"), picture)?;
+        }
+        Ok(())
+    }
+}
+
+fn in_brackets(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" [{unit}]") }
+}
+
+/// Number with six significant digits.
+fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value.is_infinite() { "failed".to_owned() } else { value.to_string() };
+    }
+    let digits = 5 - value.abs().log10().floor() as i32;
+    if !(0..=12).contains(&digits) {
+        return format!("{value:.5e}");
+    }
+    let text = format!("{value:.*}", digits as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_have_six_digits() {
+        let shown = [0.0, 1.0, -2.5, 123_456.0, 0.000_123_456_789, 1e9, 1e-12, f64::INFINITY].map(number);
+        assert_eq!(shown, ["0", "1", "-2.5", "123456", "0.000123457", "1.00000e9", "1.00000e-12", "failed"]);
     }
 }

@@ -1,18 +1,39 @@
-use crate::{Journal, JournalError, Run, Summary, race::Race};
+use crate::{
+    Goal, Journal, JournalError, Point, Run,
+    goal::{Fitness, Runs, add_to_front, costs},
+    race::Race,
+};
 use apex_nodes::optim::{Axis, Best, CmaSearch, DeSearch, Search, Selection, Space};
 use rayon::prelude::*;
-use std::sync::Mutex;
-
-/// Costs of the runs of a candidate, by number of the seed.
-pub(crate) type Runs = Vec<Option<f64>>;
+use std::{fmt, sync::Mutex};
 
 /// Robot or algorithm whose parameters are optimized.
 pub trait Objective: Sync {
-    /// Runs once with these values of the parameters, in their units, and returns the cost: 0 or more, less is better.
-    /// The same values and the same seed must give the same cost. A run has failed if its cost is negative, NaN or
-    /// infinite; a candidate with a failed run has failed.
-    fn cost(&self, values: &[f64], seed: u64) -> f64;
+    /// Runs once with these values of the parameters, in their units, and returns the value of each goal. The same
+    /// values and the same seed must give the same result. NaN or an infinite cost means that the run has failed; a
+    /// candidate with a failed run has failed. An error ends the study.
+    fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String>;
 }
+
+/// Error that ends a study.
+#[derive(Debug)]
+pub enum StudyError {
+    /// Error of the journal.
+    Journal(JournalError),
+    /// Error of the objective.
+    Run(String),
+}
+
+impl fmt::Display for StudyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Journal(error) => error.fmt(f),
+            Self::Run(error) => f.write_str(error),
+        }
+    }
+}
+
+impl std::error::Error for StudyError {}
 
 /// Parameter to be optimized.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +64,8 @@ pub struct Study {
     pub parameters: Vec<Parameter>,
     /// Method of all searches.
     pub method: Method,
-    /// Fitness of a candidate from the costs of its runs.
-    pub summary: Summary,
+    /// Goals of a run; at least one.
+    pub goals: Vec<Goal>,
     /// Seeds on which every candidate runs: common random numbers.
     pub seeds: Vec<u64>,
     /// Seeds on which only the result is scored.
@@ -66,7 +87,7 @@ pub struct Progress {
     pub search: u64,
     /// Number of evaluated candidates of this search.
     pub candidates: u64,
-    /// Best candidate of this search.
+    /// Best candidate of this search. Its fitness is the cost of the only goal.
     pub best: Option<Best>,
 }
 
@@ -83,7 +104,21 @@ pub struct Found {
     pub runs: u64,
     /// Number of runs that were not necessary.
     pub saved: u64,
+    /// Candidates with all runs of which none is better than another one in all goals.
+    pub front: Vec<Point>,
 }
+
+/// Does `work` on so many threads; 0 stands for one on each core.
+///
+/// # Errors
+/// The threads cannot be started.
+pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    Ok(pool.map_err(|e| format!("cannot start the threads: {e}"))?.install(work))
+}
+
+/// Search number of the runs that score results.
+const SCORES: u64 = u64::MAX;
 
 impl Study {
     /// Description in one line: equal for equal studies.
@@ -105,20 +140,35 @@ impl Study {
         journal: &mut Journal,
         (part, parts): (u64, u64),
         progress: &mut dyn FnMut(&Progress),
-    ) -> Result<Vec<Found>, JournalError> {
+    ) -> Result<Vec<Found>, StudyError> {
+        let fitness = self.fitness(objective, journal)?;
         let searches = (0..self.searches).filter(|search| search % parts.max(1) == part);
-        searches.map(|search| self.search(search, objective, journal, progress)).collect()
+        searches.map(|search| self.search(search, &fitness(search), objective, journal, progress)).collect()
+    }
+
+    /// Fitness of each search. With several goals it depends on the costs of the defaults.
+    pub(crate) fn fitness(
+        &self,
+        objective: &dyn Objective,
+        journal: &mut Journal,
+    ) -> Result<impl Fn(u64) -> Fitness + use<>, StudyError> {
+        let defaults = match self.goals.len() {
+            0 | 1 => Vec::new(),
+            _ => self.score(objective, journal, 0, &self.defaults(), &self.seeds)?,
+        };
+        Ok(move |search| Fitness::of_search(search, &defaults))
     }
 
     fn search(
         &self,
         number: u64,
+        fitness: &Fitness,
         objective: &dyn Objective,
         journal: &mut Journal,
         progress: &mut dyn FnMut(&Progress),
-    ) -> Result<Found, JournalError> {
+    ) -> Result<Found, StudyError> {
         let mut search = self.start(number);
-        let mut found = Found { search: number, best: None, improvements: Vec::new(), runs: 0, saved: 0 };
+        let mut found = Found { search: number, best: None, improvements: vec![], runs: 0, saved: 0, front: vec![] };
         let mut weights = vec![0.0; self.seeds.len()];
         let mut first = 0;
         while first < self.candidates {
@@ -126,8 +176,8 @@ impl Study {
             generation.truncate((self.candidates - first) as usize);
             let order = hardest_first(&weights);
             let selection = if self.racing { search.selection() } else { Selection::All };
-            let race = Race { summary: self.summary, selection, order: &order };
-            let costs = race.run(generation.len(), |work| {
+            let race = Race { goals: &self.goals, fitness, selection, order: &order };
+            let runs = race.run(generation.len(), |work| {
                 let runs: Vec<(Run, &[f64])> = work
                     .iter()
                     .map(|&(c, seed)| {
@@ -135,14 +185,21 @@ impl Study {
                         (run, generation[c].as_slice())
                     })
                     .collect();
-                evaluate(objective, journal, &runs)
+                self.evaluate(objective, journal, &runs)
             })?;
-            let fitness: Vec<f64> = costs.iter().map(|runs| self.fitness(runs)).collect();
-            search.tell(&fitness);
+            let told: Vec<f64> = runs.iter().map(|runs| self.told(fitness, runs)).collect();
+            search.tell(&told);
             first += generation.len() as u64;
-            found.count(&costs);
+            found.count(&runs);
             found.improve(first, search.best());
-            add_weights(&mut weights, &costs);
+            if self.goals.len() > 1 {
+                for (values, runs) in
+                    generation.into_iter().zip(&runs).filter(|(_, runs)| runs.iter().all(Option::is_some))
+                {
+                    add_to_front(&mut found.front, Point { values, costs: costs(&self.goals, runs) });
+                }
+            }
+            add_weights(&mut weights, &runs, |run| fitness.of(run));
             progress(&Progress { search: number, candidates: first, best: found.best.clone() });
         }
         Ok(found)
@@ -159,20 +216,58 @@ impl Study {
     }
 
     /// Fitness of a candidate with all runs; infinite if runs were saved.
-    fn fitness(&self, runs: &Runs) -> f64 {
-        if runs.iter().all(Option::is_some) { self.summary.fitness(runs) } else { f64::INFINITY }
+    fn told(&self, fitness: &Fitness, runs: &Runs) -> f64 {
+        let is_complete = runs.iter().all(Option::is_some);
+        if is_complete { fitness.of(&costs(&self.goals, runs)) } else { f64::INFINITY }
     }
 
-    /// Fitness on these seeds.
-    pub(crate) fn score(&self, objective: &dyn Objective, values: &[f64], seeds: &[u64]) -> f64 {
-        let cost = |seed: &u64| Some(cost(objective, values, *seed));
-        self.summary.fitness(&seeds.par_iter().map(cost).collect::<Vec<_>>())
+    /// Costs on these seeds, by goal. `number` is that of the scored values: the runs are in the journal, too.
+    pub(crate) fn score(
+        &self,
+        objective: &dyn Objective,
+        journal: &mut Journal,
+        number: u64,
+        values: &[f64],
+        seeds: &[u64],
+    ) -> Result<Vec<f64>, StudyError> {
+        let run = |seed: &u64| (Run { search: SCORES, candidate: number, seed: *seed }, values);
+        let runs = self.evaluate(objective, journal, &seeds.iter().map(run).collect::<Vec<_>>())?;
+        Ok(costs(&self.goals, &runs.into_iter().map(Some).collect()))
+    }
+
+    /// Costs of these runs, in their order, from the journal or by running.
+    fn evaluate(
+        &self,
+        objective: &dyn Objective,
+        journal: &mut Journal,
+        runs: &[(Run, &[f64])],
+    ) -> Result<Vec<Vec<f64>>, StudyError> {
+        let known: Vec<Option<Vec<f64>>> = runs.iter().map(|(run, _)| journal.values(run).map(Vec::from)).collect();
+        let journal = Mutex::new(journal);
+        let values = runs.par_iter().zip(known).with_max_len(1).map(|((run, values), known)| match known {
+            Some(known) => Ok(known),
+            None => {
+                let values = objective.run(values, run.seed).map_err(StudyError::Run)?;
+                let mut journal = journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                journal.add(*run, values.clone()).map_err(StudyError::Journal)?;
+                Ok(values)
+            }
+        });
+        let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
+        Ok(values.iter().map(|values| self.costs_of_run(values)).collect())
+    }
+
+    /// Costs of a run, by goal. All are infinite if it has failed.
+    fn costs_of_run(&self, values: &[f64]) -> Vec<f64> {
+        let value = |number: usize| values.get(number).copied().unwrap_or(f64::NAN);
+        let costs: Vec<f64> = self.goals.iter().enumerate().map(|(number, goal)| goal.cost(value(number))).collect();
+        if costs.contains(&f64::INFINITY) { vec![f64::INFINITY; costs.len()] } else { costs }
     }
 }
 
 impl Found {
-    fn count(&mut self, costs: &[Runs]) {
-        for runs in costs {
+    fn count(&mut self, all: &[Runs]) {
+        for runs in all {
             let done = runs.iter().flatten().count() as u64;
             self.runs += done;
             self.saved += runs.len() as u64 - done;
@@ -187,35 +282,6 @@ impl Found {
     }
 }
 
-fn cost(objective: &dyn Objective, values: &[f64], seed: u64) -> f64 {
-    let cost = objective.cost(values, seed);
-    if cost >= 0.0 { cost } else { f64::INFINITY }
-}
-
-/// Costs of these runs, in their order, from the journal or by running.
-fn evaluate(
-    objective: &dyn Objective,
-    journal: &mut Journal,
-    runs: &[(Run, &[f64])],
-) -> Result<Vec<f64>, JournalError> {
-    let known: Vec<Option<f64>> = runs.iter().map(|(run, _)| journal.cost(run)).collect();
-    let journal = Mutex::new((journal, Ok(())));
-    let costs = runs.par_iter().zip(known).with_max_len(1).map(|((run, values), known)| {
-        known.unwrap_or_else(|| {
-            let cost = cost(objective, values, run.seed);
-            let mut guard = journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            let (journal, written) = &mut *guard;
-            if written.is_ok() {
-                *written = journal.add(*run, cost);
-            }
-            cost
-        })
-    });
-    let costs = costs.collect();
-    let (_, written) = journal.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    written.map(|()| costs)
-}
-
 /// Numbers of the seeds, those with the greatest costs so far first: with these, bad candidates are recognized early.
 fn hardest_first(weights: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..weights.len()).collect();
@@ -223,12 +289,14 @@ fn hardest_first(weights: &[f64]) -> Vec<usize> {
     order
 }
 
-/// Adds the costs of the candidates with all runs, each relative to the sum of the candidate's costs.
-fn add_weights(weights: &mut [f64], costs: &[Runs]) {
-    for runs in costs {
-        let sum: Option<f64> = runs.iter().copied().sum();
-        if let Some(sum) = sum.filter(|sum| *sum > 0.0 && sum.is_finite()) {
-            weights.iter_mut().zip(runs.iter().flatten()).for_each(|(weight, cost)| *weight += cost / sum);
+/// Adds to each seed the share of the others on which a candidate with all runs has been better. `fitness` takes the
+/// costs of a run.
+fn add_weights(weights: &mut [f64], runs: &[Runs], fitness: impl Fn(&[f64]) -> f64) {
+    for runs in runs {
+        let all: Option<Vec<f64>> = runs.iter().map(|run| run.as_deref().map(&fitness)).collect();
+        let Some(all) = all.filter(|all| all.iter().all(|f| f.is_finite())) else { continue };
+        for rank in hardest_first(&all).into_iter().rev().enumerate() {
+            weights[rank.1] += rank.0 as f64 / all.len() as f64;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Studies of a function with noise by seed.
 
 use apex_nodes::optim::{Axis, Scale};
-use apex_tune::{Found, Journal, Method, Objective, Parameter, Report, Study, Summary};
+use apex_tune::{Found, Goal, Journal, Method, Objective, Parameter, Report, Study, Summary};
 use std::{
     fs,
     path::PathBuf,
@@ -15,12 +15,17 @@ struct Valley {
 }
 
 impl Objective for Valley {
-    fn cost(&self, values: &[f64], seed: u64) -> f64 {
+    fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String> {
         self.runs.fetch_add(1, Ordering::Relaxed);
         let noise = |k: u64| (seed.wrapping_mul(0x9e37_79b9).wrapping_add(k * 7919) % 1000) as f64 / 1000.0;
         let (x, y) = (values[0] - 2.0 - 0.4 * noise(1), values[1].ln() - 1.0 - 0.4 * noise(2));
-        if values[0] < -9.0 { f64::NAN } else { 0.1 * noise(3) + x * x + 3.0 * (y - x) * (y - x) }
+        let cost = 0.1 * noise(3) + x * x + 3.0 * (y - x) * (y - x);
+        Ok(vec![if values[0] < -9.0 { f64::NAN } else { cost }, values[0] - noise(4)])
     }
+}
+
+fn goal(name: &str, summary: Summary) -> Goal {
+    Goal { name: name.to_owned(), unit: String::new(), maximise: false, summary, least: 0.0 }
 }
 
 fn study(method: Method, summary: Summary) -> Study {
@@ -34,7 +39,7 @@ fn study(method: Method, summary: Summary) -> Study {
             parameter("y", 0.01, 100.0, Scale::Logarithmic, 1.0),
         ],
         method,
-        summary,
+        goals: vec![goal("cost", summary)],
         seeds: (0..32).collect(),
         held_out: (100..132).collect(),
         searches: 2,
@@ -119,18 +124,20 @@ fn parts_are_merged_to_the_same_result() {
 fn a_report_compares_with_the_defaults_on_seeds_held_out() {
     let study = study(Method::CmaEs, Summary::Mean);
     let (found, _) = run(&study, 2, &mut Journal::in_memory(), (0, 1));
-    let report = Report::new(&study, found.clone(), &Valley::default()).expect("a result");
-    assert!(report.tuned.training < report.defaults.training && report.tuned.held_out < report.defaults.held_out);
+    let mut journal = Journal::in_memory();
+    let report =
+        Report::new(&study, found.clone(), &Valley::default(), &mut journal).expect("scores").expect("a result");
+    assert!(report.is_better() && report.tuned.held_out < report.defaults.held_out);
     assert!(report.importance.iter().all(|lost| *lost > 0.0) && report.warning().is_none());
     let folder = folder("report");
     report.write(&folder).expect("a report");
     let text = fs::read_to_string(folder.join("report.md")).expect("the report");
-    assert!(text.contains("| `x` | 5 m |") && !text.contains("Warning"), "{text}");
+    assert!(text.contains("| `x` [m] | 5 |") && !text.contains("Warning"), "{text}");
     let picture = fs::read_to_string(folder.join("convergence.svg")).expect("a picture");
     assert!(picture.contains("<polyline") && picture.contains("candidates"));
     let unseen = Study { held_out: Vec::new(), ..study };
-    let report = Report::new(&unseen, found, &Valley::default()).expect("a result");
-    assert!(report.markdown().contains("**Warning:** no seeds are held out"));
+    let report = Report::new(&unseen, found, &Valley::default(), &mut journal).expect("scores").expect("a result");
+    assert!(report.markdown().contains("**Warning:** nothing is held out"));
 }
 
 #[test]
@@ -138,12 +145,45 @@ fn a_result_that_fails_on_other_seeds_is_a_warning() {
     /// Cost that is lower at 5 for some seeds only.
     struct Lucky;
     impl Objective for Lucky {
-        fn cost(&self, values: &[f64], seed: u64) -> f64 {
-            1.0 + (if seed < 100 { values[0] + 10.0 } else { 10.0 - values[0] }) / 20.0
+        fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String> {
+            Ok(vec![1.0 + (if seed < 100 { values[0] + 10.0 } else { 10.0 - values[0] }) / 20.0])
         }
     }
     let study = study(Method::DifferentialEvolution, Summary::Mean);
     let found = study.run(&Lucky, &mut Journal::in_memory(), (0, 1), &mut |_| ()).expect("a study");
-    let report = Report::new(&study, found, &Lucky).expect("a result");
+    let report = Report::new(&study, found, &Lucky, &mut Journal::in_memory()).expect("scores").expect("a result");
     assert!(report.warning().is_some_and(|text| text.contains("held out")), "{report:?}");
+}
+
+#[test]
+fn several_goals_have_a_front() {
+    let far = Goal { maximise: true, least: f64::NEG_INFINITY, ..goal("far", Summary::Quantile(0.9)) };
+    let near = goal("cost", Summary::Quantile(0.9));
+    let study = Study { goals: vec![near, far], searches: 5, ..study(Method::DifferentialEvolution, Summary::Mean) };
+    let objective = Valley::default();
+    let mut journal = Journal::in_memory();
+    let found = study.run(&objective, &mut journal, (0, 1), &mut |_| ()).expect("a study");
+    let raced = found.iter().map(|f| f.saved).sum::<u64>();
+    let all = Study { racing: false, ..study.clone() };
+    let complete = all.run(&objective, &mut Journal::in_memory(), (0, 1), &mut |_| ()).expect("a study");
+    assert!(raced > 0 && found.iter().zip(&complete).all(|(a, b)| a.best == b.best));
+    let report = Report::new(&study, found, &objective, &mut journal).expect("scores").expect("a result");
+    assert!(report.front.len() > 5 && report.is_better(), "{:?}", report.front);
+    let is_front = report.front.windows(2).all(|w| w[0].costs[0] < w[1].costs[0] && w[0].costs[1] > w[1].costs[1]);
+    assert!(is_front, "{:?}", report.front);
+    let folder = folder("front");
+    report.write(&folder).expect("a report");
+    let text = fs::read_to_string(folder.join("report.md")).expect("the report");
+    assert!(text.contains("maximise `far` at 90 %") && text.contains("| `cost` | `far` | `x` | `y` |"), "{text}");
+    assert!(fs::read_to_string(folder.join("front.svg")).expect("a picture").contains("<circle"));
+    // On several machines.
+    let files = [0, 1, 2].map(|part| folder.join(part.to_string()));
+    for (part, file) in files.iter().enumerate() {
+        let mut journal = Journal::open(file, &study.description()).expect("a new journal");
+        study.run(&objective, &mut journal, (part as u64, 3), &mut |_| ()).expect("a part");
+    }
+    let mut merged = Journal::merge(&files, &study.description()).expect("all parts");
+    let found = study.run(&objective, &mut merged, (0, 1), &mut |_| ()).expect("the whole");
+    let merged = Report::new(&study, found, &objective, &mut merged).expect("scores").expect("a result");
+    assert_eq!(merged, report);
 }

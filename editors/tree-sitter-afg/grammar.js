@@ -20,7 +20,7 @@ module.exports = grammar({
   word: ($) => $.identifier,
 
   rules: {
-    source_file: ($) => repeat(choice($.use, $.graph, $.fsm, $.test)),
+    source_file: ($) => repeat(choice($.use, $.graph, $.fsm, $.test, $.tune)),
 
     // Imports
 
@@ -52,8 +52,9 @@ module.exports = grammar({
         field('type', $._type),
         optional(seq('[', field('unit', $.unit_text), ']')),
         optional(seq('=', field('default', $.expression))),
-        optional(seq('in', $.expression, choice('..=', '..'), $.expression)),
+        optional($._limits),
       ),
+    _limits: ($) => seq('in', $.expression, choice('..=', '..'), $.expression),
     unit_text: () => /[A-Za-z0-9\/*^%-]+/,
 
     _statement: ($) => choice($.port, $.node, $.claim, $.record, $.thread, $.connection),
@@ -135,6 +136,24 @@ module.exports = grammar({
         repeat(choice($.replace, $.feed, $.wait, $.expect, $.never)),
         '}',
       ),
+    tune: ($) =>
+      seq(
+        'tune',
+        field('name', $.identifier),
+        ':',
+        field('graph', $.path),
+        optional($.arguments),
+        '{',
+        repeat(
+          choice($.vary, $.goal, $.require, $.seeds, $.holdout, $.replace, $.feed, $.wait, $.expect, $.never),
+        ),
+        '}',
+      ),
+    vary: ($) => seq('vary', $.reference, optional($._limits), ';'),
+    goal: ($) => seq(choice('minimise', 'maximise'), $.reference, optional(seq('at', $.expression)), ';'),
+    require: ($) => seq('require', choice(seq('never', $.condition), seq(field('test', $.identifier), repeat(seq(',', field('test', $.identifier))))), ';'),
+    seeds: ($) => seq('seeds', $.expression, ';'),
+    holdout: ($) => seq('holdout', $.expression, ';'),
     replace: ($) => seq('replace', $.reference, '=', $.instance, ';'),
     feed: ($) =>
       seq(

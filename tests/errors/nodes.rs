@@ -340,3 +340,27 @@ pub fn keep(#[param] place: Place) -> Place {
 pub fn show_place(place: &Place) {
     let _ = place;
 }
+
+/// A struct node with parameters, one of which is a seed.
+#[node]
+pub struct Smooth {
+    #[param(default = 0.5, range = 0.0..=1.0)]
+    weight: f32,
+    #[param(unit = "m", default = 0.1)]
+    gap: f32,
+    #[param(default = 5, range = 1..50)]
+    window: u32,
+    #[param(default = 1.0)]
+    hold: Duration,
+    #[param(default = true)]
+    fast: bool,
+    #[param(default = 1)]
+    seed: u64,
+}
+
+#[node]
+impl Smooth {
+    fn process(&mut self, x: &u64) -> f64 {
+        *x as f64
+    }
+}

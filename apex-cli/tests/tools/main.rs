@@ -21,6 +21,7 @@ mod studio;
 mod times;
 mod together;
 mod tour;
+mod tune;
 mod watch;
 
 /// Target folder of all tests here, so that dependencies are built once.

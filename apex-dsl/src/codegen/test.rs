@@ -1,4 +1,5 @@
-//! A `test` item as a Rust test: the program that is made for it, and its script.
+//! A `test` or `tune` item as a Rust test: the program that is made for it, and its script. A study is a test that
+//! `cargo test` ignores; `apex tune` has it run the script again and again.
 
 use super::{
     Generator,
@@ -9,7 +10,7 @@ use super::{
 };
 use crate::{
     graph::{Graph, NodeId, PortId, Subject},
-    script::{Script, Seen, Step, Until, What},
+    script::{Script, Seen, Step, Study, Until, What},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -43,6 +44,19 @@ impl Generator<'_> {
             let docs = &script.docs;
             quote!(#[doc = #docs])
         });
+        if let Some(study) = &script.study {
+            let run = self.study(graph, script, study);
+            let module = module(&module_name, &graph.name, quote! { #program #run });
+            return quote! {
+                #[cfg(test)]
+                #module
+                #docs
+                #[cfg(test)]
+                #[test]
+                #[ignore = "a study, which `apex tune` runs"]
+                fn #test() { #module_name::run() }
+            };
+        }
         let drains = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
             let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
             let ports = self.ports_of(graph, node);
@@ -52,7 +66,7 @@ impl Generator<'_> {
                 }
             }
         });
-        let steps = script.steps.iter().map(|step| self.step(graph, step));
+        let steps = script.steps.iter().map(|step| self.step(graph, step, false));
         // Beside the function its name hides others, in the module it does not.
         let run = quote! {
             pub fn run() {
@@ -73,7 +87,48 @@ impl Generator<'_> {
         }
     }
 
-    fn step(&self, graph: &Graph, step: &Step) -> TokenStream {
+    /// The function that serves the runs of a study.
+    fn study(&self, graph: &Graph, script: &Script, study: &Study) -> TokenStream {
+        let (name, program, count) = (&script.name, ident(&graph.name), study.goals.len());
+        let drains = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
+            let (field, ports) = (self.probe(node), self.ports_of(graph, node));
+            let goals = study.goals.iter().enumerate().filter(|(_, goal)| goal.probe == node);
+            let goals = goals.map(|(i, goal)| match goal.ty.name() {
+                "Duration" => quote!(timeline.goal(#i, token.as_secs_f64());),
+                _ => quote!(timeline.goal(#i, token as f64);),
+            });
+            quote! { for token in #ports.outputs.#field.take() { #(#goals)* } }
+        });
+        let steps = script.steps.iter().map(|step| self.step(graph, step, true));
+        let vary = study.vary.iter().map(|varied| {
+            let (targets, integer) = (&varied.targets, varied.integer);
+            quote! { (&[#(#targets),*], #integer) }
+        });
+        let (seeds, recordings) = (&study.seed_params, &study.recordings);
+        let required = study.required.iter().map(|test| {
+            let module = format_ident!("test_{}", test);
+            quote! { (#test, super::#module::run as fn()) }
+        });
+        quote! {
+            pub fn run() {
+                const STUDY: ::apex_rt::testing::Study = ::apex_rt::testing::Study {
+                    vary: &[#(#vary),*],
+                    seeds: &[#(#seeds),*],
+                    recordings: &[#(#recordings),*],
+                    required: &[#(#required),*],
+                };
+                ::apex_rt::testing::serve(&STUDY, #program::new, || {
+                    let program = #program::new();
+                    let drain = |program: &mut #program, timeline: &mut ::apex_rt::testing::Timeline| { #(#drains)* };
+                    let mut test = ::apex_rt::testing::Test::of_study(#name, program, drain, #count);
+                    #(#steps)*
+                    test.goals()
+                });
+            }
+        }
+    }
+
+    fn step(&self, graph: &Graph, step: &Step, repeats: bool) -> TokenStream {
         match step {
             Step::Feed { port, values, every } => {
                 let (name, ty) = (ident(&graph.nodes[*port].name), &graph.nodes[*port].ports[0].ty);
@@ -89,7 +144,7 @@ impl Generator<'_> {
                 let ports = self.ports_of(graph, *port);
                 quote! { test.feed::<#token>([#(#values),*], #every, |program, token| #ports.inputs.#name.put(token)); }
             }
-            Step::FeedRecorded { port, file, channel } => self.feed_recorded(graph, *port, file, channel),
+            Step::FeedRecorded { port, file, channel } => self.feed_recorded(graph, *port, file, channel, repeats),
             Step::Wait(time) => {
                 let time = duration(*time);
                 quote! { test.wait(#time); }
@@ -116,7 +171,8 @@ impl Generator<'_> {
         }
     }
 
-    fn feed_recorded(&self, graph: &Graph, port: NodeId, file: &str, channel: &str) -> TokenStream {
+    /// Feeds a recording. A script that is repeated, also with other recordings, reads each only once.
+    fn feed_recorded(&self, graph: &Graph, port: NodeId, file: &str, channel: &str, repeats: bool) -> TokenStream {
         if self.channels.is_none() {
             let message = format!("`recording(\"{file}\", …)` in a test needs the feature `record` of `apex-rt`");
             return quote! { ::core::compile_error!(#message); };
@@ -124,8 +180,16 @@ impl Generator<'_> {
         let (name, token) = (ident(&graph.nodes[port].name), self.token_type(graph, PortId { node: port, port: 0 }));
         let text = self.sources.get(graph.span.file).path.display().to_string();
         let ports = self.ports_of(graph, port);
+        let read = |file: TokenStream| quote!(::apex_rt::record::tokens::<#token>(#text, #file, #channel, ::apex_rt::__codec!(#token)));
+        let tokens = match repeats {
+            true => {
+                let read = read(quote!(file));
+                quote!(::apex_rt::testing::recorded(#file, #channel, |file| #read))
+            }
+            false => read(quote!(#file)),
+        };
         quote! {
-            let tokens = ::apex_rt::record::tokens::<#token>(#text, #file, #channel, ::apex_rt::__codec!(#token));
+            let tokens = #tokens;
             test.feed_at(tokens, |program, token| #ports.inputs.#name.put(token));
         }
     }

@@ -39,7 +39,7 @@ impl<'a, 't> Layout<'a, 't> {
     pub fn node(&self, node: &Node) -> Doc<'t> {
         use Rule::*;
         match node.rule {
-            graph_item | fsm_item | test_item | state_item | record_stmt => self.block(node),
+            graph_item | fsm_item | test_item | tune_item | state_item | record_stmt => self.block(node),
             port_stmt | node_stmt | chain_stmt | transition | entry_exit => self.statement(node, 0),
             instance | handed_in => self.instance(node),
             expr => self.expr(node),
@@ -291,7 +291,9 @@ pub fn nodes(kids: &[Child]) -> impl Iterator<Item = &Node> {
 pub fn only(node: &Node) -> &Node {
     use Rule::*;
     match (node.rule, &node.kids[..]) {
-        (item | stmt | fsm_stmt | state_stmt | test_stmt | endpoint | primary, [Child::Node(inner)]) => inner,
+        (item | stmt | fsm_stmt | state_stmt | test_stmt | tune_stmt | endpoint | primary, [Child::Node(inner)]) => {
+            inner
+        }
         _ => node,
     }
 }

@@ -133,6 +133,9 @@ impl Completer<'_> {
             }
             Context::State | Context::MachineSlot | Context::MachineEvent => self.machine_names(&context),
             Context::Test => words(KeywordPosition::Test),
+            Context::Tune => words(KeywordPosition::Tune).into_iter().chain(words(KeywordPosition::Test)).collect(),
+            Context::Varied(of) => self.varied(&of),
+            Context::Required => self.required(),
             Context::Tested => self.node_types(false, None, None),
             Context::Words(words) => {
                 words.iter().map(|w| Completion::new(*w, CompletionKind::Keyword, "", "")).collect()
@@ -315,8 +318,6 @@ impl Completer<'_> {
         inputs.map(|p| Completion::new(&p.name, CompletionKind::Port, port(p), p.docs.clone())).collect()
     }
 
-    // Tests and state machines
-
     /// The graph that the surrounding test runs.
     fn tested(&self) -> Option<GraphId> {
         let around = |s: Span| s.start as usize <= self.offset && self.offset <= s.end as usize;
@@ -341,6 +342,31 @@ impl Completer<'_> {
             found.push(Completion { snippet: Some("active($1)".to_owned()), ..active });
         }
         found
+    }
+
+    /// The parameters of the tuned graph, and its nodes; or the parameters of one of its nodes.
+    fn varied(&self, of: &[String]) -> Vec<Completion> {
+        let Some(mut id) = self.tested() else { return vec![] };
+        let mut node = NodeType::Graph(id);
+        for name in of {
+            let Some(made) = self.position(id, name).and_then(|i| self.view.made_of(id, i).0) else { return vec![] };
+            node = made;
+            if let NodeType::Graph(inside) = made {
+                id = inside;
+            }
+        }
+        let nodes = if let NodeType::Graph(id) = node { self.names(Some(id), Named::Node, None) } else { vec![] };
+        let params = self.view.params(node).into_iter();
+        let params = params.map(|p| Completion::new(&p.name, CompletionKind::Param, param(&p), p.docs));
+        params.chain(nodes).collect()
+    }
+
+    /// The tests of the text, and `never`.
+    fn required(&self) -> Vec<Completion> {
+        let tests = self.view.texts.files[0].1.tests.iter().filter(|test| test.study.is_none());
+        let tests = tests.map(|t| Completion::new(&t.name.text, CompletionKind::Name, "test", t.docs.clone()));
+        let never = Completion::new("never", CompletionKind::Keyword, "", "What must not happen in any run.");
+        tests.chain([never]).collect()
     }
 
     fn machine_names(&self, context: &Context) -> Vec<Completion> {

@@ -93,8 +93,14 @@ pub enum Context {
     MachineEvent,
     /// A statement of a test.
     Test,
+    /// A statement of a study.
+    Tune,
     /// The graph that is tested.
     Tested,
+    /// A parameter that a study can vary; of this node, or else of any.
+    Varied(Vec<String>),
+    /// A test of the text.
+    Required,
     /// One of these keywords.
     Words(&'static [&'static str]),
 }
@@ -239,7 +245,7 @@ fn outside(item: &[Token<'_>]) -> Context {
     match item {
         [] => Context::Item,
         [first] if first.text == "use" => Context::Import(vec![]),
-        [first, .., last] if first.text == "test" && last.text == ":" => Context::Tested,
+        [first, .., last] if matches!(first.text, "test" | "tune") && last.text == ":" => Context::Tested,
         _ => Context::Nothing,
     }
 }
@@ -257,6 +263,7 @@ fn in_braces(tokens: &[Token<'_>], open: usize) -> Context {
         Some("fsm") => in_machine(written, false),
         Some("state") => in_machine(written, true),
         Some("test") => in_test(written),
+        Some("tune") => in_tune(written),
         Some("pub" | "graph" | "robot") => in_graph(written),
         Some("record") => in_record(written),
         _ => Context::Nothing,
@@ -513,6 +520,23 @@ fn in_machine(written: &[Token<'_>], in_state: bool) -> Context {
         ("on" | "entry" | "exit", ",") if has_arrow(written) => Context::MachineEvent,
         ("on", _) if written.len() == 2 => Context::Words(&["if"]),
         _ => Context::Nothing,
+    }
+}
+
+fn in_tune(written: &[Token<'_>]) -> Context {
+    let Some(last) = written.last() else { return Context::Tune };
+    match (written[0].text, last.text) {
+        ("vary", "vary") => Context::Varied(vec![]),
+        ("vary", ".") => Context::Varied(reference_before(&written[1..written.len() - 1]).0),
+        ("vary", "in" | ".." | "..=" | "+" | "-" | "*" | "/") => Context::Expression,
+        ("vary", _) if !written.iter().any(|t| t.text == "in") => Context::Words(&["in"]),
+        ("minimise" | "maximise", _) if written.len() == 1 => Context::Name(Named::Tested, None),
+        ("minimise" | "maximise", ".") => in_condition(&written[1..]),
+        ("minimise" | "maximise", _) if !written.iter().any(|t| t.text == "at") => Context::Words(&["at"]),
+        ("require", "require" | ",") => Context::Required,
+        ("require", _) if written.get(1).is_some_and(|t| t.text == "never") => in_test(&written[1..]),
+        ("vary" | "minimise" | "maximise" | "require" | "seeds" | "holdout", _) => Context::Nothing,
+        _ => in_test(written),
     }
 }
 

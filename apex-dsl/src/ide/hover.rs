@@ -46,7 +46,7 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
         }
         Definition::Test(file, i) => {
             let test = &view.texts.files[file].1.tests[i];
-            page(&format!("test {}: {}", test.name.text, test.graph.text()), &test.docs)
+            page(&format!("{} {}: {}", test.word(), test.name.text, test.graph.text()), &test.docs)
         }
         Definition::Text(file) => page("", &view.texts.files[file].1.docs),
         Definition::Generic(id, i) => page(
@@ -86,6 +86,7 @@ pub fn describe_word(view: &View<'_>, text: &str, offset: usize) -> Option<Strin
     let around = |s: Span| s.start as usize <= offset && offset <= s.end as usize;
     let place = match () {
         () if tree.machines.iter().any(|m| around(m.extent)) => KeywordPosition::Machine,
+        () if tree.tests.iter().any(|t| around(t.extent) && t.study.is_some()) => KeywordPosition::Tune,
         () if tree.tests.iter().any(|t| around(t.extent)) => KeywordPosition::Test,
         () => KeywordPosition::Graph,
     };

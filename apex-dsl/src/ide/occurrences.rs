@@ -464,6 +464,28 @@ impl<'a> Walker<'a, '_> {
         port.iter().for_each(|definition| self.used(name, *definition));
     }
 
+    /// The parameter that a study varies, and the nodes that lead to it.
+    fn varied(&mut self, graph: GraphId, of: &PortRef) {
+        let Some((last, outer)) = of.parts.split_last() else { return };
+        let mut node = NodeType::Graph(graph);
+        for name in outer {
+            let NodeType::Graph(id) = node else { return };
+            let Some(definition) = self.declared.graphs[&id].get(name.text.as_str()).copied() else { return };
+            self.used(name, definition);
+            let Definition::Instance(id, number) = definition else { return };
+            let Some(made) = self.made_of(id, number) else { return };
+            node = made;
+        }
+        let definition = self.param(node, &last.text);
+        definition.iter().for_each(|definition| self.used(last, *definition));
+    }
+
+    fn required(&mut self, name: &Ident) {
+        let tests = &self.view.texts.files[self.file].1.tests;
+        let found = tests.iter().position(|test| test.study.is_none() && test.name.text == name.text);
+        found.iter().for_each(|test| self.used(name, Definition::Test(self.file, *test)));
+    }
+
     fn test(&mut self, item: &TestItem) {
         let made = self.made(&item.graph);
         if let (Some(made), Some(name)) = (made, item.graph.segments.last()) {
@@ -473,6 +495,11 @@ impl<'a> Walker<'a, '_> {
         item.replaced.iter().for_each(|(_, instance)| self.instance(None, instance));
         let Some(NodeType::Graph(id)) = made else { return };
         item.replaced.iter().for_each(|(of, _)| self.reference(id, of));
+        if let Some(study) = &item.study {
+            study.goals.iter().for_each(|goal| self.reference(id, &goal.of));
+            study.vary.iter().for_each(|(of, _)| self.varied(id, of));
+            study.required.iter().for_each(|name| self.required(name));
+        }
         for step in &item.steps {
             match step {
                 TestStep::Feed(port, ..) | TestStep::FeedRecorded(port, ..) => {

@@ -61,7 +61,8 @@ fn is_keyword(word: &str, before: &str, after: &str) -> bool {
     let begins = matches!(before, "" | ";" | "{" | "}" | "pub");
     let is_name = matches!(before, "." | "::" | "node") || matches!(after, "." | "::" | "->" | "=>" | "=" | ":");
     KEYWORDS.iter().filter(|keyword| keyword.text == word).any(|keyword| match keyword.position {
-        KeywordPosition::Item | KeywordPosition::Graph | KeywordPosition::Machine | KeywordPosition::Test => begins,
+        KeywordPosition::Item | KeywordPosition::Graph | KeywordPosition::Machine => begins,
+        KeywordPosition::Test | KeywordPosition::Tune => begins,
         // A modifier follows a node, a name follows an arrow.
         KeywordPosition::Modifier => !is_name && !begins && !matches!(before, "->" | "=>"),
         KeywordPosition::Inside | KeywordPosition::Claim => !is_name && !begins,

@@ -64,7 +64,7 @@ fn graph_around<'t>(tokens: &[Token<'t>]) -> Option<&'t str> {
             "graph" | "robot" if open < 0 => {
                 return tokens.get(at + 1).filter(|name| name.kind == TokenKind::Word).map(|name| name.text);
             }
-            "fsm" | "test" if open < 0 => return None,
+            "fsm" | "test" | "tune" if open < 0 => return None,
             _ => {}
         }
     }

@@ -101,7 +101,8 @@ pub fn of_node(
     values
 }
 
-fn wanted<'a>(signature: &Signature, param: &'a ParamSig) -> Wanted<'a> {
+/// Requirements of a parameter of a node on its value.
+pub fn wanted<'a>(signature: &Signature, param: &'a ParamSig) -> Wanted<'a> {
     Wanted {
         name: &param.name,
         ty: &param.ty,
@@ -245,7 +246,8 @@ pub fn of_graph_inside(
     values
 }
 
-fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &Scope<'_>) -> Evaluated<Wanted<'a>> {
+/// Requirements of a parameter of a graph on its value.
+pub fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &Scope<'_>) -> Evaluated<Wanted<'a>> {
     let range = match &param.range {
         None => None,
         Some(range) => {

@@ -18,6 +18,7 @@ mod nodes;
 mod record;
 mod standard;
 mod structs;
+mod study;
 mod table;
 mod testing;
 mod threads;

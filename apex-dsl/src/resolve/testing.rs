@@ -1,4 +1,5 @@
-//! `test` items: the graph under test with some nodes replaced and with probes at observed ports, and the script.
+//! `test` and `tune` items: the graph under test with some nodes replaced and with probes at observed ports, and the
+//! script.
 
 use super::{
     args,
@@ -33,7 +34,7 @@ pub fn test(
     let id = match texts.made(&item.graph, catalog) {
         Ok(Constructor::Graph(id)) => id,
         Ok(Constructor::Node(_)) => {
-            let message = format!("`{}` is a node, but a test runs a graph", item.graph.text());
+            let message = format!("`{}` is a node, but a {} runs a graph", item.graph.text(), item.word());
             let note = "write a graph around it, with ports for what the test feeds and expects";
             diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
             return None;
@@ -45,9 +46,10 @@ pub fn test(
     };
     if let Some(generic) = texts.graph(id).generics.first() {
         let message = format!(
-            "`{}` has the type parameter `{}`, but a test needs a graph whose types are known",
+            "`{}` has the type parameter `{}`, but a {} needs a graph whose types are known",
             item.graph.text(),
-            generic.text
+            generic.text,
+            item.word()
         );
         let note = "write a graph around it, with ports that have types";
         diagnostics.push(Diagnostic::error("unknown-graph", item.graph.span, message).note(note));
@@ -65,7 +67,9 @@ pub fn test(
     writer.check_replaced(item);
     writer.probe_ports();
     let steps = item.steps.iter().filter_map(|step| writer.step(step)).collect();
-    let script = Script { name: item.name.text.clone(), docs: item.docs.clone(), span: item.name.span, steps };
+    let study = super::study::study(&mut writer, texts, catalog, item, id);
+    let (name, docs) = (item.name.text.clone(), item.docs.clone());
+    let script = Script { name, docs, span: item.name.span, steps, study };
     Some((graph, script))
 }
 
@@ -82,13 +86,17 @@ fn arguments(
     args::of_graph(&graph.name, &params, Some((&item.args, scope)), scope.rust, item.span, diagnostics)
 }
 
-struct Writer<'a> {
-    graph: &'a mut Graph,
+/// Writer of the script of a test.
+pub(super) struct Writer<'a> {
+    /// The program.
+    pub graph: &'a mut Graph,
     /// Names of the nodes of the graph. Those that cannot be made are missing in `graph`.
     declared: BTreeSet<&'a str>,
-    scope: &'a Scope<'a>,
+    /// Meaning of the names in expressions.
+    pub scope: &'a Scope<'a>,
     sources: &'a Sources,
-    diagnostics: &'a mut Diagnostics,
+    /// Messages.
+    pub diagnostics: &'a mut Diagnostics,
 }
 
 impl Writer<'_> {
@@ -105,7 +113,7 @@ impl Writer<'_> {
         }
         for node in &self.graph.nodes {
             if matches!(&node.kind, NodeKind::Library(library) if library.handed_in) {
-                let message = format!("`{}` is made in Rust, which a test cannot do", node.name);
+                let message = format!("`{}` is made in Rust, which a {} cannot do", node.name, item.word());
                 let error = Diagnostic::error("not-replaced", item.name.span, message).also(node.span, "this node");
                 self.diagnostics
                     .push(error.note(format!("replace it by another node: `replace {} = …();`", node.name)));
@@ -196,7 +204,8 @@ impl Writer<'_> {
         wanted.fit(value, expr).map_err(|error| self.diagnostics.push(*error)).ok()
     }
 
-    fn value(&mut self, expr: &Expr) -> Option<Value> {
+    /// The value of an expression.
+    pub fn value(&mut self, expr: &Expr) -> Option<Value> {
         evaluate(expr, self.scope).map_err(|error| self.diagnostics.push(*error)).ok()
     }
 
@@ -264,7 +273,7 @@ impl Writer<'_> {
     }
 
     /// The probe at a port, which is made when it is first used.
-    fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
+    pub fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
         let path = of.text();
         let name = format!("probe {path}");
         let known =

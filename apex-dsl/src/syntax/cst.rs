@@ -137,7 +137,7 @@ fn is_bracketed(rule: Rule) -> bool {
 
 fn begins_line(rule: Rule) -> bool {
     use Rule::*;
-    matches!(rule, inner_doc | item | stmt | fsm_stmt | state_stmt | test_stmt | param)
+    matches!(rule, inner_doc | item | stmt | fsm_stmt | state_stmt | test_stmt | tune_stmt | param)
 }
 
 /// The text between two tokens.

@@ -12,6 +12,8 @@ pub enum KeywordPosition {
     Machine,
     /// The beginning of a statement of a test.
     Test,
+    /// The beginning of a statement of a study, which has those of a test, too.
+    Tune,
     /// A modifier behind an instance.
     Modifier,
     /// The inside of a statement.
@@ -40,7 +42,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 55] = [
+pub const KEYWORDS: [Keyword; 63] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -51,6 +53,7 @@ pub const KEYWORDS: [Keyword; 55] = [
     keyword("robot", KeywordPosition::Item, "A graph without ports: the program of one machine."),
     keyword("fsm", KeywordPosition::Item, "A state machine: slots, events, and states with transitions."),
     keyword("test", KeywordPosition::Item, "Runs a graph on simulated time."),
+    keyword("tune", KeywordPosition::Item, "Searches the parameters of a graph: a test with `vary` and `minimise`."),
     keyword("in", KeywordPosition::Graph, "An input: synchronous, takes tokens."),
     keyword("out", KeywordPosition::Graph, "An output: synchronous, sends tokens."),
     keyword("slot", KeywordPosition::Graph, "A slot: asynchronous, takes tokens."),
@@ -94,6 +97,28 @@ pub const KEYWORDS: [Keyword; 55] = [
         "Requires that something has happened by now, or happens `within` or `by` a time.",
     ),
     keyword("never", KeywordPosition::Test, "Requires that something does not happen from here on."),
+    keyword(
+        "vary",
+        KeywordPosition::Tune,
+        "A parameter whose value is searched: `vary node.parameter in 0..=1`, by default in its declared range.",
+    ),
+    keyword(
+        "minimise",
+        KeywordPosition::Tune,
+        "The output whose last value in a run should be small: `minimise node.error at 90%`, which nine of ten seeds reach.",
+    ),
+    keyword("maximise", KeywordPosition::Tune, "The output whose last value in a run should be great."),
+    keyword(
+        "require",
+        KeywordPosition::Tune,
+        "Tests that must pass with the values, or `never what`: what must not happen in any run.",
+    ),
+    keyword("seeds", KeywordPosition::Tune, "The number of runs with each set of values, which differ in their seed."),
+    keyword(
+        "holdout",
+        KeywordPosition::Tune,
+        "Seeds or a recording (`holdout \"other.mcap\"`) that only score the result.",
+    ),
     keyword("every", KeywordPosition::Modifier, "The source fires at 0 and then once per period."),
     keyword("after", KeywordPosition::Modifier, "The first firing of the source; without `every` the only one."),
     keyword(
@@ -135,6 +160,11 @@ pub const KEYWORDS: [Keyword; 55] = [
         "The latest time at which it is expected, counted from the previous step.",
     ),
     keyword("recording", KeywordPosition::Inside, "The tokens that passed a port in a recorded run, at their times."),
+    keyword(
+        "at",
+        KeywordPosition::Inside,
+        "The share of the seeds that must reach the value of a goal; 50% is the median.",
+    ),
     keyword("active", KeywordPosition::Inside, "True if a node or nested graph is active."),
     keyword("in", KeywordPosition::Inside, "The range of a parameter: `gap: f32[m] = 0.1 in 0..=1`."),
     keyword("true", KeywordPosition::Value, "True."),

@@ -275,7 +275,7 @@ impl Scanner<'_> {
 
 /// Offsets of the lines that begin with the keyword of an item.
 fn items(text: &str) -> impl Iterator<Item = usize> {
-    let words = ["use ", "graph ", "robot ", "fsm ", "test "];
+    let words = ["use ", "graph ", "robot ", "fsm ", "test ", "tune "];
     let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1));
     starts.filter(move |at| words.iter().any(|word| text[*at..].starts_with(word)))
 }

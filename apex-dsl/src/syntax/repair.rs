@@ -7,7 +7,7 @@ use super::{
 use crate::{report::Diagnostics, source::FileId};
 
 /// Keywords that begin an item.
-const ITEMS: [&str; 6] = ["use", "pub", "graph", "robot", "fsm", "test"];
+const ITEMS: [&str; 7] = ["use", "pub", "graph", "robot", "fsm", "test", "tune"];
 
 /// Parsable replacement for a `text` with wrong brackets, strings, comments or characters; `None` if there are none.
 /// Wrong bytes become blanks, and open items are closed: in existing blanks, or behind the end. Every other byte of

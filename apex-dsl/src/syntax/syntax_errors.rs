@@ -55,7 +55,32 @@ pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
     again(rule, file, start, text, otherwise)
 }
 
-const OUTSIDE: &str = "a source file contains `use`, `graph`, `robot`, `fsm` and `test` items";
+/// Explains a statement of a study that could not be parsed.
+pub fn in_tune(file: FileId, start: usize, text: &str) -> Diagnostic {
+    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let rule = match first {
+        "vary" => Rule::vary_stmt,
+        "minimise" | "maximise" => Rule::goal_stmt,
+        "require" => Rule::require_stmt,
+        "seeds" => Rule::seeds_stmt,
+        "holdout" => Rule::holdout_stmt,
+        "replace" | "feed" | "wait" | "never" | "expect" => return in_test(file, start, text),
+        _ => {
+            let span = Span::new(file, start, start + first.len().max(token(text)));
+            let error = Diagnostic::error("syntax", span, format!("no statement of a `tune` begins with `{first}`"));
+            let known = keywords::words_at(KeywordPosition::Tune).chain(keywords::words_at(KeywordPosition::Test));
+            return match nearest(first, known.map(|word| word.text)) {
+                Some(meant) => error.guess(format!("did you mean `{meant}`?"), span, meant),
+                None => error.note(IN_TUNE),
+            };
+        }
+    };
+    again(rule, file, start, text, IN_TUNE)
+}
+
+const IN_TUNE: &str = "a `tune` contains `vary node.parameter in 0..=1;`, `minimise port;`, `maximise port;`, `require test;`, `require never port;`, `seeds 32;`, `holdout 32;` and the statements of a test";
+
+const OUTSIDE: &str = "a source file contains `use`, `graph`, `robot`, `fsm`, `test` and `tune` items";
 
 /// Explains an item that could not be parsed.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
@@ -65,6 +90,7 @@ pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
     let span = Span::new(file, start, start + first.len());
     match first {
         "test" => again(Rule::test_item, file, start, text, OUTSIDE),
+        "tune" => again(Rule::tune_item, file, start, text, OUTSIDE),
         "fsm" => again(Rule::fsm_item, file, start, text, OUTSIDE),
         "use" => again(Rule::use_item, file, start, text, "an import is `use path::{Name, …};`"),
         "pub" | "graph" | "robot" => again(Rule::graph_item, file, start, text, OUTSIDE),
@@ -173,6 +199,13 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::on_kw => "`on`",
         Rule::state_kw => "`state`",
         Rule::test_kw => "`test`",
+        Rule::tune_kw => "`tune`",
+        Rule::vary_kw => "`vary`",
+        Rule::goal_kw => "`minimise` or `maximise`",
+        Rule::at_kw => "`at`",
+        Rule::require_kw => "`require`",
+        Rule::seeds_kw => "`seeds`",
+        Rule::holdout_kw => "`holdout`",
         Rule::fsm_kw => "`fsm`",
         Rule::compare => "a comparison",
         Rule::limit_kw => "`by` or `within`",

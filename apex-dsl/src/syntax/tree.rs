@@ -8,7 +8,7 @@ use crate::source::Span;
 
 pub use expr::{Expr, ExprKind, TypeExpr, TypeKind};
 pub use machine::{Action, FsmItem, StateItem, Transition};
-pub use script::{Condition, Limit, TestItem, TestStep};
+pub use script::{Condition, GoalItem, Limit, StudyItem, TestItem, TestStep};
 
 /// An identifier with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]

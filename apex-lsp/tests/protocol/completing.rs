@@ -36,7 +36,7 @@ fn lacks(found: &[String], unwanted: &[&str]) {
 fn items_and_imports() {
     let mut client = Client::start();
     let path = unsaved("items.afg");
-    assert_eq!(client.completions(&path, "gr|"), ["use", "pub", "graph", "robot", "fsm", "test"]);
+    assert_eq!(client.completions(&path, "gr|"), ["use", "pub", "graph", "robot", "fsm", "test", "tune"]);
     let crates = client.completions(&path, "use |");
     has(&crates, &["apex_nodes", "crate", "find_container"]);
     has(&client.completions(&path, "use apex_nodes::{scan::|"), &["JumpDistance", "Scan", "Segments"]);
@@ -193,5 +193,13 @@ fn machines_and_tests() {
     has(&client.completions(&path, &test("expect |;")), &["segments", "clean", "active"]);
     has(&client.completions(&path, &test("expect active(|);")), &["clean", "jump"]);
     has(&client.completions(&path, &test("never clean.|;")), &["filtered"]);
+    let tune = |step: &str| {
+        format!("{HEAD}scan -> clean;\n}}\ntest ends: Find {{ }}\ntune best: Find {{\n    {step}\n    wait 1s;\n}}\n")
+    };
+    has(&client.completions(&path, &tune("|")), &["vary", "minimise", "seeds", "feed", "wait"]);
+    has(&client.completions(&path, &tune("vary |;")), &["clean", "jump"]);
+    has(&client.completions(&path, &tune("vary jump.|;")), &["gap"]);
+    has(&client.completions(&path, &tune("minimise clean.|;")), &["filtered"]);
+    assert_eq!(client.completions(&path, &tune("require |;")), ["ends", "never"]);
     assert!(client.stop());
 }

@@ -11,10 +11,11 @@
 (boolean) @constant.builtin
 
 ["use" "as"] @keyword.import
-["pub" "graph" "robot" "fsm" "test"] @keyword.type
+["pub" "graph" "robot" "fsm" "test" "tune"] @keyword.type
 ["in" "out" "slot" "event" "node" "claim" "record" "thread" "state"] @keyword
 ["on" "if" "entry" "exit" "resume"] @keyword
 ["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
+["vary" "minimise" "maximise" "at" "require" "seeds" "holdout"] @keyword
 ["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "essential" "restart"] @keyword.modifier
 
 (arrow) @operator
@@ -39,10 +40,13 @@
 (use_as name: (identifier) @type)
 (instance type: (path (identifier) @function))
 (test graph: (path (identifier) @type))
+(tune graph: (path (identifier) @type))
 
 (graph name: (identifier) @type)
 (fsm name: (identifier) @type)
 (test name: (identifier) @function)
+(tune name: (identifier) @function)
+(require test: (identifier) @function)
 (state name: (identifier) @label)
 (transition target: (identifier) @label)
 (transition slot: (identifier) @property)

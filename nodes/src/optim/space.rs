@@ -68,6 +68,11 @@ impl Axis {
         self.high
     }
 
+    /// Distribution of the values.
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
     /// Returns `true` if all values are integers.
     pub fn is_integer(&self) -> bool {
         self.integer

@@ -21,6 +21,7 @@ fn items_and_imports() {
     assert_eq!(at_end("use a::{b::{c}, "), Context::Import(path("a")));
     assert_eq!(at_end("graph A { x -> y; }\nuse a::"), Context::Import(path("a")));
     assert_eq!(at_end("test t: "), Context::Tested);
+    assert_eq!(at_end("tune t: "), Context::Tested);
 }
 
 #[test]
@@ -62,6 +63,22 @@ fn arguments_and_modifiers() {
     assert_eq!(in_graph("node n = a::B() each("), Context::List(path("a::B")));
     assert_eq!(at_end("graph A(x: f32["), Context::Unit(Quantity::Any));
     assert_eq!(at_end("graph A(x: f32[m], y: "), Context::Type);
+}
+
+#[test]
+fn statements_of_a_study() {
+    let in_tune = |text: &str| at_end(&format!("tune t: A {{ wait 1s; {text}"));
+    assert_eq!(in_tune(""), Context::Tune);
+    assert_eq!(in_tune("vary "), Context::Varied(vec![]));
+    assert_eq!(in_tune("vary a.b."), Context::Varied(vec!["a".into(), "b".into()]));
+    assert_eq!(in_tune("vary a.b "), Context::Words(&["in"]));
+    assert_eq!(in_tune("vary a.b in "), Context::Expression);
+    assert_eq!(in_tune("minimise "), Context::Name(Named::Tested, None));
+    assert_eq!(in_tune("maximise y "), Context::Words(&["at"]));
+    assert_eq!(in_tune("require "), Context::Required);
+    assert_eq!(in_tune("require never "), Context::Name(Named::Tested, None));
+    assert_eq!(in_tune("seeds "), Context::Nothing);
+    assert_eq!(in_tune("feed "), Context::Name(Named::Fed, None));
 }
 
 #[test]

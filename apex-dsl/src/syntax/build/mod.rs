@@ -73,7 +73,7 @@ impl<'a> Builder<'a> {
                 let graph = self.graph(pair);
                 file.graphs.push(graph);
             }
-            Rule::test_item => file.tests.extend(self.test(pair)),
+            Rule::test_item | Rule::tune_item => file.tests.extend(self.test(pair)),
             Rule::fsm_item => file.machines.extend(self.machine(pair)),
             _ => {
                 self.broken_items = true;

@@ -1,7 +1,10 @@
-//! `test` items.
+//! `test` and `tune` items.
 
 use super::{Builder, expr::unescape, push_doc};
-use crate::syntax::{Rule, syntax_errors, tree::*};
+use crate::{
+    report::Diagnostic,
+    syntax::{Rule, syntax_errors, tree::*},
+};
 use pest::iterators::Pair;
 
 /// Operators for comparing a token with a value.
@@ -10,6 +13,7 @@ const COMPARISONS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
 impl Builder<'_> {
     pub(super) fn test(&mut self, pair: Pair<'_, Rule>) -> Option<TestItem> {
         let extent = self.span(&pair);
+        let mut study = (pair.as_rule() == Rule::tune_item).then(StudyItem::default);
         let (mut docs, mut name, mut graph) = (String::new(), None, None);
         let (mut args, mut replaced, mut steps) = (vec![], vec![], vec![]);
         for part in pair.into_inner() {
@@ -20,12 +24,18 @@ impl Builder<'_> {
                 Rule::args => {
                     args = part.into_inner().filter(|p| p.as_rule() == Rule::arg).filter_map(|p| self.arg(p)).collect();
                 }
-                Rule::test_stmt => {
+                Rule::test_stmt | Rule::tune_stmt => {
                     let Some(stmt) = part.into_inner().next() else { continue };
-                    match stmt.as_rule() {
-                        Rule::replace_stmt => replaced.extend(self.replaced(stmt)),
-                        Rule::bad_test => self.bad(syntax_errors::in_test, &stmt),
-                        _ => steps.extend(self.test_step(stmt)),
+                    match (stmt.as_rule(), &mut study) {
+                        (Rule::replace_stmt, _) => replaced.extend(self.replaced(stmt)),
+                        (Rule::bad_test, _) => self.bad(syntax_errors::in_test, &stmt),
+                        (Rule::bad_tune, _) => self.bad(syntax_errors::in_tune, &stmt),
+                        // What must never happen must not happen before this statement either.
+                        (Rule::require_stmt, Some(study)) => {
+                            steps.splice(0..0, self.study_statement(stmt, study));
+                        }
+                        (_, Some(study)) => steps.extend(self.study_statement(stmt, study)),
+                        (_, None) => steps.extend(self.test_step(stmt)),
                     }
                 }
                 _ => {}
@@ -33,7 +43,47 @@ impl Builder<'_> {
         }
         let (name, graph) = (name?, graph?);
         let span = name.span.to(graph.span);
-        Some(TestItem { docs, name, graph, args, replaced, steps, span, extent })
+        Some(TestItem { docs, name, graph, args, replaced, steps, study, span, extent })
+    }
+
+    /// Adds a statement to a study, unless it is a step of its script, which is returned.
+    fn study_statement(&mut self, pair: Pair<'_, Rule>, study: &mut StudyItem) -> Option<TestStep> {
+        let rule = pair.as_rule();
+        if !matches!(
+            rule,
+            Rule::vary_stmt | Rule::goal_stmt | Rule::require_stmt | Rule::seeds_stmt | Rule::holdout_stmt
+        ) {
+            return self.test_step(pair);
+        }
+        let (mut of, mut range, mut value, mut maximise, mut never) = (None, None, None, false, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::port_ref => of = Some(self.port_ref(part)),
+                Rule::limits => range = self.range(part),
+                Rule::expr => value = Some(self.expr(part)),
+                Rule::goal_kw => maximise = part.as_str().starts_with("maximise"),
+                Rule::ident => study.required.push(self.ident(&part)),
+                Rule::condition => never = self.condition(part).map(TestStep::Never),
+                _ => {}
+            }
+        }
+        match (rule, of, value) {
+            (Rule::vary_stmt, Some(of), _) => study.vary.push((of, range)),
+            (Rule::goal_stmt, Some(of), share) => study.goals.push(GoalItem { of, maximise, share }),
+            (Rule::seeds_stmt, _, Some(seeds)) => self.seeds(seeds, study),
+            (Rule::holdout_stmt, _, Some(value)) => study.held_out.push(value),
+            _ => {}
+        }
+        never
+    }
+
+    fn seeds(&mut self, seeds: Expr, study: &mut StudyItem) {
+        if let Some(first) = &study.seeds {
+            let error = Diagnostic::error("wrong-study", seeds.span, "the number of seeds is given twice");
+            self.diagnostics.push(error.also(first.span, "first given here").note("remove one of the two"));
+        } else {
+            study.seeds = Some(seeds);
+        }
     }
 
     fn replaced(&mut self, pair: Pair<'_, Rule>) -> Option<(PortRef, Instance)> {

@@ -1,9 +1,9 @@
-//! Tests.
+//! Tests and studies.
 
-use super::{Arg, Expr, Ident, Instance, PathExpr, PortRef};
+use super::{Arg, Expr, Ident, Instance, PathExpr, PortRef, RangeExpr};
 use crate::source::Span;
 
-/// `test name: Graph(argument = value) { … }`
+/// `test name: Graph(argument = value) { … }`, or a study `tune name: Graph { … }`
 #[derive(Debug)]
 pub struct TestItem {
     /// Documentation.
@@ -18,10 +18,45 @@ pub struct TestItem {
     pub replaced: Vec<(PortRef, Instance)>,
     /// Inputs and expectations, in order.
     pub steps: Vec<TestStep>,
+    /// Statements that only a study has.
+    pub study: Option<StudyItem>,
     /// From its name to its graph.
     pub span: Span,
     /// From its documentation to its closing bracket.
     pub extent: Span,
+}
+
+impl TestItem {
+    /// The keyword of the item.
+    pub fn word(&self) -> &'static str {
+        if self.study.is_some() { "tune" } else { "test" }
+    }
+}
+
+/// Statements that only a study has.
+#[derive(Debug, Default)]
+pub struct StudyItem {
+    /// `vary node.parameter in low..=high;`
+    pub vary: Vec<(PortRef, Option<RangeExpr>)>,
+    /// `minimise port at 90%;`, `maximise port;`
+    pub goals: Vec<GoalItem>,
+    /// `require test, test;`
+    pub required: Vec<Ident>,
+    /// `seeds 32;`
+    pub seeds: Option<Expr>,
+    /// `holdout 32;`, `holdout "other.mcap";`
+    pub held_out: Vec<Expr>,
+}
+
+/// A goal of a study.
+#[derive(Debug)]
+pub struct GoalItem {
+    /// The port whose last value in a run counts.
+    pub of: PortRef,
+    /// `true` for `maximise`.
+    pub maximise: bool,
+    /// The share of the runs that reach the value of the goal.
+    pub share: Option<Expr>,
 }
 
 /// A statement of a test.

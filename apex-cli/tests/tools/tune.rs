@@ -1,0 +1,135 @@
+//! `apex tune`, with the cart of `robots/cart`.
+
+use crate::{
+    MADE, TARGET,
+    common::{Folder, apex, package, stderr},
+};
+use std::{fs, path::Path, process::Command, sync::PoisonError};
+
+/// In place of that of the library, which takes long to build.
+const RANDOM: &str = "
+struct Random(u64);
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+    }
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+    fn normal(&mut self, sigma: f32) -> f32 {
+        sigma * (self.unit() + self.unit() + self.unit() + self.unit() - 2.0) as f32
+    }
+}
+";
+
+fn cart(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    let nodes = include_str!("../../../robots/cart/src/lib.rs").replace("use apex_nodes::math::Random;\n", "");
+    package(&folder, &(nodes.replace("#[derive(Debug)]\n", "") + RANDOM));
+    folder.file("cart.afg", include_str!("../../../robots/cart/cart.afg"));
+    folder
+}
+
+/// Command for a study with few candidates, whose results are in `output`.
+fn tune(folder: &Folder, study: &str, output: &str, more: &[&str]) -> Command {
+    let mut command = apex();
+    command.arg("tune").arg(folder.0.join("cart.afg")).args([study, "--candidates", "24", "--output"]);
+    command.arg(folder.0.join(output)).args(more).env("CARGO_TARGET_DIR", TARGET);
+    command
+}
+
+fn read(folder: &Folder, path: impl AsRef<Path>) -> String {
+    fs::read_to_string(folder.0.join(path)).unwrap()
+}
+
+/// The lines of a journal, which are in the order in which the runs have ended.
+fn sorted(journal: &str) -> Vec<&str> {
+    let mut lines: Vec<&str> = journal.lines().collect();
+    lines.sort_unstable();
+    lines
+}
+
+/// Checks that a command succeeds, and returns its standard output.
+fn done(mut command: Command) -> String {
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn a_study_is_the_same_on_any_number_of_cores_and_machines() {
+    let _made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = cart("tune");
+    let params = folder.0.join("tuned.toml");
+    let shown = done(tune(&folder, "Swift", "two", &["--jobs", "2", "--params", params.to_str().unwrap()]));
+    assert!(
+        shown.contains("| minimise `error` [m] at 90 % |") && shown.contains("1 × 24 candidates, seed 1"),
+        "{shown}"
+    );
+    let tuned = read(&folder, "tuned.toml");
+    assert!(tuned.starts_with("[pilot]\nstiffness = ") && tuned.contains("\nsmoothing = "), "{tuned}");
+    done(tune(&folder, "Swift", "one", &["--jobs", "1"]));
+    assert_eq!(read(&folder, "one/report.md"), read(&folder, "two/report.md"));
+    let (one, two) = (read(&folder, "one/journal.csv"), read(&folder, "two/journal.csv"));
+    assert_eq!(sorted(&one), sorted(&two));
+    // Cut off in the middle of a line.
+    fs::write(folder.0.join("two/journal.csv"), &two[..two.len() / 2]).unwrap();
+    done(tune(&folder, "Swift", "two", &["--resume"]));
+    assert_eq!(sorted(&one), sorted(&read(&folder, "two/journal.csv")));
+    assert_eq!(read(&folder, "one/report.md"), read(&folder, "two/report.md"));
+
+    done(tune(&folder, "Gentle", "whole", &[]));
+    let parts = [("part1", "1/2"), ("part2", "2/2")];
+    let parts = parts.map(|(output, shard)| tune(&folder, "Gentle", output, &["--shard", shard]).spawn().unwrap());
+    assert!(parts.into_iter().all(|mut part| part.wait().unwrap().success()));
+    let part = |name: &str| folder.0.join(name).to_str().unwrap().to_owned();
+    let both = [part("part1"), part("part2")];
+    done(tune(&folder, "Gentle", "merged", &["--merge", &both[0], "--merge", &both[1]]));
+    for file in ["report.md", "front.svg", "convergence.svg", "importance.svg"] {
+        assert_eq!(read(&folder, format!("whole/{file}")), read(&folder, format!("merged/{file}")));
+    }
+    let incomplete = tune(&folder, "Gentle", "half", &["--merge", &both[0]]).output().unwrap();
+    assert_eq!(incomplete.status.code(), Some(2));
+    assert!(stderr(&incomplete).contains("the journals are not complete"), "{}", stderr(&incomplete));
+
+    done(tune(&folder, "Swift", "written", &["--write"]));
+    let text = read(&folder, "cart.afg");
+    assert!(text.contains("node pilot = Pilot(stiffness = ") && text.contains(" / 1s^2, damping = "), "{text}");
+    let values: Vec<&str> = tuned.lines().filter_map(|line| line.split_once(" = ")).map(|(_, value)| value).collect();
+    assert!(values.len() == 3 && values.iter().all(|value| text.contains(value)), "{text}: {values:?}");
+    let changed = tune(&folder, "Swift", "written", &["--resume"]).output().unwrap();
+    assert!(stderr(&changed).contains("another study") || stderr(&changed).contains("other settings"));
+}
+
+#[test]
+fn wrong_use_is_explained() {
+    let _made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = cart("tune-wrong");
+    fs::create_dir(folder.0.join("old")).unwrap();
+    folder.file("old/journal.csv", "of another study\n");
+    let text = read(&folder, "cart.afg");
+    folder.file("cart.afg", text.replace("position > 1.1", "position > -5.0"));
+    for (study, output, more, code, message) in [
+        ("Swifd", "new", &[][..], 2, "did you mean `Swift`?"),
+        ("Swift", "new", &["--resume"], 2, "there is nothing to resume"),
+        ("Swift", "old", &[], 2, "continue it with `--resume`"),
+        ("Swift", "old", &["--resume"], 2, "belongs to a study with other settings"),
+        ("Swift", "new", &["--shard", "1/2"], 2, "a study of 1 searches has no 2 parts"),
+        ("Swift", "new", &["--merge", "nowhere"], 2, "`nowhere` has no journal to be merged"),
+        ("Swift", "new", &["--params", "nowhere/tuned.toml"], 2, "there is no folder `nowhere`"),
+        ("Swift", "failed", &[], 1, "all candidates of `Swift` failed: test `Swift` failed at 0.000000 s"),
+    ] {
+        let found = tune(&folder, study, output, more).output().unwrap();
+        assert_eq!(found.status.code(), Some(code), "{study} {more:?}: {}", stderr(&found));
+        assert!(stderr(&found).contains(message), "{study} {more:?}: {}", stderr(&found));
+    }
+    folder.file("cart.afg", "graph A { }\n");
+    let none = tune(&folder, "Swift", "new", &[]).output().unwrap();
+    assert!(stderr(&none).contains("has no `tune` item"), "{}", stderr(&none));
+    folder.file("cart.afg", text.replace("vary pilot.damping", "vary pilot.dumping"));
+    let wrong = tune(&folder, "Swift", "new", &[]).output().unwrap();
+    assert_eq!(wrong.status.code(), Some(1));
+    assert!(stderr(&wrong).contains("did you mean `pilot.damping`?"), "{}", stderr(&wrong));
+}
