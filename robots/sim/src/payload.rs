@@ -45,8 +45,15 @@ impl Footprint {
         walls.chain(discs).fold(f32::INFINITY, f32::min)
     }
 
+    /// Point of the area that is nearest to a point: the point itself inside.
+    pub fn nearest(&self, point: Point2) -> Point2 {
+        let p = self.pose.to_inner(point);
+        let within = |value: f32, size: f32| value.clamp(-0.5 * size.abs(), 0.5 * size.abs());
+        self.pose.to_outer(Point2::new(within(p.x, self.length), within(p.y, self.width)))
+    }
+
     /// Distance to a point, in m: 0 inside.
-    fn distance(&self, point: Point2) -> f32 {
+    pub fn distance(&self, point: Point2) -> f32 {
         let p = self.pose.to_inner(point);
         let outside = |value: f32, size: f32| (value.abs() - 0.5 * size).max(0.0);
         libm::hypotf(outside(p.x, self.length), outside(p.y, self.width))

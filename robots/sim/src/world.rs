@@ -70,6 +70,13 @@ impl World {
         &self.discs
     }
 
+    /// Replaces the content by the objects of another world that are within `reach` m of a point. Keeps the storage.
+    pub fn take_near(&mut self, other: &Self, point: Point2, reach: f32) {
+        self.clear();
+        self.walls.extend(other.walls.iter().filter(|wall| wall.distance(point) <= reach));
+        self.discs.extend(other.discs.iter().filter(|disc| (disc.centre - point).norm() - disc.radius <= reach));
+    }
+
     /// Distance from `origin` along the unit vector `direction` to the first object, or `None` if there is none.
     pub fn cast(&self, origin: Point2, direction: Point2) -> Option<f32> {
         let walls = self.walls.iter().filter_map(|wall| wall.hit(origin, direction));
@@ -87,7 +94,7 @@ impl World {
 
 impl Wall {
     /// Distance to a point, in m.
-    pub(crate) fn distance(&self, point: Point2) -> f32 {
+    pub fn distance(&self, point: Point2) -> f32 {
         let (along, from) = (self.b - self.a, point - self.a);
         let share = (from.dot(along) / along.norm_squared()).clamp(0.0, 1.0);
         // A wall without a length is a point.
@@ -162,6 +169,18 @@ mod tests {
         world.wall(Point2::new(0.0, 1.0), Point2::new(0.0, 1.0));
         world.disc(Point2::new(3.0, 0.0), 0.5);
         assert_eq!([ORIGIN, Point2::new(2.0, 0.0), Point2::new(3.1, 0.0)].map(|p| world.clearance(p)), [1.0, 0.5, 0.0]);
+    }
+
+    #[test]
+    fn near_objects_are_taken() {
+        let mut world = World::default();
+        world.wall(Point2::new(2.0, -9.0), Point2::new(2.0, 9.0));
+        world.wall(Point2::new(9.0, -9.0), Point2::new(9.0, 9.0));
+        world.disc(Point2::new(0.0, 3.5), 0.6);
+        world.disc(Point2::new(0.0, -3.7), 0.6);
+        let mut near = World::default();
+        near.take_near(&world, ORIGIN, 3.0);
+        assert_eq!((near.walls(), near.discs()), (&world.walls()[..1], &world.discs()[..1]));
     }
 
     #[test]

@@ -8,4 +8,4 @@ mod vector;
 
 pub use camera::{Distortion, TofCamera, TofFrame};
 pub use solid::{Material, Shape, Solid, SolidKind};
-pub use space::{Floor, Space, Truth};
+pub use space::{Floor, Pit, Space, Truth};

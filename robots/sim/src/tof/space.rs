@@ -11,6 +11,18 @@ pub struct Space {
     solids: Vec<Solid>,
     /// Centre and radius of a sphere around each solid.
     bounds: Vec<(V3, f32)>,
+    pits: Vec<Pit>,
+}
+
+/// Rectangular opening in the floor with sides along the axes, such as a stairwell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pit {
+    /// Least and greatest x, in m.
+    pub x: [f32; 2],
+    /// Least and greatest y, in m.
+    pub y: [f32; 2],
+    /// Depth, in m.
+    pub depth: f32,
 }
 
 /// Floor at z = 0, which may end at stairs that go down.
@@ -70,7 +82,19 @@ impl Default for Floor {
 impl Space {
     /// Creates a space with only a floor.
     pub const fn new(floor: Floor) -> Self {
-        Self { floor, solids: vec![], bounds: vec![] }
+        Self { floor, solids: vec![], bounds: vec![], pits: vec![] }
+    }
+
+    /// Removes all solids and openings, and keeps the storage.
+    pub fn clear(&mut self) {
+        self.solids.clear();
+        self.bounds.clear();
+        self.pits.clear();
+    }
+
+    /// Opens the floor.
+    pub fn dig(&mut self, pit: Pit) {
+        self.pits.push(pit);
     }
 
     /// Adds a solid.
@@ -86,7 +110,7 @@ impl Space {
 
     /// Nearest surface on a ray, without the solid `skipped`, which the ray has already passed.
     pub(super) fn hit(&self, ray: &Ray, skipped: Option<usize>) -> Option<Hit> {
-        let mut nearest = self.floor.hit(ray);
+        let mut nearest = self.hit_floor(ray);
         for (i, (solid, bounds)) in self.solids.iter().zip(&self.bounds).enumerate() {
             if Some(i) == skipped || !ray.touches(*bounds) {
                 continue;
@@ -98,6 +122,25 @@ impl Space {
             }
         }
         nearest
+    }
+}
+
+impl Space {
+    /// Surface of the floor, or the ground of an opening.
+    fn hit_floor(&self, ray: &Ray) -> Option<Hit> {
+        let hit = self.floor.hit(ray)?;
+        let at = ray.at(hit.entry.distance);
+        match self.pits.iter().find(|pit| pit.contains(at[0], at[1])) {
+            Some(pit) => self.floor.level(ray, -pit.depth, f32::MIN, f32::INFINITY, Truth::Unlabelled),
+            None => Some(hit),
+        }
+    }
+}
+
+impl Pit {
+    /// Returns `true` if a point of the plane is over the opening.
+    pub fn contains(&self, x: f32, y: f32) -> bool {
+        self.x[0] < x && x < self.x[1] && self.y[0] < y && y < self.y[1]
     }
 }
 

@@ -1,0 +1,332 @@
+use crate::{Disc, Footprint, Random};
+use apex_nodes::{
+    map::{Cell, Grid, Occupancy},
+    math::normalize_angle,
+    nav::{Path, Planner, Smoothing, Terrain},
+    scan::{Point2, Pose2},
+};
+use core::f32::consts::PI;
+
+/// Radius of a leg, in m.
+const LEG: f32 = 0.065;
+/// Distance of a leg from the middle of its person, across, in m.
+const HIP: f32 = 0.11;
+/// Distance that a leg swings to the front and to the back, in m, and length of a full step of both legs, in m.
+const SWING: f32 = 0.22;
+const STRIDE: f32 = 1.4;
+/// Time in which a person comes to the wanted velocity, in s.
+const RELAXATION: f32 = 0.5;
+/// Strength (m/s²), range (m) and distance (m) of the force between persons, and of that from others.
+const AMONG: [f32; 3] = [2.5, 0.25, 0.5];
+const FROM_OTHERS: [f32; 3] = [4.0, 0.3, 0.3];
+/// Part of a force that comes from behind.
+const BEHIND: f32 = 0.3;
+/// Distance of the point on the path that a person walks to, in m.
+const AHEAD: f32 = 0.6;
+/// Time without progress after which a person walks elsewhere, in s.
+const STUCK: f32 = 6.0;
+/// Probability that a person goes to another one who stands.
+const JOINS: f32 = 0.35;
+/// Probability that a person stops on the way, per s.
+const HESITATES: f32 = 0.02;
+const SMOOTHING: Smoothing = Smoothing { spacing: 0.2, rounds: 10 };
+
+/// Person who walks or stands.
+#[derive(Debug, Clone)]
+pub struct Pedestrian {
+    /// Position of the middle, and direction of the body.
+    pub pose: Pose2,
+    /// Velocity, in m/s.
+    pub velocity: Point2,
+    /// Speed on a free way, in m/s.
+    speed: f32,
+    /// Phase of the steps, in rad.
+    phase: f32,
+    path: Path,
+    /// Next point of the path.
+    next: usize,
+    /// Time that is left to stand, in s.
+    rest: f32,
+    /// Time since the last progress, in s.
+    stuck: f32,
+}
+
+/// People in a building, who walk to random places, stop on their way, turn, and stand together in groups.
+///
+/// They keep away from each other and from vehicles by the social force model (Helbing and Molnár 1995), which leads
+/// them along planned paths. They do not walk through walls, and evade a vehicle, but do not always give way to it.
+#[derive(Debug, Clone)]
+pub struct Crowd {
+    people: Vec<Pedestrian>,
+    free: Grid<Occupancy>,
+    places: Vec<Cell>,
+    planner: Planner,
+    random: Random,
+}
+
+impl Crowd {
+    /// Places `count` people at random free cells of a map, such as that of [`Building::free_map`](crate::Building).
+    /// A map without free cells has no people.
+    pub fn new(free: Grid<Occupancy>, count: usize, seed: u64) -> Self {
+        let places: Vec<Cell> =
+            free.iter().filter(|(_, cell)| **cell == Occupancy::Free).map(|(cell, _)| cell).collect();
+        let mut crowd = Self { people: vec![], free, places, planner: Planner::default(), random: Random::new(seed) };
+        if !crowd.places.is_empty() {
+            crowd.people = (0..count).map(|_| crowd.appear()).collect();
+        }
+        crowd
+    }
+
+    /// All people.
+    pub fn people(&self) -> &[Pedestrian] {
+        &self.people
+    }
+
+    /// Moves all people for `dt` s. They keep away from `vehicles`.
+    pub fn step(&mut self, dt: f32, vehicles: &[Footprint]) {
+        for i in 0..self.people.len() {
+            let wanted = self.wanted(i, dt);
+            let person = &self.people[i];
+            let push = self.push(i, vehicles);
+            let change = (wanted - person.velocity).scaled(1.0 / RELAXATION) + push;
+            let velocity = limited(person.velocity + change.scaled(dt), 1.3 * person.speed);
+            let position = self.reachable(person.pose.position(), velocity.scaled(dt));
+            let person = &mut self.people[i];
+            let way = position - person.pose.position();
+            person.velocity = way.scaled(1.0 / dt);
+            person.walk(position, way.norm(), dt);
+            let slow = way.norm() < 0.2 * person.speed * dt && person.rest <= 0.0;
+            person.stuck = if slow { person.stuck + dt } else { 0.0 };
+        }
+    }
+
+    /// Moves a person out of the way of something that pushes it: by `way`, as far as walls allow.
+    pub fn shove(&mut self, person: usize, way: Point2) {
+        let Some(at) = self.people.get(person).map(|person| person.pose.position()) else { return };
+        let to = self.reachable(at, way);
+        (self.people[person].pose.x, self.people[person].pose.y) = (to.x, to.y);
+    }
+
+    fn appear(&mut self) -> Pedestrian {
+        let at = self.place();
+        let random = &mut self.random;
+        Pedestrian {
+            pose: Pose2::new(at.x, at.y, random.uniform(-PI, PI)),
+            velocity: Point2::default(),
+            speed: random.uniform(0.8, 1.5),
+            phase: random.uniform(-PI, PI),
+            path: Path::default(),
+            next: 0,
+            rest: random.uniform(0.0, 5.0),
+            stuck: 0.0,
+        }
+    }
+
+    /// Middle of a random free cell.
+    fn place(&mut self) -> Point2 {
+        let at = self.random.bits() % self.places.len() as u64;
+        self.free.raster().centre(self.places[at as usize])
+    }
+
+    /// Velocity that a person would like to have. Decides where the person goes, and when it stands.
+    fn wanted(&mut self, i: usize, dt: f32) -> Point2 {
+        let hesitates = self.random.chance(HESITATES * dt);
+        let person = &mut self.people[i];
+        if person.rest > 0.0 {
+            person.rest -= dt;
+            return Point2::default();
+        }
+        let here = person.pose.position();
+        while person.path.points.get(person.next).is_some_and(|point| (*point - here).norm() < AHEAD) {
+            person.next += 1;
+        }
+        let target = person.path.points.get(person.next).copied().filter(|_| person.stuck < STUCK);
+        let Some(target) = target else {
+            let arrived = person.next > 0 && person.stuck < STUCK;
+            person.stuck = 0.0;
+            if arrived {
+                self.stop(i);
+            } else {
+                self.plan(i);
+            }
+            return Point2::default();
+        };
+        if hesitates {
+            self.stop(i);
+        }
+        let way = target - here;
+        way.scaled(self.people[i].speed / way.norm().max(1e-3))
+    }
+
+    /// Stands for a while, and turns to somebody near or elsewhere.
+    fn stop(&mut self, i: usize) {
+        let here = self.people[i].pose.position();
+        let others = self.people.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, p)| p.pose.position());
+        let near = others
+            .filter(|p| (*p - here).norm() < 1.5)
+            .min_by(|a, b| (*a - here).norm().total_cmp(&(*b - here).norm()));
+        let heading = near.map_or_else(|| self.random.uniform(-PI, PI), |p| (p - here).angle());
+        let rest = self.random.uniform(2.0, 15.0);
+        let person = &mut self.people[i];
+        person.pose.theta = heading;
+        person.rest = rest;
+        // At the end of its path, it gets a new one afterwards.
+        if person.next >= person.path.points.len() {
+            person.path.points.clear();
+            person.next = 0;
+        }
+    }
+
+    /// Plans a path to somebody who stands, or to a random place.
+    fn plan(&mut self, i: usize) {
+        let start = self.people[i].pose;
+        let others: Vec<Point2> = self
+            .people
+            .iter()
+            .enumerate()
+            .filter(|(k, other)| *k != i && other.rest > 3.0)
+            .map(|(_, other)| other.pose.position())
+            .collect();
+        let joins = self.random.chance(JOINS) && !others.is_empty();
+        let goal = if joins {
+            let other = others[(self.random.bits() % others.len() as u64) as usize];
+            other + Point2::polar(0.9, self.random.uniform(-PI, PI))
+        } else {
+            self.place()
+        };
+        let terrain = Terrain { map: &self.free, costs: None, unknown_is_open: false };
+        let person = &mut self.people[i];
+        person.next = 0;
+        let goal = Pose2::new(goal.x, goal.y, 0.0);
+        if self.planner.plan(&terrain, &start, &goal, SMOOTHING, &mut person.path).is_err() {
+            person.rest = 1.0;
+        }
+    }
+
+    /// Sum of the social forces on a person, in m/s².
+    fn push(&self, i: usize, vehicles: &[Footprint]) -> Point2 {
+        let person = &self.people[i];
+        let here = person.pose.position();
+        let others = self
+            .people
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| *k != i)
+            .map(|(_, other)| force(person, here - other.pose.position(), AMONG));
+        let vehicles = vehicles.iter().map(|vehicle| force(person, here - vehicle.nearest(here), FROM_OTHERS));
+        others.chain(vehicles).fold(Point2::default(), |sum, one| sum + one)
+    }
+
+    /// Position after a step, which ends at walls but slides along them.
+    fn reachable(&self, from: Point2, way: Point2) -> Point2 {
+        let is_free = |point: Point2| self.free.at(point) == Some(&Occupancy::Free);
+        let steps = [way, Point2::new(way.x, 0.0), Point2::new(0.0, way.y)];
+        steps.into_iter().map(|step| from + step).find(|point| is_free(*point)).unwrap_or(from)
+    }
+}
+
+impl Pedestrian {
+    /// Cross-sections of the two legs at the height of a scanner.
+    pub fn legs(&self) -> [Disc; 2] {
+        let swing = SWING * libm::sinf(self.phase) * (self.velocity.norm() / 0.5).min(1.0);
+        [(HIP, swing), (-HIP, -swing)].map(|(y, x)| Disc { centre: self.pose.to_outer(Point2::new(x, y)), radius: LEG })
+    }
+
+    fn walk(&mut self, to: Point2, way: f32, dt: f32) {
+        if self.velocity.norm() > 0.15 {
+            let turn = normalize_angle(&(self.velocity.angle() - self.pose.theta));
+            self.pose.theta = normalize_angle(&(self.pose.theta + turn.clamp(-5.0 * dt, 5.0 * dt)));
+        }
+        (self.pose.x, self.pose.y) = (to.x, to.y);
+        self.phase = normalize_angle(&(self.phase + 2.0 * PI * way / STRIDE));
+    }
+}
+
+/// Social force on a person from something that is away by the negative of `from`.
+fn force(person: &Pedestrian, from: Point2, [strength, range, near]: [f32; 3]) -> Point2 {
+    let distance = from.norm();
+    if distance > 3.0 || distance < 1e-4 {
+        return Point2::default();
+    }
+    let away = from.scaled(1.0 / distance);
+    let speed = person.velocity.norm();
+    // What is behind counts less.
+    let ahead = if speed > 0.05 { -away.dot(person.velocity) / speed } else { 1.0 };
+    let weight = BEHIND + (1.0 - BEHIND) * 0.5 * (1.0 + ahead);
+    let push = strength * weight * libm::expf((near - distance) / range).min(4.0);
+    // A little to the right, so that two who meet do not stop before each other.
+    (away + away.perpendicular().scaled(0.3)).scaled(push)
+}
+
+fn limited(velocity: Point2, most: f32) -> Point2 {
+    let speed = velocity.norm();
+    if speed > most { velocity.scaled(most / speed) } else { velocity }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_nodes::map::Raster;
+
+    fn room() -> Grid<Occupancy> {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 120, height: 60 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        for (i, cell) in map.cells_mut().iter_mut().enumerate() {
+            if i % 120 == 0 || i % 120 == 119 || i / 120 == 0 || i / 120 == 59 || (i % 120 == 60 && i / 120 < 40) {
+                *cell = Occupancy::Occupied;
+            }
+        }
+        map
+    }
+
+    fn play(seed: u64, vehicles: &[Footprint]) -> Crowd {
+        let mut crowd = Crowd::new(room(), 6, seed);
+        for _ in 0..3000 {
+            crowd.step(0.02, vehicles);
+            for person in crowd.people() {
+                assert_eq!(crowd.free.at(person.pose.position()), Some(&Occupancy::Free));
+            }
+        }
+        crowd
+    }
+
+    #[test]
+    fn people_walk_and_rest_and_stay_inside() {
+        let (crowd, again, other) = (play(1, &[]), play(1, &[]), play(2, &[]));
+        let poses = |crowd: &Crowd| crowd.people.iter().map(|p| p.pose).collect::<Vec<_>>();
+        assert_eq!(poses(&crowd), poses(&again));
+        assert_ne!(poses(&crowd), poses(&other));
+    }
+
+    #[test]
+    fn people_keep_away_from_each_other_and_from_a_vehicle() {
+        let vehicle = Footprint { pose: Pose2::new(3.0, 3.0, 0.0), length: 1.0, width: 0.5 };
+        let mut crowd = Crowd::new(room(), 6, 3);
+        let (mut moved, mut contacts) = (0.0_f32, 0);
+        for step in 0..6000 {
+            crowd.step(0.02, &[vehicle]);
+            moved = crowd.people().iter().map(|p| p.velocity.norm()).fold(moved, f32::max);
+            for (i, a) in crowd.people().iter().enumerate() {
+                let near =
+                    crowd.people()[i + 1..].iter().any(|b| (a.pose.position() - b.pose.position()).norm() < 0.25);
+                let at_vehicle = (a.pose.position() - vehicle.nearest(a.pose.position())).norm() < 0.05;
+                contacts += usize::from(step > 500 && (near || at_vehicle));
+            }
+        }
+        assert!(moved > 0.7 && contacts < 100, "{moved} m/s, {contacts}");
+    }
+
+    #[test]
+    fn legs_are_apart_and_swing() {
+        let mut crowd = Crowd::new(room(), 1, 4);
+        let mut widest = 0.0_f32;
+        for _ in 0..1500 {
+            crowd.step(0.02, &[]);
+            let [a, b] = crowd.people()[0].legs();
+            widest = widest.max((a.centre - b.centre).norm());
+            assert!((a.centre - b.centre).norm() >= 2.0 * HIP - 1e-4);
+        }
+        assert!(widest > 0.4, "{widest}");
+        assert!(Crowd::new(Grid::default(), 5, 1).people().is_empty());
+    }
+}
