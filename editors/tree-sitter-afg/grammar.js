@@ -198,7 +198,8 @@ module.exports = grammar({
     boolean: () => choice('true', 'false'),
     number: ($) => seq($._digits, optional($.unit)),
     _digits: () => choice(/0x[0-9A-Fa-f_]+/, /[0-9][0-9_]*(\.[0-9][0-9_]*)?([eE][+-]?[0-9]+)?/),
-    unit: () => token.immediate(/(%|[A-Za-z]+)(\^-?[0-9]+)?([\/*][A-Za-z]+(\^-?[0-9]+)?)*/),
+    // Directly behind a number, `%` is a unit and not an operator.
+    unit: () => token.immediate(prec(1, /(%|[A-Za-z]+)(\^-?[0-9]+)?([\/*][A-Za-z]+(\^-?[0-9]+)?)*/)),
     string: () => /"(\\(.|\n)|[^"\\])*"/,
 
     path: ($) => choice($.identifier, seq($.path, '::', $.identifier)),

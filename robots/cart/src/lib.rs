@@ -62,7 +62,7 @@ pub struct Pilot {
     #[param(unit = "1/s^2", default = 1.0, range = 0.1..=100.0)]
     stiffness: f64,
     /// Acceleration against the speed.
-    #[param(unit = "1/s", default = 0.5, range = 0.0..=20.0)]
+    #[param(unit = "1/s", default = 1.2, range = 0.0..=20.0)]
     damping: f64,
     /// Weight of a new speed: 1 takes the measured one as it is.
     #[param(default = 1.0, range = 0.01..=1.0)]
