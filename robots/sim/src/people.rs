@@ -245,7 +245,7 @@ impl Pedestrian {
 /// Social force on a person from something that is away by the negative of `from`.
 fn force(person: &Pedestrian, from: Point2, [strength, range, near]: [f32; 3]) -> Point2 {
     let distance = from.norm();
-    if distance > 3.0 || distance < 1e-4 {
+    if !(1e-4..=3.0).contains(&distance) {
         return Point2::default();
     }
     let away = from.scaled(1.0 / distance);
