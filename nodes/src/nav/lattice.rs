@@ -41,9 +41,9 @@ pub struct CurveDrive {
 }
 
 /// Planner for vehicles that only drive forward in curves of a smallest radius: A* on states of position and heading,
-/// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A trailer is assumed to need no more
-/// room than the tractor before it. The heuristic is the length of the
-/// shortest way on the map without regard to the heading. Keeps its buffers.
+/// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A trailer is assumed to need no
+/// more room than the tractor before it. The heuristic is the length of the shortest way on the map without regard to
+/// the heading. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     /// Estimated distance of each coarse cell from the goal, in m, with costs.

@@ -1,5 +1,6 @@
 //! Navigation of omnidirectional robots: path planning on grid maps, path following, and motion relative to sensor data
-//! without a map (thesis 4.3.6 and 8.1.1). Planning for vehicles that drive in curves. Steering a tractor with a trailer beneath a container (thesis 6.7).
+//! without a map (thesis 4.3.6 and 8.1.1). Planning for vehicles that drive in curves. Steering a tractor with a
+//! trailer beneath a container (thesis 6.7).
 //!
 //! Planning and following keep paths of any length and need the feature `std`. Motion without a map does not.
 //!
