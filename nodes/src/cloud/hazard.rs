@@ -110,6 +110,13 @@ impl HazardMap {
         }
     }
 
+    /// Forgets all obstacles, but not the floor: for example those of a container that the robot has driven beneath.
+    /// Where an obstacle hid the floor, the floor has to be seen again.
+    #[slot]
+    fn forget(&mut self) {
+        self.obstacles = Rolling::default();
+    }
+
     /// Marks the cells of floor points in m_f, and those between consecutive ones.
     fn see_floor(&mut self, points: &Columns, labels: &Labels, pose: &Pose2) {
         let step = 0.5 * self.resolution;
@@ -251,6 +258,18 @@ mod tests {
         // The robot drives on and is now before it, looking at a free floor beyond.
         let (hazard, still) = see(&mut node, 0.2, None, &Pose2::new(0.35, 0.0, 0.0));
         assert!(hazard.is_some_and(|h| h.position.x < 0.6) && still == occupied);
+    }
+
+    #[test]
+    fn obstacles_are_forgotten_on_demand() {
+        let (mut node, pose) = (node(), Pose2::default());
+        see(&mut node, 2.0, None, &pose);
+        for _ in 0..5 {
+            see(&mut node, 2.0, Some(0.8), &pose);
+        }
+        assert!(see(&mut node, 0.2, None, &pose).1 > 0);
+        node.forget();
+        assert_eq!(see(&mut node, 0.2, None, &pose), (None, 0));
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod lines;
 mod pcd;
 mod picture;
 mod plan;
+mod plan_map;
 mod scan_log;
 
 pub use bag::{Bag, BagMessage};
@@ -24,4 +25,5 @@ pub(crate) use lines::Lines;
 pub use pcd::{RecordedCloud, read_cloud};
 pub use picture::ScanPicture;
 pub use plan::{PlanOptions, read_plan};
+pub use plan_map::{PlanMap, PlanMapError, draw_plan};
 pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};

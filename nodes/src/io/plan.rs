@@ -18,6 +18,14 @@ impl Default for PlanOptions {
     }
 }
 
+impl PlanOptions {
+    /// Options with the layers of a list that is separated by commas; empty for all.
+    pub fn of_layers(list: &str, scale: f64) -> Self {
+        let layers = list.split(',').map(str::trim).filter(|layer| !layer.is_empty());
+        Self { scale, layers: layers.map(str::to_owned).collect() }
+    }
+}
+
 /// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`, optionally `.gz`), or with the feature `dxf` a
 /// DXF file.
 ///

@@ -179,8 +179,7 @@ impl VectorMapLocalizer {
 
     /// Reads the plan and builds or loads its look-up table.
     fn open(&self) -> Result<Filter, LocalizerError> {
-        let layers = self.layers.split(',').map(str::trim).filter(|layer| !layer.is_empty());
-        let options = PlanOptions { scale: self.scale, layers: layers.map(str::to_owned).collect() };
+        let options = PlanOptions::of_layers(self.layers, self.scale);
         let map = read_plan(self.plan, &options).map_err(LocalizerError::Plan)?;
         let settings = TableSettings { cell: self.cell, reach: self.reach, ..TableSettings::default() };
         let table = if self.cache.is_empty() {

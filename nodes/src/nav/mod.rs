@@ -1,5 +1,6 @@
 //! Navigation of omnidirectional robots: path planning on grid maps, path following, and motion relative to sensor data
-//! without a map (thesis 4.3.6 and 8.1.1). Steering a tractor with a trailer beneath a container (thesis 6.7).
+//! without a map (thesis 4.3.6 and 8.1.1). Planning for vehicles that drive in curves. Steering a tractor with a
+//! trailer beneath a container (thesis 6.7).
 //!
 //! Planning and following keep paths of any length and need the feature `std`. Motion without a map does not.
 //!
@@ -7,10 +8,16 @@
 //! otherwise.
 
 #[cfg(feature = "std")]
+mod careful;
+#[cfg(feature = "std")]
 mod costs;
 #[cfg(feature = "std")]
 mod follow;
 mod guard;
+#[cfg(feature = "std")]
+mod hazard;
+#[cfg(feature = "std")]
+mod lattice;
 #[cfg(feature = "std")]
 mod law;
 #[cfg(feature = "record")]
@@ -22,32 +29,44 @@ mod payload;
 mod pid;
 #[cfg(feature = "std")]
 mod plan;
+mod pose;
 mod safety;
 #[cfg(feature = "std")]
 mod search;
 #[cfg(feature = "std")]
 mod smooth;
+mod standstill;
+mod steer;
 mod track;
 mod twist;
 
+#[cfg(feature = "std")]
+pub use careful::PersonCaution;
 #[cfg(feature = "std")]
 pub use costs::{CostMap, write_costs};
 #[cfg(feature = "std")]
 pub use follow::PathFollower;
 pub use guard::OdometryGuard;
 #[cfg(feature = "std")]
+pub use hazard::{HazardStop, MarkHazards};
+#[cfg(feature = "std")]
+pub use lattice::{CurveDrive, CurvePlanner, CurveSearch};
+#[cfg(feature = "std")]
 pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
-pub use payload::{Articulated, PlannedApproach, ReactiveApproach, trailer_rotation};
+pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach, trailer_rotation};
 pub use pid::Pid;
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner, Smoothing};
+pub use pose::{compose, relative, shift};
 pub use safety::{ProtectiveField, SafetyField};
 #[cfg(feature = "std")]
 pub use search::{NoPath, Search, Terrain};
 #[cfg(feature = "std")]
 pub use smooth::{is_clear, simplify, smooth, subdivide};
+pub use standstill::Standstill;
+pub use steer::Steer;
 pub use track::{TrackPose, stand_before};
 pub use twist::Twist;

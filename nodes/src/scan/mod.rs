@@ -7,6 +7,7 @@ mod consensus;
 mod container;
 mod filter;
 mod geometry;
+mod hide;
 mod laser;
 #[cfg(feature = "record")]
 pub(crate) mod message;
@@ -18,6 +19,7 @@ pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{Point2, Pose2};
+pub use hide::HideBox;
 pub use laser::{MAX_BEAMS, Scan};
 pub use mount::{MergeScans, MountScan, OtherBeams};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};

@@ -158,7 +158,7 @@ impl Crowd {
         way.scaled(self.people[i].speed / way.norm().max(1e-3))
     }
 
-    /// Stands for a while, and turns to somebody near or elsewhere.
+    /// Stands for a while, and turns to a person nearby or elsewhere.
     fn stop(&mut self, i: usize) {
         let here = self.people[i].pose.position();
         let others = self.people.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, p)| p.pose.position());
@@ -177,7 +177,7 @@ impl Crowd {
         }
     }
 
-    /// Plans a path to somebody who stands, or to a random place.
+    /// Plans a path to a person who stands, or to a random place.
     fn plan(&mut self, i: usize) {
         let start = self.people[i].pose;
         let others: Vec<Point2> = self
@@ -245,7 +245,7 @@ impl Pedestrian {
 /// Social force on a person from something that is away by the negative of `from`.
 fn force(person: &Pedestrian, from: Point2, [strength, range, near]: [f32; 3]) -> Point2 {
     let distance = from.norm();
-    if distance > 3.0 || distance < 1e-4 {
+    if !(1e-4..=3.0).contains(&distance) {
         return Point2::default();
     }
     let away = from.scaled(1.0 / distance);

@@ -4,7 +4,7 @@ use libm::{acosf, atan2f, cosf, sinf, sqrtf};
 
 /// Path of arcs and straight lines. All curvatures have the same magnitude, or are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Curve {
+pub(in crate::nav) struct Curve {
     /// Pose at its beginning.
     pub start: Pose2,
     /// Curvature in 1/m, positive to the left, and length in m of each part.
@@ -32,7 +32,7 @@ impl Curve {
 }
 
 /// Pose after `length` m along an arc.
-pub(super) fn advanced(pose: &Pose2, curvature: f32, length: f32) -> Pose2 {
+pub(in crate::nav) fn advanced(pose: &Pose2, curvature: f32, length: f32) -> Pose2 {
     let turn = curvature * length;
     let step = if turn.abs() < 1e-4 {
         Point2::new(length, 0.5 * turn * length)
@@ -45,7 +45,7 @@ pub(super) fn advanced(pose: &Pose2, curvature: f32, length: f32) -> Pose2 {
 /// Shortest curves of the six kinds between two poses, for a vehicle that only drives forward with at least this radius
 /// in m (Dubins 1957; formulas of Shkel and Lumelsky 2001). A kind that does not connect the poses is left out. Each
 /// ends with a straight line of `straight` m beyond `to`.
-pub(super) fn curves(from: &Pose2, to: &Pose2, radius: f32, straight: f32) -> impl Iterator<Item = Curve> {
+pub(in crate::nav) fn curves(from: &Pose2, to: &Pose2, radius: f32, straight: f32) -> impl Iterator<Item = Curve> {
     let way = to.position() - from.position();
     let (d, direction) = (way.norm() / radius, if way.norm() > 0.0 { way.angle() } else { 0.0 });
     let (from, to) = (*from, *to);

@@ -1,0 +1,397 @@
+use super::{
+    NoPath, Path, Terrain,
+    payload::dubins::{Curve, advanced, curves},
+};
+use crate::{
+    map::{Cell, Grid, Occupancy, Raster},
+    scan::{Point2, Pose2},
+};
+use apex_rt::{Event, Out, node};
+use core::{cmp::Ordering, f32::consts::TAU};
+use std::collections::BinaryHeap;
+
+/// Number of headings of the states.
+const HEADINGS: usize = 16;
+/// Side of a state, in m.
+const SIDE: f32 = 0.2;
+/// Length of a step, in m.
+const STEP: f32 = 0.3;
+/// Distance between places that are checked on a step, in m.
+const CHECK: f32 = 0.1;
+/// Curvatures of the steps, in parts of the sharpest one.
+const STEERING: [f32; 5] = [0.0, 0.5, -0.5, 1.0, -1.0];
+/// Additional cost per metre of the sharpest curve, and of a change from straight to that curve, in m.
+const BENDING: [f32; 2] = [0.15, 0.1];
+/// Estimated distance from the goal at which it is tried to get there by one curve, in m, and number of expansions
+/// between such tries.
+const NEAR: f32 = 4.0;
+const TRIES: usize = 8;
+/// Maximum number of expanded states.
+const MOST: usize = 150_000;
+/// Length of a way to nowhere.
+const NONE: u32 = u32::MAX;
+
+/// Vehicle that drives forward in curves: its shape on the map in which obstacles are grown by half of its width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveDrive {
+    /// Smallest radius of a curve, in m.
+    pub radius: f32,
+    /// Distance from the axis to the front, in m.
+    pub front: f32,
+}
+
+/// Planner for vehicles that only drive forward in curves of a smallest radius: A* on states of position and heading,
+/// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A trailer is assumed to need no
+/// more room than the tractor before it. The heuristic is the length of the shortest way on the map without regard to
+/// the heading. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub struct CurveSearch {
+    /// Estimated distance of each coarse cell from the goal, in m, with costs.
+    estimates: Grid<f32>,
+    nodes: Vec<Node>,
+    open: BinaryHeap<Open>,
+    /// Least cost with which a state was expanded.
+    best: Vec<f32>,
+}
+
+/// State on a way.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    pose: Pose2,
+    cost: f32,
+    /// Curvature of the way to it, in 1/m.
+    curvature: f32,
+    before: u32,
+    /// `true` if a Dubins curve leads from here to the goal.
+    ends: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Open {
+    estimate: f32,
+    node: u32,
+}
+
+impl Eq for Open {}
+
+/// The greatest entry is expanded next: the one with the least estimate, then the latest.
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.estimate.total_cmp(&self.estimate).then_with(|| self.node.cmp(&other.node))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl CurveSearch {
+    /// Writes a path from `start` to `goal`, which ends with the heading of the goal, into `path`, with points about
+    /// 0.1 m apart.
+    ///
+    /// # Errors
+    /// There is no such path. `path` is then empty.
+    pub fn plan(
+        &mut self,
+        terrain: &Terrain<'_>,
+        vehicle: &CurveDrive,
+        [start, goal]: [&Pose2; 2],
+        path: &mut Path,
+    ) -> Result<(), NoPath> {
+        path.points.clear();
+        path.heading = goal.theta;
+        check(terrain, start, goal)?;
+        self.estimate(terrain, goal);
+        self.begin(start);
+        let mut expanded = 0;
+        while let Some(Open { node: at, .. }) = self.open.pop() {
+            let node = self.nodes[at as usize];
+            if node.ends {
+                self.trace(at, vehicle, goal, path);
+                return Ok(());
+            }
+            let Some(state) = self.state(&node.pose) else { continue };
+            if self.best[state] <= node.cost {
+                continue;
+            }
+            self.best[state] = node.cost;
+            expanded += 1;
+            if expanded > MOST {
+                break;
+            }
+            let rest = self.rest(node.pose.position());
+            if rest < NEAR || expanded % TRIES == 1 {
+                self.try_to_end(terrain, vehicle, at, goal);
+            }
+            for steering in STEERING {
+                self.step(terrain, vehicle, at, steering / vehicle.radius);
+            }
+        }
+        Err(NoPath::Unreachable)
+    }
+
+    fn begin(&mut self, start: &Pose2) {
+        self.nodes.clear();
+        self.open.clear();
+        self.best.clear();
+        self.best.resize(self.estimates.cells().len() * HEADINGS, f32::INFINITY);
+        self.nodes.push(Node { pose: *start, cost: 0.0, curvature: 0.0, before: NONE, ends: false });
+        self.open.push(Open { estimate: 0.0, node: 0 });
+    }
+
+    /// Index of the state of a pose.
+    fn state(&self, pose: &Pose2) -> Option<usize> {
+        let cell = self.estimates.raster().cell(pose.position())?;
+        let turn = libm::floorf(pose.theta / TAU * HEADINGS as f32 + 0.5);
+        let heading = (turn as i32).rem_euclid(HEADINGS as i32) as usize;
+        Some((cell.y * self.estimates.raster().width + cell.x) * HEADINGS + heading)
+    }
+
+    /// Estimated distance of a point from the goal, in m: infinite if there is no way.
+    fn rest(&self, point: Point2) -> f32 {
+        self.estimates.at(point).copied().unwrap_or(f32::INFINITY)
+    }
+
+    fn step(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, curvature: f32) {
+        let node = self.nodes[before as usize];
+        let Some(length) = drive(terrain, vehicle, &node.pose, curvature, STEP) else { return };
+        let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
+        let cost = node.cost + length + BENDING[0] * STEP * bend[0] + BENDING[1] * bend[1];
+        let pose = advanced(&node.pose, curvature, STEP);
+        let (Some(state), rest) = (self.state(&pose), self.rest(pose.position())) else { return };
+        if rest.is_finite() && cost < self.best[state] {
+            self.open.push(Open { estimate: cost + rest, node: self.nodes.len() as u32 });
+            self.nodes.push(Node { pose, cost, curvature, before, ends: false });
+        }
+    }
+
+    /// Adds the shortest free Dubins curve from a node to the goal.
+    fn try_to_end(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, goal: &Pose2) {
+        let node = self.nodes[before as usize];
+        let mut best: Option<f32> = None;
+        for curve in curves(&node.pose, goal, vehicle.radius, 0.0) {
+            let length = curve.length();
+            if best.is_none_or(|best| length < best) && best != Some(length) {
+                best = drive_curve(terrain, vehicle, &curve).or(best);
+            }
+        }
+        if let Some(length) = best {
+            let cost = node.cost + length;
+            self.open.push(Open { estimate: cost, node: self.nodes.len() as u32 });
+            self.nodes.push(Node { cost, before, ends: true, ..node });
+        }
+    }
+
+    /// Distances of all coarse cells from the goal (Dijkstra 1959). A coarse cell is open if a part of it is.
+    fn estimate(&mut self, terrain: &Terrain<'_>, goal: &Pose2) {
+        let fine = terrain.map.raster();
+        let part = libm::roundf(SIDE / fine.resolution).max(1.0) as usize;
+        let raster = Raster {
+            corner: fine.corner,
+            resolution: fine.resolution * part as f32,
+            width: fine.width.div_ceil(part),
+            height: fine.height.div_ceil(part),
+        };
+        // Coarser than a grid that exists.
+        if self.estimates.reset(raster, f32::INFINITY).is_err() {
+            return;
+        }
+        let mut open = BinaryHeap::new();
+        if let Some(cell) = raster.cell(goal.position()) {
+            self.reach(cell, 0.0, &mut open);
+        }
+        while let Some(Open { estimate, node }) = open.pop() {
+            let at = Cell::new(node as usize % raster.width, node as usize / raster.width);
+            if self.estimates.get(at).is_none_or(|known| *known < estimate) {
+                continue;
+            }
+            for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
+                // A neighbour left of or below 0 wraps to the greatest number, which no raster contains.
+                let next = Cell::new(at.x.wrapping_add_signed(dx), at.y.wrapping_add_signed(dy));
+                if let Some(cost) = openness(terrain, &raster, next, part) {
+                    let length = raster.resolution * if dx != 0 && dy != 0 { core::f32::consts::SQRT_2 } else { 1.0 };
+                    self.reach(next, estimate + length * (1.0 + cost), &mut open);
+                }
+            }
+        }
+    }
+
+    fn reach(&mut self, cell: Cell, estimate: f32, open: &mut BinaryHeap<Open>) {
+        let width = self.estimates.raster().width;
+        if let Some(known) = self.estimates.get_mut(cell).filter(|known| estimate < **known) {
+            *known = estimate;
+            open.push(Open { estimate, node: (cell.y * width + cell.x) as u32 });
+        }
+    }
+
+    fn trace(&self, end: u32, vehicle: &CurveDrive, goal: &Pose2, path: &mut Path) {
+        let (mut at, mut nodes) = (self.nodes[end as usize].before, vec![]);
+        while at != NONE {
+            nodes.push(self.nodes[at as usize]);
+            at = self.nodes[at as usize].before;
+        }
+        for pair in nodes.windows(2).rev() {
+            let [to, from] = pair else { continue };
+            path.points.extend(places(STEP).map(|s| advanced(&from.pose, to.curvature, s).position()));
+        }
+        let Some(last) = nodes.first() else { return };
+        let all = curves(&last.pose, goal, vehicle.radius, 0.0);
+        let length = self.nodes[end as usize].cost - last.cost;
+        // The curve that was found free is the one whose cost this is.
+        let chosen = all.min_by(|a, b| (a.length() - length).abs().total_cmp(&(b.length() - length).abs()));
+        if let Some(curve) = chosen {
+            path.points.extend(places(curve.length()).map(|s| curve.at(s).0.position()));
+        }
+        path.points.push(goal.position());
+    }
+}
+
+/// Distances from 0 to before `length`, about a step of a check apart.
+fn places(length: f32) -> impl Iterator<Item = f32> {
+    let count = libm::ceilf(length / CHECK).max(1.0);
+    (0..count as u32).map(move |i| length * i as f32 / count)
+}
+
+fn check(terrain: &Terrain<'_>, start: &Pose2, goal: &Pose2) -> Result<(), NoPath> {
+    let raster = terrain.map.raster();
+    if terrain.costs.is_some_and(|costs| costs.raster() != raster) {
+        return Err(NoPath::OtherRaster);
+    }
+    let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
+    let to = raster.cell(goal.position()).ok_or(NoPath::GoalOutside)?;
+    if !(terrain.is_open(from) && start.theta.is_finite()) {
+        return Err(NoPath::StartBlocked);
+    }
+    if terrain.is_open(to) && goal.theta.is_finite() { Ok(()) } else { Err(NoPath::GoalBlocked) }
+}
+
+/// Least cost of the open fine cells of a coarse cell, or `None` if none is open.
+fn openness(terrain: &Terrain<'_>, raster: &Raster, cell: Cell, part: usize) -> Option<f32> {
+    if !raster.contains(cell) {
+        return None;
+    }
+    let fine = (0..part * part).map(|i| Cell::new(cell.x * part + i % part, cell.y * part + i / part));
+    fine.filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell)).reduce(f32::min)
+}
+
+/// Length of an arc with costs, or `None` if the vehicle touches something on it.
+fn drive(terrain: &Terrain<'_>, vehicle: &CurveDrive, from: &Pose2, curvature: f32, length: f32) -> Option<f32> {
+    let count = libm::ceilf(length / CHECK);
+    let step = length / count;
+    let mut cost = 0.0;
+    for i in 1..=count as u32 {
+        let pose = advanced(from, curvature, step * i as f32);
+        cost += step * (1.0 + fits(terrain, vehicle, &pose)?);
+    }
+    Some(cost)
+}
+
+/// Length of a curve without costs, or `None` if the vehicle touches something on it.
+fn drive_curve(terrain: &Terrain<'_>, vehicle: &CurveDrive, curve: &Curve) -> Option<f32> {
+    let length = curve.length();
+    let is_free = |s: f32| fits(terrain, vehicle, &curve.at(s).0).is_some();
+    places(length).skip(1).chain([length]).all(is_free).then_some(length)
+}
+
+/// Cost at the pose of a vehicle, or `None` if it touches something there.
+fn fits(terrain: &Terrain<'_>, vehicle: &CurveDrive, pose: &Pose2) -> Option<f32> {
+    let raster = terrain.map.raster();
+    let at = |x: f32| raster.cell(pose.to_outer(Point2::new(x, 0.0))).filter(|cell| terrain.is_open(*cell));
+    at(vehicle.front).and_then(|_| at(0.0)).map(|cell| terrain.cost(cell))
+}
+
+/// Plans a path for a vehicle that only drives forward in curves, such as a tractor with a trailer (see
+/// [`CurveSearch`]). The path ends with the heading of the goal.
+///
+/// `start`, `goal` and the path are in the frame of the map. The obstacles of the map must be grown by half of the
+/// width of the vehicle. `costs` are those of `CostMap`. If there is no path, the output is ⊥ and `no_path` gives the
+/// reason.
+#[node]
+#[derive(Debug, Clone)]
+pub struct CurvePlanner {
+    /// Smallest radius of a curve.
+    #[param(unit = "m", default = 0.8, range = 0.1..=100.0)]
+    radius: f32,
+    /// Distance from the axis of the vehicle to its front.
+    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
+    front: f32,
+    search: CurveSearch,
+}
+
+#[node]
+impl CurvePlanner {
+    fn process(
+        &mut self,
+        start: &Pose2,
+        goal: &Pose2,
+        map: &Grid<Occupancy>,
+        costs: Option<&Grid<f32>>,
+        path: &mut Out<Path>,
+        #[failure] no_path: Event<NoPath>,
+    ) {
+        let terrain = Terrain { map, costs, unknown_is_open: false };
+        let vehicle = CurveDrive { radius: self.radius, front: self.front };
+        if let Err(why) = self.search.plan(&terrain, &vehicle, [start, goal], path.get_mut()) {
+            path.clear();
+            no_path.emit(why);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::{FRAC_PI_2, PI};
+
+    const VEHICLE: CurveDrive = CurveDrive { radius: 0.8, front: 0.25 };
+
+    /// Room of 12 m × 8 m with a wall that ends at y = 5 m.
+    fn room() -> Grid<Occupancy> {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 120, height: 80 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        for y in 0..50 {
+            *map.get_mut(Cell::new(60, y)).expect("inside") = Occupancy::Occupied;
+        }
+        map
+    }
+
+    fn plan(map: &Grid<Occupancy>, start: Pose2, goal: Pose2) -> Result<Path, NoPath> {
+        let mut path = Path::default();
+        let terrain = Terrain { map, costs: None, unknown_is_open: false };
+        CurveSearch::default().plan(&terrain, &VEHICLE, [&start, &goal], &mut path).map(|()| path)
+    }
+
+    #[test]
+    fn paths_are_smooth_and_free_and_end_with_the_heading() {
+        let map = room();
+        let start = Pose2::new(2.0, 2.0, PI);
+        for goal in [Pose2::new(10.0, 2.0, 0.0), Pose2::new(9.0, 6.0, PI), Pose2::new(3.0, 6.0, -FRAC_PI_2)] {
+            let path = plan(&map, start, goal).expect("a way");
+            assert_eq!((path.points[0], path.goal()), (start.position(), Some(goal.position())));
+            assert!(path.points.iter().all(|p| map.at(*p) == Some(&Occupancy::Free)));
+            let headings: Vec<f32> = path.points.windows(2).map(|w| (w[1] - w[0]).angle()).collect();
+            let turns = headings.windows(2).map(|w| libm::remainderf(w[1] - w[0], TAU).abs());
+            let sharpest = turns.fold(0.0, f32::max);
+            assert!(sharpest < 0.25, "{sharpest} rad from one point to the next to {goal:?}");
+            let off = |a: f32, b: f32| libm::remainderf(a - b, TAU).abs();
+            assert!(off(headings[0], PI) < 0.1 && off(headings[headings.len() - 1], goal.theta) < 0.1);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_reached_has_a_reason() {
+        let mut map = room();
+        let start = Pose2::new(2.0, 2.0, 0.0);
+        assert_eq!(plan(&map, start, Pose2::new(20.0, 2.0, 0.0)), Err(NoPath::GoalOutside));
+        assert_eq!(plan(&map, start, Pose2::new(6.05, 2.0, 0.0)), Err(NoPath::GoalBlocked));
+        assert_eq!(plan(&map, Pose2::new(f32::NAN, 2.0, 0.0), start), Err(NoPath::StartOutside));
+        assert_eq!(plan(&map, Pose2::new(2.0, 2.0, f32::NAN), start), Err(NoPath::StartBlocked));
+        for y in 50..80 {
+            *map.get_mut(Cell::new(60, y)).expect("inside") = Occupancy::Occupied;
+        }
+        assert_eq!(plan(&map, start, Pose2::new(9.0, 2.0, 0.0)), Err(NoPath::Unreachable));
+        assert_eq!(plan(&Grid::default(), start, start), Err(NoPath::StartOutside));
+    }
+}
